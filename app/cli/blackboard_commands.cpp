@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+
+namespace pitchboard::cli {
+
+void addBlackboardCommands(CLI::App&, int&) {}
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The subcommands of pitchboard-cli: each file adds one group to the parser and leaves its exit code
+// in `exitCode` (0 done, 1 done with differences, 2 an error already printed as "error: ...").
+
+#include <CLI/CLI.hpp>
+
+#include <base/result.h>
+
+namespace pitchboard::cli {
+
+/// What a group of commands looks like to main(): the one registration list is in main.cpp.
+using AddCommand = void (*)(CLI::App& parent, int& exitCode);
+
+void addSimulateCommand(CLI::App& parent, int& exitCode);
+void addConformanceCommand(CLI::App& parent, int& exitCode);
+void addBlackboardCommands(CLI::App& parent, int& exitCode);
+void addCatalogCommands(CLI::App& parent, int& exitCode);
+
+/// Prints "error: ..." on stderr and returns 2.
+int reportError(const Error& error);
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdio>
+
+#include "commands.h"
+
+namespace pitchboard::cli {
+
+int reportError(const Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.text().c_str());
+  return 2;
+}
+
+}  // namespace pitchboard::cli
+
+int main(int argc, char** argv) {
+  using namespace pitchboard::cli;
+  CLI::App app{
+      "Pitchboard without a display: simulate matches, look at blackboards, check recorded runs.\n"
+      "Example: pitchboard-cli simulate --scenario match-3v3 --duration 60 --speed max"};
+  app.name("pitchboard-cli");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", PITCHBOARD_VERSION);
+
+  int exitCode = 0;
+  constexpr std::array<AddCommand, 4> commands{&addSimulateCommand, &addConformanceCommand,
+                                               &addBlackboardCommands, &addCatalogCommands};
+  for (const AddCommand add : commands) add(app, exitCode);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
+                 error.what());
+    return 2;
+  }
+  return exitCode;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Data files that are part of the program: variable map, scenarios, noise presets.
+
+#include <span>
+#include <string_view>
+
+namespace pitchboard {
+
+struct Resource {
+  std::string_view path;  ///< relative to resources/, e.g. "scenarios/match-3v3.json"
+  std::string_view text;
+};
+
+/// Every embedded file, in order of path.
+std::span<const Resource> resources();
+/// The text of one file; empty when there is no such file.
+std::string_view resourceText(std::string_view path);
+
+}  // namespace pitchboard

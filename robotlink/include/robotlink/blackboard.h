@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A typed view over a robot's blackboard: 512 words of 4 bytes, int variable i at word i, float
+// variable j at word 125 + j (SYSTEM.md section 2). The memory is a System V segment (shared with a
+// robot's own processes) or plain heap memory (accelerated runs). Words are read and written
+// atomically and relaxed: a reader never sees half a float; there is no order between variables.
+// Any thread and any process may use the same words at the same time.
+
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <base/ids.h>
+#include <base/result.h>
+
+namespace pitchboard::link {
+
+/// Index of an int variable (IntVar) or of a float variable (FloatVar). The same number names one
+/// of each, so the type is part of the name.
+struct IntVar {
+  int index = 0;
+  auto operator<=>(const IntVar&) const = default;
+};
+struct FloatVar {
+  int index = 0;
+  auto operator<=>(const FloatVar&) const = default;
+};
+
+class BlackboardMemory;  // owns the words; System V or heap
+
+class Blackboard {
+ public:
+  static constexpr int words = 512;
+  static constexpr int bytes = words * 4;
+  static constexpr int floatOffset = 125;   ///< word of float variable 0
+  static constexpr int intVariables = words;
+  static constexpr int floatVariables = words - floatOffset;
+
+  /// Zeroed heap memory.
+  static Blackboard onHeap();
+
+  Blackboard(Blackboard&&) noexcept;
+  Blackboard& operator=(Blackboard&&) noexcept;
+  ~Blackboard();
+
+  int read(IntVar variable) const {
+    return std::bit_cast<std::int32_t>(word(variable.index).load(std::memory_order_relaxed));
+  }
+  float read(FloatVar variable) const {
+    return std::bit_cast<float>(
+        word(floatOffset + variable.index).load(std::memory_order_relaxed));
+  }
+  void write(IntVar variable, int value) {
+    word(variable.index).store(std::bit_cast<std::uint32_t>(value), std::memory_order_relaxed);
+  }
+  void write(FloatVar variable, float value) {
+    word(floatOffset + variable.index)
+        .store(std::bit_cast<std::uint32_t>(value), std::memory_order_relaxed);
+  }
+  /// Writes `value` only where `expected` still stands; says whether it did.
+  bool replace(IntVar variable, int expected, int value) {
+    std::uint32_t old = std::bit_cast<std::uint32_t>(expected);
+    return word(variable.index)
+        .compare_exchange_strong(old, std::bit_cast<std::uint32_t>(value),
+                                 std::memory_order_relaxed);
+  }
+
+  /// All 512 words, each read atomically (not all at one instant).
+  void copyWords(std::span<std::uint32_t, words> out) const;
+
+  /// System V key, or 0 for heap memory.
+  int key() const;
+  /// This object made the segment (and removes it when it goes).
+  bool created() const;
+
+ private:
+  friend class SystemVSegments;
+  explicit Blackboard(std::unique_ptr<BlackboardMemory> memory);
+
+  std::atomic_ref<std::uint32_t> word(int index) const {
+    return std::atomic_ref<std::uint32_t>(m_words[index]);
+  }
+
+  std::unique_ptr<BlackboardMemory> m_memory;
+  std::uint32_t* m_words = nullptr;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A process of the Cross Architecture as a class: the same object runs as its own OS process on a
+// System V blackboard (pitchboard-robot) and in lock-step on a heap blackboard.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <base/ids.h>
+#include <base/result.h>
+#include <robotlink/blackboard.h>
+
+namespace pitchboard::link {
+
+/// Tells a process the time: seconds since its start, simulated or real.
+struct Clock {
+  double seconds = 0.0;
+};
+
+class CognitiveProcess {
+ public:
+  virtual ~CognitiveProcess() = default;
+  /// One cycle. Never blocks. Errors of the outside (a socket) are counted, not thrown.
+  virtual void step(Blackboard& board, const Clock& clock) = 0;
+  /// Seconds between two steps.
+  virtual double period() const = 0;
+};
+
+/// What a process is told when it is made.
+struct ProcessOptions {
+  RobotId robot{1};
+  std::string behaviour = "naive";     ///< decision only
+  double distanceToKick = 25.0;        ///< cm; 25 in simulation, 40 on the published real robot
+  std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
+  int telemetryPortBase = 1240;        ///< telemetry goes to this + robot number
+  int teamPortBase = 1230;             ///< team messages go to this + 1..4
+};
+
+struct ProcessInfo {
+  std::string_view name;               ///< "decision", "communication"
+  std::string_view description;        ///< a sentence for --help
+  Result<std::unique_ptr<CognitiveProcess>> (*make)(const ProcessOptions& options);
+  bool deterministic;                  ///< may run inline (touches nothing but the blackboard)
+};
+
+/// Every reference process, in starting order: the one list that programs and tests read.
+std::span<const ProcessInfo> cognitiveProcesses();
+const ProcessInfo* findProcess(std::string_view name);
+
+struct BehaviourInfo {
+  std::string_view name;
+  std::string_view description;
+};
+/// Behaviours of the decision process, the default first.
+std::span<const BehaviourInfo> behaviours();
+
+}  // namespace pitchboard::link

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A scenario: everything that a simulated match starts from. A JSON file (docs/SCENARIOS.md) with
+// poses in metres and degrees; here in metres and radians.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <base/result.h>
+#include <simcore/simulation.h>
+
+namespace pitchboard::link {
+
+/// A value for a blackboard variable, by name; the type is the catalog's.
+struct BlackboardWrite {
+  RobotId robot;            ///< 0 = every robot
+  std::string variable;
+  double value = 0.0;       ///< exact for every int32 and float32
+  double time = 0.0;        ///< simulated s; written before the tick that starts then
+  bool operator==(const BlackboardWrite&) const = default;
+};
+
+struct ScenarioRobot {
+  sim::RobotIdentity identity;
+  Pose pose;
+  std::string behaviour = "naive";
+  bool operator==(const ScenarioRobot&) const = default;
+};
+
+/// A run ends when any of these is met; none set = it goes on.
+struct StopConditions {
+  std::optional<double> duration;   ///< simulated s
+  bool goal = false;
+  bool ballOut = false;
+  bool operator==(const StopConditions&) const = default;
+};
+
+struct Scenario {
+  std::string name = "untitled";    ///< short, for --scenario and files
+  std::string title;                ///< for people
+  std::string description;
+  sim::SimulationSettings settings;
+  std::vector<ScenarioRobot> robots;
+  Point ball;
+  Velocity ballVelocity;
+  bool clockRunning = true;
+  std::vector<BlackboardWrite> writes;   ///< in order of time
+  StopConditions stop;
+  bool operator==(const Scenario&) const = default;
+};
+
+struct ScenarioName {
+  std::string name;
+  std::string title;
+};
+/// Built-in scenarios, the default (match-3v3) first.
+std::vector<ScenarioName> builtInScenarios();
+
+/// A built-in name, or else a path. Errors give file, line and the path of the offending key.
+Result<Scenario> loadScenario(const std::string& nameOrPath);
+Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source);
+std::string scenarioToJson(const Scenario& scenario);
+
+/// Noise presets are data: none, published, paper, realistic.
+std::vector<std::string> noisePresets();
+Result<sim::NoiseParameters> noisePreset(std::string_view name);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# One way to make a library, a program and a test, so that warnings, sanitizers, the compiler
+# cache and floating-point rules are the same everywhere.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # The sloppiness settings let precompiled headers hit the cache; the base directory lets two
+  # checkouts share it.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      CCACHE_NOHASHDIR=1 CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} ${CCACHE_PROGRAM})
+endif()
+
+if(PITCHBOARD_SANITIZE)
+  add_compile_options(-fsanitize=${PITCHBOARD_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${PITCHBOARD_SANITIZE})
+endif()
+
+# A simulation step must give the same bits in every build: no fused multiply-add, no -ffast-math.
+add_compile_options(-ffp-contract=off)
+# Lets gcc use precompiled headers that ccache may have restored.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+
+function(pitchboard_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror>)
+endfunction()
+
+# pitchboard_library(<Alias> SOURCES ... [PUBLIC libs] [PRIVATE libs] [PCH headers])
+# makes Pitchboard::<Alias> from the current directory; include/ holds its public headers.
+function(pitchboard_library alias)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;PCH" ${ARGN})
+  string(TOLOWER ${alias} lower)
+  set(target pitchboard_${lower})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(Pitchboard::${alias} ALIAS ${target})
+  target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include
+                             PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  if(ARG_PCH)
+    target_precompile_headers(${target} PRIVATE ${ARG_PCH})
+  endif()
+  pitchboard_warnings(${target})
+endfunction()
+
+# pitchboard_program(<name> SOURCES ... LIBS ...)
+function(pitchboard_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS})
+  target_compile_definitions(${name} PRIVATE PITCHBOARD_VERSION="${PROJECT_VERSION}")
+  pitchboard_warnings(${name})
+  set_property(GLOBAL APPEND PROPERTY PITCHBOARD_PROGRAMS ${name})
+endfunction()
+
+# pitchboard_test(<name> SOURCES ... LIBS ... [ARGS ...] [LABELS ...] [GUI]): one QtTest executable
+# per unit. GUI tests run offscreen. Tests find the programs in PITCHBOARD_BIN and their data in
+# PITCHBOARD_TEST_DATA.
+function(pitchboard_test name)
+  cmake_parse_arguments(ARG "GUI" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES AUTOMOC ON
+                        RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} Qt6::Test)
+  target_compile_definitions(${name} PRIVATE
+    PITCHBOARD_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data"
+    PITCHBOARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    PITCHBOARD_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  pitchboard_warnings(${name})
+  add_test(NAME ${name} COMMAND ${name})
+  set(environment "LC_ALL=C.UTF-8")
+  if(ARG_GUI)
+    list(APPEND environment "QT_QPA_PLATFORM=offscreen")
+  endif()
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${ARG_LABELS}")
+  if(ARG_TIMEOUT)
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  else()
+    set_tests_properties(${name} PROPERTIES TIMEOUT 120)
+  endif()
+endfunction()

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The pitch as data: every length that drawing, physics and scenarios need, in metres.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <base/geometry.h>
+#include <base/result.h>
+
+namespace pitchboard::sim {
+
+/// All lengths in metres. The field is symmetric about both axes; the origin is its centre.
+struct FieldSpec {
+  std::string name = "published";
+  double length = 9.0;             ///< goal line to goal line, outer edges
+  double width = 6.0;              ///< touch line to touch line
+  double border = 0.7;             ///< from a line to the wall round the field
+  double goalWidth = 1.8;          ///< between the centres of the posts
+  double goalDepth = 0.7;          ///< from the goal line to the back of the goal
+  double goalHeight = 1.1;         ///< for the record; the simulation is flat
+  double goalPostRadius = 0.10;
+  double goalAreaLength = 0.6;     ///< along x
+  double goalAreaWidth = 3.45;     ///< along y
+  double penaltyAreaLength = 0.0;  ///< 0 = none
+  double penaltyAreaWidth = 0.0;
+  double penaltyMarkDistance = 1.8;  ///< from the goal line
+  double centreCircleDiameter = 1.5;
+  double lineWidth = 0.05;
+  double ballRadius = 0.09;
+  double robotRadius = 0.13;
+
+  double halfLength() const { return length / 2; }
+  double halfWidth() const { return width / 2; }
+  bool operator==(const FieldSpec&) const = default;
+};
+
+/// The built-in fields, the published one first (sizes: rules of the years named; see
+/// docs/SCENARIOS.md).
+std::span<const FieldSpec> builtInFields();
+Result<FieldSpec> fieldByName(std::string_view name);
+
+/// Refuses sizes that cannot be played on (not finite, not positive, goal wider than the field...).
+Result<void> validate(const FieldSpec& field);
+
+}  // namespace pitchboard::sim
