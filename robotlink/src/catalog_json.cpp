@@ -53,8 +53,9 @@ std::optional<Error> checkSegment(const Json& segment, std::string_view source) 
   return std::nullopt;
 }
 
-// nlohmann keeps the last of two equal keys; for a variable map that hides a mistake.
-class DuplicateKeys {
+// nlohmann keeps the last of two equal keys; for a variable map that hides a mistake. It also looks
+// keys up one by one, so a hostile file with very many of them is cut short.
+class KeyCheck {
  public:
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     const auto level = static_cast<std::size_t>(std::max(depth, 0));
@@ -65,6 +66,7 @@ class DuplicateKeys {
     } else if (event == Json::parse_event_t::key && m_found.empty() && level < m_keys.size()) {
       const auto& key = parsed.get_ref<const std::string&>();
       m_path[level] = key;
+      if (++m_count > maxKeys) return false;
       if (!m_keys[level].insert(key).second) {
         for (std::size_t i = 1; i <= level; ++i)
           m_found += (i > 1 && !m_path[i].empty() ? "." : "") + m_path[i];
@@ -72,9 +74,13 @@ class DuplicateKeys {
     }
     return true;
   }
+  /// Path of the first key that is there twice.
   const std::string& found() const { return m_found; }
+  bool tooMany() const { return m_count > maxKeys; }
 
  private:
+  static constexpr int maxKeys = 4096;
+  int m_count = 0;
   std::vector<std::set<std::string>> m_keys;
   std::vector<std::string> m_path;
   std::string m_found;
@@ -104,11 +110,11 @@ std::optional<Error> readBlock(const Json& block, const std::string& name, Varia
 
 Result<VariableCatalog> VariableCatalog::fromJson(std::string_view text, std::string_view source) {
   if (const auto error = checkCatalogText(text, source)) return tl::unexpected(*error);
-  DuplicateKeys duplicates;
+  KeyCheck keys;
   Json root;
   try {
-    root = Json::parse(text, [&duplicates](int depth, Json::parse_event_t event, Json& parsed) {
-      return duplicates(depth, event, parsed);
+    root = Json::parse(text, [&keys](int depth, Json::parse_event_t event, Json& parsed) {
+      return keys(depth, event, parsed);
     });
   } catch (const Json::parse_error& error) {
     const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
@@ -119,8 +125,11 @@ Result<VariableCatalog> VariableCatalog::fromJson(std::string_view text, std::st
     // A number too large for a double is the one other thing the parser refuses.
     return failure(ErrorCode::ParseError, "a number in it is too large", std::string(source));
   }
-  if (!duplicates.found().empty())
-    return failure(ErrorCode::ParseError, "is there twice", atPath(source, duplicates.found()));
+  if (keys.tooMany())
+    return failure(ErrorCode::ParseError, "has far more keys than a blackboard has words",
+                   std::string(source));
+  if (!keys.found().empty())
+    return failure(ErrorCode::ParseError, "is there twice", atPath(source, keys.found()));
   if (!root.is_object())
     return failure(ErrorCode::ParseError, "must be an object with the keys \"int\" and \"float\"",
                    std::string(source));
@@ -144,14 +153,17 @@ Result<VariableCatalog> VariableCatalog::fromJson(std::string_view text, std::st
 }
 
 std::string VariableCatalog::toJson() const {
-  Json root;
-  Json& segment = root["segment"];
+  Json segment = Json::object();
+  Json ints = Json::object();
+  Json floats = Json::object();
   for (const SegmentField& field : segmentFields) segment[field.name] = field.value;
   segment["byte_order"] = byteOrder;
-  Json& ints = root["int"] = Json::object();
-  Json& floats = root["float"] = Json::object();
   for (const Variable& variable : m_variables)
     (variable.type == VariableType::Int ? ints : floats)[variable.name] = variable.index;
+  Json root = Json::object();
+  root["segment"] = std::move(segment);
+  root["int"] = std::move(ints);
+  root["float"] = std::move(floats);
   return root.dump(1) + "\n";
 }
 
