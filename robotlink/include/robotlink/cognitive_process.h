@@ -4,7 +4,9 @@
 // A process of the Cross Architecture as a class: the same object runs as its own OS process on a
 // System V blackboard (pitchboard-robot) and in lock-step on a heap blackboard.
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +14,8 @@
 #include <base/ids.h>
 #include <base/result.h>
 #include <robotlink/blackboard.h>
+#include <robotlink/team_channel.h>
+#include <simcore/field.h>
 
 namespace pitchboard::link {
 
@@ -37,6 +41,16 @@ struct ProcessOptions {
   std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
   int telemetryPortBase = 1240;        ///< telemetry goes to this + robot number
   int teamPortBase = 1230;             ///< team messages go to this + 1..4
+
+  sim::FieldSpec field;                ///< localization, decision: where lines and posts are
+  std::uint64_t seed = 1;              ///< localization: of its particles
+  int particles = 5000;                ///< localization: at most this many
+  bool publishedLocalization = false;  ///< localization: the published filter's parameters
+  /// Starts facing the left goal, so the IMU's zero is 180 degrees; absent = found out by itself.
+  std::optional<bool> facesLeft;
+  int team = 0;                        ///< team: robots of one number hear each other, 0..99
+  /// team: the in-process channel of lock-step runs; empty = UDP.
+  std::shared_ptr<TeamChannel> teamChannel;
 };
 
 struct ProcessInfo {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How robots of one team talk: a robot posts a text, every other robot of the team takes it. Two
+// kinds: UDP between operating-system processes, and memory between robots that run in lock-step in
+// one program, where a message must arrive at the same tick in every run.
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/ids.h>
+#include <base/result.h>
+
+namespace pitchboard::link {
+
+/// One thread at a time. post() and take() never block; a lost message is no error.
+class TeamChannel {
+ public:
+  virtual ~TeamChannel() = default;
+  virtual void post(RobotId from, std::string_view message) = 0;
+  /// What others posted since this robot's last call, oldest first, at most 64 messages.
+  virtual std::vector<std::string> take(RobotId to) = 0;
+};
+
+/// For robots that run in lock-step: what a robot posts is there for the others at their next
+/// take(), in the order of posting. Shared by the robots of one team; use from one thread.
+class InProcessTeamChannel final : public TeamChannel {
+ public:
+  void post(RobotId from, std::string_view message) override;
+  std::vector<std::string> take(RobotId to) override;
+
+ private:
+  struct Box {
+    RobotId owner;
+    std::deque<std::string> messages;
+  };
+  std::vector<Box> m_boxes;
+};
+
+/// Broadcast on port 10000 + team, the convention of the Humanoid Soccer League 2026; a datagram has
+/// at most 512 bytes. `address` 127.0.0.1 keeps everything on this computer (127.255.255.255 is its
+/// broadcast address); a network's broadcast address reaches real robots. Fails with the reason when
+/// the address, the team (0..99) or the port cannot be used.
+Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team);
+
+}  // namespace pitchboard::link
