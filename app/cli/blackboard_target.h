@@ -21,7 +21,11 @@ struct BlackboardTarget {
   int key = 0;
   int keyBase = 0;
 
+  /// For a command whose one argument is the robot.
   void addTo(CLI::App& command);
+  void addKeysTo(CLI::App& command);
+  /// For a command with more arguments: without --key, the first is the robot.
+  Result<void> takeRobotFrom(std::vector<std::string>& arguments);
   /// The System V key; an error when neither or both of robot and key are given.
   Result<int> resolve() const;
 };

@@ -26,10 +26,25 @@ using Words = std::array<std::uint32_t, Blackboard::words>;
 
 void BlackboardTarget::addTo(CLI::App& command) {
   command.add_option("ROBOT", robot, "robot number")->check(CLI::Range(1, 64));
+  addKeysTo(command);
+}
+
+void BlackboardTarget::addKeysTo(CLI::App& command) {
   command.add_option("--key", key, "a System V key instead of a robot number")
       ->check(CLI::PositiveNumber);
   command.add_option("--key-base", keyBase, "added to 100 x robot number")
       ->check(CLI::Range(0, 2'000'000'000));
+}
+
+Result<void> BlackboardTarget::takeRobotFrom(std::vector<std::string>& arguments) {
+  if (key != 0) return {};
+  const std::string first = arguments.empty() ? std::string() : arguments.front();
+  const auto [stop, error] = std::from_chars(first.data(), first.data() + first.size(), robot);
+  if (error != std::errc() || stop != first.data() + first.size() || robot < 1 || robot > 64)
+    return failure(ErrorCode::InvalidArgument,
+                   "a robot number from 1 to 64 comes first, or --key KEY", first);
+  arguments.erase(arguments.begin());
+  return {};
 }
 
 Result<int> BlackboardTarget::resolve() const {
@@ -129,7 +144,7 @@ void dumpJson(const VariableCatalog& catalog, const Words& words, int key,
   std::printf("%s\n}\n", text.c_str());
 }
 
-Result<void> dump(const DumpOptions& options) {
+Result<void> dump(DumpOptions& options) {
   const auto catalog = loadCatalog(options.catalog);
   if (!catalog) return tl::unexpected(catalog.error());
   const auto board = openTarget(options.target, AttachMode::ReadOnly);
@@ -196,7 +211,8 @@ void printChange(const Variable& variable, std::uint32_t before, std::uint32_t n
               valueText(variable.type, before).c_str(), valueText(variable.type, now).c_str());
 }
 
-Result<void> watch(const WatchOptions& options) {
+Result<void> watch(WatchOptions& options) {
+  if (const auto taken = options.target.takeRobotFrom(options.names); !taken) return taken;
   using SteadyClock = std::chrono::steady_clock;
   const auto catalog = loadCatalog(options.catalog);
   if (!catalog) return tl::unexpected(catalog.error());
@@ -287,7 +303,10 @@ Result<Assignment> parseAssignment(const VariableCatalog& catalog, const std::st
   return assignment;
 }
 
-Result<void> set(const SetOptions& options) {
+Result<void> set(SetOptions& options) {
+  if (const auto taken = options.target.takeRobotFrom(options.assignments); !taken) return taken;
+  if (options.assignments.empty())
+    return failure(ErrorCode::InvalidArgument, "nothing to write: add NAME=VALUE");
   const auto catalog = loadCatalog(options.catalog);
   if (!catalog) return tl::unexpected(catalog.error());
   // All are checked before the first is written: a robot never sees half a command.
@@ -316,7 +335,7 @@ void addCatalogOption(CLI::App& command, std::string& file) {
 
 template <class Options>
 void whenChosen(CLI::App& command, const std::shared_ptr<Options>& options, int& exitCode,
-                Result<void> (*run)(const Options&)) {
+                Result<void> (*run)(Options&)) {
   command.callback([options, &exitCode, run] {
     const auto done = run(*options);
     if (!done) exitCode = reportError(done.error());
@@ -344,8 +363,9 @@ void addWatchCommand(CLI::App& parent, int& exitCode) {
       "watch",
       "Print changes of a blackboard as they happen.\n"
       "Example: pitchboard-cli blackboard watch 1 DECISION_ACTION_A VISION_BALL_DIST");
-  options->target.addTo(*command);
-  command->add_option("NAME", options->names, "variables to watch (default: all)");
+  options->target.addKeysTo(*command);
+  command->add_option("ROBOT NAME", options->names,
+                      "robot number, then the variables to watch (default: all)");
   addCatalogOption(*command, options->catalog);
   command->add_option("--interval", options->intervalMs, "milliseconds between two looks")
       ->check(CLI::Range(1, 60'000))
@@ -364,8 +384,9 @@ void addSetCommand(CLI::App& parent, int& exitCode) {
       "set",
       "Write variables of a blackboard.\n"
       "Example: pitchboard-cli blackboard set 1 DECISION_ACTION_A=8 DECISION_ACTION_B=20");
-  options->target.addTo(*command);
-  command->add_option("NAME=VALUE", options->assignments, "what to write")->required();
+  options->target.addKeysTo(*command);
+  command->add_option("ROBOT NAME=VALUE", options->assignments, "robot number, then what to write")
+      ->required();
   addCatalogOption(*command, options->catalog);
   whenChosen(*command, options, exitCode, &set);
 }
