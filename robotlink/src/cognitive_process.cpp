@@ -40,9 +40,11 @@ Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& opt
 }
 
 constexpr std::array processes{
-    ProcessInfo{"decision", "chooses the robot's action", makeDecision, true},
+    ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true,
+                "pitchboard-robot decision --robot 1 --behaviour naive --distance-to-kick 25"},
     ProcessInfo{"communication", "sends telemetry and team messages by UDP", makeCommunication,
-                false},
+                false, false,
+                "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
 };
 
 }  // namespace

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <robotlink/robot_variables.h>
-
 namespace pitchboard::link {
 namespace {
 
@@ -47,13 +45,9 @@ class NaiveDecision final : public CognitiveProcess {
 
  private:
   void play(Blackboard& board) const {
-    const NaiveOutput out =
-        naiveRule(board.read(m_variables.visionLost), board.read(m_variables.visionPanDeg),
-                  board.read(m_variables.visionBallDist), m_distanceToKick);
-    if (out.searchOn) board.write(m_variables.decisionSearchOn, 1);
-    // Control reads B in the moment it sees a new A.
-    if (out.actionB) board.write(m_variables.decisionActionB, *out.actionB);
-    board.write(m_variables.decisionActionA, out.actionA);
+    naiveRule(board.read(m_variables.visionLost), board.read(m_variables.visionPanDeg),
+              board.read(m_variables.visionBallDist), m_distanceToKick)
+        .writeTo(board, m_variables);
   }
 
   RobotVariables m_variables;
@@ -61,6 +55,12 @@ class NaiveDecision final : public CognitiveProcess {
 };
 
 }  // namespace
+
+void NaiveOutput::writeTo(Blackboard& board, const RobotVariables& variables) const {
+  if (searchOn) board.write(variables.decisionSearchOn, 1);
+  if (actionB) board.write(variables.decisionActionB, *actionB);
+  board.write(variables.decisionActionA, actionA);
+}
 
 NaiveOutput naiveRule(int lost, float panDeg, float distance, double distanceToKick) {
   if (lost != 0 || !std::isfinite(panDeg) || !std::isfinite(distance)) {

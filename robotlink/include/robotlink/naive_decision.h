@@ -7,15 +7,19 @@
 #include <optional>
 
 #include <robotlink/cognitive_process.h>
+#include <robotlink/robot_variables.h>
 
 namespace pitchboard::link {
 
 /// What one cycle of the naive behaviour writes while the referee says "play".
 struct NaiveOutput {
   int actionA = 0;               ///< DECISION_ACTION_A
-  std::optional<int> actionB;    ///< DECISION_ACTION_B, to be written BEFORE actionA
+  std::optional<int> actionB;    ///< DECISION_ACTION_B
   bool searchOn = false;         ///< DECISION_SEARCH_ON = 1 is to be written
   bool operator==(const NaiveOutput&) const = default;
+
+  /// B before A, because control reads B in the moment it sees a new A.
+  void writeTo(Blackboard& board, const RobotVariables& variables) const;
 };
 
 /// The rule itself, from VISION_LOST, VISION_PAN_DEG (degrees, left positive) and VISION_BALL_DIST

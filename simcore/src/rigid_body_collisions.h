@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Moves robots and ball through one tick. What cannot touch anything in this tick is moved
+// directly; the rest goes through Box2D (rigid_body_contacts.h), and what then still overlaps is
+// pushed apart, so that a tick ends without overlaps. Things that a person dragged onto each other
+// part at a walking pace instead of at once.
+
+#include <vector>
+
+#include "rigid_body_contacts.h"
+#include "rigid_body_tick.h"
+
+namespace pitchboard::sim::rigid {
+
+class Collisions {
+ public:
+  /// Reads Motion::velocity of every robot and writes positions, the velocities that came out, the
+  /// gait's speeds of robots that were stopped, and Motion::impulse.
+  void advance(Tick& tick);
+
+ private:
+  /// How a ball slows down within a tick: Eq. (4) of the paper, f per 1/60 s whatever the rate.
+  struct Rolling {
+    double friction = -1.0;
+    double dt = 0.0;
+    double kept = 1.0;  ///< share of its speed that the ball has left after the tick
+    double mean = 1.0;  ///< mean speed over the tick, as a share of the speed before it
+  };
+
+  void updateRolling(double friction, double dt);
+  void findNeighbours(const Tick& tick);
+  std::size_t addBody(const Tick& tick, std::size_t body);
+  void separate(const Tick& tick);
+  void writeBack(Tick& tick);
+
+  FieldSpec m_field;
+  bool m_fieldKnown = false;
+  Obstacles m_obstacles;
+  Rolling m_rolling;
+  ContactSolver m_solver;
+  Velocity m_ballVelocity;               ///< mean over the tick, m/s
+  std::vector<double> m_x, m_y;          ///< of the robots, side by side for the search
+  std::vector<MovingBody> m_bodies;      ///< those that may touch something
+  std::vector<std::size_t> m_slots;      ///< per body: index into m_bodies + 1, 0 = not there
+  std::vector<NearPair> m_pairs;
+};
+
+}  // namespace pitchboard::sim::rigid
