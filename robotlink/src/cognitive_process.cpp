@@ -7,31 +7,42 @@
 #include <robotlink/naive_decision.h>
 
 #include "communication.h"
+#include "localization.h"
+#include "soccer/behaviour.h"
+#include "team_talk.h"
 
 namespace pitchboard::link {
 namespace {
 
 using Maker = Result<std::unique_ptr<CognitiveProcess>> (*)(const ProcessOptions& options);
 
-struct Behaviour {
+struct NamedBehaviour {
   BehaviourInfo info;
   Maker make;
 };
 
 constexpr std::array behaviourList{
-    Behaviour{{"naive", "as published: turn to the ball, walk to it, kick it"}, makeNaiveDecision},
+    NamedBehaviour{{"striker", "goes for the ball and the goal, leaves the ball to a nearer team-mate", true},
+              makeSoccerDecision<Striker>},
+    NamedBehaviour{{"supporter", "stays near the ball, takes it over when it is clearly nearer", true},
+              makeSoccerDecision<Supporter>},
+    NamedBehaviour{{"keeper", "stays between the ball and its goal, clears the ball", true},
+              makeSoccerDecision<Keeper>},
+    NamedBehaviour{{"idle", "stands", true}, makeSoccerDecision<Idle>},
+    NamedBehaviour{{"naive", "as published: turn to the ball, walk to it, kick it", false},
+              makeNaiveDecision},
 };
 
 constexpr auto behaviourInfos = [] {
   std::array<BehaviourInfo, behaviourList.size()> infos;
   std::transform(behaviourList.begin(), behaviourList.end(), infos.begin(),
-                 [](const Behaviour& behaviour) { return behaviour.info; });
+                 [](const NamedBehaviour& behaviour) { return behaviour.info; });
   return infos;
 }();
 
 Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& options) {
   std::string known;
-  for (const Behaviour& behaviour : behaviourList) {
+  for (const NamedBehaviour& behaviour : behaviourList) {
     if (behaviour.info.name == options.behaviour) return behaviour.make(options);
     known += (known.empty() ? "" : ", ") + std::string(behaviour.info.name);
   }
@@ -40,10 +51,14 @@ Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& opt
 }
 
 constexpr std::array processes{
-    ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true,
-                "pitchboard-robot decision --robot 1 --behaviour naive --distance-to-kick 25"},
+    ProcessInfo{"localization", "finds out where the robot stands", makeLocalization, true, false,
+                true, "pitchboard-robot localization --robot 1"},
+    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk, true, false, true,
+                "pitchboard-robot team --robot 1 --team 0"},
+    ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true, false,
+                "pitchboard-robot decision --robot 1 --behaviour striker"},
     ProcessInfo{"communication", "sends telemetry and team messages by UDP", makeCommunication,
-                false, false,
+                false, false, false,
                 "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
 };
 
@@ -58,5 +73,11 @@ const ProcessInfo* findProcess(std::string_view name) {
 }
 
 std::span<const BehaviourInfo> behaviours() { return behaviourInfos; }
+
+const BehaviourInfo* findBehaviour(std::string_view name) {
+  const auto found = std::find_if(behaviourInfos.begin(), behaviourInfos.end(),
+                                  [name](const BehaviourInfo& info) { return info.name == name; });
+  return found == behaviourInfos.end() ? nullptr : &*found;
+}
 
 }  // namespace pitchboard::link

@@ -97,15 +97,29 @@ Result<void> SimulatedMatch::startProcess(Seat& seat, const ProcessInfo& process
     auto started = m_supervisor->start({seat.id, std::string(process.name), commandOf(seat, process)});
     if (!started) return tl::unexpected(started.error());
   } else if (m_options.cognition == Cognition::Inline && process.deterministic) {
-    ProcessOptions options = m_options.process;
-    options.robot = seat.id;
-    options.behaviour = seat.behaviour;
-    auto made = process.make(options);
+    const BehaviourInfo* behaviour = findBehaviour(seat.behaviour);
+    if (process.forPose && (!behaviour || !behaviour->usesPose)) return {};
+    auto made = process.make(inlineOptions(seat));
     if (!made) return tl::unexpected(made.error());
     const std::uint64_t next = nextDueTick((*made)->period());
     seat.processes.push_back({&process, std::move(*made), next});
   }
   return {};
+}
+
+ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
+  ProcessOptions options = m_options.process;
+  options.robot = seat.id;
+  options.behaviour = seat.behaviour;
+  options.field = m_scenario.settings.field;
+  options.seed = m_scenario.settings.seed;
+  const sim::RobotIdentity& identity =
+      m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
+  options.facesLeft = identity.imuStartsAt180;
+  auto& channel = m_teamChannels[static_cast<std::size_t>(identity.team)];
+  if (!channel) channel = std::make_shared<InProcessTeamChannel>();
+  options.teamChannel = channel;
+  return options;
 }
 
 std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,

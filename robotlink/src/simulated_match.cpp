@@ -48,6 +48,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_expectedTick = other.m_expectedTick;
   m_goalSeen = other.m_goalSeen;
   m_outSeen = other.m_outSeen;
+  m_teamChannels = std::move(other.m_teamChannels);
   m_supervisor = std::move(other.m_supervisor);
   return *this;
 }

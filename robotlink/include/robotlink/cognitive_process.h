@@ -36,7 +36,7 @@ class CognitiveProcess {
 /// What a process is told when it is made.
 struct ProcessOptions {
   RobotId robot{1};
-  std::string behaviour = "naive";     ///< decision only
+  std::string behaviour = "striker";   ///< decision only
   double distanceToKick = 25.0;        ///< cm; 25 in simulation, 40 on the published real robot
   std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
   int telemetryPortBase = 1240;        ///< telemetry goes to this + robot number
@@ -59,6 +59,8 @@ struct ProcessInfo {
   Result<std::unique_ptr<CognitiveProcess>> (*make)(const ProcessOptions& options);
   bool deterministic;                  ///< may run inline (touches nothing but the blackboard)
   bool hasBehaviour;                   ///< ProcessOptions::behaviour matters to it
+  /// Only behaviours with usesPose need it: lock-step runs leave it out for the others.
+  bool forPose;
   std::string_view example;            ///< a command line for --help
 };
 
@@ -69,8 +71,11 @@ const ProcessInfo* findProcess(std::string_view name);
 struct BehaviourInfo {
   std::string_view name;
   std::string_view description;
+  bool usesPose;                       ///< needs localization and the team's messages
 };
 /// Behaviours of the decision process, the default first.
 std::span<const BehaviourInfo> behaviours();
+/// Nothing for an unknown name.
+const BehaviourInfo* findBehaviour(std::string_view name);
 
 }  // namespace pitchboard::link

@@ -5,6 +5,7 @@
 // the robots' processes (inline in lock-step, separate OS processes, or none). Not thread-safe: the
 // runner owns it on its thread. No pacing here: tick() advances one tick whenever it is called.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -105,6 +106,7 @@ class SimulatedMatch {
   Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot) const;
   Result<void> startProcesses(Seat& seat);
   Result<void> startProcess(Seat& seat, const ProcessInfo& info);
+  ProcessOptions inlineOptions(const Seat& seat);
   std::vector<std::string> commandOf(const Seat& seat, const ProcessInfo& info) const;
 
   Scenario m_scenario;
@@ -120,6 +122,7 @@ class SimulatedMatch {
   std::size_t m_nextWrite = 0;
   std::uint64_t m_expectedTick = 0;             // another one means that a moment was restored
   bool m_goalSeen = false, m_outSeen = false;
+  std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
   std::unique_ptr<ProcessSupervisor> m_supervisor;
 };
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "team_talk.h"
+
+#include <cmath>
+#include <limits>
+#include <charconv>
+
+#include "team_variables.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double cycle = 0.2;            // s
+constexpr double silence = 3.0;          // s after which a team-mate is unknown
+constexpr std::string_view header = "PB1";
+
+// One extended team message: "PB1 robot x y theta belief intention state ball", whole numbers; x, y
+// and belief in cm, theta in degrees (LOCALIZATION frame), ball packed as in team_variables.h.
+struct TeamMessage {
+  int robot = 0, x = 0, y = 0, theta = 0, belief = 0, intention = 0, state = 0, ball = -1;
+
+  std::string text() const {
+    std::string out(header);
+    for (const int value : {robot, x, y, theta, belief, intention, state, ball}) {
+      out += ' ';
+      out += std::to_string(value);
+    }
+    return out;
+  }
+
+  static std::optional<TeamMessage> parse(std::string_view text) {
+    if (text.substr(0, header.size()) != header) return std::nullopt;
+    TeamMessage m;
+    const char* p = text.data() + header.size();
+    const char* const end = text.data() + text.size();
+    for (int* value : {&m.robot, &m.x, &m.y, &m.theta, &m.belief, &m.intention, &m.state, &m.ball}) {
+      if (p == end || *p != ' ') return std::nullopt;
+      const auto [next, error] = std::from_chars(p + 1, end, *value);
+      if (error != std::errc{}) return std::nullopt;
+      p = next;
+    }
+    if (p != end || m.robot < 1 || m.robot > 64) return std::nullopt;
+    return m;
+  }
+};
+
+int whole(float value) {
+  return std::isfinite(value) ? static_cast<int>(std::clamp(value, -1e6F, 1e6F)) : -1;
+}
+
+// Five times a second: posts where this robot, its ball and its intention are, and writes the same
+// of up to three team-mates, in the order of their numbers, to COM_*_ROBOT1..3.
+class TeamTalk final : public CognitiveProcess {
+ public:
+  TeamTalk(RobotId robot, std::shared_ptr<TeamChannel> channel)
+      : m_robot(robot), m_channel(std::move(channel)) {}
+
+  void step(Blackboard& board, const Clock& clock) override {
+    m_channel->post(m_robot, ownMessage(board).text());
+    for (const std::string& text : m_channel->take(m_robot)) {
+      if (const auto message = TeamMessage::parse(text)) hear(*message, clock.seconds);
+    }
+    std::erase_if(m_mates, [&](const Mate& mate) { return clock.seconds - mate.heard > silence; });
+    for (std::size_t i = 0; i < mostTeamMates; ++i) write(board, i);
+  }
+
+  double period() const override { return cycle; }
+
+ private:
+  struct Mate {
+    TeamMessage message;
+    double heard = 0.0;
+  };
+
+  TeamMessage ownMessage(const Blackboard& board) const {
+    const RobotVariables& v = m_variables;
+    TeamMessage m;
+    m.robot = m_robot.value;
+    m.x = board.read(v.localizationX);
+    m.y = board.read(v.localizationY);
+    m.theta = board.read(v.localizationTheta);
+    m.belief = whole(board.read(v.localizationBelief));
+    m.intention = readOr(board, m_team.intention);
+    m.state = static_cast<int>(board.read(v.imuState) == 0 ? MateState::Active : MateState::Down);
+    const int x = whole(readOr(board, m_team.ballX, -1.0F));
+    const int y = whole(readOr(board, m_team.ballY, -1.0F));
+    // Fresh memory holds zeros: nobody has written a ball there yet.
+    const bool known = x >= 0 && y >= 0 && m.intention != static_cast<int>(Intention::None);
+    m.ball = known ? packPlace(x, y) : -1;
+    return m;
+  }
+
+  void hear(const TeamMessage& message, double now) {
+    if (message.robot == m_robot.value) return;
+    auto mate = std::find_if(m_mates.begin(), m_mates.end(), [&](const Mate& known) {
+      return known.message.robot >= message.robot;
+    });
+    if (mate == m_mates.end() || mate->message.robot != message.robot) {
+      mate = m_mates.insert(mate, Mate{});
+      if (m_mates.size() > 64) return;
+    }
+    *mate = {message, now};
+  }
+
+  void write(Blackboard& board, std::size_t i) const {
+    const bool known = i < m_mates.size();
+    const TeamMessage m = known ? m_mates[i].message : TeamMessage{};
+    writeIfPresent(board, m_team.state[i], m.state);
+    writeIfPresent(board, m_team.action[i], m.intention);
+    writeIfPresent(board, m_team.place[i], known ? packPlace(m.x, m.y) : -1);
+    writeIfPresent(board, m_team.ball[i], m.ball);
+  }
+
+  RobotId m_robot;
+  std::shared_ptr<TeamChannel> m_channel;
+  RobotVariables m_variables;
+  TeamVariables m_team;
+  std::vector<Mate> m_mates;             // by robot number
+};
+
+}  // namespace
+
+Result<std::unique_ptr<CognitiveProcess>> makeTeamTalk(const ProcessOptions& options) {
+  std::shared_ptr<TeamChannel> channel = options.teamChannel;
+  if (!channel) {
+    auto udp = makeUdpTeamChannel(options.udpAddress, options.team);
+    if (!udp) return tl::unexpected<Error>(udp.error());
+    channel = std::move(*udp);
+  }
+  return std::make_unique<TeamTalk>(options.robot, std::move(channel));
+}
+
+}  // namespace pitchboard::link
