@@ -136,7 +136,11 @@ Act Attack::step(const WorldModel& world, Walk& walk, const Point& aim) {
   const double d = world.ballDistance(), bearing = world.ballBearing();
   const double goalDistance = distance(ball, aim);
   const double opening = std::atan2(0.35 * world.field().goalWidth, goalDistance);
-  const double tolerance = std::clamp(goalDistance > 3.0 ? 0.30 : opening, 0.12, 0.35);
+  double tolerance = std::clamp(goalDistance > 3.0 ? 0.30 : opening, 0.12, 0.35);
+  // An opponent at the ball leaves no time: forward is good enough.
+  for (const Point& opponent : world.opponents()) {
+    if (distance(opponent, ball) < 0.6) tolerance = std::max(tolerance, 0.7);
+  }
 
   const bool enter = d < 0.48 && std::abs(error) < 0.9 && std::abs(bearing) < 0.8;
   const bool stay = d < 0.65 && std::abs(error) < 1.5 && std::abs(bearing) < 1.2;
