@@ -15,7 +15,7 @@ namespace pitchboard::link {
 namespace {
 
 constexpr float unseen = -999.0F;
-constexpr double cycle = 0.1;             // s
+constexpr double cycle = 0.05;            // s
 constexpr double longestGap = 1.0;        // s; a process that was stopped does not walk on
 constexpr double sureEnough_cm = 1.0;     // published: landmarks are asked for above this sigma
 

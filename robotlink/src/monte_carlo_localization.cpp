@@ -24,6 +24,7 @@ constexpr double imuOutliers = 0.05;
 constexpr double clusterRadius = 1.0;    // m
 constexpr double mostDisplacement = 1.0; // m and rad of one update; more is not walking
 constexpr double mostResetShare = 0.5;
+constexpr double widestKernel = 0.8;     // m
 
 bool usable(const std::optional<double>& value) { return value && std::isfinite(*value); }
 
@@ -47,6 +48,7 @@ LocalizationParameters LocalizationParameters::published() {
   p.imuSigma = radiansFromDegrees(30);
   p.outlierShare = 0.0;
   p.recovery = false;
+  p.kernel = 0.0;
   p.yawByImu = false;
   p.resampleAlways = true;
   return p;
@@ -70,7 +72,7 @@ Result<MonteCarloLocalization> MonteCarloLocalization::create(
     }
   }
   for (const double value : {p.walkSigma, p.walkShare, p.turnSigma, p.restSigma, p.outlierShare,
-                             p.slowRate, p.fastRate, p.kldQuantile}) {
+                             p.slowRate, p.fastRate, p.kldQuantile, p.kernel}) {
     if (!std::isfinite(value) || value < 0.0) return refuse("Rates and noise must not be negative.");
   }
   if (p.outlierShare >= 1.0) return refuse("The share of outliers must be below 1.");
@@ -113,7 +115,7 @@ MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
 
 void MonteCarloLocalization::reset() {
   m_spread = false;
-  m_slow = m_fast = 0.0;
+  m_slow = m_fast = m_sinceBearing = 0.0;
   m_lastImu.reset();
   m_remembered = {};
 }
@@ -158,6 +160,7 @@ void MonteCarloLocalization::spread(const LocalizationInput& input) {
 
 void MonteCarloLocalization::update(const LocalizationInput& input) {
   remember(input);
+  m_sinceBearing += std::clamp(input.seconds, 0.0, 10.0);
   if (!m_spread) {
     spread(input);
   } else {
@@ -178,8 +181,9 @@ void MonteCarloLocalization::update(const LocalizationInput& input) {
     // The mean weight of one bearing, so that it does not depend on how many were seen.
     const double mean = std::pow(std::max(sum, 1e-12), 1.0 / seen);
     if (m_slow == 0.0) m_slow = m_fast = mean;
-    m_slow += m_parameters.slowRate * (mean - m_slow);
-    m_fast += m_parameters.fastRate * (mean - m_fast);
+    m_slow += std::min(1.0, m_parameters.slowRate * m_sinceBearing) * (mean - m_slow);
+    m_fast += std::min(1.0, m_parameters.fastRate * m_sinceBearing) * (mean - m_fast);
+    m_sinceBearing = 0.0;
     if (m_parameters.recovery) {
       m_resetShare = std::clamp(1.0 - m_fast / (0.85 * m_slow), 0.0, mostResetShare);
     }
@@ -326,9 +330,21 @@ void MonteCarloLocalization::resample(double resetShare) {
     m_next.s[i] = m_now.s[from];
   }
   std::swap(m_now, m_next);
+  if (m_parameters.kernel > 0.0) regularize(kept);
   for (int i = kept; i < n; ++i) put(i, drawFromSensors(random));
   m_count = n;
   m_weight.head(n).setConstant(1.0F / static_cast<float>(n));
+}
+
+// Copies of one particle would say the same for ever: each moves a little, in proportion to what is
+// uncertain.
+void MonteCarloLocalization::regularize(int count) {
+  const double width = m_parameters.kernel * std::min(m_belief.sigma, widestKernel);
+  FastNoise noise(m_seed, m_robot, m_updates++);
+  noise.fillNormal(m_a, count);
+  noise.fillNormal(m_b, count);
+  m_now.x.head(count) += static_cast<float>(width) * m_a.head(count);
+  m_now.y.head(count) += static_cast<float>(width) * m_b.head(count);
 }
 
 double MonteCarloLocalization::drawYaw(CounterRandom& random) const {

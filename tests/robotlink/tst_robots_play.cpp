@@ -55,15 +55,20 @@ class TestRobotsPlay : public QObject {
   }
 
   void localizationConvergesFromAnUnknownStart() {
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    std::vector<double> errors, yaws;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       auto match = make(soccerMatch("paper", seed).value()).value();
       run(match, 20);
       for (int robot = 1; robot <= 6; ++robot) {
         double yaw = 0;
-        QVERIFY2(beliefError(match, robot, &yaw) < 0.5, qPrintable(QString("seed %1 robot %2").arg(seed).arg(robot)));
-        QVERIFY(yaw < radiansFromDegrees(10));
+        errors.push_back(beliefError(match, robot, &yaw));
+        yaws.push_back(yaw);
       }
     }
+    qInfo("after 20 s: median %.2f m, worst of 60 %.2f m", quantile(errors, 0.5), quantile(errors, 1));
+    QVERIFY(quantile(errors, 0.5) < 0.25);
+    QVERIFY(quantile(errors, 1) < 0.6);
+    QVERIFY(quantile(yaws, 1) < radiansFromDegrees(8));
   }
 
   void localizationRecoversWhenTheUserDragsARobot() {

@@ -52,8 +52,11 @@ struct LocalizationParameters {
   double kldError = 0.05;          ///< Fox's epsilon
   double kldQuantile = 2.326;      ///< Fox's z(1 - delta), delta = 1 %
   double kldCell = 0.30;           ///< m, side of a histogram cell; headings have 16 cells
-  double slowRate = 0.015;         ///< Thrun's alpha_slow and alpha_fast, per update with a bearing
-  double fastRate = 0.15;
+  double slowRate = 0.05;          ///< Thrun's alpha_slow and alpha_fast, per second, so that the
+  double fastRate = 0.8;           ///< cycle time does not change them
+  /// Width of the kernel of the regularized particle filter (Musso, Oudjane, Le Gland 2001), as a
+  /// share of the belief's sigma; keeps a small set from growing surer than its sensors allow.
+  double kernel = 0.2;
   bool recovery = true;            ///< sensor resetting; off in the published filter
   bool yawByImu = true;            ///< turning is taken from the IMU while it agrees with commands
   bool resampleAlways = false;     ///< else only when half of the particles count for nothing
@@ -127,6 +130,7 @@ class MonteCarloLocalization {
   int weigh(const LocalizationInput& input);
   void weighImu(double yaw);
   void resample(double resetShare);
+  void regularize(int count);
   int wantedParticles();
   Pose drawFromSensors(CounterRandom& random) const;
   double drawYaw(CounterRandom& random) const;
@@ -150,7 +154,7 @@ class MonteCarloLocalization {
   Array m_weight, m_noise, m_a, m_b, m_d;
   std::array<Remembered, 4> m_remembered;
   std::optional<double> m_lastImu;
-  double m_slow = 0.0, m_fast = 0.0, m_resetShare = 0.0;
+  double m_slow = 0.0, m_fast = 0.0, m_sinceBearing = 0.0, m_resetShare = 0.0;
   int m_columns, m_rows;           // of the histogram
   std::vector<std::uint32_t> m_cellStamp;
   std::uint32_t m_stamp = 0;

@@ -63,7 +63,8 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
 
 bool Striker::takesBall(const WorldModel& world, const Point& ball) const {
   // Who has it keeps it: two that swap for every centimetre reach nothing.
-  return !mateIsFirst(world, ball, m_attacking ? m_advantage : -m_advantage);
+  constexpr double keeps = 0.1, takes = -0.3;  // m
+  return !mateIsFirst(world, ball, m_attacking ? keeps : takes);
 }
 
 Choice Striker::play(const WorldModel& world) {

@@ -43,22 +43,20 @@ class Behaviour {
 /// Goes for the ball and the goal; leaves the ball to a team-mate that is there first.
 class Striker : public Behaviour {
  public:
-  explicit Striker(const sim::FieldSpec& field, double advantage = 0.3)
-      : Behaviour(field), m_advantage(advantage) {}
+  using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) const override;
 
  protected:
-  virtual Pose supportPose(const WorldModel& world, const Point& ball) const;
+  Pose supportPose(const WorldModel& world, const Point& ball) const;
   virtual bool takesBall(const WorldModel& world, const Point& ball) const;
-  double m_advantage;
   bool m_attacking = false;
 };
 
 /// Stays behind and beside the ball; goes for it when it is there clearly before its team-mates.
 class Supporter : public Striker {
  public:
-  explicit Supporter(const sim::FieldSpec& field) : Striker(field, -0.4) {}
+  using Striker::Striker;
   Pose kickOff(const WorldModel& world) const override;
 
  protected:

@@ -63,6 +63,11 @@ class WorldModel {
   /// Where the ball is on the field: seen by itself, remembered, or told by a team-mate.
   std::optional<Point> ball() const;
 
+  /// Where this robot saw the ball last, however long ago.
+  std::optional<Point> lastSeenBall() const {
+    return m_ballSeen > 0.0 ? std::optional<Point>(m_ballField) : std::nullopt;
+  }
+
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
   /// Opponents seen within the last seconds.
   std::vector<Point> opponents() const;
