@@ -9,9 +9,9 @@
 #include <stop_token>
 
 #include <robotlink/match_runner.h>
+#include <robotlink/pacer.h>
 
 #include "frame_builder.h"
-#include "pacer.h"
 
 namespace pitchboard::link {
 

@@ -3,7 +3,7 @@
 
 // Keeps simulated time just ahead of the wall clock at a chosen speed, as MuJoCo's simulate does:
 // a backlog that the machine cannot work off is dropped, so it never tries to catch up for ever.
-// A value; the caller gives the time. Private to robotlink.
+// A value; the caller gives the time.
 
 #include <chrono>
 #include <cstdint>
