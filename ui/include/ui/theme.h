@@ -5,7 +5,6 @@
 // accent; team colours mean teams, red and amber mean trouble, green is the field and the lamps.
 
 #include <QColor>
-#include <QFont>
 #include <QIcon>
 #include <QPalette>
 #include <QString>
@@ -24,7 +23,7 @@ struct ThemeColors {
   QColor text, secondaryText, disabledText;
   QColor accentLine, accentFill, selectedRow;
   QColor blueTeam, redTeam, blackTeam, orangeTeam, yellowTeam;
-  QColor warningText, warningGround, errorText, errorGround, workingText, workingGround, workingDot;
+  QColor warningText, warningGround, errorText, errorGround, workingText, workingGround;
   QColor grass, fieldBorder, fieldLines, ball;
 
   QColor team(TeamColor color) const;
@@ -38,9 +37,6 @@ void setTheme(QApplication& application, ThemeChoice choice);
 
 /// A Breeze icon drawn in the text colour of the theme, with its disabled state.
 QIcon themedIcon(const QString& name);
-
-/// The widget's font at the mock's size (body text is 12 px there).
-QFont bodyFont(const QWidget* widget, double pixels, bool bold = false);
 
 /// `pixels` of the mock (drawn for 12 px body text) in the widget's font: keeps proportions at any
 /// font size and scaling.
