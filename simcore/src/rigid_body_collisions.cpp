@@ -213,6 +213,10 @@ void Collisions::advance(Tick& tick) {
   }
   const std::size_t robots = tick.state.robots.size();
   m_solver.prepare(settings, m_obstacles, robots);
+  if (m_bodies.capacity() <= robots) {
+    m_bodies.reserve(robots + 1);
+    m_pairs.reserve((robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount);
+  }
   updateRolling(settings.rigidBody.ballFriction, tick.dt);
 
   RigidBall& ball = tick.state.ball;
