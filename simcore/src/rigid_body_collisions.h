@@ -15,8 +15,8 @@ namespace pitchboard::sim::rigid {
 
 class Collisions {
  public:
-  /// Reads Motion::velocity of every robot and writes positions, the velocities that came out, the
-  /// gait's speeds of robots that were stopped, and Motion::impulse.
+  /// Reads Motion::velocity and noise of every robot and writes positions, the velocities that came
+  /// out, the gait's speeds of robots that were stopped or pushed, and Motion::impulse.
   void advance(Tick& tick);
 
  private:

@@ -141,14 +141,12 @@ struct ContactSolver::World {
     const std::lock_guard lock(registration);
     for (b2Body* body : bodies) body->SetTransform({0.0F, 0.0F}, 0.0F);
     world.Step(0.0F, velocityIterations, positionIterations);
-    // A circle has room for six of its size round it; twice that covers what may only get near.
     filter.open = true;
-    constexpr std::size_t neighbours = 12;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t j = i + 1; j < std::min(bodies.size(), i + 1 + neighbours); ++j) {
+      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
         manager().AddPair(proxies[i], proxies[j]);
       }
-      for (std::size_t k = 0; k < obstacleCount; k += obstacleCount / 3) {
+      for (std::size_t k = 0; k < obstacleCount; k += obstacleCount / 4) {
         manager().AddPair(proxies[i], proxies[robots + 1 + k]);
       }
     }

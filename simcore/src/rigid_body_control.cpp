@@ -164,11 +164,9 @@ void setMotion(Tick& tick, std::size_t index) {
   motion.heading.set(robot.pose.yaw);
   const double c = motion.heading.cos();
   const double s = motion.heading.sin();
-  const double forwardNoise = noise.forward / tick.dt;
-  const double sidewaysNoise = noise.sideways / tick.dt;
-  motion.noise = {c * forwardNoise - s * sidewaysNoise, s * forwardNoise + c * sidewaysNoise};
-  motion.velocity = {c * robot.forwardSpeed - s * robot.sidewaysSpeed + motion.noise.x,
-                     s * robot.forwardSpeed + c * robot.sidewaysSpeed + motion.noise.y};
+  motion.velocity = {c * robot.forwardSpeed - s * robot.sidewaysSpeed,
+                     s * robot.forwardSpeed + c * robot.sidewaysSpeed};
+  motion.noise = {c * noise.forward - s * noise.sideways, s * noise.forward + c * noise.sideways};
   motion.impulse = {};
 }
 

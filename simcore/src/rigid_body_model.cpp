@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include <simcore/published_frame.h>
+
 #include "physics_model.h"
 #include "rigid_body_collisions.h"
 #include "rigid_body_control.h"
@@ -39,12 +41,8 @@ class RigidBodyModel final : public PhysicsModel {
   void step(WorldState& world, std::span<const RobotCommand> commands,
             std::span<Percepts> percepts, std::vector<Event>& events) override {
     const double dt = 1.0 / world.settings.tickRate;
-    const double frames = 60.0 / world.settings.tickRate;
-    if (frames != m_frames) {
-      m_frames = frames;
-      m_sqrtFrames = std::sqrt(frames);
-    }
-    rigid::Tick tick{world, stateOf(world), m_motions, events, dt, frames, m_sqrtFrames};
+    const double frames = published_frame::framesPerSecond / world.settings.tickRate;
+    rigid::Tick tick{world, stateOf(world), m_motions, events, dt, std::sqrt(frames)};
     const std::size_t robots = tick.state.robots.size();
     m_motions.resize(robots);
     for (std::size_t i = 0; i < robots; ++i) {
@@ -133,8 +131,6 @@ class RigidBodyModel final : public PhysicsModel {
   // Scratch of a tick; see rigid_body_tick.h.
   std::vector<rigid::Motion> m_motions;
   rigid::Collisions m_collisions;
-  double m_frames = 0.0;
-  double m_sqrtFrames = 0.0;
 };
 
 }  // namespace
