@@ -148,7 +148,8 @@ class TestRigidBodyCollisions : public QObject {
       const Point c = r.robot(0).pose.position, d = r.robot(1).pose.position;
       QVERIFY(std::hypot(c.x - a.x, c.y - a.y) <= 2.0 / rate + 0.005);
       QVERIFY2(std::hypot(d.x - b.x, d.y - b.y) <= 2.0 / rate + 0.005,
-               qPrintable(QString("moved %1 m in tick %2").arg(std::hypot(d.x - b.x, d.y - b.y)).arg(i)));
+               qPrintable(
+                   QString("moved %1 m in tick %2").arg(std::hypot(d.x - b.x, d.y - b.y)).arg(i)));
       const double now = deepestOverlap(r);
       QVERIFY(now <= std::max(last, 0.001) + 1e-6);
       last = now;
