@@ -2,6 +2,7 @@
 #include <robotlink/blackboard.h>
 #include <robotlink/blackboard_bridge.h>
 #include <robotlink/conformance.h>
+#include <robotlink/naive_decision.h>
 #include <robotlink/variable_catalog.h>
 #include <simcore/simulation.h>
 
@@ -11,7 +12,6 @@
 #include <functional>
 #include <numbers>
 
-#include "naive_decision.h"
 #include "trace_file.h"
 
 namespace pitchboard::link {
@@ -47,9 +47,12 @@ class TraceWorld {
 
   void decide() {
     for (Blackboard& board : m_boards) {
-      naiveRule(board.read(m_variables.visionLost), board.read(m_variables.visionPanDeg),
-                board.read(m_variables.visionBallDist), distanceToKickInTraces)
-          .writeTo(board, m_variables);
+      const NaiveOutput output =
+          naiveRule(board.read(m_variables.visionLost), board.read(m_variables.visionPanDeg),
+                    board.read(m_variables.visionBallDist), distanceToKickInTraces);
+      if (output.searchOn) board.write(m_variables.decisionSearchOn, 1);
+      if (output.actionB) board.write(m_variables.decisionActionB, *output.actionB);
+      board.write(m_variables.decisionActionA, output.actionA);
     }
   }
 

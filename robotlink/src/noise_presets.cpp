@@ -1,1 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+
+#include <resources/resources.h>
+
+#include "scenario_keys.h"
+
+namespace pitchboard::link {
+namespace {
+
+// In the order in which people see them; each is resources/noise/<name>.json.
+constexpr std::array<std::string_view, 4> names{"none", "published", "paper", "realistic"};
+
+}  // namespace
+
+std::vector<std::string> noisePresets() { return {names.begin(), names.end()}; }
+
+Result<sim::NoiseParameters> noisePreset(std::string_view name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    return failure(ErrorCode::NotFound, unknownName("noise preset", name, names));
+  }
+  const std::string path = "noise/" + std::string(name) + ".json";
+  JsonReport report(path);
+  const auto root = parseJson(resourceText(path), report);
+  sim::NoiseParameters noise;
+  if (root) {
+    std::vector<std::string_view> keys{"name", "title", "description"};
+    for (const auto& key : noiseKeys()) keys.push_back(key.key);
+    readNoiseKeys(JsonObject(report, *root, "", keys), noise);
+  }
+  if (report.failed()) return tl::unexpected(report.error());
+  return noise;
+}
+
+}  // namespace pitchboard::link

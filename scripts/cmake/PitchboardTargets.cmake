@@ -27,8 +27,10 @@ add_compile_options(-ffp-contract=off)
 # Lets gcc use precompiled headers that ccache may have restored.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
+# gcc 12 warns wrongly (-Wrestrict) about "text" + std::to_string(n): gcc bug 105329.
 function(pitchboard_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                         $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                          $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror>)
 endfunction()
 

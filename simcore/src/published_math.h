@@ -21,7 +21,21 @@ inline double mod360(double a) {
   return m == 0.0 ? 0.0 : m;
 }
 
-inline double length(double a, double b) { return std::sqrt(a * a + b * b); }
+/// The published squares are the C library's pow(x, 2), which differs from x·x in the last bit about
+/// once in a thousand. The exponent is volatile so that the compiler does not make it x·x.
+inline double square(double x) {
+  static const volatile double two = 2.0;
+  return std::pow(x, two);
+}
+
+inline double length(double a, double b) { return std::sqrt(square(a) + square(b)); }
+
+/// length(a, b) < limit, by a cheap test where it is not close.
+inline bool isShorter(double a, double b, double limit) {
+  constexpr double margin = 1.0 + 1e-9;
+  if (a * a + b * b > limit * limit * margin) return false;
+  return length(a, b) < limit;
+}
 
 struct UnitVector {
   explicit UnitVector(double degrees) : x(std::cos(rad(degrees))), y(std::sin(rad(degrees))) {}
@@ -29,9 +43,7 @@ struct UnitVector {
 };
 
 inline double chordSquared(const UnitVector& a, const UnitVector& b) {
-  const double dx = a.x - b.x;
-  const double dy = a.y - b.y;
-  return dx * dx + dy * dy;
+  return square(a.x - b.x) + square(a.y - b.y);
 }
 
 /// int(a) mod 360 with Python's sign rule.

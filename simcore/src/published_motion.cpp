@@ -44,7 +44,7 @@ void pushFromPosts(const PublishedGeometry& geometry, PublishedRobot& robot) {
   for (const PublishedPoint& post : geometry.posts) {
     const double dx = robot.x - post.x;
     const double dy = robot.y - post.y;
-    if (length(dx, dy) < geometry.robotRadius + geometry.postRadius) {
+    if (isShorter(dx, dy, geometry.robotRadius + geometry.postRadius)) {
       const double angle = std::atan2(dy, dx);
       robot.x += 3.0 * std::cos(angle);
       robot.y += 3.0 * std::sin(angle);
@@ -60,7 +60,7 @@ void pushRobotsApart(const PublishedGeometry& geometry, std::vector<PublishedRob
     PublishedRobot& hit = robots[other];
     const double dx = robot.x - hit.x;
     const double dy = robot.y - hit.y;
-    if (length(dx, dy) < 2 * geometry.robotRadius) {
+    if (isShorter(dx, dy, 2 * geometry.robotRadius)) {
       const double rho = std::atan2(dy, dx);
       hit.x += std::cos(rho + std::numbers::pi);
       hit.y += std::sin(rho + std::numbers::pi);
@@ -74,7 +74,7 @@ void pushBall(const PublishedGeometry& geometry, const PublishedRobot& robot,
               PublishedBall& ball) {
   const double dx = ball.x - robot.x;
   const double dy = robot.y - ball.y;
-  if (!(length(dx, dy) < geometry.robotRadius + geometry.ballRadius)) return;
+  if (!isShorter(dx, dy, geometry.robotRadius + geometry.ballRadius)) return;
   const double rho = std::atan2(dy, dx);
   const double speed = length(ball.vx, ball.vy);
   const double beta = std::atan2(ball.vy, ball.vx);
@@ -162,7 +162,7 @@ class Selection {
     const double gap = m_geometry.robotRadius - length(m_robot.x - ball.x, m_robot.y - ball.y);
     const double strength = rule.strength;
     double force =
-        std::min(10.0, strength * std::exp(-(gap * gap) / (strength * strength))) * rule.share;
+        std::min(10.0, strength * std::exp(-square(gap) / square(strength))) * rule.share;
     double angle = rotate + rule.direction;
     const NoiseParameters& noise = m_world.settings.noise;
     if (noise.kickSpeed > 0.0 || noise.kickAngle > 0.0) {
@@ -255,8 +255,10 @@ void moveRobot(WorldState& world, const PublishedGeometry& geometry, std::size_t
   robot.y -= sine * front;
   robot.x -= sine * drift;
   robot.y -= cosine * drift;
-  world.statistics[index].distanceWalked +=
-      published_frame::metresFromCm(length(robot.x - startX, robot.y - startY));
+  if (robot.inMotion) {
+    world.statistics[index].distanceWalked +=
+        published_frame::metresFromCm(std::hypot(robot.x - startX, robot.y - startY));
+  }
 
   pushFromLines(geometry, robot);
   pushFromPosts(geometry, robot);
@@ -293,7 +295,7 @@ void moveBall(WorldState& world, const PublishedGeometry& geometry, std::vector<
   ball.x += ball.vx;
   ball.y += ball.vy;
   for (const PublishedPoint& post : geometry.posts) {
-    if (length(ball.x - post.x, ball.y - post.y) < geometry.ballRadius + geometry.postRadius) {
+    if (isShorter(ball.x - post.x, ball.y - post.y, geometry.ballRadius + geometry.postRadius)) {
       setInMotion(ball, length(ball.vx, ball.vy),
                   deg(std::atan2(post.y - ball.y, ball.x - post.x)));
     }

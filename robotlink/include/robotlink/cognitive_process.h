@@ -44,6 +44,8 @@ struct ProcessInfo {
   std::string_view description;        ///< a sentence for --help
   Result<std::unique_ptr<CognitiveProcess>> (*make)(const ProcessOptions& options);
   bool deterministic;                  ///< may run inline (touches nothing but the blackboard)
+  bool hasBehaviour;                   ///< ProcessOptions::behaviour matters to it
+  std::string_view example;            ///< a command line for --help
 };
 
 /// Every reference process, in starting order: the one list that programs and tests read.

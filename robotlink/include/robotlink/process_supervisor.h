@@ -4,8 +4,14 @@
 // Starts child processes, notices when one ends, ends them all. A child never outlives this
 // process, however that ends (parent-death signal). Use from one thread, which must live as long as
 // the children: the kernel sends the signal when the starting THREAD ends.
+//
+// Every child leads a process group of its own, reads /dev/null, and has its standard output and
+// error collected line by line. When it ends, what it started itself ends with it: the rest of its
+// group is killed.
 
 #include <chrono>
+#include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <sys/types.h>
@@ -19,9 +25,11 @@ namespace pitchboard::link {
 struct ChildSpec {
   RobotId robot;
   std::string name;                    ///< for people: "decision"
-  std::vector<std::string> command;    ///< program and arguments
+  std::vector<std::string> command;    ///< program (looked for in PATH without a '/') and arguments
+  bool operator==(const ChildSpec&) const = default;
 };
 
+/// Ended: exit code 0, or stopped by us. Failed: anything else.
 enum class ChildState { Running, Ended, Failed };
 
 struct ChildStatus {
@@ -29,43 +37,62 @@ struct ChildStatus {
   ChildSpec spec;
   pid_t pid = 0;
   ChildState state = ChildState::Running;
-  std::string detail;                  ///< "exit code 2", "killed by signal 9"; empty while running
+  std::string detail;                  ///< "exit code 2", "killed by signal 9 (Killed)"; empty while running
   std::string lastOutput;              ///< last line that it wrote to stdout or stderr
-  bool operator==(const ChildStatus&) const;
+  bool operator==(const ChildStatus&) const = default;
 };
 
 /// A line written by a child, for the log.
 struct ChildLine {
   int handle = 0;
-  std::string text;                    ///< at most 1000 characters
+  std::string text;                    ///< at most 1000 bytes; the rest of a longer line is dropped
 };
 
 class ProcessSupervisor {
  public:
-  ProcessSupervisor();
+  static constexpr std::size_t maxLines = 10'000;
+  static constexpr std::size_t maxLineBytes = 1000;
+
+  ProcessSupervisor() = default;
   ProcessSupervisor(const ProcessSupervisor&) = delete;
   ProcessSupervisor& operator=(const ProcessSupervisor&) = delete;
   ~ProcessSupervisor();                ///< stopAll()
 
-  /// Fails when the program cannot be executed (the reason of the system in the sentence).
+  /// The child's handle. Fails when the program cannot be executed (the reason of the system in the
+  /// sentence). Returns once the program is running: it waits for fork and exec only.
   Result<int> start(const ChildSpec& spec);
-  /// Collects ended children and their output without waiting; call it regularly.
+  /// Collects ended children and their output without waiting; call it regularly, because a child
+  /// that writes much waits when nobody reads.
   void poll();
+  /// All that were ever started, in order.
   const std::vector<ChildStatus>& children() const { return m_children; }
   /// Lines since the last call; the oldest are dropped beyond 10 000, and counted.
   std::vector<ChildLine> takeLines();
+  /// How many lines were dropped because nobody took them.
+  std::uint64_t droppedLines() const { return m_droppedLines; }
 
   /// SIGTERM, then SIGKILL to what is left after the grace period. Returns when all are gone.
   void stop(RobotId robot, std::chrono::milliseconds grace = std::chrono::milliseconds(500));
   void stopAll(std::chrono::milliseconds grace = std::chrono::milliseconds(500));
 
  private:
-  struct Pipe;
-  void stopThose(std::vector<int> handles, std::chrono::milliseconds grace);
+  struct Output {                      // of a running child
+    int fd = -1;                       // read end of its pipe
+    std::string partial;               // the line that has no end yet
+    bool asked = false;                // stop() told it to end
+  };
+
+  void stopThose(const std::vector<int>& handles, std::chrono::milliseconds grace);
+  bool anyRunning(const std::vector<int>& handles) const;
+  void signalGroups(const std::vector<int>& handles, int signal) const;
+  void readOutput(ChildStatus& child, Output& output, std::size_t limit);
+  void endLine(ChildStatus& child, Output& output);
+  void collect(ChildStatus& child, Output& output);
+
   std::vector<ChildStatus> m_children;
-  std::map<int, int> m_outputs;        // handle -> read end of its pipe
-  std::map<int, std::string> m_partial;
-  std::vector<ChildLine> m_lines;
+  std::map<int, Output> m_outputs;     // by handle, running children only
+  std::deque<ChildLine> m_lines;
+  std::uint64_t m_droppedLines = 0;
   int m_nextHandle = 1;
 };
 

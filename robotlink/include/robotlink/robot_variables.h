@@ -2,7 +2,7 @@
 #pragma once
 
 // The variables that the bridge and the reference processes use, resolved once from a catalog into
-// indices. A team's catalog may lack some: reading those gives 0, writing them does nothing.
+// indices. A team's catalog may lack some: readOr() gives 0 for those, writeIfPresent() does nothing.
 
 #include <array>
 #include <vector>
@@ -26,5 +26,27 @@ struct RobotVariables {
   std::array<FloatVar, 11> robotDist, robotAngle;  ///< VISION_RBT01.. _DIST / _ANGLE
   std::vector<std::string> missing;      ///< names that the catalog does not have
 };
+
+// How bridge and processes use them: an absent variable reads as `fallback` and is never written.
+// (Blackboard::read and write take the index as it is.)
+constexpr bool isPresent(IntVar variable) { return variable.index >= 0; }
+constexpr bool isPresent(FloatVar variable) { return variable.index >= 0; }
+
+inline int readOr(const Blackboard& board, IntVar variable, int fallback = 0) {
+  return isPresent(variable) ? board.read(variable) : fallback;
+}
+inline float readOr(const Blackboard& board, FloatVar variable, float fallback = 0.0F) {
+  return isPresent(variable) ? board.read(variable) : fallback;
+}
+inline void writeIfPresent(Blackboard& board, IntVar variable, int value) {
+  if (isPresent(variable)) board.write(variable, value);
+}
+inline void writeIfPresent(Blackboard& board, FloatVar variable, float value) {
+  if (isPresent(variable)) board.write(variable, value);
+}
+/// Says whether `expected` stood there and was replaced.
+inline bool replaceIfPresent(Blackboard& board, IntVar variable, int expected, int value) {
+  return isPresent(variable) && board.replace(variable, expected, value);
+}
 
 }  // namespace pitchboard::link

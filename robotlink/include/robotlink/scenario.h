@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <base/result.h>
+#include <robotlink/variable_catalog.h>
 #include <simcore/simulation.h>
 
 namespace pitchboard::link {
@@ -25,10 +26,13 @@ struct BlackboardWrite {
   bool operator==(const BlackboardWrite&) const = default;
 };
 
+/// Behaviour of a robot without a decision process: for a team's own process, or an obstacle.
+constexpr std::string_view noBehaviour = "none";
+
 struct ScenarioRobot {
   sim::RobotIdentity identity;
   Pose pose;
-  std::string behaviour = "naive";
+  std::string behaviour = "naive";   ///< a name of behaviours(), or noBehaviour
   bool operator==(const ScenarioRobot&) const = default;
 };
 
@@ -61,9 +65,15 @@ struct ScenarioName {
 /// Built-in scenarios, the default (match-3v3) first.
 std::vector<ScenarioName> builtInScenarios();
 
-/// A built-in name, or else a path. Errors give file, line and the path of the offending key.
-Result<Scenario> loadScenario(const std::string& nameOrPath);
-Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source);
+/// A built-in name, or else a path. Errors give file, line and the path of the offending key:
+/// "my.json:14: robots[2].x: must be a number in metres". `catalog` names the variables that
+/// scripted writes may use.
+Result<Scenario> loadScenario(const std::string& nameOrPath,
+                              const VariableCatalog& catalog = VariableCatalog::published());
+Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source,
+                                  const VariableCatalog& catalog = VariableCatalog::published());
+/// The same form. Reading it gives an equal scenario when that came from a file; an angle of any
+/// other origin may come back one unit in the last place away, and then stays.
 std::string scenarioToJson(const Scenario& scenario);
 
 /// Noise presets are data: none, published, paper, realistic.

@@ -24,6 +24,9 @@ struct Variable {
   bool operator==(const Variable&) const = default;
 };
 
+struct CatalogEntry;  // a variable and the line it was read from; private to the readers
+
+/// A value that never changes once read: every variable has a name, and a word of its own.
 class VariableCatalog {
  public:
   /// The published map of 83 int and 122 float variables.
@@ -48,7 +51,8 @@ class VariableCatalog {
   bool operator==(const VariableCatalog& other) const { return m_variables == other.m_variables; }
 
  private:
-  static Result<VariableCatalog> make(std::vector<Variable> variables, std::string_view source);
+  static Result<VariableCatalog> make(const std::vector<CatalogEntry>& entries,
+                                      std::string_view source);
   std::vector<Variable> m_variables;
 };
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// fork and exec of one child with a clean start: see process_supervisor.h for what it gets.
+
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+#include <base/result.h>
+
+namespace pitchboard::link {
+
+struct Spawned {
+  pid_t pid = 0;   ///< also its process group
+  int output = -1; ///< read end of its standard output and error; non-blocking, close-on-exec
+};
+
+/// Starts `command` (program and arguments). From a process with any number of threads: nothing but
+/// async-signal-safe calls are made between fork and exec.
+Result<Spawned> spawn(const std::vector<std::string>& command);
+
+/// The system's words for an errno value; any thread.
+std::string systemReason(int error);
+
+}  // namespace pitchboard::link
