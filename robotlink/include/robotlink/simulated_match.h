@@ -67,6 +67,7 @@ class SimulatedMatch {
   std::string_view behaviour(RobotId id) const;
   const RobotVariables& variables() const { return m_variables; }
   ProcessSupervisor& supervisor() { return *m_supervisor; }
+  const ProcessSupervisor& supervisor() const { return *m_supervisor; }
 
   /// A robot with its blackboard and processes; scripted writes for every robot that are past are
   /// made up for. Errors leave the match as it was. Robots must be added and removed here, not at
