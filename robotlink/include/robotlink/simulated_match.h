@@ -58,6 +58,9 @@ class SimulatedMatch {
   /// A robot with its blackboard and processes. Errors leave the match as it was.
   Result<void> addRobot(const ScenarioRobot& robot);
   Result<void> removeRobot(RobotId id);
+  /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
+  /// noBehaviour). The robot itself and its blackboard stay as they are.
+  Result<void> setBehaviour(RobotId id, const std::string& behaviour);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
 
