@@ -55,8 +55,8 @@ class RigidBodyModel final : public PhysicsModel {
     for (std::size_t i = 0; i < robots; ++i) {
       const RigidRobot& robot = tick.state.robots[i];
       if (robot.inMotion) {
-        const Velocity& v = robot.velocity;
-        world.statistics[i].distanceWalked += std::sqrt(v.x * v.x + v.y * v.y) * dt;
+        world.statistics[i].distanceWalked += dt * std::sqrt(robot.forwardSpeed * robot.forwardSpeed +
+                                                             robot.sidewaysSpeed * robot.sidewaysSpeed);
       }
       if (world.settings.rigidBody.falls) rigid::applyFall(tick, i);
     }
