@@ -75,7 +75,8 @@ class SimulatedMatch {
   Result<void> addRobot(const ScenarioRobot& robot);
   /// Ends its processes and removes its segment if this match created it.
   Result<void> removeRobot(RobotId id);
-  /// Ends the robot's decision process and starts one with this behaviour (or none: noBehaviour).
+  /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
+  /// noBehaviour). The robot itself and its blackboard stay as they are.
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
