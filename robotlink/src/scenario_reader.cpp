@@ -16,7 +16,7 @@ namespace pitchboard::link {
 namespace {
 
 constexpr double longestTime = 1e6;      // s
-constexpr double fastestBall = 20.0;     // m/s
+constexpr double fastestBall = 50.0;     // m/s
 constexpr int highestShirtNumber = 99;
 constexpr std::size_t mostWrites = 100000;
 
