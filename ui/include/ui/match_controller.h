@@ -40,6 +40,8 @@ class MatchController : public QObject {
   /// match plays with inline processes on heap blackboards and `errorOccurred` says so. Waits for
   /// the old match's processes, at most their grace period.
   void open(const link::Scenario& scenario, bool paused = false);
+  /// Ends the match; its processes and blackboards go. restart() plays it again.
+  void close();
   bool isOpen() const { return m_runner != nullptr; }
   const link::Scenario& scenario() const { return m_scenario; }
   FramePtr frame() const { return m_frame; }

@@ -42,11 +42,15 @@ Result<std::unique_ptr<link::MatchRunner>> MatchController::startRunner(
   return second;
 }
 
-void MatchController::open(const link::Scenario& scenario, bool paused) {
+void MatchController::close() {
   m_timer->stop();
   m_runner.reset();
   m_frame.reset();
   m_undoStack->clear();
+}
+
+void MatchController::open(const link::Scenario& scenario, bool paused) {
+  close();
   m_robots.clear();
   m_scenario = scenario;
   m_paused = paused;
