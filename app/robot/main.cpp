@@ -17,6 +17,7 @@ struct Arguments {
   std::string config;
   std::optional<int> key;
   int keyBase = 0;
+  std::string field = "published", attack;
   link::ProcessOptions process;
 };
 
@@ -45,6 +46,10 @@ int run(const link::ProcessInfo& info, Arguments& arguments) {
   const Result<RobotId> robot = chosenRobot(arguments);
   if (!robot) return report(robot.error());
   arguments.process.robot = *robot;
+  const Result<sim::FieldSpec> field = sim::fieldByName(arguments.field);
+  if (!field) return report(field.error());
+  arguments.process.field = *field;
+  if (!arguments.attack.empty()) arguments.process.facesLeft = arguments.attack == "left";
   auto process = info.make(arguments.process);
   if (!process) return report(process.error());
   const int key = arguments.key.value_or(link::blackboardKey(*robot, arguments.keyBase));
@@ -94,6 +99,18 @@ void addOptions(CLI::App& command, Arguments& a) {
   command.add_option("--telemetry-port-base", a.process.telemetryPortBase,
                      "Telemetry goes to this + robot number")
       ->type_name("PORT")->capture_default_str();
+  command.add_option("--team", a.process.team,
+                     "Robots with the same number hear each other, on UDP port 10000 + this")
+      ->type_name("N")->capture_default_str();
+  command.add_option("--attack", a.attack,
+                     "Side of the opponents' goal; found out from landmarks and IMU if not given")
+      ->type_name("SIDE")->check(CLI::IsMember({"left", "right"}));
+  command.add_option("--field", a.field, "Sizes of the field")
+      ->type_name("NAME")->capture_default_str();
+  command.add_option("--particles", a.process.particles, "Localization: at most this many")
+      ->type_name("N")->capture_default_str();
+  command.add_flag("--published-localization", a.process.publishedLocalization,
+                   "Localization with the published filter's parameters");
   command.add_option("--team-port-base", a.process.teamPortBase,
                      "Team messages go to this + 1, 2, 3 and 4")
       ->type_name("PORT")->capture_default_str();
@@ -103,7 +120,7 @@ int parseAndRun(int argc, char** argv) {
   CLI::App app{
       "The reference processes of a robot. Each attaches to the robot's blackboard, like a team's\n"
       "own process, and runs until it gets SIGTERM or Ctrl+C.\n"
-      "Example: pitchboard-robot decision --robot 1 --behaviour naive"};
+      "Example: pitchboard-robot decision --robot 1 --behaviour striker"};
   app.name("pitchboard-robot");
   app.require_subcommand(1);
   app.set_version_flag("--version", PITCHBOARD_VERSION);

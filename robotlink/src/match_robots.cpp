@@ -125,6 +125,9 @@ ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
 std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
                                                    const ProcessInfo& process) const {
   const ProcessOptions& options = m_options.process;
+  const sim::RobotIdentity& identity =
+      m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
+  const sim::FieldSpec& field = m_scenario.settings.field;
   return {m_options.robotProgram,
           std::string(process.name),
           "--robot",
@@ -140,7 +143,15 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
           "--telemetry-port-base",
           std::to_string(options.telemetryPortBase),
           "--team-port-base",
-          std::to_string(options.teamPortBase)};
+          std::to_string(options.teamPortBase),
+          "--team",
+          std::to_string(options.team + static_cast<int>(identity.team)),
+          "--attack",
+          identity.imuStartsAt180 ? "left" : "right",
+          "--particles",
+          std::to_string(options.particles),
+          "--field",
+          sim::fieldByName(field.name) ? field.name : "published"};
 }
 
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {

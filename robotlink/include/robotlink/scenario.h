@@ -32,7 +32,7 @@ constexpr std::string_view noBehaviour = "none";
 struct ScenarioRobot {
   sim::RobotIdentity identity;
   Pose pose;
-  std::string behaviour = "naive";   ///< a name of behaviours(), or noBehaviour
+  std::string behaviour = "striker";   ///< a name of behaviours(), or noBehaviour
   bool operator==(const ScenarioRobot&) const = default;
 };
 
