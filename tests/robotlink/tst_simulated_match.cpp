@@ -68,13 +68,18 @@ class TestSimulatedMatch : public QObject {
   }
 
   void aRobotWithTheNaiveBehaviourKicksTheBall() {
-    auto match = make(builtIn("one-robot"));
+    Scenario scenario = builtIn("one-robot");
+    scenario.robots[0].behaviour = "naive";
+    auto match = make(scenario);
     for (int i = 0; i < 60 * 60; ++i) match.tick();
     QVERIFY(match.simulation().snapshot().robots[0].statistics.kicks > 0);
   }
 
   void noAllocationPerTickAfterTheStart() {
-    auto match = make(builtIn("match-3v3"));
+    // Engine, bridge and the naive behaviour; planning a path and talking to the team may allocate.
+    Scenario scenario = builtIn("match-3v3");
+    for (ScenarioRobot& robot : scenario.robots) robot.behaviour = "naive";
+    auto match = make(scenario);
     for (int i = 0; i < 120; ++i) match.tick();
     const long before = allocations;
     for (int i = 0; i < 3000; ++i) match.tick();

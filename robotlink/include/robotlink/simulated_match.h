@@ -51,7 +51,7 @@ class SimulatedMatch {
 
   /// Scripted writes that are due (time <= now), commands, one simulation step, percepts, then in
   /// the order of the robots each inline process whose period has passed. Allocates nothing once
-  /// every robot is there.
+  /// every robot is there, unless a behaviour that plans paths and talks to its team does.
   void tick();
   /// A stop condition of the scenario is met. Nothing keeps the caller from going on.
   bool finished() const { return !finishedBy().empty(); }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Team messages: the two channels, and the team process between two blackboards.
+#include <robotlink/cognitive_process.h>
+#include <robotlink/robot_variables.h>
+#include <robotlink/team_channel.h>
+
+#include <QtTest>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+int value(const Blackboard& board, const char* name) {
+  return board.read(*VariableCatalog::published().intVar(name));
+}
+
+struct Robot {
+  Blackboard board = Blackboard::onHeap();
+  std::unique_ptr<CognitiveProcess> team;
+  RobotVariables v;
+
+  Robot(int id, const std::shared_ptr<TeamChannel>& channel) {
+    ProcessOptions options;
+    options.robot = RobotId{id};
+    options.teamChannel = channel;
+    team = std::move(findProcess("team")->make(options).value());
+  }
+  void step(double seconds) { team->step(board, Clock{seconds}); }
+};
+
+}  // namespace
+
+class TestTeamChannel : public QObject {
+  Q_OBJECT
+ private slots:
+  void inProcessReachesEveryOtherInOrder() {
+    InProcessTeamChannel channel;
+    for (int n = 1; n <= 3; ++n) QVERIFY(channel.take(RobotId{n}).empty());
+    channel.post(RobotId{1}, "a");
+    channel.post(RobotId{2}, "b");
+    QCOMPARE(channel.take(RobotId{3}), (std::vector<std::string>{"a", "b"}));
+    QCOMPARE(channel.take(RobotId{1}), (std::vector<std::string>{"b"}));
+    QVERIFY(channel.take(RobotId{3}).empty());
+  }
+
+  void inProcessIsBounded() {
+    InProcessTeamChannel channel;
+    (void)channel.take(RobotId{2});
+    for (int i = 0; i < 1000; ++i) channel.post(RobotId{1}, std::to_string(i));
+    const auto kept = channel.take(RobotId{2});
+    QCOMPARE(kept.size(), 64U);
+    QCOMPARE(kept.back(), std::string("999"));
+  }
+
+  void udpReachesTheTeamOnThisComputerOnly() {
+    const int team = 40 + static_cast<int>(QCoreApplication::applicationPid() % 50);
+    auto one = makeUdpTeamChannel("127.0.0.1", team);
+    auto two = makeUdpTeamChannel("127.0.0.1", team);
+    auto other = makeUdpTeamChannel("127.0.0.1", team == 99 ? 40 : team + 1);
+    QVERIFY2(one && two && other, one ? "" : one.error().text().c_str());
+    (*one)->post(RobotId{1}, "hello");
+    std::vector<std::string> heard;
+    const auto listen = [&] {   // QTRY_VERIFY asks once more after the answer was yes
+      for (std::string& text : (*two)->take(RobotId{2})) heard.push_back(std::move(text));
+      return !heard.empty();
+    };
+    QTRY_VERIFY(listen());
+    QCOMPARE(heard, (std::vector<std::string>{"hello"}));
+    QVERIFY((*one)->take(RobotId{1}).empty());   // not its own words
+    QVERIFY((*other)->take(RobotId{3}).empty());
+  }
+
+  void udpRefusesWhatCannotWork() {
+    QVERIFY(!makeUdpTeamChannel("no address", 1));
+    QVERIFY(!makeUdpTeamChannel("127.0.0.1", -1));
+    QVERIFY(!makeUdpTeamChannel("127.0.0.1", 100));
+  }
+
+  void poseBallAndIntentionArrive() {
+    const auto channel = std::make_shared<InProcessTeamChannel>();
+    Robot a(4, channel), b(2, channel);
+    const VariableCatalog& names = VariableCatalog::published();
+    a.board.write(a.v.localizationX, 321);
+    a.board.write(a.v.localizationY, 45);
+    a.board.write(*names.intVar("DECISION_STATE"), 3);
+    a.board.write(*names.floatVar("LOCALIZATION_BALL_X"), 400.0F);
+    a.board.write(*names.floatVar("LOCALIZATION_BALL_Y"), 7.0F);
+    b.step(0.1);
+    a.step(0.1);
+    b.step(0.3);
+    QCOMPARE(value(b.board, "COM_STATE_ROBOT1"), 1);
+    QCOMPARE(value(b.board, "COM_POS_ROBOT1"), 3210045);
+    QCOMPARE(value(b.board, "COM_POS_BALL_ROBOT1"), 4000007);
+    QCOMPARE(value(b.board, "COM_ACTION_ROBOT1"), 3);
+    QCOMPARE(value(b.board, "COM_STATE_ROBOT2"), 0);
+    b.step(5.0);                                // silence
+    QCOMPARE(value(b.board, "COM_STATE_ROBOT1"), 0);
+    QCOMPARE(value(b.board, "COM_POS_ROBOT1"), -1);
+  }
+
+  void nonsenseIsNotHeard_data() {
+    QTest::addColumn<QString>("text");
+    QTest::newRow("empty") << "";
+    QTest::newRow("other") << "2 3 45.6";
+    QTest::newRow("short") << "PB1 3 1 2";
+    QTest::newRow("long") << "PB1 3 1 2 3 4 5 1 6 7";
+    QTest::newRow("words") << "PB1 a b c d e f g h";
+    QTest::newRow("huge") << "PB1 99999999999999 1 2 3 4 5 1 6";
+    QTest::newRow("robot 0") << "PB1 0 1 2 3 4 5 1 6";
+  }
+  void nonsenseIsNotHeard() {
+    QFETCH(QString, text);
+    const auto channel = std::make_shared<InProcessTeamChannel>();
+    Robot b(2, channel);
+    b.step(0.1);
+    channel->post(RobotId{3}, text.toStdString());
+    b.step(0.3);
+    QCOMPARE(value(b.board, "COM_STATE_ROBOT1"), 0);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestTeamChannel)
+#include "tst_team_channel.moc"
