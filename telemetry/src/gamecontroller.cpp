@@ -123,7 +123,7 @@ Result<RefereePacket> decodeState(Bytes bytes) {
   return RefereePacket{state};
 }
 
-Result<RefereePacket> decodeReply(Bytes bytes) {
+Result<RobotReply> decodeReply(Bytes bytes) {
   RobotReply reply;
   reply.version = intAt(bytes, 4, 1, false);
   reply.size = static_cast<int>(bytes.size());
@@ -149,7 +149,7 @@ Result<RefereePacket> decodeReply(Bytes bytes) {
                        std::to_string(reply.version) + " with " + std::to_string(bytes.size()) +
                        " bytes: this version is not known.");
   }
-  return RefereePacket{reply};
+  return reply;
 }
 
 }  // namespace
@@ -168,6 +168,17 @@ Result<RefereePacket> decodeReferee(Bytes bytes) {
   const std::string_view magic(reinterpret_cast<const char*>(bytes.data()), 4);
   if (magic == "RGme" || magic == "RGTD") return decodeState(bytes);
   if (magic == "RGrt") return decodeReply(bytes);
+  // Monitors get replies behind the IPv4 address of the robot, in network byte order.
+  if (bytes.size() > 8 &&
+      std::string_view(reinterpret_cast<const char*>(bytes.data()) + 4, 4) == "RGrt") {
+    const auto reply = decodeReply(bytes.subspan(4));
+    if (!reply) return tl::unexpected(reply.error());
+    std::uint32_t robot = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      robot = robot << 8U | std::to_integer<std::uint32_t>(bytes[i]);
+    }
+    return RefereePacket{ForwardedReply{robot, *reply}};
+  }
   if (magic == "RGTr") return RefereePacket{TrueDataRequest{}};
   return failure(ErrorCode::ParseError,
                  "Not a referee's packet: it does not begin with RGme, RGTD, RGrt or RGTr.");

@@ -104,11 +104,17 @@ struct RobotReply {
   std::optional<std::array<float, 2>> ball;  ///< v4: mm in the robot's frame
 };
 
+/// A robot's reply that a controller passes on to its monitors (port 3940).
+struct ForwardedReply {
+  std::uint32_t robot = 0;  ///< IPv4 address of the robot, host byte order
+  RobotReply reply;
+};
+
 /// RGTr: a program asks the referee for true data.
 struct TrueDataRequest {};
 
 /// What a datagram on the referee's port turned out to be.
-using RefereePacket = std::variant<RefereeState, RobotReply, TrueDataRequest>;
+using RefereePacket = std::variant<RefereeState, RobotReply, ForwardedReply, TrueDataRequest>;
 
 /// Decodes one datagram. Never reads outside the span, allocates only for an error's text.
 /// Errors: ParseError (not a referee's packet, or cut), Unsupported (version or size unknown; the
