@@ -195,6 +195,8 @@ int run(const Options& options) {
   Printer printer(TeamMonitor(std::move(profile), std::move(monitor)),
                   static_cast<std::uint16_t>(options.refereePort), options.json);
   std::map<std::size_t, std::string> told;
+  std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", options.bind.c_str(),
+               options.portBase + 1, options.portBase + options.robots, options.refereePort);
   DatagramBatch batch;
   const auto begin = Clock::now();
   auto nextRequest = begin;
