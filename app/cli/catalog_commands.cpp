@@ -1,8 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/variable_catalog.h>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
 #include "commands.h"
 
 namespace pitchboard::cli {
+namespace {
 
-void addCatalogCommands(CLI::App&, int&) {}
+struct ImportOptions {
+  std::string file;
+  std::string output;
+  bool json = false;
+};
+
+std::string table(const link::VariableCatalog& catalog) {
+  std::string text;
+  int ints = 0;
+  for (const link::Variable& variable : catalog.variables()) {
+    const bool isInt = variable.type == link::VariableType::Int;
+    ints += isInt ? 1 : 0;
+    char line[32];
+    std::snprintf(line, sizeof line, "%-5s %3d  ", isInt ? "int" : "float", variable.index);
+    text += line + variable.name + "\n";
+  }
+  const auto floats = static_cast<int>(catalog.variables().size()) - ints;
+  return text + std::to_string(ints) + " int and " + std::to_string(floats) + " float variables\n";
+}
+
+int importCatalog(const ImportOptions& options) {
+  const auto catalog = link::VariableCatalog::fromFile(options.file);
+  if (!catalog) return reportError(catalog.error());
+  const std::string text = options.json ? catalog->toJson() : table(*catalog);
+  if (options.output.empty()) {
+    std::cout << text << std::flush;
+    return 0;
+  }
+  errno = 0;
+  std::ofstream file(options.output, std::ios::binary);
+  file << text << std::flush;
+  if (!file)
+    return reportError({ErrorCode::SystemError,
+                        std::string("cannot be written: ") + std::strerror(errno), options.output});
+  return 0;
+}
+
+}  // namespace
+
+void addCatalogCommands(CLI::App& parent, int& exitCode) {
+  auto* const group = parent.add_subcommand(
+      "catalog",
+      "Variable maps of blackboards.\n"
+      "Example: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
+  group->require_subcommand(1);
+  const auto options = std::make_shared<ImportOptions>();
+  auto* const command = group->add_subcommand(
+      "import",
+      "Read a team's blackboard.h, SharedMemory.py or JSON map and print it.\n"
+      "Example: pitchboard-cli catalog import blackboard.h --json -o our-team.json");
+  command->add_option("FILE", options->file, "the map: .h, .hpp, .py or .json")->required();
+  command->add_flag("--json", options->json, "as JSON that --catalog reads");
+  command->add_option("-o,--output", options->output, "write to this file");
+  command->callback([options, &exitCode] { exitCode = importCatalog(*options); });
+}
 
 }  // namespace pitchboard::cli

@@ -2,8 +2,8 @@
 // A team's blackboard.h. `#define NAME *(mem+13)` and `*(memf+4)` tell their type; plain numbers do
 // not, so it is found like this, the first rule that applies:
 //  1. a comment behind the number that begins with the word int or float decides for this variable;
-//  2. a comment on lines of its own that has one of these words (not both) decides for all that
-//     follow, up to the next such comment;
+//  2. a comment line of its own that has one of these words (not both) among at most four decides
+//     for all that follow, up to the next such comment (longer ones are prose);
 //  3. otherwise ints come first, and the floats begin at the largest fall of the index from one
 //     variable to the next after which an index is used a second time.
 // A fall below every index so far without any repetition can be either: that is an error which asks
@@ -66,8 +66,11 @@ std::optional<VariableType> typeBehind(std::string_view comment) {
 
 // Rule 2.
 std::optional<VariableType> typeOfSection(std::string_view comment) {
+  constexpr std::size_t titleWords = 4;
+  const auto all = words(comment);
+  if (all.size() > titleWords) return std::nullopt;
   std::optional<VariableType> found;
-  for (const std::string& word : words(comment)) {
+  for (const std::string& word : all) {
     const auto type = typeOfWord(word);
     if (type && found && *type != *found) return std::nullopt;
     if (type) found = type;

@@ -9,21 +9,25 @@
 namespace pitchboard::sim::rigid {
 namespace {
 
-constexpr double margin = 0.005;             // m, so that nearly touching things count as near
-constexpr double partingSpeed = 0.5;         // m/s at which things dragged onto each other part
-constexpr double fastestBall = 50.0;         // m/s
+constexpr double margin = 0.005;      // m, so that nearly touching things count as near
+constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
+constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
+constexpr double fastestBall = 50.0;  // m/s
 constexpr int separationRounds = 40;
-constexpr int roundsForBallAlone = 10;       // after these robots give way to a ball that is stuck
-constexpr double separationTolerance = 1e-5; // m
+constexpr int roundsForBallAlone = 10;        // after these robots give way to a ball that is stuck
+constexpr double separationTolerance = 1e-5;  // m
 
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
-/// What is left of a change of speed by contacts after it has used up the noise: a robot that noise
-/// drives into a wall stands still, it is not thrown back.
-double beyondNoise(double change, double noise) {
-  if (change * noise >= 0.0) return change;
-  const double rest = std::max(0.0, std::abs(change) - std::abs(noise));
-  return change > 0.0 ? rest : -rest;
+/// A speed of the gait after contacts changed it. Being slowed down is taken as it is; being pushed
+/// faster or backwards is resisted by the feet, which lose `grip` of it in this tick.
+double afterContact(double gait, double change, double grip) {
+  const double speed = gait + change;
+  const double own = std::clamp(speed, std::min(0.0, gait), std::max(0.0, gait));
+  const double pushed = speed - own;
+  return own + std::copysign(std::max(0.0, std::abs(pushed) - grip), pushed);
 }
 
 }  // namespace
@@ -47,11 +51,12 @@ std::size_t Collisions::addBody(const Tick& tick, std::size_t body) {
     if (body < tick.state.robots.size()) {
       moving.position = tick.state.robots[body].pose.position;
       moving.velocity = tick.motions[body].velocity;
+      moving.reach = length(tick.motions[body].noise.x, tick.motions[body].noise.y);
     } else {
       moving.position = tick.state.ball.position;
       moving.velocity = m_ballVelocity;
     }
-    moving.reach = length(moving.velocity.x, moving.velocity.y) * tick.dt;
+    moving.reach += length(moving.velocity.x, moving.velocity.y) * tick.dt;
     m_bodies.push_back(moving);
     slot = m_bodies.size();
   }
@@ -66,14 +71,16 @@ void Collisions::findNeighbours(const Tick& tick) {
   m_slots.assign(robots + 1, 0);
   m_x.resize(robots);
   m_y.resize(robots);
-  double fastest = 0.0;
+  double farthest = 0.0;
   for (std::size_t i = 0; i < robots; ++i) {
     m_x[i] = tick.state.robots[i].pose.position.x;
     m_y[i] = tick.state.robots[i].pose.position.y;
     const Velocity& v = tick.motions[i].velocity;
-    fastest = std::max(fastest, v.x * v.x + v.y * v.y);
+    const double wayX = std::abs(v.x) * tick.dt + std::abs(tick.motions[i].noise.x);
+    const double wayY = std::abs(v.y) * tick.dt + std::abs(tick.motions[i].noise.y);
+    farthest = std::max(farthest, wayX * wayX + wayY * wayY);
   }
-  const double reach = std::sqrt(fastest) * tick.dt;
+  const double reach = std::sqrt(farthest);
   const Point& ball = tick.state.ball.position;
   const double ballReach = length(m_ballVelocity.x, m_ballVelocity.y) * tick.dt;
 
@@ -89,14 +96,15 @@ void Collisions::findNeighbours(const Tick& tick) {
       const double limit = m_obstacles[k].radius + radius;
       const double distance = clearance(m_obstacles, k, place).distance;
       if (distance >= limit + way + margin) continue;
-      m_pairs.push_back({addBody(tick, body), k, true, restitution,
-                         std::max(0.0, limit - distance)});
+      m_pairs.push_back(
+          {addBody(tick, body), k, true, restitution, std::max(0.0, limit - distance)});
     }
   };
   for (std::size_t i = 0; i < robots; ++i) {
     addObstacles(i, {m_x[i], m_y[i]}, field.robotRadius, reach, 0.0);
   }
-  addObstacles(robots, ball, field.ballRadius, ballReach, tick.settings().rigidBody.postRestitution);
+  addObstacles(robots, ball, field.ballRadius, ballReach,
+               tick.settings().rigidBody.postRestitution);
 
   const double touching = 2.0 * field.robotRadius;
   const double near = touching + 2.0 * reach + margin;
@@ -150,7 +158,6 @@ void Collisions::separate(const Tick& tick) {
         apart = false;
         a.position.x += gap.direction.x * (push - pair.overlap);
         a.position.y += gap.direction.y * (push - pair.overlap);
-        a.deflected = true;
         continue;
       }
       MovingBody& b = m_bodies[pair.second];
@@ -169,8 +176,6 @@ void Collisions::separate(const Tick& tick) {
       a.position.y -= ny * push * (1.0 - share);
       b.position.x += nx * push * share;
       b.position.y += ny * push * share;
-      a.deflected = a.deflected || !ballAlone;
-      b.deflected = true;
     }
     if (apart) return;
   }
@@ -192,13 +197,12 @@ void Collisions::writeBack(Tick& tick) {
       const double s = motion.heading.sin();
       const double dvx = moving.velocity.x - motion.velocity.x;
       const double dvy = moving.velocity.y - motion.velocity.y;
-      const double along = c * motion.noise.x + s * motion.noise.y;
-      const double across = c * motion.noise.y - s * motion.noise.x;
-      robot.forwardSpeed += beyondNoise(c * dvx + s * dvy, along);
-      robot.sidewaysSpeed += beyondNoise(c * dvy - s * dvx, across);
-      motion.velocity = {(moving.position.x - robot.pose.position.x) / tick.dt,
-                         (moving.position.y - robot.pose.position.y) / tick.dt};
+      const double grip = feetGrip * tick.dt;
+      robot.forwardSpeed = afterContact(robot.forwardSpeed, c * dvx + s * dvy, grip);
+      robot.sidewaysSpeed = afterContact(robot.sidewaysSpeed, c * dvy - s * dvx, grip);
     }
+    robot.velocity = {(moving.position.x - robot.pose.position.x) / tick.dt,
+                      (moving.position.y - robot.pose.position.y) / tick.dt};
     robot.pose.position = moving.position;
   }
 }
@@ -212,6 +216,10 @@ void Collisions::advance(Tick& tick) {
   }
   const std::size_t robots = tick.state.robots.size();
   m_solver.prepare(settings, m_obstacles, robots);
+  if (m_bodies.capacity() <= robots) {
+    m_bodies.reserve(robots + 1);
+    m_pairs.reserve((robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount);
+  }
   updateRolling(settings.rigidBody.ballFriction, tick.dt);
 
   RigidBall& ball = tick.state.ball;
@@ -222,17 +230,24 @@ void Collisions::advance(Tick& tick) {
   findNeighbours(tick);
   if (!m_pairs.empty()) {
     m_solver.solve(m_bodies, m_pairs, tick.dt);
+    // Noise is no push: it displaces the robot as far as there is room.
+    for (MovingBody& moving : m_bodies) {
+      if (moving.body == robots) continue;
+      moving.position.x += tick.motions[moving.body].noise.x;
+      moving.position.y += tick.motions[moving.body].noise.y;
+    }
     separate(tick);
     writeBack(tick);
   }
   for (std::size_t i = 0; i < robots; ++i) {
+    if (m_slots[i] != 0) continue;
     RigidRobot& robot = tick.state.robots[i];
-    const Velocity& velocity = tick.motions[i].velocity;
-    if (m_slots[i] == 0) {
-      robot.pose.position.x += velocity.x * tick.dt;
-      robot.pose.position.y += velocity.y * tick.dt;
-    }
-    robot.velocity = velocity;
+    const Motion& motion = tick.motions[i];
+    const double dx = motion.velocity.x * tick.dt + motion.noise.x;
+    const double dy = motion.velocity.y * tick.dt + motion.noise.y;
+    robot.pose.position.x += dx;
+    robot.pose.position.y += dy;
+    robot.velocity = {dx / tick.dt, dy / tick.dt};
   }
   if (m_slots[robots] == 0) {
     ball.position.x += m_ballVelocity.x * tick.dt;

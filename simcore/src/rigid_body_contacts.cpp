@@ -19,8 +19,12 @@ constexpr int velocityIterations = 8;
 // Overlaps are the caller's to resolve, in double and smoothly.
 constexpr int positionIterations = 0;
 
-float units(double metres) { return static_cast<float>(metres * unitsPerMetre); }
-b2Vec2 units(double x, double y) { return {units(x), units(y)}; }
+float units(double metres) {
+  return static_cast<float>(metres * unitsPerMetre);
+}
+b2Vec2 units(double x, double y) {
+  return {units(x), units(y)};
+}
 
 /// Refuses the contacts that Box2D finds by itself.
 class OnlyListedContacts final : public b2ContactFilter {
@@ -141,14 +145,12 @@ struct ContactSolver::World {
     const std::lock_guard lock(registration);
     for (b2Body* body : bodies) body->SetTransform({0.0F, 0.0F}, 0.0F);
     world.Step(0.0F, velocityIterations, positionIterations);
-    // A circle has room for six of its size round it; twice that covers what may only get near.
     filter.open = true;
-    constexpr std::size_t neighbours = 12;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t j = i + 1; j < std::min(bodies.size(), i + 1 + neighbours); ++j) {
+      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
         manager().AddPair(proxies[i], proxies[j]);
       }
-      for (std::size_t k = 0; k < obstacleCount; k += obstacleCount / 3) {
+      for (std::size_t k = 0; k < obstacleCount; k += obstacleCount / 4) {
         manager().AddPair(proxies[i], proxies[robots + 1 + k]);
       }
     }
@@ -167,8 +169,8 @@ struct ContactSolver::World {
   FieldSpec field;
   RigidBodySettings constants;
   std::size_t robots;
-  std::vector<b2Body*> bodies;            // robots, then the ball
-  std::vector<b2FixtureProxy*> proxies;   // robots, ball, obstacles
+  std::vector<b2Body*> bodies;           // robots, then the ball
+  std::vector<b2FixtureProxy*> proxies;  // robots, ball, obstacles
 };
 
 ContactSolver::ContactSolver() = default;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include <simcore/published_frame.h>
+
 #include "physics_model.h"
 #include "rigid_body_collisions.h"
 #include "rigid_body_control.h"
@@ -15,7 +17,9 @@
 namespace pitchboard::sim {
 namespace {
 
-RigidBodyState& stateOf(WorldState& world) { return std::get<RigidBodyState>(world.physics); }
+RigidBodyState& stateOf(WorldState& world) {
+  return std::get<RigidBodyState>(world.physics);
+}
 const RigidBodyState& stateOf(const WorldState& world) {
   return std::get<RigidBodyState>(world.physics);
 }
@@ -36,15 +40,11 @@ class RigidBodyModel final : public PhysicsModel {
                        [&](const RigidRobot& robot) { return robot.sightings.size() == delay; });
   }
 
-  void step(WorldState& world, std::span<const RobotCommand> commands,
-            std::span<Percepts> percepts, std::vector<Event>& events) override {
+  void step(WorldState& world, std::span<const RobotCommand> commands, std::span<Percepts> percepts,
+            std::vector<Event>& events) override {
     const double dt = 1.0 / world.settings.tickRate;
-    const double frames = 60.0 / world.settings.tickRate;
-    if (frames != m_frames) {
-      m_frames = frames;
-      m_sqrtFrames = std::sqrt(frames);
-    }
-    rigid::Tick tick{world, stateOf(world), m_motions, events, dt, frames, m_sqrtFrames};
+    const double frames = published_frame::framesPerSecond / world.settings.tickRate;
+    rigid::Tick tick{world, stateOf(world), m_motions, events, dt, std::sqrt(frames)};
     const std::size_t robots = tick.state.robots.size();
     m_motions.resize(robots);
     for (std::size_t i = 0; i < robots; ++i) {
@@ -55,8 +55,8 @@ class RigidBodyModel final : public PhysicsModel {
     for (std::size_t i = 0; i < robots; ++i) {
       const RigidRobot& robot = tick.state.robots[i];
       if (robot.inMotion) {
-        const Velocity& v = robot.velocity;
-        world.statistics[i].distanceWalked += std::sqrt(v.x * v.x + v.y * v.y) * dt;
+        world.statistics[i].distanceWalked += dt * std::sqrt(robot.forwardSpeed * robot.forwardSpeed +
+                                                             robot.sidewaysSpeed * robot.sidewaysSpeed);
       }
       if (world.settings.rigidBody.falls) rigid::applyFall(tick, i);
     }
@@ -133,12 +133,12 @@ class RigidBodyModel final : public PhysicsModel {
   // Scratch of a tick; see rigid_body_tick.h.
   std::vector<rigid::Motion> m_motions;
   rigid::Collisions m_collisions;
-  double m_frames = 0.0;
-  double m_sqrtFrames = 0.0;
 };
 
 }  // namespace
 
-std::unique_ptr<PhysicsModel> makeRigidBodyModel() { return std::make_unique<RigidBodyModel>(); }
+std::unique_ptr<PhysicsModel> makeRigidBodyModel() {
+  return std::make_unique<RigidBodyModel>();
+}
 
 }  // namespace pitchboard::sim

@@ -5,10 +5,13 @@
 // the robots' processes (inline in lock-step, separate OS processes, or none). Not thread-safe: the
 // runner owns it on its thread. No pacing here: tick() advances one tick whenever it is called.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include <robotlink/blackboard.h>
@@ -29,7 +32,7 @@ enum class Cognition {
 
 struct MatchOptions {
   Cognition cognition = Cognition::Inline;
-  bool systemV = false;              ///< with Inline: share the blackboards too, for watching
+  bool systemV = false;              ///< with Inline: System V blackboards, for watching
   int keyBase = 0;                   ///< key = keyBase + 100 × robot number
   std::string robotProgram;          ///< pitchboard-robot; needed for External
   ProcessOptions process;            ///< addresses and ports for the processes
@@ -37,37 +40,74 @@ struct MatchOptions {
 
 class SimulatedMatch {
  public:
+  /// Fails with the reason, and leaves no segment and no process behind. `catalog` must outlive the
+  /// match.
   static Result<SimulatedMatch> create(const Scenario& scenario, const MatchOptions& options,
                                        const VariableCatalog& catalog = VariableCatalog::published());
   SimulatedMatch(SimulatedMatch&&) noexcept;
   SimulatedMatch& operator=(SimulatedMatch&&) noexcept;
   ~SimulatedMatch();  ///< ends the processes, removes the segments that it created
 
-  /// Scripted writes, commands, one simulation step, percepts, inline processes.
+  /// Scripted writes that are due (time <= now), commands, one simulation step, percepts, then in
+  /// the order of the robots each inline process whose period has passed. Allocates nothing once
+  /// every robot is there.
   void tick();
-  /// A stop condition of the scenario is met.
-  bool finished() const;
+  /// A stop condition of the scenario is met. Nothing keeps the caller from going on.
+  bool finished() const { return !finishedBy().empty(); }
+  /// "goal", "ball_out" or "duration"; empty while none is met.
+  std::string_view finishedBy() const;
 
   const Scenario& scenario() const { return m_scenario; }
   sim::Simulation& simulation() { return m_simulation; }
   const sim::Simulation& simulation() const { return m_simulation; }
+  /// Nothing when there is no such robot.
   Blackboard* blackboard(RobotId id);
+  const Blackboard* blackboard(RobotId id) const;
+  /// Empty when there is no such robot.
+  std::string_view behaviour(RobotId id) const;
   const RobotVariables& variables() const { return m_variables; }
   ProcessSupervisor& supervisor() { return *m_supervisor; }
+  const ProcessSupervisor& supervisor() const { return *m_supervisor; }
 
-  /// A robot with its blackboard and processes. Errors leave the match as it was.
+  /// A robot with its blackboard and processes; scripted writes for every robot that are past are
+  /// made up for. Errors leave the match as it was. Robots must be added and removed here, not at
+  /// the simulation.
   Result<void> addRobot(const ScenarioRobot& robot);
+  /// Ends its processes and removes its segment if this match created it.
   Result<void> removeRobot(RobotId id);
+  /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
+  /// noBehaviour). The robot itself and its blackboard stay as they are.
+  Result<void> setBehaviour(RobotId id, const std::string& behaviour);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
 
-  /// The present moment as a scenario.
+  /// The present moment as a scenario that starts from it. Scripted writes of the past are kept at
+  /// time 0, each variable's last; what processes remember is not part of it.
   Scenario toScenario() const;
 
  private:
   struct Seat;  // one robot's blackboard, claim and inline processes
+  struct ResolvedWrite {
+    std::uint64_t tick = 0;
+    RobotId robot;
+    std::variant<IntVar, FloatVar> variable;
+    double value = 0.0;
+  };
+
   SimulatedMatch(const Scenario& scenario, const MatchOptions& options, sim::Simulation simulation,
                  const VariableCatalog& catalog);
+  Result<void> resolveWrites();
+  void apply(const ResolvedWrite& write);
+  void applyDueWrites();
+  void followJump();
+  void runInlineProcesses();
+  std::uint64_t nextDueTick(double period) const;
+  Seat* seat(RobotId id) const;
+  bool sharesBoards() const;
+  Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot) const;
+  Result<void> startProcesses(Seat& seat);
+  Result<void> startProcess(Seat& seat, const ProcessInfo& info);
+  std::vector<std::string> commandOf(const Seat& seat, const ProcessInfo& info) const;
 
   Scenario m_scenario;
   MatchOptions m_options;
@@ -75,10 +115,12 @@ class SimulatedMatch {
   const VariableCatalog* m_catalog;
   RobotVariables m_variables;
   BlackboardBridge m_bridge;
+  std::vector<ResolvedWrite> m_writes;          // in order of tick
   std::vector<std::unique_ptr<Seat>> m_seats;   // same order as the simulation's robots
   std::vector<sim::RobotCommand> m_commands;
   std::vector<sim::Percepts> m_percepts;
   std::size_t m_nextWrite = 0;
+  std::uint64_t m_expectedTick = 0;             // another one means that a moment was restored
   bool m_goalSeen = false, m_outSeen = false;
   std::unique_ptr<ProcessSupervisor> m_supervisor;
 };

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Robots coming and going: blackboards, claims, processes; and the match as a scenario.
+#include <algorithm>
+#include <cstdio>
+
+#include <robotlink/simulated_match.h>
+
+#include "lined_json.h"
+#include "match_seat.h"
+
+namespace pitchboard::link {
+namespace {
+
+std::string nameOf(const ScenarioRobot& robot) {
+  return std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
+}
+
+}  // namespace
+
+bool SimulatedMatch::sharesBoards() const {
+  return m_options.cognition != Cognition::Inline || m_options.systemV;
+}
+
+Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(
+    const ScenarioRobot& robot) const {
+  const RobotId id = robot.identity.id;
+  std::unique_ptr<Seat> seat;
+  bool fresh = true;
+  if (sharesBoards()) {
+    const int key = blackboardKey(id, m_options.keyBase);
+    auto claim = BridgeClaim::take(key);
+    if (!claim) return tl::unexpected(claim.error());
+    auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
+    if (!board) return tl::unexpected(board.error());
+    fresh = board->created();
+    seat = std::make_unique<Seat>(std::move(*board));
+    seat->claim = std::move(*claim);
+  } else {
+    seat = std::make_unique<Seat>(Blackboard::onHeap());
+  }
+  seat->id = id;
+  seat->behaviour = robot.behaviour;
+  // A segment that was there belongs to processes that may be running: it is left as it is.
+  if (fresh && m_variables.decisionSearchOn.index >= 0) {
+    seat->board.write(m_variables.decisionSearchOn, 1);
+  }
+  return seat;
+}
+
+Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
+  for (const sim::RobotIdentity& other : m_simulation.state().robots) {
+    if (other.team == robot.identity.team && other.number == robot.identity.number) {
+      return failure(ErrorCode::Conflict, "there is already a robot " + nameOf(robot) +
+                                              "; choose another number");
+    }
+  }
+  if (auto added = m_simulation.addRobot(robot.identity, robot.pose); !added) return added;
+  const RobotId id = robot.identity.id;
+  const auto giveUp = [&](const Error& error) {
+    m_supervisor->stop(id);
+    (void)m_simulation.removeRobot(id);
+    return tl::unexpected(error);
+  };
+  auto seat = makeSeat(robot);
+  if (!seat) return giveUp(seat.error());
+  for (std::size_t i = 0; i < m_nextWrite; ++i) {
+    const ResolvedWrite& write = m_writes[i];
+    if (write.robot.value == 0) (*seat)->write(write.variable, write.value);
+  }
+  if (auto started = startProcesses(**seat); !started) return giveUp(started.error());
+  m_seats.push_back(std::move(*seat));
+  m_commands.resize(m_seats.size());
+  m_percepts.resize(m_seats.size());
+  return {};
+}
+
+Result<void> SimulatedMatch::removeRobot(RobotId id) {
+  const auto index = m_simulation.indexOf(id);
+  if (auto removed = m_simulation.removeRobot(id); !removed) return removed;
+  m_supervisor->stop(id);
+  m_seats.erase(m_seats.begin() + static_cast<std::ptrdiff_t>(*index));
+  m_commands.resize(m_seats.size());
+  m_percepts.resize(m_seats.size());
+  return {};
+}
+
+Result<void> SimulatedMatch::startProcesses(Seat& seat) {
+  for (const ProcessInfo& process : cognitiveProcesses()) {
+    if (auto started = startProcess(seat, process); !started) return started;
+  }
+  return {};
+}
+
+Result<void> SimulatedMatch::startProcess(Seat& seat, const ProcessInfo& process) {
+  if (seat.behaviour == noBehaviour && process.hasBehaviour) return {};
+  if (m_options.cognition == Cognition::External) {
+    auto started = m_supervisor->start({seat.id, std::string(process.name), commandOf(seat, process)});
+    if (!started) return tl::unexpected(started.error());
+  } else if (m_options.cognition == Cognition::Inline && process.deterministic) {
+    ProcessOptions options = m_options.process;
+    options.robot = seat.id;
+    options.behaviour = seat.behaviour;
+    auto made = process.make(options);
+    if (!made) return tl::unexpected(made.error());
+    const std::uint64_t next = nextDueTick((*made)->period());
+    seat.processes.push_back({&process, std::move(*made), next});
+  }
+  return {};
+}
+
+std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
+                                                   const ProcessInfo& process) const {
+  const ProcessOptions& options = m_options.process;
+  return {m_options.robotProgram,
+          std::string(process.name),
+          "--robot",
+          std::to_string(seat.id.value),
+          "--key",
+          std::to_string(blackboardKey(seat.id, m_options.keyBase)),
+          "--behaviour",
+          seat.behaviour == noBehaviour ? options.behaviour : seat.behaviour,
+          "--distance-to-kick",
+          shortest(options.distanceToKick),
+          "--udp-address",
+          options.udpAddress,
+          "--telemetry-port-base",
+          std::to_string(options.telemetryPortBase),
+          "--team-port-base",
+          std::to_string(options.teamPortBase)};
+}
+
+Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {
+  Seat* changed = seat(id);
+  if (!changed) {
+    return failure(ErrorCode::NotFound,
+                   "there is no robot " + std::to_string(id.value) + " on the field");
+  }
+  const auto known = behaviours();
+  if (behaviour != noBehaviour && std::none_of(known.begin(), known.end(), [&](const auto& b) {
+        return b.name == behaviour;
+      })) {
+    std::vector<std::string_view> names;
+    for (const BehaviourInfo& b : known) names.push_back(b.name);
+    names.push_back(noBehaviour);
+    return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
+  }
+  const std::string before = changed->behaviour;
+  std::vector<InlineProcess> running = std::move(changed->processes);
+  changed->processes.clear();
+  changed->behaviour = behaviour;
+  m_supervisor->stop(id);
+  if (auto started = startProcesses(*changed); !started) {
+    changed->behaviour = before;
+    changed->processes = std::move(running);
+    return started;
+  }
+  return {};
+}
+
+Scenario SimulatedMatch::toScenario() const {
+  const sim::WorldState& state = m_simulation.state();
+  const sim::Snapshot now = m_simulation.snapshot();
+  const sim::FieldSpec& field = state.settings.field;
+  const auto inside = [&](const Point& point) {
+    const double x = field.halfLength() + field.border;
+    const double y = field.halfWidth() + field.border;
+    return Point{std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
+  };
+
+  Scenario moment = m_scenario;
+  char clock[32];
+  std::snprintf(clock, sizeof clock, "%.1f", now.time);
+  if (state.tick > 0) {
+    const std::string& title = m_scenario.title.empty() ? m_scenario.name : m_scenario.title;
+    moment.title = title + ", at " + clock + " s";
+  }
+  moment.settings = state.settings;
+  moment.ball = inside(now.ball);
+  moment.ballVelocity = now.ballVelocity;
+  moment.clockRunning = state.clockRunning;
+  moment.robots.clear();
+  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+    const sim::RobotSnapshot& robot = now.robots[i];
+    moment.robots.push_back({robot.identity,
+                             {inside(robot.pose.position), robot.pose.yaw},
+                             m_seats[i]->behaviour});
+  }
+
+  moment.writes.clear();
+  for (BlackboardWrite write : m_scenario.writes) {
+    if (write.robot.value != 0 && !seat(write.robot)) continue;
+    write.time = std::max(0.0, write.time - now.time);
+    if (write.time == 0.0) {
+      std::erase_if(moment.writes, [&](const BlackboardWrite& earlier) {
+        return earlier.time == 0.0 && earlier.robot == write.robot &&
+               earlier.variable == write.variable;
+      });
+    }
+    moment.writes.push_back(std::move(write));
+  }
+  return moment;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# For ./run and ./test: install_packages LIST..., build [CMAKE OPTION...]. Run from the top folder.
+
+install_packages() {
+  local missing=() package
+  while read -r package; do
+    [ -n "$package" ] || continue
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+      missing+=("$package")
+  done < <(cat "$@")
+  [ ${#missing[@]} -gt 0 ] || return 0
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "error: packages are missing and there is no sudo; as root: apt-get install ${missing[*]}" >&2
+      return 2
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing ${#missing[@]} packages: ${missing[*]}" >&2
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# Quiet when all is well; the log when it is not.
+build() {
+  mkdir -p build
+  local log=build/build.log
+  echo "Building (the log is in $log) ..." >&2
+  if ! { cmake --preset release "$@" && cmake --build --preset release; } >"$log" 2>&1; then
+    tail -n 60 "$log" >&2
+    echo "error: the build failed; the whole log is in $log" >&2
+    return 2
+  fi
+}
