@@ -227,7 +227,7 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();
   CLI::App* command = parent.add_subcommand(
       "listen",
-      "Print what robots and the referee send. Sends nothing itself. Ctrl+C ends it.\n"
+      "Print what robots and the referee send, until Ctrl+C. Sends nothing unless --monitor is given.\n"
       "Examples: pitchboard-cli listen\n"
       "          pitchboard-cli listen --json --duration 60 > match.jsonl\n"
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24");
