@@ -1,8 +1,285 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+#include <unistd.h>
+
+#include <robotlink/pacer.h>
+#include <robotlink/simulated_match.h>
+
 #include "commands.h"
+#include "simulate_report.h"
+#include "trace_writer.h"
 
 namespace pitchboard::cli {
+namespace {
 
-void addSimulateCommand(CLI::App&, int&) {}
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr double defaultDuration = 60.0;   // s simulated
+constexpr auto longestBatch = 10ms;
+constexpr auto pollInterval = 50ms;
+constexpr auto progressInterval = 500ms;
+
+std::atomic<bool> interrupted{false};
+
+void onSignal(int) { interrupted = true; }
+
+void handleSignals() {
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
+}
+
+struct Arguments {
+  std::string scenario = "match-3v3";
+  std::optional<std::uint64_t> seed;
+  std::optional<double> duration;
+  std::string speed;
+  std::string cognition = "inline";
+  std::string noise;
+  std::string physics;
+  std::string trace;
+  std::string robotProgram;
+  int keyBase = 0;
+  bool force = false;
+  bool json = false;
+  bool list = false;
+};
+
+struct CognitionName {
+  const char* name;
+  link::Cognition cognition;
+};
+constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
+                                                  {"external", link::Cognition::External},
+                                                  {"none", link::Cognition::None}}};
+
+/// 0 = as fast as possible.
+Result<double> speedFrom(const Arguments& arguments, link::Cognition cognition) {
+  const std::string& text = arguments.speed;
+  if (text.empty()) return cognition == link::Cognition::Inline ? 0.0 : 1.0;
+  if (text == "max") return 0.0;
+  double speed = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (code != std::errc() || end != text.data() + text.size() || !(speed >= 0.001 && speed <= 1e6)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
+  }
+  return speed;
+}
+
+std::string besideThisProgram(const char* name) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::string(name) : (self.parent_path() / name).string();
+}
+
+Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition) {
+  auto scenario = link::loadScenario(arguments.scenario);
+  if (!scenario) return scenario;
+  if (arguments.seed) scenario->settings.seed = *arguments.seed;
+  if (!arguments.physics.empty()) scenario->settings.physics = arguments.physics;
+  if (!arguments.noise.empty()) {
+    const auto noise = link::noisePreset(arguments.noise);
+    if (!noise) return tl::unexpected(noise.error());
+    scenario->settings.noise = *noise;
+  }
+  if (arguments.duration) {
+    if (!(*arguments.duration > 0.0 && *arguments.duration <= 1e9)) {
+      return failure(ErrorCode::InvalidArgument, "--duration must be above 0 and at most 1e9 seconds");
+    }
+    scenario->stop.duration = arguments.duration;
+  } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None) {
+    scenario->stop.duration = defaultDuration;
+  }
+  return scenario;
+}
+
+/// Plays the match to its end, tells children that died, writes the trace.
+class Player {
+ public:
+  Player(link::SimulatedMatch& match, double speed, TraceWriter* trace)
+      : m_match(match), m_speed(speed), m_trace(trace), m_begin(Clock::now()) {}
+
+  Result<Outcome> play() {
+    const std::uint64_t first = tick();
+    const double rate = m_match.simulation().state().settings.tickRate;
+    link::Pacer pacer;
+    if (m_speed > 0) pacer.start(m_begin, first, m_speed * rate);
+    if (auto written = record(); !written) return tl::unexpected(written.error());
+    while (!interrupted && !m_match.finished()) {
+      const auto now = Clock::now();
+      const std::uint64_t target = m_speed > 0 ? pacer.target(now) : ~std::uint64_t{0};
+      if (auto played = playBatch(now + longestBatch, target); !played) {
+        return tl::unexpected(played.error());
+      }
+      lookAfter();
+      if (m_speed > 0) {
+        const auto after = Clock::now();
+        pacer.forgive(after, tick());
+        if (pacer.target(after) <= tick()) {
+          std::this_thread::sleep_until(std::min(pacer.wake(after, tick()), after + pollInterval));
+        }
+      }
+    }
+    if (m_showsProgress) std::fprintf(stderr, "\r\033[K");
+    Outcome outcome;
+    outcome.ticks = tick() - first;
+    outcome.simulatedSeconds = static_cast<double>(outcome.ticks) / rate;
+    outcome.wallSeconds = std::chrono::duration<double>(Clock::now() - m_begin).count();
+    outcome.finishedBy = m_match.finished() ? std::string(m_match.finishedBy()) : "interrupted";
+    outcome.noise = noiseName(m_match.simulation().state().settings.noise);
+    return outcome;
+  }
+
+ private:
+  std::uint64_t tick() const { return m_match.simulation().state().tick; }
+
+  Result<void> playBatch(Clock::time_point until, std::uint64_t target) {
+    while (tick() < target && !m_match.finished() && !interrupted) {
+      m_match.tick();
+      if (auto written = record(); !written) return written;
+      if (Clock::now() >= until) break;
+    }
+    return {};
+  }
+
+  Result<void> record() {
+    if (!m_trace) return {};
+    m_match.simulation().snapshot(m_snapshot);
+    return m_trace->add(m_snapshot);
+  }
+
+  void lookAfter() {
+    const auto now = Clock::now();
+    if (now - m_lastPoll >= pollInterval) {
+      m_lastPoll = now;
+      pollChildren();
+    }
+    if (m_showsProgress && now - m_lastProgress >= progressInterval) {
+      m_lastProgress = now;
+      const double rate = m_match.simulation().state().settings.tickRate;
+      std::fprintf(stderr, "\r%.1f s simulated", static_cast<double>(tick()) / rate);
+    }
+  }
+
+  void pollChildren() {
+    link::ProcessSupervisor& supervisor = m_match.supervisor();
+    supervisor.poll();
+    (void)supervisor.takeLines();
+    for (const link::ChildStatus& child : supervisor.children()) {
+      if (child.state == link::ChildState::Running) continue;
+      if (std::find(m_told.begin(), m_told.end(), child.handle) != m_told.end()) continue;
+      m_told.push_back(child.handle);
+      std::fprintf(stderr, "warning: %s of robot %d ended: %s%s%s\n", child.spec.name.c_str(),
+                   child.spec.robot.value, child.detail.c_str(),
+                   child.lastOutput.empty() ? "" : "; it said: ", child.lastOutput.c_str());
+    }
+  }
+
+  link::SimulatedMatch& m_match;
+  double m_speed;
+  TraceWriter* m_trace;
+  Clock::time_point m_begin, m_lastPoll, m_lastProgress;
+  sim::Snapshot m_snapshot;
+  std::vector<int> m_told;
+  bool m_showsProgress = ::isatty(STDERR_FILENO) == 1;
+};
+
+Result<void> simulate(const Arguments& arguments) {
+  const auto cognition = std::find_if(cognitions.begin(), cognitions.end(), [&](const auto& c) {
+    return arguments.cognition == c.name;
+  });
+  if (cognition == cognitions.end()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "--cognition must be inline, external or none, not \"" + arguments.cognition +
+                       "\"");
+  }
+  const auto speed = speedFrom(arguments, cognition->cognition);
+  if (!speed) return tl::unexpected(speed.error());
+  const auto scenario = scenarioFrom(arguments, cognition->cognition);
+  if (!scenario) return tl::unexpected(scenario.error());
+
+  link::MatchOptions options;
+  options.cognition = cognition->cognition;
+  options.keyBase = arguments.keyBase;
+  options.robotProgram = arguments.robotProgram.empty() ? besideThisProgram("pitchboard-robot")
+                                                        : arguments.robotProgram;
+  handleSignals();
+  auto match = link::SimulatedMatch::create(*scenario, options);
+  if (!match) return tl::unexpected(match.error());
+
+  std::optional<TraceWriter> trace;
+  if (!arguments.trace.empty()) {
+    auto made = TraceWriter::create(arguments.trace, arguments.force, match->simulation().snapshot());
+    if (!made) return tl::unexpected(made.error());
+    trace = std::move(*made);
+  }
+  const auto outcome = Player(*match, *speed, trace ? &*trace : nullptr).play();
+  if (!outcome) return tl::unexpected(outcome.error());
+  if (trace) {
+    if (auto finished = trace->finish(); !finished) return finished;
+  }
+  arguments.json ? printJson(*match, *outcome) : printSummary(*match, *outcome);
+  return {};
+}
+
+void listScenarios() {
+  for (const link::ScenarioName& scenario : link::builtInScenarios()) {
+    std::printf("%-20s %s\n", scenario.name.c_str(), scenario.title.c_str());
+  }
+}
+
+}  // namespace
+
+void addSimulateCommand(CLI::App& parent, int& exitCode) {
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  CLI::App* command = parent.add_subcommand(
+      "simulate",
+      "plays a match and prints how it ended\n"
+      "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
+      "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1");
+  command->add_option("--scenario", a.scenario, "Built-in name (see --list) or a JSON file")
+      ->type_name("NAME|FILE")->capture_default_str();
+  command->add_option("--seed", a.seed, "Seed of all noise; default: the scenario's")
+      ->type_name("N");
+  command->add_option("--duration", a.duration,
+                      "Simulated seconds; default: the scenario's stop conditions, else 60 (with "
+                      "--cognition none: until Ctrl+C)")
+      ->type_name("S");
+  command->add_option("--speed", a.speed,
+                      "Times real time, or max; default: max for inline cognition, else 1")
+      ->type_name("X|max");
+  command->add_option("--cognition", a.cognition,
+                      "inline: decision in this program; external: robot processes on System V "
+                      "blackboards; none: blackboards for your own processes")
+      ->type_name("inline|external|none")->capture_default_str();
+  command->add_option("--noise", a.noise, "none, published, paper or realistic")
+      ->type_name("PRESET");
+  command->add_option("--physics", a.physics, "rigid-body or published")->type_name("MODEL");
+  command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
+  command->add_flag("--force", a.force, "Overwrite the trace if it exists");
+  command->add_flag("--json", a.json, "Print the outcome as one JSON object");
+  command->add_option("--key-base", a.keyBase, "Added to the blackboard keys 100 x robot number")
+      ->type_name("B")->capture_default_str()->check(CLI::Range(0, 2'000'000'000));
+  command->add_option("--robot-program", a.robotProgram,
+                      "Program of the external processes; default: pitchboard-robot beside this one")
+      ->type_name("FILE");
+  command->add_flag("--list", a.list, "Print the built-in scenarios");
+  command->callback([arguments, &exitCode] {
+    if (arguments->list) return listScenarios();
+    if (const auto done = simulate(*arguments); !done) exitCode = reportError(done.error());
+  });
+}
 
 }  // namespace pitchboard::cli

@@ -1,2 +1,140 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-int main() { return 0; }
+#include <QApplication>
+#include <QDir>
+#include <QSettings>
+#include <QTimer>
+#include <cmath>
+#include <cstdio>
+
+#include <ui/field_view.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+#include <ui/scenario_files.h>
+#include <ui/theme.h>
+
+#include "arguments.h"
+#include "end_signals.h"
+
+namespace pitchboard::studio {
+namespace {
+
+std::unique_ptr<QSettings> makeSettings(const Arguments& arguments) {
+  if (!arguments.settings.empty()) {
+    return std::make_unique<QSettings>(QString::fromStdString(arguments.settings),
+                                       QSettings::IniFormat);
+  }
+  return std::make_unique<QSettings>();
+}
+
+ui::ThemeChoice themeOf(const Arguments& arguments, const QSettings& settings) {
+  if (arguments.theme == "light") return ui::ThemeChoice::Light;
+  if (arguments.theme == "dark") return ui::ThemeChoice::Dark;
+  const int saved = settings.value(QStringLiteral("window/theme")).toInt();
+  return saved == 1   ? ui::ThemeChoice::Light
+         : saved == 2 ? ui::ThemeChoice::Dark
+                      : ui::ThemeChoice::FollowDesktop;
+}
+
+link::MatchOptions matchOptions(const Arguments& arguments) {
+  link::MatchOptions options;
+  options.cognition = cognitionOf(arguments);
+  options.keyBase = arguments.keyBase;
+  options.robotProgram =
+      QDir(QApplication::applicationDirPath()).filePath(QStringLiteral("pitchboard-robot"))
+          .toStdString();
+  return options;
+}
+
+bool save(const QPixmap& picture, const std::string& file) {
+  if (picture.save(QString::fromStdString(file))) return true;
+  report({ErrorCode::SystemError,
+          "the picture cannot be written; choose a folder that exists and a name ending in .png",
+          file});
+  return false;
+}
+
+int renderScenario(const Arguments& arguments, const link::Scenario& scenario, WindowSize size) {
+  link::MatchOptions options;
+  options.cognition = link::Cognition::Inline;
+  ui::MatchController controller(options);
+  bool failed = false;
+  QObject::connect(&controller, &ui::MatchController::errorOccurred, &controller,
+                   [&failed](const QString& sentence) {
+                     failed = true;
+                     std::fprintf(stderr, "error: %s\n", qPrintable(sentence));
+                   });
+  ui::FieldView field(&controller);
+  field.resize(size.width, size.height);
+  controller.open(scenario, true);
+  constexpr int longestWait = 10000;
+  QTimer limit;
+  limit.setSingleShot(true);
+  limit.start(longestWait);
+  while (!failed && !controller.frame() && limit.isActive()) {
+    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  }
+  if (failed || !controller.frame()) return 2;
+  const QImage picture = field.picture({size.width, size.height});
+  return save(QPixmap::fromImage(picture), arguments.picture) ? 0 : 2;
+}
+
+int showWindow(QApplication& application, const Arguments& arguments,
+               const link::Scenario& scenario, double speed, std::optional<WindowSize> size,
+               QSettings& settings) {
+  ui::MatchController controller(matchOptions(arguments));
+  ui::MainWindow window(&controller, &settings);
+  EndSignals signals_;
+  QObject::connect(&signals_, &EndSignals::received, &window, &QWidget::close);
+  if (size) window.resize(size->width, size->height);
+  window.offerToRemoveOrphans();
+  controller.setSpeed(speed);
+  controller.open(scenario, arguments.paused);
+  window.files()->showCurrent(QString::fromStdString(arguments.scenario));
+  window.show();
+  int exitCode = 0;
+  if (!arguments.screenshotFile.empty()) {
+    const int wait = static_cast<int>(std::lround(arguments.after * 1000));
+    QTimer::singleShot(wait, &window, [&] {
+      exitCode = save(window.grab(), arguments.screenshotFile) ? 0 : 2;
+      window.close();
+    });
+  }
+  const int ended = application.exec();
+  return ended != 0 ? ended : exitCode;
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  if (const auto exitCode = parseArguments(argc, argv, arguments)) return *exitCode;
+  const auto speed = speedOf(arguments);
+  if (!speed) return report(speed.error());
+  const auto size = sizeOf(arguments);
+  if (!size) return report(size.error());
+  const auto scenario = scenarioOf(arguments);
+  if (!scenario) return report(scenario.error());
+
+  const bool render = !arguments.renderScenario.empty();
+  if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") && qEnvironmentVariableIsEmpty("DISPLAY") &&
+      qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY")) {
+    if (!render && arguments.screenshotFile.empty()) {
+      return report({ErrorCode::SystemError,
+                     "there is no display to open a window on; use pitchboard-cli, or set "
+                     "QT_QPA_PLATFORM=offscreen", {}});
+    }
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+  }
+  QApplication::setOrganizationName(QStringLiteral("Pitchboard"));
+  QApplication::setApplicationName(QStringLiteral("Pitchboard"));
+  QApplication::setApplicationVersion(QStringLiteral(PITCHBOARD_VERSION));
+  int applicationArguments = 1;
+  QApplication application(applicationArguments, argv);
+  const auto settings = makeSettings(arguments);
+  ui::setTheme(application, themeOf(arguments, *settings));
+  if (render) return renderScenario(arguments, *scenario, size->value_or(WindowSize{1040, 740}));
+  return showWindow(application, arguments, *scenario, *speed, *size, *settings);
+}
+
+}  // namespace
+}  // namespace pitchboard::studio
+
+int main(int argc, char** argv) { return pitchboard::studio::run(argc, argv); }

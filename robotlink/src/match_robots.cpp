@@ -92,7 +92,7 @@ Result<void> SimulatedMatch::startProcesses(Seat& seat) {
 }
 
 Result<void> SimulatedMatch::startProcess(Seat& seat, const ProcessInfo& process) {
-  if (seat.behaviour == noBehaviour && process.name == decisionProcess) return {};
+  if (seat.behaviour == noBehaviour && process.hasBehaviour) return {};
   if (m_options.cognition == Cognition::External) {
     auto started = m_supervisor->start({seat.id, std::string(process.name), commandOf(seat, process)});
     if (!started) return tl::unexpected(started.error());

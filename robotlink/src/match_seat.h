@@ -12,9 +12,6 @@
 
 namespace pitchboard::link {
 
-/// The process that a robot's behaviour belongs to.
-constexpr std::string_view decisionProcess = "decision";
-
 struct InlineProcess {
   const ProcessInfo* info = nullptr;
   std::unique_ptr<CognitiveProcess> process;

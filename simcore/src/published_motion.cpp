@@ -117,7 +117,7 @@ class Selection {
         stop(command.actionA);
         return;
       case ActionKind::Kick:
-        kick(action->kick);
+        kick(*action);
         stop(command.actionA);
         return;
       default:
@@ -145,7 +145,8 @@ class Selection {
     m_percepts.control.moving = 1;
   }
 
-  void kick(const KickRule& rule) {
+  void kick(const Action& action) {
+    const KickRule& rule = action.kick;
     PublishedBall& ball = stateOf(m_world).ball;
     const double rotate = m_robot.rotate;
     const double left = rule.leftLimit;
@@ -172,7 +173,7 @@ class Selection {
     }
     setInMotion(ball, force, angle);
     ++m_world.statistics[m_index].kicks;
-    m_events.push_back({EventKind::Kick, m_world.tick, id(), 0});
+    m_events.push_back({EventKind::Kick, m_world.tick, id(), action.code});
   }
 
   void countUnknown(int code) {
@@ -232,9 +233,6 @@ void putBackWhenOut(const PublishedGeometry& g, PublishedBall& ball, std::uint64
 void moveRobot(WorldState& world, const PublishedGeometry& geometry, std::size_t index) {
   PublishedState& state = stateOf(world);
   PublishedRobot& robot = state.robots[index];
-  const double startX = robot.x;
-  const double startY = robot.y;
-
   double turn = robot.turn;
   double front = robot.front;
   double drift = robot.drift;
@@ -255,10 +253,8 @@ void moveRobot(WorldState& world, const PublishedGeometry& geometry, std::size_t
   robot.y -= sine * front;
   robot.x -= sine * drift;
   robot.y -= cosine * drift;
-  if (robot.inMotion) {
-    world.statistics[index].distanceWalked +=
-        published_frame::metresFromCm(std::hypot(robot.x - startX, robot.y - startY));
-  }
+  world.statistics[index].distanceWalked +=
+      published_frame::metresFromCm(std::hypot(robot.front, robot.drift));
 
   pushFromLines(geometry, robot);
   pushFromPosts(geometry, robot);

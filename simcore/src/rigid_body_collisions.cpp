@@ -9,15 +9,17 @@
 namespace pitchboard::sim::rigid {
 namespace {
 
-constexpr double margin = 0.005;             // m, so that nearly touching things count as near
-constexpr double partingSpeed = 0.5;         // m/s at which things dragged onto each other part
-constexpr double feetGrip = 4.0;              // m/s², friction of about 0.4
-constexpr double fastestBall = 50.0;         // m/s
+constexpr double margin = 0.005;      // m, so that nearly touching things count as near
+constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
+constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
+constexpr double fastestBall = 50.0;  // m/s
 constexpr int separationRounds = 40;
-constexpr int roundsForBallAlone = 10;       // after these robots give way to a ball that is stuck
-constexpr double separationTolerance = 1e-5; // m
+constexpr int roundsForBallAlone = 10;        // after these robots give way to a ball that is stuck
+constexpr double separationTolerance = 1e-5;  // m
 
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 /// A speed of the gait after contacts changed it. Being slowed down is taken as it is; being pushed
 /// faster or backwards is resisted by the feet, which lose `grip` of it in this tick.
@@ -94,14 +96,15 @@ void Collisions::findNeighbours(const Tick& tick) {
       const double limit = m_obstacles[k].radius + radius;
       const double distance = clearance(m_obstacles, k, place).distance;
       if (distance >= limit + way + margin) continue;
-      m_pairs.push_back({addBody(tick, body), k, true, restitution,
-                         std::max(0.0, limit - distance)});
+      m_pairs.push_back(
+          {addBody(tick, body), k, true, restitution, std::max(0.0, limit - distance)});
     }
   };
   for (std::size_t i = 0; i < robots; ++i) {
     addObstacles(i, {m_x[i], m_y[i]}, field.robotRadius, reach, 0.0);
   }
-  addObstacles(robots, ball, field.ballRadius, ballReach, tick.settings().rigidBody.postRestitution);
+  addObstacles(robots, ball, field.ballRadius, ballReach,
+               tick.settings().rigidBody.postRestitution);
 
   const double touching = 2.0 * field.robotRadius;
   const double near = touching + 2.0 * reach + margin;

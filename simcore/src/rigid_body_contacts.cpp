@@ -19,8 +19,12 @@ constexpr int velocityIterations = 8;
 // Overlaps are the caller's to resolve, in double and smoothly.
 constexpr int positionIterations = 0;
 
-float units(double metres) { return static_cast<float>(metres * unitsPerMetre); }
-b2Vec2 units(double x, double y) { return {units(x), units(y)}; }
+float units(double metres) {
+  return static_cast<float>(metres * unitsPerMetre);
+}
+b2Vec2 units(double x, double y) {
+  return {units(x), units(y)};
+}
 
 /// Refuses the contacts that Box2D finds by itself.
 class OnlyListedContacts final : public b2ContactFilter {
@@ -165,8 +169,8 @@ struct ContactSolver::World {
   FieldSpec field;
   RigidBodySettings constants;
   std::size_t robots;
-  std::vector<b2Body*> bodies;            // robots, then the ball
-  std::vector<b2FixtureProxy*> proxies;   // robots, ball, obstacles
+  std::vector<b2Body*> bodies;           // robots, then the ball
+  std::vector<b2FixtureProxy*> proxies;  // robots, ball, obstacles
 };
 
 ContactSolver::ContactSolver() = default;

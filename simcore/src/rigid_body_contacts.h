@@ -21,12 +21,12 @@ namespace pitchboard::sim::rigid {
 
 /// A robot, or the ball after the robots, that may touch something in this tick.
 struct MovingBody {
-  std::size_t body = 0;      ///< index of the robot, or the number of robots for the ball
-  Point position;            ///< m; moved by solve()
-  Velocity velocity;         ///< m/s, constant over the tick but for contacts; changed by solve()
-  Velocity impulse;          ///< N·s, set by solve()
-  double reach = 0.0;        ///< m that it can move in this tick
-  bool deflected = false;    ///< set by solve(): contacts changed its motion
+  std::size_t body = 0;    ///< index of the robot, or the number of robots for the ball
+  Point position;          ///< m; moved by solve()
+  Velocity velocity;       ///< m/s, constant over the tick but for contacts; changed by solve()
+  Velocity impulse;        ///< N·s, set by solve()
+  double reach = 0.0;      ///< m that it can move in this tick
+  bool deflected = false;  ///< set by solve(): contacts changed its motion
 };
 
 /// Two things that may touch: indices into the list of moving bodies, or an obstacle as the second.
@@ -35,7 +35,7 @@ struct NearPair {
   std::size_t second = 0;
   bool obstacle = false;
   double restitution = 0.0;
-  double overlap = 0.0;      ///< m at the start of the tick, 0 when apart
+  double overlap = 0.0;  ///< m at the start of the tick, 0 when apart
 };
 
 class ContactSolver {
@@ -45,8 +45,7 @@ class ContactSolver {
 
   /// Makes sure that the world fits. Allocates only when the field, the constants or the number of
   /// robots changed.
-  void prepare(const SimulationSettings& settings, const Obstacles& obstacles,
-               std::size_t robots);
+  void prepare(const SimulationSettings& settings, const Obstacles& obstacles, std::size_t robots);
 
   /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch.
   void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt);

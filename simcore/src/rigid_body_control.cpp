@@ -30,7 +30,8 @@ Speeds speedsOf(const RigidRobot& robot) {
   if (!action) return {};
   double front = action->front;
   if (robot.action == walkSlow && robot.actionB < leastFixedB) front = slowStep * robot.actionB;
-  return {published_frame::mpsFromCmPerFrame(front), published_frame::mpsFromCmPerFrame(action->drift),
+  return {published_frame::mpsFromCmPerFrame(front),
+          published_frame::mpsFromCmPerFrame(action->drift),
           radiansFromDegrees(action->turn) * published_frame::framesPerSecond};
 }
 
@@ -62,8 +63,8 @@ void kick(Tick& tick, std::size_t index, const Action& action) {
   const NoiseParameters& noise = tick.settings().noise;
   CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Kick,
                        tick.world.tick);
-  const double speed = std::max(
-      0.0, random.normal(published_frame::mpsFromCmPerFrame(force), noise.kickSpeed));
+  const double speed =
+      std::max(0.0, random.normal(published_frame::mpsFromCmPerFrame(force), noise.kickSpeed));
   const double direction =
       random.normal(robot.pose.yaw + radiansFromDegrees(rule.direction), noise.kickAngle);
   ball.velocity = {speed * std::cos(direction), speed * std::sin(direction)};
@@ -107,8 +108,7 @@ void beginGettingUp(RigidRobot& robot, double time) {
   robot.getUpRemaining = time;
 }
 
-void stepDown(Tick& tick, std::size_t index, const RobotCommand& command,
-              ControlPercept& percept) {
+void stepDown(Tick& tick, std::size_t index, const RobotCommand& command, ControlPercept& percept) {
   RigidRobot& robot = tick.state.robots[index];
   if (robot.posture != Posture::GettingUp) {
     robot.getUpRemaining -= tick.dt;
@@ -136,8 +136,8 @@ MotionNoise drawNoise(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.settings().noise;
   if (!tick.state.robots[index].inMotion) return {};
   if (noise.forward == 0.0 && noise.sideways == 0.0 && noise.rotation == 0.0) return {};
-  CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value,
-                       NoiseStream::Motion, tick.world.tick);
+  CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Motion,
+                       tick.world.tick);
   // One statement each: the published order is rotation, forward, sideways.
   MotionNoise drawn;
   drawn.turn = random.normal(0.0, noise.rotation * tick.sqrtFrames);

@@ -27,7 +27,9 @@ void stepControl(Tick& tick, std::size_t robot, const RobotCommand& command, Per
 void applyFall(Tick& tick, std::size_t robot);
 
 /// Whether the robot lies on the field or is just getting up.
-inline bool isDown(const RigidRobot& robot) { return robot.posture != Posture::Upright; }
+inline bool isDown(const RigidRobot& robot) {
+  return robot.posture != Posture::Upright;
+}
 
 /// Whether a robot that is down lies on its front.
 bool liesOnFront(const RigidRobot& robot);

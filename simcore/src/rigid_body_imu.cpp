@@ -53,7 +53,8 @@ void stepImu(Tick& tick, std::size_t index, const RobotCommand& command, ImuPerc
   }
   // The gait's speeds live in the turning body's frame, hence the centripetal terms.
   const double ax = (robot.forwardSpeed - motion.forward) / tick.dt - yawRate * robot.sidewaysSpeed;
-  const double ay = (robot.sidewaysSpeed - motion.sideways) / tick.dt + yawRate * robot.forwardSpeed;
+  const double ay =
+      (robot.sidewaysSpeed - motion.sideways) / tick.dt + yawRate * robot.forwardSpeed;
   percept.eulerXY = {0.0, 0.0};
   percept.accel = {ax / gravity, ay / gravity, 1.0};
   percept.state = 0;

@@ -17,7 +17,9 @@
 namespace pitchboard::sim {
 namespace {
 
-RigidBodyState& stateOf(WorldState& world) { return std::get<RigidBodyState>(world.physics); }
+RigidBodyState& stateOf(WorldState& world) {
+  return std::get<RigidBodyState>(world.physics);
+}
 const RigidBodyState& stateOf(const WorldState& world) {
   return std::get<RigidBodyState>(world.physics);
 }
@@ -38,8 +40,8 @@ class RigidBodyModel final : public PhysicsModel {
                        [&](const RigidRobot& robot) { return robot.sightings.size() == delay; });
   }
 
-  void step(WorldState& world, std::span<const RobotCommand> commands,
-            std::span<Percepts> percepts, std::vector<Event>& events) override {
+  void step(WorldState& world, std::span<const RobotCommand> commands, std::span<Percepts> percepts,
+            std::vector<Event>& events) override {
     const double dt = 1.0 / world.settings.tickRate;
     const double frames = published_frame::framesPerSecond / world.settings.tickRate;
     rigid::Tick tick{world, stateOf(world), m_motions, events, dt, std::sqrt(frames)};
@@ -53,8 +55,8 @@ class RigidBodyModel final : public PhysicsModel {
     for (std::size_t i = 0; i < robots; ++i) {
       const RigidRobot& robot = tick.state.robots[i];
       if (robot.inMotion) {
-        const Velocity& v = robot.velocity;
-        world.statistics[i].distanceWalked += std::sqrt(v.x * v.x + v.y * v.y) * dt;
+        world.statistics[i].distanceWalked += dt * std::sqrt(robot.forwardSpeed * robot.forwardSpeed +
+                                                             robot.sidewaysSpeed * robot.sidewaysSpeed);
       }
       if (world.settings.rigidBody.falls) rigid::applyFall(tick, i);
     }
@@ -135,6 +137,8 @@ class RigidBodyModel final : public PhysicsModel {
 
 }  // namespace
 
-std::unique_ptr<PhysicsModel> makeRigidBodyModel() { return std::make_unique<RigidBodyModel>(); }
+std::unique_ptr<PhysicsModel> makeRigidBodyModel() {
+  return std::make_unique<RigidBodyModel>();
+}
 
 }  // namespace pitchboard::sim

@@ -34,11 +34,16 @@ Obstacles obstaclesOf(const FieldSpec& field) {
 Clearance clearance(const Obstacles& obstacles, std::size_t index, const Point& place) {
   const Obstacle& o = obstacles[index];
   switch (index) {
-    case 0: return {place.x - o.first.x, {1.0, 0.0}};
-    case 1: return {o.first.x - place.x, {-1.0, 0.0}};
-    case 2: return {place.y - o.first.y, {0.0, 1.0}};
-    case 3: return {o.first.y - place.y, {0.0, -1.0}};
-    default: break;
+    case 0:
+      return {place.x - o.first.x, {1.0, 0.0}};
+    case 1:
+      return {o.first.x - place.x, {-1.0, 0.0}};
+    case 2:
+      return {place.y - o.first.y, {0.0, 1.0}};
+    case 3:
+      return {o.first.y - place.y, {0.0, -1.0}};
+    default:
+      break;
   }
   // Posts are points and nets run along an axis, first to last upwards.
   const double dx = place.x - std::clamp(place.x, o.first.x, o.last.x);

@@ -38,13 +38,13 @@ class Heading {
 
 /// One robot's motion in this tick.
 struct Motion {
-  Heading heading;              ///< after this tick's turn
-  double forward = 0.0;         ///< m/s at the start of the tick, for the accelerometer
-  double sideways = 0.0;        ///< m/s at the start of the tick
-  double turned = 0.0;          ///< rad turned in this tick, noise included
-  Velocity velocity;            ///< m/s that the gait asks for, in the field's frame
-  Point noise;                  ///< m by which noise displaces the robot in this tick
-  Velocity impulse;             ///< N·s received from contacts in this tick
+  Heading heading;        ///< after this tick's turn
+  double forward = 0.0;   ///< m/s at the start of the tick, for the accelerometer
+  double sideways = 0.0;  ///< m/s at the start of the tick
+  double turned = 0.0;    ///< rad turned in this tick, noise included
+  Velocity velocity;      ///< m/s that the gait asks for, in the field's frame
+  Point noise;            ///< m by which noise displaces the robot in this tick
+  Velocity impulse;       ///< N·s received from contacts in this tick
 };
 
 /// The tick that is being computed.
@@ -53,8 +53,8 @@ struct Tick {
   RigidBodyState& state;
   std::vector<Motion>& motions;
   std::vector<Event>& events;
-  double dt = 0.0;              ///< s
-  double sqrtFrames = 0.0;      ///< root of the tick in 1/60 s: scales noise given per 1/60 s
+  double dt = 0.0;          ///< s
+  double sqrtFrames = 0.0;  ///< root of the tick in 1/60 s: scales noise given per 1/60 s
 
   const SimulationSettings& settings() const { return world.settings; }
   void report(EventKind kind, std::size_t robot, int value = 0) {

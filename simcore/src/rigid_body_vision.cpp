@@ -103,8 +103,7 @@ void lookAtRobots(const Tick& tick, std::size_t index, bool teamMates, Percepts&
   const RigidRobot& robot = tick.state.robots[index];
   const NoiseParameters& noise = tick.settings().noise;
   CounterRandom random = randomOf(tick, index, NoiseStream::RobotVision);
-  const std::size_t most =
-      std::min<std::size_t>(tick.state.robots.size(), Percepts::maxSeenRobots);
+  const std::size_t most = std::min<std::size_t>(tick.state.robots.size(), Percepts::maxSeenRobots);
   for (std::size_t other = 0; other < most; ++other) {
     const bool mate = tick.world.robots[other].team == tick.world.robots[index].team;
     if (other == index || mate != teamMates) continue;
@@ -128,8 +127,8 @@ void lookAtCorners(const Tick& tick, std::size_t index, LandmarkPercept& percept
   std::array<double, 4> bearings{};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     bearings[i] = unseenLandmark;
-    const Polar corner = polar(robot, corners[i].x - robot.pose.position.x,
-                               corners[i].y - robot.pose.position.y);
+    const Polar corner =
+        polar(robot, corners[i].x - robot.pose.position.x, corners[i].y - robot.pose.position.y);
     if (std::abs(corner.bearing) >= landmarkHalfView) continue;
     if (random.uniform() >= noise.landmarkProbability) continue;
     bearings[i] = degreesFromRadians(random.normal(corner.bearing, noise.landmarkBearing));

@@ -64,7 +64,9 @@ void run(benchmark::State& state, const NoiseParameters& noise) {
   state.SetItemsProcessed(state.iterations());
 }
 
-void rigidBody(benchmark::State& state) { run(state, {}); }
+void rigidBody(benchmark::State& state) {
+  run(state, {});
+}
 
 void rigidBodyRealisticNoise(benchmark::State& state) {
   NoiseParameters noise;

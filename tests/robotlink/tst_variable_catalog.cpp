@@ -178,7 +178,7 @@ class TestVariableCatalog : public QObject {
       const std::string good = fileText(path).substr(0, 1500);
       for (int i = 0; i < 5000; ++i) {
         std::string text = good;
-        for (unsigned n = random() % 6; n-- > 0;) {
+        for (auto n = random() % 6; n-- > 0;) {
           const std::size_t at = random() % text.size();
           switch (random() % 4) {
             case 0:

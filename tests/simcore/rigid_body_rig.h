@@ -78,14 +78,13 @@ inline double deepestOverlap(const Rig& r) {
   for (std::size_t i = 0; i < circles.size(); ++i) {
     const auto& [p, radius] = circles[i];
     for (std::size_t j = 0; j < i; ++j) {
-      deepest = std::max(deepest, radius + circles[j].radius -
-                                      std::hypot(p.x - circles[j].centre.x,
-                                                 p.y - circles[j].centre.y));
+      deepest =
+          std::max(deepest, radius + circles[j].radius -
+                                std::hypot(p.x - circles[j].centre.x, p.y - circles[j].centre.y));
     }
     for (const double x : {-lineX, lineX}) {
       for (const double y : {-post, post}) {
-        deepest = std::max(deepest,
-                           radius + f.goalPostRadius - std::hypot(p.x - x, p.y - y));
+        deepest = std::max(deepest, radius + f.goalPostRadius - std::hypot(p.x - x, p.y - y));
         if (std::abs(p.x) > lineX) deepest = std::max(deepest, radius - std::abs(p.y - y));
       }
     }

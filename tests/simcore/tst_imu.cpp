@@ -124,7 +124,8 @@ class TestImu : public QObject {
     double squares = 0;
     for (int stretch = 0; stretch < 10; ++stretch) {
       std::vector<double> before;
-      for (int i = 0; i < robots; ++i) before.push_back(r.robot(static_cast<std::size_t>(i)).imuDrift);
+      for (int i = 0; i < robots; ++i)
+        before.push_back(r.robot(static_cast<std::size_t>(i)).imuDrift);
       r.run(4.0);
       for (std::size_t i = 0; i < before.size(); ++i) {
         squares += std::pow(r.robot(i).imuDrift - before[i], 2);

@@ -50,8 +50,8 @@ class TestRandom : public QObject {
     double sum = 0.0;
     int lower[10] = {};
     for (int i = 0; i < draws; ++i) {
-      const double u = CounterRandom(5, 1, NoiseStream::Landmarks, static_cast<std::uint64_t>(i))
-                           .uniform();
+      const double u =
+          CounterRandom(5, 1, NoiseStream::Landmarks, static_cast<std::uint64_t>(i)).uniform();
       QVERIFY(u >= 0.0 && u < 1.0);
       sum += u;
       ++lower[static_cast<int>(u * 10)];

@@ -240,6 +240,5 @@ class TestRigidBodyBall : public QObject {
   }
 };
 
-
 QTEST_GUILESS_MAIN(TestRigidBodyBall)
 #include "tst_rigid_body_ball.moc"

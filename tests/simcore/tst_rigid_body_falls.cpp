@@ -71,8 +71,8 @@ class TestRigidBodyFalls : public QObject {
     QCOMPARE((*r.percepts[0].imu.accel)[0], sign);
     const Point place = r.robot().pose.position;
     r.run(2.0);
-    QVERIFY(std::hypot(r.robot().pose.position.x - place.x,
-                       r.robot().pose.position.y - place.y) < 1e-3);
+    QVERIFY(std::hypot(r.robot().pose.position.x - place.x, r.robot().pose.position.y - place.y) <
+            1e-3);
     for (ticks = 0; count(r, EventKind::GotUp) == 0 && ticks < 120; ++ticks) r.step();
     QVERIFY(ticks > 30 && ticks < 80);  // 0.5 s lying and 3 s of getting up in all
     QCOMPARE(r.percepts[0].imu.state, std::optional<int>(0));

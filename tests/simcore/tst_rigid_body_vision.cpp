@@ -176,9 +176,9 @@ class TestRigidBodyVision : public QObject {
     QFETCH(int, look);
     Rig r;
     r.add({{0, 0}, 0}, 1, TeamColor::Blue);
-    r.add({{1, 0.2}, 0}, 2, TeamColor::Blue);   // mate, 11.3° left
-    r.add({{1, -0.3}, 0}, 3, TeamColor::Red);   // opponent, 16.7° right
-    r.add({{-1, 0}, 0}, 4, TeamColor::Red);     // behind
+    r.add({{1, 0.2}, 0}, 2, TeamColor::Blue);  // mate, 11.3° left
+    r.add({{1, -0.3}, 0}, 3, TeamColor::Red);  // opponent, 16.7° right
+    r.add({{-1, 0}, 0}, 4, TeamColor::Red);    // behind
     r.placeBall(2, 0);
     r.commands[0].actionVision = look;
     r.commands[0].searchOn = 0;

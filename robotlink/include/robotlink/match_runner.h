@@ -5,11 +5,13 @@
 // between two ticks, in order), values come out (the latest frame wins; events and log lines are
 // queued, bounded and counted). All public functions may be called from any thread.
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <robotlink/simulated_match.h>
@@ -49,6 +51,9 @@ struct MatchFrame {
   std::string physics;
   std::uint64_t seed = 0;
   double tickRate = 60.0;
+  std::string finishedBy;            ///< "goal", "ball_out", "duration"; empty unless finished
+  std::uint64_t droppedEvents = 0;   ///< nobody took them in time
+  std::uint64_t droppedLogLines = 0;
 };
 
 struct LogLine {
@@ -76,24 +81,27 @@ class MatchRunner {
   void setSpeed(double timesRealTime);
   /// Plays at full speed up to this tick, then pauses; for tests and repeatable pictures.
   void runTo(std::uint64_t tick);
+  /// Waits until the match stands still (paused, or over); false when it still plays after that.
+  bool waitUntilStill(std::chrono::milliseconds timeout) const;
 
   /// Carried out on the runner's thread between two ticks, also while paused.
   using Command = std::function<void(SimulatedMatch&)>;
   void post(Command command);
-  /// The same, and waits for it.
+  /// The same, and waits for it. Not from within a command.
   void execute(const Command& command);
 
   /// The newest frame, or nothing when `knownSerial` is already the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0) const;
+  /// Both give what came since the last call, at most the newest 10 000.
   std::vector<sim::Event> takeEvents();
   std::vector<LogLine> takeLog();
 
+  struct Shared;  ///< between the thread and the callers; private to the library
+
  private:
-  struct Shared;
   explicit MatchRunner(std::shared_ptr<Shared> shared);
   std::shared_ptr<Shared> m_shared;
-  struct Thread;
-  std::unique_ptr<Thread> m_thread;
+  std::jthread m_thread;
 };
 
 }  // namespace pitchboard::link

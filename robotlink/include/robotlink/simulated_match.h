@@ -67,6 +67,7 @@ class SimulatedMatch {
   std::string_view behaviour(RobotId id) const;
   const RobotVariables& variables() const { return m_variables; }
   ProcessSupervisor& supervisor() { return *m_supervisor; }
+  const ProcessSupervisor& supervisor() const { return *m_supervisor; }
 
   /// A robot with its blackboard and processes; scripted writes for every robot that are past are
   /// made up for. Errors leave the match as it was. Robots must be added and removed here, not at
@@ -74,7 +75,8 @@ class SimulatedMatch {
   Result<void> addRobot(const ScenarioRobot& robot);
   /// Ends its processes and removes its segment if this match created it.
   Result<void> removeRobot(RobotId id);
-  /// Ends the robot's decision process and starts one with this behaviour (or none: noBehaviour).
+  /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
+  /// noBehaviour). The robot itself and its blackboard stay as they are.
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;

@@ -52,7 +52,7 @@ struct RigidRobot {
   int actionB = 0;              ///< its parameter, read when the action was chosen
   bool inMotion = false;
   Posture posture = Posture::Upright;
-  double getUpRemaining = 0.0;  ///< s, while getting up
+  double getUpRemaining = 0.0;  ///< s: lying, until it gets up; then until it stands
   double imuZero = 0.0;         ///< rad, yaw at the last IMU reset
   double imuDrift = 0.0;        ///< rad, accumulated
   std::vector<BallSighting> sightings;  ///< ring over the vision delay; index tick % size

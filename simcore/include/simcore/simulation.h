@@ -31,7 +31,7 @@ std::span<const PhysicsModelInfo> physicsModels();
 enum class EventKind : std::uint8_t { Goal, BallOut, Kick, Fall, GotUp, UnknownAction };
 
 /// Something that happened in the last step. `robot` is 0 when no robot is concerned; a goal has
-/// the side that scored in `value` (0 left, 1 right), an unknown action its code.
+/// the side that scored in `value` (0 left, 1 right), a kick and an unknown action their code.
 struct Event {
   EventKind kind = EventKind::Goal;
   std::uint64_t tick = 0;

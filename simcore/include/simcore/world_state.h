@@ -45,7 +45,8 @@ struct RobotIdentity {
 
 /// Counted for people; nothing in the physics reads it.
 struct RobotStatistics {
-  double distanceWalked = 0.0;           ///< m, by walking (not by being moved by hand)
+  double distanceWalked = 0.0;           ///< m that the gait walked: without the jitter of motion
+                                         ///< noise, without being pushed or moved by hand
   std::uint32_t kicks = 0;
   std::uint32_t falls = 0;
   std::uint32_t unknownActions = 0;      ///< ticks on which an unknown action code was chosen anew

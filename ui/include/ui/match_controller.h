@@ -8,6 +8,7 @@
 #include <QObject>
 #include <QPointF>
 #include <QString>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,17 +36,27 @@ class MatchController : public QObject {
   ~MatchController() override;
 
   /// Ends the running match and starts this one; on failure the old one is gone, `errorOccurred`
-  /// tells why and there is no frame.
+  /// tells why and there is no frame. When separate processes cannot be had (a key is in use), the
+  /// match plays with inline processes on heap blackboards and `errorOccurred` says so. Waits for
+  /// the old match's processes, at most their grace period.
   void open(const link::Scenario& scenario, bool paused = false);
+  /// Ends the match; its processes and blackboards go. restart() plays it again.
+  void close();
   bool isOpen() const { return m_runner != nullptr; }
   const link::Scenario& scenario() const { return m_scenario; }
   FramePtr frame() const { return m_frame; }
   QUndoStack* undoStack() const { return m_undoStack; }
+  /// Where the robots' processes run: as asked for, or Inline when that was not possible.
+  link::Cognition cognition() const { return m_cognition; }
+  /// What the next match is made with.
+  const link::MatchOptions& options() const { return m_options; }
 
   // Transport.
   void setPaused(bool paused);
   void stepOnce();
   void setSpeed(double timesRealTime);   ///< link::MatchRunner::unlimitedSpeed = maximum
+  double speed() const { return m_speed; }
+  bool isPaused() const { return m_paused; }
   void restart();                        ///< the scenario from its beginning
 
   // Edits by hand: take effect at once and can be undone.
@@ -64,27 +75,58 @@ class MatchController : public QObject {
   void commandAction(RobotId id, int actionA, std::optional<int> actionB = {});
   void commandSearch(RobotId id, bool on);
   void setNoise(const sim::NoiseParameters& noise);
+  void setRigidBody(const sim::RigidBodySettings& settings);
+  /// The model of motion and collisions: starts the present moment anew with it.
+  void setPhysics(const QString& model);
+  /// Another decision process takes the robot over.
   void setBehaviour(RobotId id, const QString& behaviour);
+  /// Ends the robot's processes and starts them again.
+  void restartProcesses(RobotId id);
+  void stopProcesses(RobotId id);
   void setClockRunning(bool running);
   void resetScore();
 
-  /// The present moment as a scenario, for saving.
+  /// The present moment as a scenario, for saving. Waits for the tick in progress.
   link::Scenario currentMoment();
+  /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
+  std::uint64_t stateHash();
+
+  /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
+  const link::ScenarioRobot* robot(RobotId id) const;
 
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);
   void eventsReceived(const std::vector<pitchboard::sim::Event>& events);
   void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
   void scenarioChanged();
+  void transportChanged();   ///< paused or speed
   void errorOccurred(const QString& sentence);
 
  private:
+  friend class AddRobotCommand;
+  friend class RemoveRobotsCommand;
+  friend class PlacementCommand;
+  friend class BallCommand;
+
   void poll();
+  /// Runs on the match's thread; a failure comes back as errorOccurred with `whatFailed` before it.
+  void postChecked(const QString& whatFailed,
+                   std::function<Result<void>(link::SimulatedMatch&)> command);
+  void insertRobot(const link::ScenarioRobot& robot);
+  void eraseRobot(RobotId id);
+  void placeRobots(const std::vector<RobotPlacement>& placements, bool back);
+  void placeBall(Point position);
+  Result<std::unique_ptr<link::MatchRunner>> startRunner(const link::Scenario& scenario,
+                                                         bool paused);
 
   link::MatchOptions m_options;
+  link::Cognition m_cognition = link::Cognition::Inline;
   link::Scenario m_scenario;
+  std::map<RobotId, link::ScenarioRobot> m_robots;   // present, or about to be
   std::unique_ptr<link::MatchRunner> m_runner;
   FramePtr m_frame;
+  double m_speed = 1.0;
+  bool m_paused = false;
   QTimer* m_timer = nullptr;
   QUndoStack* m_undoStack = nullptr;
 };

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate_report.h"
+
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace pitchboard::cli {
+namespace {
+
+std::string hashText(std::uint64_t hash) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%016" PRIx64, hash);
+  return text;
+}
+
+double speedOf(const Outcome& outcome) {
+  return outcome.wallSeconds > 0 ? outcome.simulatedSeconds / outcome.wallSeconds : 0.0;
+}
+
+std::string nameOf(const sim::RobotIdentity& robot) {
+  return std::string(info(robot.team).letter) + std::to_string(robot.number);
+}
+
+const char* reasonText(const std::string& finishedBy) {
+  if (finishedBy == "goal") return "a goal was scored";
+  if (finishedBy == "ball_out") return "the ball left the field";
+  if (finishedBy == "duration") return "the time was up";
+  return "interrupted";
+}
+
+}  // namespace
+
+std::string noiseName(const sim::NoiseParameters& noise) {
+  for (const std::string& name : link::noisePresets()) {
+    if (const auto preset = link::noisePreset(name); preset && *preset == noise) return name;
+  }
+  return "custom";
+}
+
+void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
+  const sim::Snapshot now = match.simulation().snapshot();
+  const link::Scenario& scenario = match.scenario();
+  const sim::SimulationSettings& settings = match.simulation().state().settings;
+  std::printf("%s (%s physics, %s noise, seed %" PRIu64 ")\n",
+              (scenario.title.empty() ? scenario.name : scenario.title).c_str(),
+              settings.physics.c_str(), outcome.noise.c_str(), settings.seed);
+  std::printf("  Ended      %s\n", reasonText(outcome.finishedBy));
+  std::printf("  Score      left %d : %d right\n", now.score.left, now.score.right);
+  std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
+              outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
+  std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
+  if (now.robots.empty()) return;
+  std::printf("  Robot   walked   kicks  falls  unknown actions\n");
+  for (const sim::RobotSnapshot& robot : now.robots) {
+    std::printf("  %-5s %7.2f m  %5u  %5u  %15u\n", nameOf(robot.identity).c_str(),
+                robot.statistics.distanceWalked, robot.statistics.kicks, robot.statistics.falls,
+                robot.statistics.unknownActions);
+  }
+}
+
+void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
+  using Json = nlohmann::ordered_json;
+  const sim::Snapshot now = match.simulation().snapshot();
+  const sim::SimulationSettings& settings = match.simulation().state().settings;
+  Json robots = Json::array();
+  for (const sim::RobotSnapshot& robot : now.robots) {
+    robots.push_back({{"id", robot.identity.id.value},
+                      {"name", nameOf(robot.identity)},
+                      {"distance_m", robot.statistics.distanceWalked},
+                      {"kicks", robot.statistics.kicks},
+                      {"falls", robot.statistics.falls},
+                      {"unknown_actions", robot.statistics.unknownActions}});
+  }
+  const Json out{{"scenario", match.scenario().name},
+                 {"seed", settings.seed},
+                 {"physics", settings.physics},
+                 {"noise", outcome.noise},
+                 {"ticks", outcome.ticks},
+                 {"simulated_seconds", outcome.simulatedSeconds},
+                 {"wall_seconds", outcome.wallSeconds},
+                 {"speed", speedOf(outcome)},
+                 {"score", {{"left", now.score.left}, {"right", now.score.right}}},
+                 {"robots", std::move(robots)},
+                 {"finished_by", outcome.finishedBy},
+                 {"state_hash", hashText(match.simulation().hash())}};
+  std::printf("%s\n", out.dump().c_str());
+}
+
+}  // namespace pitchboard::cli

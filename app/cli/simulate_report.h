@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What `simulate` tells when it is done: a calm summary, or one JSON object.
+
+#include <string>
+
+#include <robotlink/simulated_match.h>
+
+namespace pitchboard::cli {
+
+struct Outcome {
+  std::uint64_t ticks = 0;
+  double simulatedSeconds = 0.0;
+  double wallSeconds = 0.0;
+  std::string finishedBy;    ///< "duration", "goal", "ball_out", "interrupted"
+  std::string noise;         ///< name of the preset, or "custom"
+};
+
+/// Name of the preset with exactly these values, or "custom".
+std::string noiseName(const sim::NoiseParameters& noise);
+
+void printSummary(const link::SimulatedMatch& match, const Outcome& outcome);
+void printJson(const link::SimulatedMatch& match, const Outcome& outcome);
+
+}  // namespace pitchboard::cli

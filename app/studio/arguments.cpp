@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <robotlink/match_runner.h>
+
+namespace pitchboard::studio {
+namespace {
+
+constexpr int maxPixels = 16384;
+
+bool isNumber(const std::string& text, double& value) {
+  return CLI::detail::lexical_cast(text, value);
+}
+
+void addOptions(CLI::App& app, Arguments& a) {
+  app.add_option("--scenario", a.scenario, "Built-in scenario or file")
+      ->type_name("NAME|FILE")->capture_default_str();
+  app.add_option("--cognition", a.cognition,
+                 "Who decides for the robots: separate processes on System V blackboards, the "
+                 "studio itself, or none but yours")
+      ->type_name("external|inline|none")->capture_default_str()
+      ->check(CLI::IsMember({"external", "inline", "none"}));
+  app.add_option("--seed", a.seed, "Seed of all noise")->type_name("N");
+  app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
+      ->type_name("X|max")->capture_default_str();
+  app.add_option("--noise", a.noise, "Preset instead of the scenario's noise")
+      ->type_name("PRESET");
+  app.add_option("--physics", a.physics, "Model of motion and collisions")->type_name("MODEL");
+  app.add_option("--key-base", a.keyBase, "Added to 100 x robot number for a blackboard's key")
+      ->type_name("B")->capture_default_str()->check(CLI::Range(0, 2000000000));
+  app.add_option("--theme", a.theme, "Colours, this time only")
+      ->type_name("light|dark")->check(CLI::IsMember({"light", "dark"}));
+  app.add_flag("--paused", a.paused, "Do not start playing");
+  app.add_option("--size", a.size, "Size of the window or the picture")->type_name("WxH");
+  app.add_option("--settings", a.settings,
+                 "File for layout and preferences instead of the user's own")->type_name("FILE");
+  CLI::Option* shot = app.add_option("--screenshot-to", a.screenshotFile,
+                                     "Save a picture of the window, then exit")
+                          ->type_name("FILE.png");
+  app.add_option("--after", a.after, "When to take it")
+      ->type_name("SECONDS")->capture_default_str()->check(CLI::Range(0.0, 86400.0))->needs(shot);
+  CLI::Option* render = app.add_option("--render-scenario", a.renderScenario,
+                                       "Draw a scenario's start to --picture, without a window")
+                            ->type_name("NAME|FILE");
+  app.add_option("--picture", a.picture, "Where --render-scenario writes")
+      ->type_name("FILE.png")->needs(render);
+}
+
+}  // namespace
+
+int report(const Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.text().c_str());
+  return 2;
+}
+
+std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
+  CLI::App app{
+      "Pitchboard: simulate humanoid soccer robots and watch what they believe.\n"
+      "Example: pitchboard --scenario match-3v3 --noise realistic --speed 2"};
+  app.name("pitchboard");
+  app.set_version_flag("--version", PITCHBOARD_VERSION);
+  addOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
+                 error.what());
+    return 2;
+  }
+  if (arguments.renderScenario.empty() != arguments.picture.empty()) {
+    return report({ErrorCode::InvalidArgument,
+                   "--render-scenario needs --picture FILE.png to write to", {}});
+  }
+  return {};
+}
+
+Result<double> speedOf(const Arguments& arguments) {
+  if (arguments.speed == "max") return link::MatchRunner::unlimitedSpeed;
+  double speed = 0.0;
+  if (!isNumber(arguments.speed, speed) || !(speed >= 0.01 && speed <= 1000.0)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "must be a number from 0.01 to 1000, or max, not '" + arguments.speed + "'",
+                   "--speed");
+  }
+  return speed;
+}
+
+Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments) {
+  if (arguments.size.empty()) return std::optional<WindowSize>{};
+  WindowSize size;
+  char rest = 0;
+  if (std::sscanf(arguments.size.c_str(), "%6dx%6d%c", &size.width, &size.height, &rest) != 2 ||
+      size.width < 100 || size.height < 100 || size.width > maxPixels ||
+      size.height > maxPixels) {
+    return failure(ErrorCode::InvalidArgument,
+                   "must be two numbers of pixels such as 1440x900 (100 to 16384), not '" +
+                       arguments.size + "'",
+                   "--size");
+  }
+  return size;
+}
+
+Result<link::Scenario> scenarioOf(const Arguments& arguments) {
+  auto scenario = link::loadScenario(
+      arguments.renderScenario.empty() ? arguments.scenario : arguments.renderScenario);
+  if (!scenario) return scenario;
+  if (arguments.seed) scenario->settings.seed = *arguments.seed;
+  if (!arguments.physics.empty()) scenario->settings.physics = arguments.physics;
+  if (!arguments.noise.empty()) {
+    const auto noise = link::noisePreset(arguments.noise);
+    if (!noise) return tl::unexpected<Error>(noise.error());
+    scenario->settings.noise = *noise;
+  }
+  // Asks the engine itself whether it can play this, before a window is opened.
+  if (const auto trial = sim::Simulation::create(scenario->settings); !trial) {
+    return tl::unexpected<Error>(trial.error());
+  }
+  return scenario;
+}
+
+link::Cognition cognitionOf(const Arguments& arguments) {
+  if (arguments.cognition == "inline") return link::Cognition::Inline;
+  if (arguments.cognition == "none") return link::Cognition::None;
+  return link::Cognition::External;
+}
+
+}  // namespace pitchboard::studio

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The studio's command line. No Qt: it is read before there is an application.
+
+#include <optional>
+#include <string>
+
+#include <robotlink/simulated_match.h>
+
+namespace pitchboard::studio {
+
+struct WindowSize {
+  int width = 0;
+  int height = 0;
+};
+
+struct Arguments {
+  std::string scenario = "match-3v3";
+  std::string cognition = "external";
+  std::optional<std::uint64_t> seed;
+  std::string speed = "1";
+  std::string noise;
+  std::string physics;
+  int keyBase = 0;
+  std::string theme;
+  bool paused = false;
+  std::string screenshotFile;
+  double after = 2.0;
+  std::string size;
+  std::string renderScenario;
+  std::string picture;
+  std::string settings;
+};
+
+/// Fills `arguments`; returns an exit code when the program is to end here (help, bad usage).
+std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments);
+
+Result<double> speedOf(const Arguments& arguments);
+/// Nothing when no size was given.
+Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments);
+/// The scenario with seed, noise and physics of the command line in it.
+Result<link::Scenario> scenarioOf(const Arguments& arguments);
+link::Cognition cognitionOf(const Arguments& arguments);
+
+/// "error: ..." on stderr; the exit code.
+int report(const Error& error);
+
+}  // namespace pitchboard::studio

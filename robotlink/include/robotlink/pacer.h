@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Keeps simulated time just ahead of the wall clock at a chosen speed, as MuJoCo's simulate does:
+// a backlog that the machine cannot work off is dropped, so it never tries to catch up for ever.
+// A value; the caller gives the time.
+
+#include <chrono>
+#include <cstdint>
+
+namespace pitchboard::link {
+
+class Pacer {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::chrono::milliseconds mostBacklog{100};
+  static constexpr std::chrono::milliseconds shortestSleep{1};
+
+  /// From here on `ticksPerSecond` ticks per second of wall clock.
+  void start(Time now, std::uint64_t tick, double ticksPerSecond) {
+    m_start = now;
+    m_startTick = tick;
+    m_ticksPerSecond = ticksPerSecond;
+  }
+
+  /// The tick that the simulation should have reached.
+  std::uint64_t target(Time now) const {
+    const double elapsed = std::chrono::duration<double>(now - m_start).count();
+    return m_startTick + static_cast<std::uint64_t>(elapsed * m_ticksPerSecond);
+  }
+
+  /// Called with what was reached when time for this round is up.
+  void forgive(Time now, std::uint64_t tick) {
+    const std::uint64_t wanted = target(now);
+    const double behind = wanted > tick ? static_cast<double>(wanted - tick) / m_ticksPerSecond : 0;
+    if (behind > std::chrono::duration<double>(mostBacklog).count()) {
+      start(now, tick, m_ticksPerSecond);
+    }
+  }
+
+  /// When to look again: at the next tick, but not at once.
+  Time wake(Time now, std::uint64_t tick) const {
+    const double seconds = static_cast<double>(tick + 1 - m_startTick) / m_ticksPerSecond;
+    const Time due = m_start + std::chrono::ceil<std::chrono::steady_clock::duration>(
+                                   std::chrono::duration<double>(seconds));
+    return due > now + shortestSleep ? due : now + shortestSleep;
+  }
+
+ private:
+  Time m_start;
+  std::uint64_t m_startTick = 0;
+  double m_ticksPerSecond = 60.0;
+};
+
+}  // namespace pitchboard::link

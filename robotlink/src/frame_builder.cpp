@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "frame_builder.h"
+
+#include <algorithm>
+
+namespace pitchboard::link {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto flagMemory = 1s;
+constexpr auto speedWindow = 1s;
+
+template <class V>
+auto readOr0(const Blackboard& board, V variable) {
+  return variable.index >= 0 ? board.read(variable) : decltype(board.read(variable)){};
+}
+
+}  // namespace
+
+void FrameBuilder::addBusy(std::chrono::steady_clock::duration busy, std::uint64_t ticks) {
+  m_busy += std::chrono::duration<double>(busy).count();
+  m_ticksDone += ticks;
+}
+
+void FrameBuilder::resetSpeed(Time now, std::uint64_t tick) {
+  m_samples.clear();
+  m_samples.push_back({now, tick, m_ticksDone, m_busy});
+}
+
+void FrameBuilder::fill(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {
+  const sim::Simulation& simulation = match.simulation();
+  simulation.snapshot(out.snapshot);
+  const sim::WorldState& state = simulation.state();
+  out.boards.resize(state.robots.size());
+  for (std::size_t i = 0; i < state.robots.size(); ++i) {
+    fillBoard(match, state.robots[i], now, still, out.boards[i]);
+  }
+  std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
+  out.children = match.supervisor().children();
+  out.finishedBy = match.finishedBy();
+  out.finished = !out.finishedBy.empty();
+  out.field = state.settings.field;
+  out.noise = state.settings.noise;
+  out.physics = state.settings.physics;
+  out.seed = state.settings.seed;
+  out.tickRate = state.settings.tickRate;
+  fillSpeed(match, now, still, out);
+}
+
+void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdentity& robot, Time now,
+                             bool still, RobotBoardView& out) {
+  out = RobotBoardView{};
+  out.id = robot.id;
+  const Blackboard* board = match.blackboard(robot.id);
+  if (!board) return;
+  const RobotVariables& v = match.variables();
+  out.key = board->key();
+  out.behaviour = match.behaviour(robot.id);
+  out.actionA = readOr0(*board, v.decisionActionA);
+  out.voltage = readOr0(*board, v.voltage);
+  out.visionLost = readOr0(*board, v.visionLost) != 0;
+  out.ballDistCm = readOr0(*board, v.visionBallDist);
+  out.panDeg = readOr0(*board, v.visionPanDeg);
+  out.localizationX = readOr0(*board, v.localizationX);
+  out.localizationY = readOr0(*board, v.localizationY);
+  out.localizationTheta = readOr0(*board, v.localizationTheta);
+  out.belief = readOr0(*board, v.localizationBelief);
+
+  struct Flag {
+    IntVar variable;
+    bool RobotBoardView::* working;
+    bool simulated;
+  };
+  const std::array<Flag, flags> all{
+      {{v.controlWorking, &RobotBoardView::controlWorking, true},
+       {v.visionWorking, &RobotBoardView::visionWorking, true},
+       {v.imuWorking, &RobotBoardView::imuWorking, true},
+       {v.localizationWorking, &RobotBoardView::localizationWorking, false},
+       {v.decisionWorking, &RobotBoardView::decisionWorking, false}}};
+  const auto [entry, isNew] = m_lastSeen.try_emplace(robot.id);
+  if (isNew) entry->second.fill(Time::min());
+  for (std::size_t i = 0; i < flags; ++i) {
+    Time& seen = entry->second[i];
+    const bool wasWorking = seen != Time::min() && now - seen <= flagMemory;
+    const bool heldUp = still && all[i].simulated && wasWorking;
+    if (readOr0(*board, all[i].variable) != 0 || heldUp) seen = now;
+    out.*all[i].working = seen != Time::min() && now - seen <= flagMemory;
+  }
+}
+
+void FrameBuilder::fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {
+  const std::uint64_t tick = match.simulation().state().tick;
+  if (!m_samples.empty() && tick < m_samples.back().tick) m_samples.clear();  // a moment put back
+  m_samples.push_back({now, tick, m_ticksDone, m_busy});
+  while (m_samples.size() > 2 && now - m_samples[1].time >= speedWindow) m_samples.pop_front();
+  const Sample& first = m_samples.front();
+  const double wall = std::chrono::duration<double>(now - first.time).count();
+  const double ticks = static_cast<double>(m_ticksDone - first.ticksDone);
+  out.ticksPerSecond = !still && wall > 0 ? ticks / wall : 0.0;
+  out.speed = out.ticksPerSecond / out.tickRate;
+  if (ticks > 0) out.tickMicroseconds = (m_busy - first.busy) / ticks * 1e6;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The studio's window: arranges tool bar, field, docks and menus, and keeps their layout. It owns
+// no logic: the match is the controller's, files are ScenarioFiles', docks look after themselves.
+// UI thread only.
+
+#include <QMainWindow>
+#include <vector>
+
+#include <ui/theme.h>
+
+class QSettings;
+
+namespace pitchboard::link {
+struct Scenario;
+}
+
+namespace pitchboard::ui {
+
+class FieldView;
+class MatchController;
+class NoticeBar;
+class RobotSelection;
+class ScenarioFiles;
+class StudioStatusBar;
+class TransportBar;
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  /// Both must outlive the window. `settings` holds layout, theme and recent files.
+  MainWindow(MatchController* controller, QSettings* settings, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  FieldView* field() const { return m_field; }
+  NoticeBar* notices() const { return m_notices; }
+  ScenarioFiles* files() const { return m_files; }
+
+  /// Docks where they were; the default layout when there is none or it cannot be restored.
+  void restoreLayout();
+  void resetLayout();
+  /// Offers to remove blackboards that an earlier run left at this key base.
+  void offerToRemoveOrphans();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  friend class StudioMenus;
+  void makeDocks();
+  void connectField();
+
+  MatchController* m_controller;
+  QSettings* m_settings;
+  RobotSelection* m_selection;
+  FieldView* m_field;
+  NoticeBar* m_notices;
+  TransportBar* m_bar;
+  StudioStatusBar* m_status;
+  ScenarioFiles* m_files;
+  std::vector<QDockWidget*> m_docks;   // order of studioDocks()
+};
+
+}  // namespace pitchboard::ui

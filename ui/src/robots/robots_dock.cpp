@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "robots_dock.h"
+
+#include <QActionGroup>
+#include <QLabel>
+#include <QMenu>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <ui/match_controller.h>
+#include <ui/theme.h>
+
+#include "blackboard_window.h"
+#include "robot_card.h"
+#include "shell/robot_selection.h"
+
+namespace pitchboard::ui {
+
+RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
+    : QScrollArea(parent), m_context(context) {
+  constexpr int refreshMilliseconds = 100;
+  setFrameShape(QFrame::NoFrame);
+  setWidgetResizable(true);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* list = new QWidget(this);
+  list->setBackgroundRole(QPalette::Base);
+  list->setAutoFillBackground(true);
+  viewport()->setBackgroundRole(QPalette::Base);
+  m_column = new QVBoxLayout(list);
+  const int gap = scaled(this, 4);
+  m_column->setContentsMargins(gap, gap, gap, gap);
+  m_column->setSpacing(gap);
+  m_empty = new QLabel(tr("No robots on the field.\nPress A over the field to add one."), list);
+  m_empty->setFont(themeFont(TypeRole::Secondary));
+  m_empty->setForegroundRole(QPalette::PlaceholderText);
+  m_empty->setContentsMargins(scaled(this, 8), scaled(this, 8), scaled(this, 8), 0);
+  m_empty->setWordWrap(true);
+  m_column->addWidget(m_empty);
+  m_column->addStretch(1);
+  setWidget(list);
+
+  m_clock.start();
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] {
+    if (isVisible()) refresh();
+  });
+  timer->start(refreshMilliseconds);
+  connect(context.controller, &MatchController::scenarioChanged, this, [this] {
+    m_tracker.reset();
+    refresh();
+  });
+  connect(context.selection, &RobotSelection::changed, this, &RobotsDock::showSelection);
+}
+
+QSize RobotsDock::sizeHint() const { return {scaled(this, 256), scaled(this, 300)}; }
+
+void RobotsDock::refresh() {
+  const FramePtr frame = m_context.controller->frame();
+  if (!frame) {
+    makeCards(0);
+    return;
+  }
+  const std::vector<CardState> states = m_tracker.update(*frame, m_clock.elapsed());
+  makeCards(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    m_cards[static_cast<qsizetype>(i)]->setState(states[i]);
+  }
+  showSelection();
+}
+
+void RobotsDock::makeCards(std::size_t count) {
+  m_empty->setVisible(count == 0);
+  while (m_cards.size() > static_cast<qsizetype>(count)) delete m_cards.takeLast();
+  while (m_cards.size() < static_cast<qsizetype>(count)) {
+    auto* card = new RobotCard(widget());
+    connect(card, &RobotCard::clicked, this, [this, card](Qt::KeyboardModifiers modifiers) {
+      if (modifiers & Qt::ControlModifier) m_context.selection->toggle(card->state().id);
+      else m_context.selection->set({card->state().id});
+    });
+    connect(card, &RobotCard::menuRequested, this,
+            [this, card](const QPoint& at) { showMenu(card, at); });
+    m_column->insertWidget(static_cast<int>(m_cards.size()), card);
+    m_cards.append(card);
+  }
+}
+
+void RobotsDock::showSelection() {
+  for (RobotCard* card : m_cards) card->setSelected(m_context.selection->contains(card->state().id));
+}
+
+void RobotsDock::setAllCollapsed(bool collapsed) {
+  for (RobotCard* card : m_cards) card->setCollapsed(collapsed);
+}
+
+void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
+  const RobotId id = card->state().id;
+  MatchController* controller = m_context.controller;
+  const link::ScenarioRobot* robot = controller->robot(id);
+  if (robot == nullptr) return;
+  QMenu menu(this);
+  QMenu* behaviour = menu.addMenu(tr("Behaviour"));
+  const auto offer = [&](std::string_view name, const QString& text) {
+    const QString key = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+    QAction* action = behaviour->addAction(text.isEmpty() ? key : text);
+    action->setCheckable(true);
+    action->setChecked(robot->behaviour == name);
+    connect(action, &QAction::triggered, controller,
+            [controller, id, key] { controller->setBehaviour(id, key); });
+  };
+  for (const link::BehaviourInfo& known : link::behaviours()) offer(known.name, {});
+  offer(link::noBehaviour, tr("none (your own process)"));
+  menu.addAction(tr("Blackboard…"), this, [this, id] {
+    (new BlackboardWindow(m_context.controller, id, window()))->show();
+  });
+  menu.addSeparator();
+  menu.addAction(tr("Collapse all"), this, [this] { setAllCollapsed(true); });
+  menu.addAction(tr("Expand all"), this, [this] { setAllCollapsed(false); });
+  menu.addSeparator();
+  menu.addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove %1").arg(card->state().name),
+                 controller, [controller, id] { controller->removeRobots({id}); });
+  menu.exec(at);
+}
+
+QWidget* makeRobotsDock(const StudioContext& context, QWidget* parent) {
+  return new RobotsDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The one list of docks. A dock is a pair of files with a make function, and a line in
+// dock_list.cpp; menus, saved layouts and "Reset layout" follow from it.
+
+#include <QString>
+#include <Qt>
+#include <span>
+
+class QWidget;
+
+namespace pitchboard::ui {
+
+class FieldView;
+class MatchController;
+class RobotSelection;
+
+/// What a dock may use; everything outlives it.
+struct StudioContext {
+  MatchController* controller = nullptr;
+  RobotSelection* selection = nullptr;
+  FieldView* field = nullptr;
+};
+
+struct DockInfo {
+  const char* id;              ///< in saved layouts: never change it
+  const char* title;
+  Qt::DockWidgetArea area;     ///< docks of the bottom are tabbed together
+  bool shownAtFirst;
+  int extent;                  ///< width (left, right) or height (bottom) at first, mock pixels
+  QWidget* (*make)(const StudioContext& context, QWidget* parent);
+};
+
+std::span<const DockInfo> studioDocks();
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/main_window.h>
+
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QScreen>
+#include <QSettings>
+#include <QVBoxLayout>
+
+#include <ui/field_view.h>
+#include <ui/match_controller.h>
+#include <ui/scenario_files.h>
+
+#include "dock_list.h"
+#include "dock_title.h"
+#include "menus.h"
+#include "notice_bar.h"
+#include "orphan_notice.h"
+#include "robot_selection.h"
+#include "scenario_chooser.h"
+#include "status_bar.h"
+#include "transport_bar.h"
+
+namespace pitchboard::ui {
+namespace {
+// Raised when docks come or go in a way that older layouts cannot describe.
+constexpr int layoutVersion = 1;
+const QString geometryKey = QStringLiteral("window/geometry");
+const QString layoutKey = QStringLiteral("window/layout");
+}  // namespace
+
+MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
+    : QMainWindow(parent), m_controller(controller), m_settings(settings),
+      m_selection(new RobotSelection(this)) {
+  setWindowTitle(QStringLiteral("Pitchboard"));
+  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
+  setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
+  setContextMenuPolicy(Qt::PreventContextMenu);
+
+  auto* centre = new QWidget(this);
+  auto* column = new QVBoxLayout(centre);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  m_notices = new NoticeBar(centre);
+  m_field = new FieldView(controller, centre);
+  column->addWidget(m_notices);
+  column->addWidget(m_field, 1);
+  setCentralWidget(centre);
+
+  const StudioContext context{controller, m_selection, m_field};
+  m_bar = new TransportBar(context, settings, this);
+  addToolBar(m_bar);
+  m_status = new StudioStatusBar(context, this);
+  setStatusBar(m_status);
+  m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
+  makeDocks();
+  StudioMenus(*this).make();
+  connectField();
+  connect(controller, &MatchController::errorOccurred, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_files, &ScenarioFiles::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
+  connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files,
+          &ScenarioFiles::askAndOpen);
+  restoreLayout();
+  m_field->setFocus();
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::makeDocks() {
+  const StudioContext context{m_controller, m_selection, m_field};
+  for (const DockInfo& info : studioDocks()) {
+    auto* dock = new QDockWidget(tr(info.title), this);
+    dock->setObjectName(QLatin1String(info.id));
+    dock->setWidget(info.make(context, dock));
+    dock->setTitleBarWidget(new DockTitle(dock));
+    m_docks.push_back(dock);
+  }
+}
+
+void MainWindow::connectField() {
+  connect(m_field, &FieldView::selectionChanged, m_selection, &RobotSelection::set);
+  connect(m_selection, &RobotSelection::changed, m_field, &FieldView::select);
+  connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);
+  connect(m_field, &FieldView::saveScenarioRequested, m_files, &ScenarioFiles::askAndSave);
+  connect(m_field, &FieldView::loadMatchRequested, m_files,
+          [this] { m_files->open(QStringLiteral("match-3v3")); });
+  connect(m_field, &FieldView::resetRequested, m_controller, [this] {
+    m_controller->restart();
+    m_controller->resetScore();
+  });
+  connect(m_field, &FieldView::clearRequested, m_controller, [this] {
+    std::vector<RobotId> all;
+    if (const FramePtr frame = m_controller->frame()) {
+      for (const auto& robot : frame->snapshot.robots) all.push_back(robot.identity.id);
+    }
+    m_controller->removeRobots(all);
+  });
+}
+
+void MainWindow::restoreLayout() {
+  if (!restoreGeometry(m_settings->value(geometryKey).toByteArray())) {
+    const QSize room = screen()->availableSize();
+    resize(qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height()));
+  }
+  resetLayout();
+  const QByteArray saved = m_settings->value(layoutKey).toByteArray();
+  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) resetLayout();
+}
+
+void MainWindow::resetLayout() {
+  const auto infos = studioDocks();
+  QDockWidget* bottom = nullptr;
+  QDockWidget* firstBottom = nullptr;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    dock->setFloating(false);
+    addDockWidget(infos[i].area, dock);
+    if (infos[i].area == Qt::BottomDockWidgetArea) {
+      if (bottom != nullptr) tabifyDockWidget(bottom, dock);
+      else firstBottom = dock;
+      bottom = dock;
+    }
+    dock->setVisible(infos[i].shownAtFirst);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)},
+                infos[i].area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
+  }
+  if (firstBottom != nullptr) firstBottom->raise();
+}
+
+void MainWindow::offerToRemoveOrphans() { showOrphanNotice(m_notices, m_controller); }
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  m_settings->setValue(geometryKey, saveGeometry());
+  m_settings->setValue(layoutKey, saveState(layoutVersion));
+  QMainWindow::closeEvent(event);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "menus.h"
+
+#include <QActionGroup>
+#include <QApplication>
+#include <QDockWidget>
+#include <QMenuBar>
+#include <QSettings>
+#include <QUndoStack>
+
+#include <ui/field_view.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+#include <ui/scenario_files.h>
+
+#include "help_windows.h"
+#include "robot_selection.h"
+#include "status_bar.h"
+#include "transport_bar.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = {}) {
+  if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
+  if (!keys.isEmpty()) action->setShortcut(keys);
+  return action;
+}
+
+}  // namespace
+
+void StudioMenus::make() {
+  makeFile();
+  makeEdit();
+  makeView();
+  makeSimulation();
+  makeHelp();
+}
+
+void StudioMenus::makeFile() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&File"));
+  ScenarioFiles* files = m_window.m_files;
+  withIcon(menu->addAction(QObject::tr("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
+           "document-open", QKeySequence::Open);
+  withIcon(menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
+                           &ScenarioFiles::askAndSave),
+           "document-save", QKeySequence::Save);
+  withIcon(menu->addAction(QObject::tr("Export &picture…"), files,
+                           &ScenarioFiles::askAndExportPicture),
+           "document-export");
+  menu->addSeparator();
+  withIcon(menu->addAction(QObject::tr("&Quit"), &m_window, &QWidget::close), "application-exit",
+           QKeySequence(Qt::CTRL | Qt::Key_Q));
+}
+
+void StudioMenus::makeEdit() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Edit"));
+  MatchController* controller = m_window.m_controller;
+  RobotSelection* selection = m_window.m_selection;
+  QAction* undo = controller->undoStack()->createUndoAction(&m_window, QObject::tr("Undo"));
+  QAction* redo = controller->undoStack()->createRedoAction(&m_window, QObject::tr("Redo"));
+  menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
+  menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
+  menu->addSeparator();
+  withIcon(menu->addAction(QObject::tr("Select &all robots"), selection,
+                           [controller, selection] {
+                             std::vector<RobotId> all;
+                             if (const FramePtr frame = controller->frame()) {
+                               for (const auto& robot : frame->snapshot.robots) {
+                                 all.push_back(robot.identity.id);
+                               }
+                             }
+                             selection->set(all);
+                           }),
+           "edit-select-all", QKeySequence::SelectAll);
+  // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
+  QAction* remove = menu->addAction(
+      QObject::tr("&Delete selected robots"), controller,
+      [controller, selection] { controller->removeRobots(selection->ids()); });
+  withIcon(remove, "edit-delete");
+  remove->setEnabled(false);
+  QObject::connect(selection, &RobotSelection::changed, remove,
+                   [remove](const auto& ids) { remove->setEnabled(!ids.empty()); });
+}
+
+void StudioMenus::makeThemes(QMenu* menu) {
+  auto* group = new QActionGroup(&m_window);
+  const std::pair<ThemeChoice, QString> choices[] = {
+      {ThemeChoice::FollowDesktop, QObject::tr("As the &desktop")},
+      {ThemeChoice::Light, QObject::tr("&Light")},
+      {ThemeChoice::Dark, QObject::tr("Da&rk")}};
+  for (const auto& [choice, name] : choices) {
+    QAction* action = menu->addAction(name);
+    action->setCheckable(true);
+    action->setChecked(themeChoice() == choice);
+    group->addAction(action);
+    QObject::connect(action, &QAction::triggered, &m_window,
+                     [settings = m_window.m_settings, chosen = choice] {
+                       setTheme(*qobject_cast<QApplication*>(QApplication::instance()), chosen);
+                       settings->setValue(QStringLiteral("window/theme"),
+                                          static_cast<int>(chosen));
+                     });
+  }
+}
+
+void StudioMenus::makeView() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&View"));
+  for (QDockWidget* dock : m_window.m_docks) menu->addAction(dock->toggleViewAction());
+  menu->addSeparator();
+  QMenu* layers = menu->addMenu(QObject::tr("Field &layers"));
+  for (QAction* action : m_window.m_field->layerActions()) layers->addAction(action);
+  for (QAction* action : m_window.m_field->viewActions()) menu->addAction(action);
+  menu->addSeparator();
+  makeThemes(menu->addMenu(QObject::tr("&Theme")));
+  menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
+  QAction* full = menu->addAction(QObject::tr("&Full screen"));
+  full->setCheckable(true);
+  withIcon(full, "view-fullscreen", QKeySequence(Qt::Key_F11));
+  QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
+    this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
+  });
+}
+
+void StudioMenus::makeSimulation() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Simulation"));
+  MatchController* controller = m_window.m_controller;
+  for (QAction* action : m_window.m_bar->transportActions()) menu->addAction(action);
+  menu->addSeparator();
+  QAction* clock = menu->addAction(QObject::tr("Game &clock runs"));
+  clock->setCheckable(true);
+  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller] {
+    const FramePtr frame = controller->frame();
+    clock->setEnabled(frame != nullptr);
+    clock->setChecked(frame && frame->snapshot.clockRunning);
+  });
+  QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
+  menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore);
+}
+
+void StudioMenus::makeHelp() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Help"));
+  menu->addAction(QObject::tr("&Keyboard shortcuts"), &m_window,
+                  [this_ = &m_window] { showShortcuts(this_); });
+  menu->addAction(QObject::tr("Copy state &hash"), m_window.m_status,
+                  &StudioStatusBar::copyStateHash);
+  menu->addSeparator();
+  menu->addAction(QObject::tr("&About Pitchboard"), &m_window,
+                  [this_ = &m_window] { showAbout(this_); });
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+class QMenu;
+
+namespace pitchboard::ui {
+
+class MainWindow;
+
+/// Fills the window's menu bar. Every entry does something.
+class StudioMenus {
+ public:
+  explicit StudioMenus(MainWindow& window) : m_window(window) {}
+  void make();
+
+ private:
+  void makeFile();
+  void makeEdit();
+  void makeView();
+  void makeThemes(QMenu* menu);
+  void makeSimulation();
+  void makeHelp();
+
+  MainWindow& m_window;
+};
+
+}  // namespace pitchboard::ui

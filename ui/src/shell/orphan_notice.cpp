@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orphan_notice.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <robotlink/system_v.h>
+#include <ui/match_controller.h>
+
+#include "notice_bar.h"
+
+namespace pitchboard::ui {
+
+void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
+  std::vector<int> keys;
+  QStringList names;
+  for (const link::SegmentInfo& segment :
+       link::SystemVSegments::list(controller->options().keyBase)) {
+    if (!segment.orphan) continue;
+    keys.push_back(segment.key);
+    names << QString::number(segment.key);
+  }
+  if (keys.empty()) return;
+  const QString sentence =
+      keys.size() == 1
+          ? QObject::tr("An earlier run left a blackboard behind (key %1), with its old values. "
+                        "Removing it restarts the match.").arg(names.front())
+          : QObject::tr("An earlier run left %1 blackboards behind (keys %2), with their old "
+                        "values. Removing them restarts the match.")
+                .arg(keys.size()).arg(names.join(QStringLiteral(", ")));
+  notices->show(sentence,
+                {{QObject::tr("Remove"),
+                  [controller, keys] {
+                    controller->close();
+                    for (const int key : keys) {
+                      const auto segment = link::SystemVSegments::info(key);
+                      // Somebody else may have come to use it meanwhile.
+                      if (segment && segment->attached == 0) {
+                        (void)link::SystemVSegments::remove(key);
+                      }
+                    }
+                    controller->restart();
+                  }},
+                 {QObject::tr("Keep"), {}}});
+}
+
+}  // namespace pitchboard::ui

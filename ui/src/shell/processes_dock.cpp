@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "processes_dock.h"
+
+#include <QLabel>
+#include <QMenu>
+#include <QStackedWidget>
+#include <QTimer>
+
+#include <ui/match_controller.h>
+
+#include "processes_model.h"
+#include "table_style.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QString emptyText(link::Cognition cognition) {
+  switch (cognition) {
+    case link::Cognition::Inline:
+      return QObject::tr("The robots decide inside the studio: there are no separate processes.");
+    case link::Cognition::None:
+      return QObject::tr("Nothing was started. Attach your own processes to the robots' "
+                         "blackboards: key 100 × robot number (plus the key base).");
+    case link::Cognition::External: return QObject::tr("No processes are running.");
+  }
+  return {};
+}
+
+class ProcessesDock : public QStackedWidget {
+ public:
+  ProcessesDock(const StudioContext& context, QWidget* parent)
+      : QStackedWidget(parent), m_controller(context.controller),
+        m_model(new ProcessesModel(this)), m_table(new QTableView(this)),
+        m_empty(new QLabel(this)) {
+    constexpr int refreshMilliseconds = 250;
+    m_table->setObjectName(QStringLiteral("processesTable"));
+    m_table->setModel(m_model);
+    styleTable(m_table);
+    const int widths[] = {60, 130, 80, 220};
+    for (int column = 0; column < 4; ++column) {
+      m_table->setColumnWidth(column, scaled(m_table, widths[column]));
+    }
+    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setBackgroundRole(QPalette::Base);
+    m_empty->setAutoFillBackground(true);
+    m_empty->setMargin(scaled(this, 12));
+    m_empty->setWordWrap(true);
+    addWidget(m_table);
+    addWidget(m_empty);
+    auto* timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, [this] {
+      if (isVisible()) refresh();
+    });
+    timer->start(refreshMilliseconds);
+    connect(m_controller, &MatchController::scenarioChanged, this, [this] { refresh(); });
+    m_table->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(m_table, &QWidget::customContextMenuRequested, this,
+            [this](const QPoint& at) { showMenu(at); });
+    refresh();
+  }
+
+ private:
+  void refresh() {
+    if (const FramePtr frame = m_controller->frame()) m_model->update(*frame);
+    else m_model->clear();
+    m_empty->setText(emptyText(m_controller->cognition()));
+    setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
+  }
+
+  void showMenu(const QPoint& at) {
+    const QModelIndex index = m_table->indexAt(at);
+    if (!index.isValid()) return;
+    const RobotId id = m_model->robotAt(index.row());
+    const QString name = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
+    QMenu menu(this);
+    menu.addAction(themedIcon(QStringLiteral("view-refresh")),
+                   tr("Restart the processes of %1").arg(name), m_controller,
+                   [this, id] { m_controller->restartProcesses(id); });
+    menu.addAction(themedIcon(QStringLiteral("media-playback-stop")),
+                   tr("Stop the processes of %1").arg(name), m_controller,
+                   [this, id] { m_controller->stopProcesses(id); });
+    menu.exec(m_table->viewport()->mapToGlobal(at));
+  }
+
+  MatchController* m_controller;
+  ProcessesModel* m_model;
+  QTableView* m_table;
+  QLabel* m_empty;
+};
+
+}  // namespace
+
+QWidget* makeProcessesDock(const StudioContext& context, QWidget* parent) {
+  return new ProcessesDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Which robots are selected: the same everywhere in the window. UI thread only.
+
+#include <QObject>
+#include <algorithm>
+#include <vector>
+
+#include <base/ids.h>
+
+namespace pitchboard::ui {
+
+class RobotSelection : public QObject {
+  Q_OBJECT
+ public:
+  using QObject::QObject;
+
+  const std::vector<RobotId>& ids() const { return m_ids; }
+  bool contains(RobotId id) const {
+    return std::find(m_ids.begin(), m_ids.end(), id) != m_ids.end();
+  }
+  void set(const std::vector<RobotId>& ids) {
+    if (ids == m_ids) return;
+    m_ids = ids;
+    emit changed(m_ids);
+  }
+  void toggle(RobotId id) {
+    std::vector<RobotId> ids = m_ids;
+    const auto found = std::find(ids.begin(), ids.end(), id);
+    if (found != ids.end()) ids.erase(found);
+    else ids.push_back(id);
+    set(ids);
+  }
+
+ signals:
+  void changed(const std::vector<pitchboard::RobotId>& ids);
+
+ private:
+  std::vector<RobotId> m_ids;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "status_bar.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QLabel>
+#include <QMenu>
+#include <QTimer>
+
+#include <base/angles.h>
+#include <ui/match_controller.h>
+#include <ui/theme.h>
+
+#include "robot_selection.h"
+#include "robot_words.h"
+
+namespace pitchboard::ui {
+
+StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
+    : QStatusBar(parent), m_context(context) {
+  constexpr int refreshMilliseconds = 200;
+  setSizeGripEnabled(false);
+  m_pace = addLabel("statusPace", false, 0);
+  m_world = addLabel("statusWorld", false, 0);
+  m_processes = addLabel("statusProcesses", false, 0);
+  m_cursor = addLabel("statusCursor", true, 0);
+  m_selected = addLabel("statusSelected", true, 0);
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
+  timer->start(refreshMilliseconds);
+  connect(context.selection, &RobotSelection::changed, this, &StudioStatusBar::refresh);
+  setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    QMenu menu(this);
+    menu.addAction(tr("Copy state hash"), this, &StudioStatusBar::copyStateHash);
+    menu.exec(mapToGlobal(at));
+  });
+  refresh();
+}
+
+QLabel* StudioStatusBar::addLabel(const char* name, bool atRight, int) {
+  auto* label = new QLabel(this);
+  label->setObjectName(QLatin1String(name));
+  label->setFont(themeFont(TypeRole::Secondary));
+  label->setForegroundRole(QPalette::PlaceholderText);
+  label->setContentsMargins(scaled(this, 8), 0, scaled(this, 8), 0);
+  if (atRight) addPermanentWidget(label);
+  else addWidget(label);
+  return label;
+}
+
+void StudioStatusBar::setCursor(QPointF metres, bool valid) {
+  m_cursor->setText(valid ? tr("x %1 m  y %2 m")
+                                .arg(numberText(metres.x(), 2), numberText(metres.y(), 2))
+                          : QString());
+}
+
+void StudioStatusBar::copyStateHash() {
+  const FramePtr frame = m_context.controller->frame();
+  if (!frame) return;
+  const QString hash =
+      QStringLiteral("%1").arg(m_context.controller->stateHash(), 16, 16, QLatin1Char('0'));
+  QApplication::clipboard()->setText(hash);
+  showMessage(tr("State hash %1 copied").arg(hash), 4000);
+}
+
+void StudioStatusBar::refresh() {
+  const FramePtr frame = m_context.controller->frame();
+  if (!frame) {
+    m_pace->setText(tr("No match"));
+    for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
+    return;
+  }
+  m_pace->setText(frame->finished ? tr("Simulation finished")
+                  : frame->paused
+                      ? tr("Simulation paused")
+                      : tr("Simulation %1/s, ×%2")
+                            .arg(countText(static_cast<qulonglong>(frame->ticksPerSecond + 0.5)),
+                                 numberText(frame->speed, 2)));
+  const auto robots = frame->snapshot.robots.size();
+  m_world->setText(tr("%1, tick %2, seed %3")
+                       .arg(robots == 1 ? tr("1 robot") : tr("%1 robots").arg(robots),
+                            countText(frame->snapshot.tick))
+                       .arg(frame->seed));
+  switch (m_context.controller->cognition()) {
+    case link::Cognition::External: m_processes->setText(tr("Robot processes separate")); break;
+    case link::Cognition::Inline: m_processes->setText(tr("Robots decide in the studio")); break;
+    case link::Cognition::None: m_processes->setText(tr("Waiting for your processes")); break;
+  }
+  const auto& selected = m_context.selection->ids();
+  QString text;
+  if (selected.size() > 1) text = tr("%1 robots selected").arg(selected.size());
+  if (selected.size() == 1) {
+    for (const sim::RobotSnapshot& robot : frame->snapshot.robots) {
+      if (robot.identity.id != selected.front()) continue;
+      text = tr("%1 selected: %2, %3 m, %4°")
+                 .arg(robotName(robot.identity), numberText(robot.pose.position.x, 2),
+                      numberText(robot.pose.position.y, 2),
+                      numberText(degreesFromRadians(wrapToPi(robot.pose.yaw)), 0));
+    }
+  }
+  m_selected->setText(text);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The line at the bottom: how the simulation runs, where the cursor is, what is selected. Numbers
+// change five times a second, so that they can be read.
+
+#include <QPointF>
+#include <QStatusBar>
+
+#include "dock_list.h"
+
+class QLabel;
+
+namespace pitchboard::ui {
+
+class StudioStatusBar : public QStatusBar {
+  Q_OBJECT
+ public:
+  explicit StudioStatusBar(const StudioContext& context, QWidget* parent = nullptr);
+  void setCursor(QPointF metres, bool valid);
+  void copyStateHash();
+
+ private:
+  void refresh();
+  QLabel* addLabel(const char* name, bool atRight, int characters);
+
+  StudioContext m_context;
+  QLabel* m_pace;
+  QLabel* m_world;
+  QLabel* m_processes;
+  QLabel* m_cursor;
+  QLabel* m_selected;
+};
+
+}  // namespace pitchboard::ui

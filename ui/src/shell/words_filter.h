@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QSortFilterProxyModel>
+#include <QStringList>
+
+namespace pitchboard::ui {
+
+/// Keeps the rows in which every word occurs in some column, whatever the case.
+class WordsFilter : public QSortFilterProxyModel {
+  Q_OBJECT
+ public:
+  using QSortFilterProxyModel::QSortFilterProxyModel;
+
+  void setWords(const QString& text) {
+    m_words = text.split(QLatin1Char(' '), Qt::SkipEmptyParts);
+    invalidateFilter();
+  }
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override {
+    if (m_words.isEmpty()) return true;
+    QString all;
+    for (int c = 0; c < sourceModel()->columnCount(parent); ++c) {
+      all += sourceModel()->index(row, c, parent).data().toString() + QLatin1Char('\n');
+    }
+    return std::all_of(m_words.begin(), m_words.end(), [&all](const QString& word) {
+      return all.contains(word, Qt::CaseInsensitive);
+    });
+  }
+
+ private:
+  QStringList m_words;
+};
+
+}  // namespace pitchboard::ui
