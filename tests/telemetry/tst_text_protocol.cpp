@@ -16,7 +16,7 @@ namespace {
 
 constexpr int recorded = 60;
 constexpr float inf = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 // Python 3 writes format(x, '.12') with the code that writes str(x) in Python 2.7.
 QList<QByteArray> writtenByPython(const QList<double>& values) {
@@ -74,7 +74,7 @@ class TestTextProtocol : public QObject {
   void fieldsInTheirOrder() {
     const TextMessage m{.robot = 1, .x = 2, .y = 3, .theta = -4, .belief = 5.5F, .ballDist = -1,
                         .ballAngle = 1e-5F, .control = 7, .vision = 8, .localization = 9,
-                        .decision = 10, .imu = 11, .actionA = 12, .imuEulerZ = nan, .voltage = 13};
+                        .decision = 10, .imu = 11, .actionA = 12, .imuEulerZ = notANumber, .voltage = 13};
     QCOMPARE(encode(m), std::string("1 2 3 -4 5.5 -1.0 9.99999974738e-06 7 8 9 10 11 12 nan 13 OUT"));
   }
 
@@ -120,8 +120,8 @@ class TestTextProtocol : public QObject {
     row(std::numeric_limits<double>::max(), "1.79769313486e+308");
     row(inf, "inf");
     row(-inf, "-inf");
-    row(nan, "nan");
-    QTest::newRow("-nan") << std::copysign(double{nan}, -1.0) << QByteArray("nan");
+    row(notANumber, "nan");
+    QTest::newRow("-nan") << std::copysign(double{notANumber}, -1.0) << QByteArray("nan");
   }
   void numbers() {
     QFETCH(double, value);
