@@ -34,7 +34,7 @@ class TestUnchangedProcess : public QObject {
     scenario.settings.physics = physics.toStdString();
     ScenarioRobot robot;
     robot.identity.id = {1};
-    robot.pose = {-1.0, 0.0, 0.0};
+    robot.pose = {{-1.0, 0.0}, 0.0};
     robot.behaviour = noBehaviour;
     scenario.robots = {robot};
     scenario.ball = {0.0, 0.0};
