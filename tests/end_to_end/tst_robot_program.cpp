@@ -96,6 +96,8 @@ class TestRobotProgram : public QObject {
     board->write(m_variables.visionBallDist, 39.0F);
     board->write(m_variables.comReferee, 2);
     QTRY_COMPARE(board->read(m_variables.decisionActionA), 5);
+    process.kill();
+    QVERIFY(process.waitForFinished());
   }
 
   void endSignals_data() {
@@ -132,6 +134,8 @@ class TestRobotProgram : public QObject {
     start(process, withBase({"decision", "--config", file.fileName()}));
     QVERIFY(process.readLine().startsWith("decision of robot 7 on key "));
     QVERIFY(SystemVSegments::info(m_base + 700));
+    process.kill();
+    QVERIFY(process.waitForFinished());
   }
 
   void badConfig_data() {
