@@ -7,7 +7,7 @@
 
 int main() {
   pitchboard::link::ProcessSupervisor supervisor;
-  for (const char* script : {"exec sleep 600", "trap '' TERM HUP INT; while :; do sleep 600; done",
+  for (const char* script : {"exec sleep 600", "trap '' TERM HUP INT; while :; do sleep 0.1; done",
                              "while :; do :; done"}) {
     const auto handle = supervisor.start({{1}, "child", {"sh", "-c", script}});
     if (!handle) {

@@ -5,7 +5,6 @@
 #include <QProcess>
 #include <QtTest>
 #include <bit>
-#include <clocale>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -127,21 +126,13 @@ class TestTextProtocol : public QObject {
     QFETCH(double, value);
     QFETCH(QByteArray, text);
     QCOMPARE(QByteArray::fromStdString(pythonFloat(value)), text);
-    QCOMPARE(writtenByPython({value}), QList<QByteArray>{text});
-  }
-
-  void anyLocale() {
-    const char* german = std::setlocale(LC_ALL, "de_DE.UTF-8");
-    if (german == nullptr) QSKIP("this system has no German locale");
-    const std::string text = pythonFloat(0.5);
-    std::setlocale(LC_ALL, "C");
-    QCOMPARE(text, std::string("0.5"));
   }
 
   void manyNumbers() {
     std::mt19937 random(1);
     const auto bits = [&random] { return static_cast<std::uint32_t>(random()); };
-    QList<double> values;
+    QList<double> values{0.0, -0.0, inf, -inf, notANumber, 99999999999.96, 1e11, 123456789012.0,
+                         999999999999.6, 1e12, 5e-324, std::numeric_limits<double>::max()};
     for (int i = 0; i < 4000; ++i) values.append(std::bit_cast<float>(bits()));  // any float32
     for (int i = 0; i < 2000; ++i) {  // around the places where the form changes
       const int decade = static_cast<int>(bits() % 22) - 6;
