@@ -34,7 +34,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 std::string_view nearest(std::string_view name, std::span<const std::string_view> known) {
   if (name.size() > 64) return {};
   std::string_view best;
-  std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
+  // At least one letter must be right; two swapped letters count as two edits.
+  std::size_t least = std::min(std::max<std::size_t>(2, name.size() / 3) + 1, name.size());
   for (const std::string_view candidate : known) {
     const std::size_t distance = editDistance(name, candidate);
     if (distance < least) {
@@ -55,6 +56,15 @@ std::string hint(std::string_view name, std::span<const std::string_view> known)
     list += (i == 0 ? "" : ", ") + std::string(known[i]);
   }
   return list;
+}
+
+/// For messages: without an exponent where a person would write none.
+std::string plain(double value) {
+  if (std::abs(value) >= 1e15) return shortest(value);
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::fixed);
+  return {buffer.data(), end.ptr};
 }
 
 std::string shortened(std::string_view text) {
@@ -111,7 +121,7 @@ double JsonObject::number(std::string_view key, double fallback, const NumberRan
     return fallback;
   }
   if (!std::isfinite(value->number) || value->number < range.least || value->number > range.most) {
-    fail(key, "must lie between " + shortest(range.least) + " and " + shortest(range.most) +
+    fail(key, "must lie between " + plain(range.least) + " and " + plain(range.most) +
                   (unit.empty() ? "" : ' ' + unit));
     return fallback;
   }

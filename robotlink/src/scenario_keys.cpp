@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include <base/angles.h>
 
@@ -80,16 +81,26 @@ std::span<const NumberKey<sim::RigidBodySettings>> rigidBodyKeys() {
 }
 
 double fileDegrees(double radians) {
-  const double nearest = degreesFromRadians(radians);
-  for (int digits = 1; digits <= 17; ++digits) {
-    std::array<char, 40> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), nearest,
-                                   std::chars_format::general, digits);
-    double candidate = nearest;
-    std::from_chars(text.data(), end.ptr, candidate);
-    if (radiansFromDegrees(candidate) == radians) return candidate;
+  const double quotient = degreesFromRadians(radians);
+  double best = quotient;
+  // Two roundings lie between the two forms, so the right one may be a neighbour.
+  for (const double candidate : {quotient, std::nextafter(quotient, -1e300),
+                                 std::nextafter(quotient, 1e300)}) {
+    if (radiansFromDegrees(candidate) == radians) {
+      best = candidate;
+      break;
+    }
   }
-  return nearest;
+  const double target = radiansFromDegrees(best);
+  for (int digits = 1; digits < 17; ++digits) {
+    std::array<char, 40> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), best,
+                                   std::chars_format::general, digits);
+    double candidate = best;
+    std::from_chars(text.data(), end.ptr, candidate);
+    if (radiansFromDegrees(candidate) == target) return candidate;
+  }
+  return best;
 }
 
 void readNoiseKeys(const JsonObject& object, sim::NoiseParameters& noise) {

@@ -300,8 +300,8 @@ class Reader {
 };
 
 Result<std::string> readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
   errno = 0;
+  std::ifstream file(path, std::ios::binary);
   // One byte more than the parser accepts: it says so when the file is too large.
   constexpr std::streamsize most = 1024 * 1024 + 1;
   std::string buffer(static_cast<std::size_t>(most), '\0');

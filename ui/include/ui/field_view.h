@@ -4,7 +4,9 @@
 // The field: draws the newest frame and turns mouse and keys into commands of the MatchController.
 // UI thread only. The scene is in metres, +y up.
 
+#include <QImage>
 #include <QWidget>
+#include <memory>
 #include <vector>
 
 #include <base/ids.h>
@@ -16,20 +18,27 @@ namespace pitchboard::ui {
 
 /// What can be shown or hidden on the field, in the order of the layers menu.
 enum class FieldLayer {
-  FieldOfView, Belief, Ghost, PerceivedBall, Trails, Numbers, Grid, Eopra, StarVars
+  FieldOfView, Belief, Ghost, PerceivedBall, Trails, Numbers, Grid, Landmarks, Eopra, StarVars
 };
+inline constexpr int fieldLayerCount = 10;
 
 class FieldView : public QWidget {
   Q_OBJECT
  public:
+  /// Follows the controller's frames; without a controller showFrame() feeds it.
   explicit FieldView(MatchController* controller, QWidget* parent = nullptr);
   ~FieldView() override;
 
+  void showFrame(const FramePtr& frame);
+
   std::vector<RobotId> selection() const;
   void select(const std::vector<RobotId>& ids);
+  /// Keeps this robot in the middle of the view; nothing ends it.
+  void follow(std::optional<RobotId> id);
+  std::optional<RobotId> followed() const;
   /// One checkable action per layer, for menus; also on the tool strip.
   std::vector<QAction*> layerActions() const;
-  /// Select, ruler, add, flip, fit, help overlay...: for the View and Robots menus.
+  /// Select, ruler, add, flip, fit, keys: for the View menu; also on the tool strip.
   std::vector<QAction*> viewActions() const;
   void fitField();
   void setFlipped(bool flipped);
@@ -45,7 +54,6 @@ class FieldView : public QWidget {
   void loadMatchRequested();       ///< F2
   void resetRequested();           ///< F3
   void clearRequested();           ///< F4
-  void robotActivated(pitchboard::RobotId id);
 
  private:
   struct Private;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <csignal>
+#include <sys/shm.h>
+#include <unistd.h>
+
+#include <robotlink/match_runner.h>
+
+using namespace pitchboard;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Run {
+  int exitCode = -1;
+  QByteArray out, err;
+};
+
+Run simulate(const QStringList& arguments) {
+  QProcess process;
+  process.start(QString(PITCHBOARD_BIN) + "/pitchboard-cli", QStringList("simulate") + arguments);
+  process.waitForFinished(60000);
+  return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+int keyBase() {
+  return 100000 + static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
+}
+
+}  // namespace
+
+class TestCliSimulate : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void jsonAndTheSameHashAsTheRunner() {
+    const Run run = simulate({"--duration", "10", "--seed", "5", "--json"});
+    QCOMPARE(run.exitCode, 0);
+    const QJsonObject out = QJsonDocument::fromJson(run.out).object();
+    QCOMPARE(out["ticks"].toInt(), 600);
+    QCOMPARE(out["finished_by"].toString(), QString("duration"));
+    QCOMPARE(out["robots"].toArray().size(), 6);
+    auto scenario = link::loadScenario("match-3v3").value();
+    scenario.settings.seed = 5;
+    auto runner = link::MatchRunner::start(scenario, {}, true).value();
+    runner->runTo(600);
+    QVERIFY(runner->waitUntilStill(20s));
+    std::uint64_t hash = 0;
+    runner->execute([&](link::SimulatedMatch& match) { hash = match.simulation().hash(); });
+    QCOMPARE(out["state_hash"].toString(), QString("0x%1").arg(hash, 16, 16, QChar('0')));
+    const Run paced = simulate({"--duration", "10", "--seed", "5", "--json", "--speed", "20"});
+    QCOMPARE(QJsonDocument::fromJson(paced.out).object()["state_hash"], out["state_hash"]);
+  }
+
+  void summaryAndList() {
+    const Run run = simulate({"--scenario", "one-robot", "--duration", "1"});
+    QVERIFY(run.out.contains("Score      left 0 : 0 right") && run.err.isEmpty());
+    QVERIFY(simulate({"--list"}).out.startsWith("match-3v3"));
+    QVERIFY(simulate({"--help"}).out.contains("pitchboard-cli simulate --scenario"));
+  }
+
+  void traceHasARowPerTick() {
+    QTemporaryDir dir;
+    const QString path = dir.filePath("a.csv");
+    const QStringList arguments{"--scenario", "one-robot", "--duration", "2", "--trace", path};
+    QCOMPARE(simulate(arguments).exitCode, 0);
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QCOMPARE(file.readAll().count('\n'), 1 + 121);
+    const Run again = simulate(arguments);
+    QCOMPARE(again.exitCode, 2);
+    QVERIFY(again.err.contains("--force"));
+    QCOMPARE(simulate(arguments + QStringList{"--force"}).exitCode, 0);
+  }
+
+  void wrongArgumentsAreExplained_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QByteArray>("words");
+    QTest::newRow("scenario") << QStringList{"--scenario", "nope"} << QByteArray("nope");
+    QTest::newRow("speed") << QStringList{"--speed", "fast"} << QByteArray("--speed must be");
+    QTest::newRow("cognition") << QStringList{"--cognition", "x"} << QByteArray("--cognition must");
+    QTest::newRow("duration") << QStringList{"--duration", "-1"} << QByteArray("--duration must");
+    QTest::newRow("physics") << QStringList{"--physics", "x"} << QByteArray("physics model");
+    QTest::newRow("noise") << QStringList{"--noise", "papr"} << QByteArray("did you mean \"paper\"");
+    QTest::newRow("folder") << QStringList{"--trace", "/nonexistent/a.csv"}
+                            << QByteArray("cannot be written");
+    QTest::newRow("full disk") << QStringList{"--trace", "/dev/full", "--force"}
+                               << QByteArray("No space left");
+  }
+  void wrongArgumentsAreExplained() {
+    QFETCH(QStringList, arguments);
+    QFETCH(QByteArray, words);
+    const Run run = simulate(arguments);
+    QCOMPARE(run.exitCode, 2);
+    QVERIFY2(run.err.startsWith("error: ") && run.err.contains(words), run.err.constData());
+  }
+
+  void aSignalEndsProcessesAndRemovesSegments() {
+    const int base = keyBase();
+    QProcess process;
+    process.start(QString(PITCHBOARD_BIN) + "/pitchboard-cli",
+                  {"simulate", "--scenario", "one-robot", "--cognition", "external", "--json",
+                   "--duration", "600", "--key-base", QString::number(base)});
+    QVERIFY(process.waitForStarted());
+    // The segment is there, and besides the simulator the two robot processes are attached to it.
+    const auto attached = [&] {
+      const int id = ::shmget(base + 100, 0, 0);
+      shmid_ds info{};
+      return id >= 0 && ::shmctl(id, IPC_STAT, &info) == 0 ? static_cast<int>(info.shm_nattch) : -1;
+    };
+    QTRY_COMPARE_WITH_TIMEOUT(attached(), 3, 20000);
+    ::kill(static_cast<pid_t>(process.processId()), SIGTERM);
+    QVERIFY(process.waitForFinished(10000));
+    QCOMPARE(process.exitCode(), 0);
+    QCOMPARE(QJsonDocument::fromJson(process.readAllStandardOutput()).object()["finished_by"],
+             QJsonValue("interrupted"));
+    QCOMPARE(attached(), -1);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestCliSimulate)
+#include "tst_cli_simulate.moc"

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QtTest>
+
+#include <ctime>
+
+#include <robotlink/match_runner.h>
+#include <robotlink/pacer.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::unique_ptr<MatchRunner> start(const Scenario& scenario, bool paused) {
+  auto runner = MatchRunner::start(scenario, {}, paused);
+  if (!runner) qFatal("%s", runner.error().text().c_str());
+  return std::move(*runner);
+}
+
+Scenario builtIn(const char* name) { return loadScenario(name).value(); }
+
+std::uint64_t hashOf(MatchRunner& runner) {
+  std::uint64_t hash = 0;
+  runner.execute([&](SimulatedMatch& match) { hash = match.simulation().hash(); });
+  return hash;
+}
+
+}  // namespace
+
+class TestMatchRunner : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void startsPausedAndStepsOnce() {
+    auto runner = start(builtIn("match-3v3"), true);
+    QVERIFY(runner->waitUntilStill(10s));
+    QCOMPARE(runner->latest()->snapshot.tick, std::uint64_t{0});
+    QVERIFY(runner->latest()->paused);
+    runner->stepOnce();
+    runner->stepOnce();
+    QVERIFY(runner->waitUntilStill(10s));
+    QCOMPARE(runner->latest()->snapshot.tick, std::uint64_t{2});
+    QVERIFY(!runner->latest(runner->latest()->serial));
+  }
+
+  void theHashDoesNotDependOnThePace() {
+    std::vector<std::uint64_t> hashes;
+    for (const double speed : {0.0, 20.0, 3.0}) {
+      auto runner = start(builtIn("match-3v3"), true);
+      runner->setSpeed(speed);
+      if (speed != 0.0) {
+        runner->setPaused(false);
+        QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->snapshot.tick > 20, 10000);
+      }
+      runner->runTo(1200);
+      QVERIFY(runner->waitUntilStill(20s));
+      QCOMPARE(runner->latest()->snapshot.tick, std::uint64_t{1200});
+      hashes.push_back(hashOf(*runner));
+    }
+    QCOMPARE(hashes[1], hashes[0]);
+    QCOMPARE(hashes[2], hashes[0]);
+    auto match = SimulatedMatch::create(builtIn("match-3v3"), {}).value();
+    for (int i = 0; i < 1200; ++i) match.tick();
+    QCOMPARE(match.simulation().hash(), hashes[0]);
+  }
+
+  void realTimeIsRealTime() {
+    auto runner = start(builtIn("match-3v3"), false);
+    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->snapshot.time > 1.5, 10000);
+    const double speed = runner->latest()->speed;
+    QVERIFY2(speed > 0.5 && speed < 1.2, qPrintable(QString::number(speed)));
+  }
+
+  void commandsAreCarriedOutInOrderWhilePaused() {
+    auto runner = start(builtIn("one-robot"), true);
+    std::vector<int> order;
+    for (int i = 0; i < 5; ++i) runner->post([&order, i](SimulatedMatch&) { order.push_back(i); });
+    runner->execute([](SimulatedMatch& match) {
+      (void)match.simulation().placeBall({1, 1});
+    });
+    QCOMPARE(order, (std::vector<int>{0, 1, 2, 3, 4}));
+    QTRY_COMPARE(runner->latest()->snapshot.ball, (Point{1, 1}));
+  }
+
+  void aFinishedMatchStandsStill() {
+    Scenario scenario = builtIn("one-robot");
+    scenario.stop.duration = 2.0;
+    auto runner = start(scenario, false);
+    runner->setSpeed(MatchRunner::unlimitedSpeed);
+    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->finished, 10000);
+    QCOMPARE(runner->latest()->snapshot.tick, std::uint64_t{120});
+    QCOMPARE(runner->latest()->finishedBy, std::string("duration"));
+    const auto log = runner->takeLog();
+    QVERIFY(!log.empty());
+    QCOMPARE(log.back().text, std::string("the match is over (duration)"));
+    QVERIFY(runner->takeLog().empty());
+  }
+
+  void eventsArrive() {
+    auto runner = start(builtIn("one-robot"), true);
+    runner->runTo(60 * 60);
+    QVERIFY(runner->waitUntilStill(20s));
+    const auto events = runner->takeEvents();
+    QVERIFY(std::any_of(events.begin(), events.end(),
+                        [](const auto& event) { return event.kind == sim::EventKind::Kick; }));
+  }
+
+  void standingStillCostsNothing() {
+    auto runner = start(builtIn("match-3v3"), true);
+    QVERIFY(runner->waitUntilStill(10s));
+    const std::clock_t before = std::clock();
+    QTest::qWait(300);
+    const double used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+    QVERIFY2(used < 0.1, qPrintable(QString::number(used)));
+  }
+
+  void manyCallersAtOnce() {
+    auto runner = start(builtIn("match-3v3"), false);
+    runner->setSpeed(MatchRunner::unlimitedSpeed);
+    std::vector<std::jthread> callers;
+    for (int caller = 0; caller < 3; ++caller) {
+      callers.emplace_back([&runner] {
+        std::uint64_t known = 0;
+        for (int i = 0; i < 100; ++i) {
+          if (const auto frame = runner->latest(known)) known = frame->serial;
+          runner->execute([](SimulatedMatch& match) {
+            (void)match.simulation().placeBall({0.5, 0.5});
+          });
+          runner->setPaused(i % 2 == 0);
+          (void)runner->takeEvents();
+        }
+      });
+    }
+    callers.clear();
+    runner->setPaused(true);
+    QVERIFY(runner->waitUntilStill(10s));
+  }
+
+  void aMatchThatCannotBeMadeSaysWhy() {
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    const auto runner = MatchRunner::start(builtIn("one-robot"), options);
+    QVERIFY(!runner);
+    QVERIFY(runner.error().message.find("pitchboard-robot") != std::string::npos);
+  }
+
+  void pacerDropsWhatCannotBeCaughtUp() {
+    const Pacer::Time begin{};
+    Pacer pacer;
+    pacer.start(begin, 10, 60.0);
+    QCOMPARE(pacer.target(begin + 1s), std::uint64_t{70});
+    pacer.forgive(begin + 1s, 68);  // a little behind: to be caught up
+    QCOMPARE(pacer.target(begin + 1s), std::uint64_t{70});
+    pacer.forgive(begin + 1s, 20);  // hopelessly behind: goes on from here
+    QCOMPARE(pacer.target(begin + 1s), std::uint64_t{20});
+    QCOMPARE(pacer.target(begin + 2s), std::uint64_t{80});
+    QVERIFY(pacer.wake(begin + 1s, 20) > begin + 1016ms);
+    QVERIFY(pacer.wake(begin + 1s, 20) < begin + 1018ms);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestMatchRunner)
+#include "tst_match_runner.moc"

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QtTest>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <unistd.h>
+
+#include <robotlink/simulated_match.h>
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+int keyBase() {
+  return 100000 + static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
+}
+
+Scenario builtIn(const char* name) { return loadScenario(name).value(); }
+
+SimulatedMatch make(const Scenario& scenario, const MatchOptions& options = {}) {
+  auto match = SimulatedMatch::create(scenario, options);
+  if (!match) qFatal("%s", match.error().text().c_str());
+  return std::move(*match);
+}
+
+MatchOptions shared(Cognition cognition) {
+  MatchOptions options;
+  options.cognition = cognition;
+  options.keyBase = keyBase();
+  options.robotProgram = "/bin/false-pitchboard";
+  return options;
+}
+
+BlackboardWrite writeAt(double time, int robot, const char* variable, double value) {
+  return {RobotId{robot}, variable, value, time};
+}
+
+}  // namespace
+
+class TestSimulatedMatch : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theSameSeedGivesTheSameHash() {
+    for (const auto& [name, title] : builtInScenarios()) {
+      auto first = make(builtIn(name.c_str()));
+      auto second = make(builtIn(name.c_str()));
+      for (int i = 0; i < 600; ++i) {
+        first.tick();
+        second.tick();
+      }
+      QCOMPARE(first.simulation().hash(), second.simulation().hash());
+    }
+  }
+
+  void aRobotWithTheNaiveBehaviourKicksTheBall() {
+    auto match = make(builtIn("one-robot"));
+    for (int i = 0; i < 60 * 60; ++i) match.tick();
+    QVERIFY(match.simulation().snapshot().robots[0].statistics.kicks > 0);
+  }
+
+  void noAllocationPerTickAfterTheStart() {
+    auto match = make(builtIn("match-3v3"));
+    for (int i = 0; i < 120; ++i) match.tick();
+    const long before = allocations;
+    for (int i = 0; i < 3000; ++i) match.tick();
+    QCOMPARE(allocations - before, 0L);
+  }
+
+  void scriptedWritesHappenBeforeTheirTick() {
+    Scenario scenario = builtIn("one-robot");
+    scenario.robots[0].behaviour = std::string(noBehaviour);
+    scenario.writes = {writeAt(0, 0, "DECISION_ACTION_B", 3), writeAt(0.5, 1, "DECISION_ACTION_A", 2),
+                       writeAt(0.5, 1, "IMU_STATE", 0)};
+    auto match = make(scenario);
+    const RobotVariables& v = match.variables();
+    QCOMPARE(match.blackboard(RobotId{1})->read(v.decisionActionB), 3);
+    for (int i = 0; i < 30; ++i) match.tick();
+    QCOMPARE(match.blackboard(RobotId{1})->read(v.decisionActionA), 0);
+    match.tick();  // begins at 0.5 s
+    QCOMPARE(match.blackboard(RobotId{1})->read(v.decisionActionA), 2);
+    QCOMPARE(match.blackboard(RobotId{1})->read(v.controlAction), 2);
+  }
+
+  void aWriteInTheMiddleOfATickWaitsForTheNext() {
+    Scenario scenario = builtIn("one-robot");
+    scenario.writes = {writeAt(0.51, 0, "DECISION_ACTION_VISION", 2)};
+    auto match = make(scenario);
+    const IntVar look = match.variables().decisionActionVision;
+    for (int i = 0; i < 31; ++i) match.tick();
+    QCOMPARE(match.blackboard(RobotId{1})->read(look), 0);  // ticks 0..30 began at most at 0.5 s
+    match.tick();
+    QCOMPARE(match.blackboard(RobotId{1})->read(look), 2);
+  }
+
+  void aPutBackMomentIsRepeated() {
+    auto match = make(builtIn("one-robot"));
+    for (int i = 0; i < 300; ++i) match.tick();
+    const auto saved = match.simulation().state();
+    for (int i = 0; i < 100; ++i) match.tick();
+    QVERIFY(match.simulation().restore(saved));
+    match.tick();
+    QCOMPARE(match.simulation().state().tick, std::uint64_t{301});
+    for (int i = 0; i < 100; ++i) match.tick();
+    QVERIFY(match.simulation().state().tick == 401);
+  }
+
+  void stopConditions() {
+    Scenario scenario = builtIn("empty");
+    scenario.stop.duration = 1.0;
+    auto timed = make(scenario);
+    for (int i = 0; i < 59; ++i) timed.tick();
+    QVERIFY(!timed.finished());
+    timed.tick();
+    QCOMPARE(timed.finishedBy(), std::string_view("duration"));
+
+    scenario.stop = {{}, true, false};
+    scenario.ball = {4.3, 0};
+    scenario.ballVelocity = {3, 0};
+    auto scored = make(scenario);
+    for (int i = 0; i < 120 && !scored.finished(); ++i) scored.tick();
+    QCOMPARE(scored.finishedBy(), std::string_view("goal"));
+
+    scenario.stop = {{}, false, true};
+    scenario.ball = {0, 2.8};
+    scenario.ballVelocity = {0, 3};
+    auto out = make(scenario);
+    for (int i = 0; i < 120 && !out.finished(); ++i) out.tick();
+    QCOMPARE(out.finishedBy(), std::string_view("ball_out"));
+  }
+
+  void robotsComeAndGo() {
+    auto match = make(builtIn("match-3v3"));
+    for (int i = 0; i < 60; ++i) match.tick();
+    QCOMPARE(match.freeRobotId().value, 7);
+    QVERIFY(match.removeRobot(RobotId{2}));
+    QCOMPARE(match.freeRobotId().value, 2);
+    QVERIFY(!match.blackboard(RobotId{2}));
+    QCOMPARE(match.removeRobot(RobotId{2}).error().code, ErrorCode::NotFound);
+
+    ScenarioRobot robot;
+    robot.identity = {RobotId{2}, TeamColor::Red, 1, true};
+    const auto before = match.simulation().state();
+    QCOMPARE(match.addRobot(robot).error().code, ErrorCode::Conflict);  // R1 is there
+    QVERIFY(match.simulation().state() == before);
+    robot.identity.number = 9;
+    robot.behaviour = "nobody";
+    QVERIFY(!match.addRobot(robot));
+    QVERIFY(match.simulation().state() == before);
+    robot.behaviour = "naive";
+    QVERIFY(match.addRobot(robot));
+    // The referee's "play" of time 0 holds for it, too.
+    QCOMPARE(match.blackboard(RobotId{2})->read(match.variables().comReferee), 2);
+    match.tick();
+  }
+
+  void behaviourCanBeChanged() {
+    auto match = make(builtIn("one-robot"));
+    QVERIFY(match.setBehaviour(RobotId{1}, std::string(noBehaviour)));
+    for (int i = 0; i < 60; ++i) match.tick();
+    QCOMPARE(match.blackboard(RobotId{1})->read(match.variables().decisionActionA), 0);
+    QCOMPARE(match.setBehaviour(RobotId{1}, "naiv").error().message,
+             std::string("there is no behaviour \"naiv\"; did you mean \"naive\"?"));
+    QVERIFY(match.setBehaviour(RobotId{1}, "naive"));
+    for (int i = 0; i < 60; ++i) match.tick();
+    QVERIFY(match.blackboard(RobotId{1})->read(match.variables().decisionActionA) != 0);
+  }
+
+  void sharedSegmentsAreMadeAndRemoved() {
+    const MatchOptions options = shared(Cognition::None);
+    const int key = blackboardKey(RobotId{1}, options.keyBase);
+    {
+      auto match = make(builtIn("one-robot"), options);
+      QVERIFY(SystemVSegments::info(key));
+      QCOMPARE(match.blackboard(RobotId{1})->read(match.variables().decisionSearchOn), 1);
+      const auto second = SimulatedMatch::create(builtIn("one-robot"), options);
+      QVERIFY(!second);  // two simulators would fight over the words
+      QVERIFY(SystemVSegments::info(key));
+      auto moved = std::move(match);
+      moved.tick();
+    }
+    QVERIFY(!SystemVSegments::info(key));
+  }
+
+  void aSegmentThatWasThereKeepsItsValuesAndStays() {
+    const MatchOptions options = shared(Cognition::None);
+    const int key = blackboardKey(RobotId{1}, options.keyBase);
+    QVERIFY(SystemVSegments::create(key));
+    {
+      auto board = SystemVSegments::open(key, AttachMode::AttachOnly).value();
+      board.write(IntVar{400}, 77);
+    }
+    {
+      auto match = make(builtIn("one-robot"), options);
+      match.tick();
+      QCOMPARE(match.blackboard(RobotId{1})->read(IntVar{400}), 77);
+    }
+    QVERIFY(SystemVSegments::info(key));
+    QVERIFY(SystemVSegments::remove(key));
+  }
+
+  void aProgramThatCannotBeStartedLeavesNothingBehind() {
+    const MatchOptions options = shared(Cognition::External);
+    const auto match = SimulatedMatch::create(builtIn("one-robot"), options);
+    QVERIFY(!match);
+    QVERIFY2(match.error().text().find("false-pitchboard") != std::string::npos,
+             match.error().text().c_str());
+    QVERIFY(!SystemVSegments::info(blackboardKey(RobotId{1}, options.keyBase)));
+  }
+
+  void aMomentIsAScenario() {
+    Scenario scenario = builtIn("match-3v3");
+    scenario.writes.push_back(writeAt(3, 1, "COM_REFEREE", 1));
+    scenario.writes.push_back(writeAt(20, 0, "COM_REFEREE", 12));
+    auto match = make(scenario);
+    for (int i = 0; i < 600; ++i) match.tick();
+    const Scenario moment = match.toScenario();
+    QCOMPARE(moment.title, std::string("Match 3 against 3, at 10.0 s"));
+    QCOMPARE(moment.writes.size(), std::size_t{3});
+    QCOMPARE(moment.writes[1], writeAt(0, 1, "COM_REFEREE", 1));
+    QCOMPARE(moment.writes[2].time, 10.0);
+    const auto snapshot = match.simulation().snapshot();
+    QCOMPARE(moment.robots[3].pose, snapshot.robots[3].pose);
+    const auto again = scenarioFromJson(scenarioToJson(moment), "moment");
+    QVERIFY2(again, again ? "" : again.error().text().c_str());
+    QCOMPARE(again->robots.size(), moment.robots.size());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestSimulatedMatch)
+#include "tst_simulated_match.moc"

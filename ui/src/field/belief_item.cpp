@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "belief_item.h"
+
+#include <ui/theme.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pitchboard::ui {
+
+void BeliefItem::setLook(const BeliefLook& look) {
+  if (look == m_look) return;
+  m_look = look;
+  setOpacity(look.opacity);
+  styleChanges();
+  update();
+}
+
+void BeliefItem::styleChanges() {
+  const QRectF bounds = computeBounds();
+  if (bounds == m_bounds) return;
+  prepareGeometryChange();
+  m_bounds = bounds;
+}
+
+QRectF BeliefItem::computeBounds() const {
+  QRectF bounds;
+  const double margin = m_style->metres(2.0);
+  if (m_look.believed) {
+    const double radius =
+        std::max({m_look.sigma, leastRadius, m_style->robotDrawRadius()}) + margin;
+    const QPointF at = toScene(m_look.believed->position);
+    bounds = QRectF(at.x() - radius, at.y() - radius, 2 * radius, 2 * radius);
+  }
+  if (m_look.ball) {
+    const double radius = m_style->ballDrawRadius() + margin;
+    const QPointF ball = toScene(*m_look.ball);
+    const QPointF from = toScene(m_look.origin);
+    bounds |= QRectF(ball.x() - radius, ball.y() - radius, 2 * radius, 2 * radius);
+    bounds |= QRectF(from.x() - margin, from.y() - margin, 2 * margin, 2 * margin);
+  }
+  return bounds;
+}
+
+void BeliefItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  if (m_look.believed) paintGhost(painter);
+  if (m_look.ball && m_style->shows(FieldLayer::PerceivedBall)) paintPerceivedBall(painter);
+}
+
+void BeliefItem::paintGhost(QPainter* painter) const {
+  const ScreenPainting screen(painter, toScene(m_look.believed->position));
+  const double scale = screen.pixelsPerMetre();
+  const QColor team = theme().team(m_look.team);
+  if (m_style->shows(FieldLayer::Belief)) {
+    const double radius = std::max(m_look.sigma, leastRadius) * scale;
+    QColor fill = team;
+    fill.setAlphaF(isDarkTheme() ? 0.15F : 0.22F);
+    QPen pen(isDarkTheme() ? team : team.darker(115), 1.3);
+    pen.setDashPattern({3.0, 2.4});
+    pen.setCapStyle(Qt::FlatCap);
+    painter->setPen(pen);
+    painter->setBrush(fill);
+    painter->drawEllipse(QPointF(0, 0), radius, radius);
+  }
+  if (m_style->shows(FieldLayer::Ghost)) {
+    const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;
+    QColor line = theme().fieldLines;
+    line.setAlphaF(isDarkTheme() ? 0.72F : 0.95F);
+    painter->setPen(QPen(line, std::clamp(radius * 0.13, 1.2, 2.2)));
+    painter->setBrush(Qt::NoBrush);
+    painter->drawEllipse(QPointF(0, 0), radius, radius);
+    painter->drawLine(QPointF(0, 0), screen.direction(m_look.believed->yaw) * radius * 1.25);
+  }
+}
+
+void BeliefItem::paintPerceivedBall(QPainter* painter) const {
+  const ScreenPainting screen(painter, toScene(*m_look.ball));
+  const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 3.0);
+  const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));
+  const double length = std::hypot(start.x(), start.y());
+  QColor line = theme().ball;
+  painter->setBrush(Qt::NoBrush);
+  if (length > radius + 1) {
+    line.setAlphaF(0.85F);
+    QPen pen(line, 1.2);
+    pen.setDashPattern({3.5, 2.6});
+    pen.setCapStyle(Qt::FlatCap);
+    painter->setPen(pen);
+    painter->drawLine(start, start * (radius / length));
+  }
+  painter->setPen(QPen(theme().ball, std::clamp(radius * 0.26, 1.6, 3.0)));
+  painter->drawEllipse(QPointF(0, 0), radius - 0.5, radius - 0.5);
+}
+
+}  // namespace pitchboard::ui

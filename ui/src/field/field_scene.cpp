@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "field_scene.h"
+
+#include <base/angles.h>
+#include <simcore/published_frame.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ball_item.h"
+#include "belief_item.h"
+#include "overlay_items.h"
+#include "robot_item.h"
+#include "sector_items.h"
+#include "trail_item.h"
+#include "view_wedge_item.h"
+
+namespace pitchboard::ui {
+namespace {
+
+// From the ground up.
+enum Height { wedgeHeight, sectorHeight, trailHeight, beliefHeight, ballHeight, robotHeight,
+              toolHeight };
+
+constexpr double hitMargin_px = 3.0;
+
+double distance(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
+/// What the robot believes and perceives, from its blackboard.
+BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView& board,
+                    const sim::FieldSpec& field) {
+  BeliefLook look;
+  look.team = robot.identity.team;
+  Pose origin = robot.pose;
+  if (board.localizationWorking) {
+    origin = sim::published_frame::studioFromLocalization(
+        field, {static_cast<double>(board.localizationX), static_cast<double>(board.localizationY),
+                static_cast<double>(board.localizationTheta)});
+    look.believed = origin;
+    const double sigma = sim::published_frame::metresFromCm(static_cast<double>(board.belief));
+    look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
+  }
+  look.origin = origin.position;
+  const double range = sim::published_frame::metresFromCm(static_cast<double>(board.ballDistCm));
+  const double bearing = radiansFromDegrees(static_cast<double>(board.panDeg));
+  if (!board.visionLost && range > 0.0 && range < 2 * field.length && std::isfinite(bearing)) {
+    look.ball = Point{origin.position.x + range * std::cos(origin.yaw + bearing),
+                      origin.position.y + range * std::sin(origin.yaw + bearing)};
+  }
+  return look;
+}
+
+}  // namespace
+
+struct FieldScene::Robot {
+  Robot(FieldScene* scene, RobotId id)
+      : body(&scene->m_style, id), belief(&scene->m_style), trail(&scene->m_style),
+        wedge(&scene->m_style) {
+    const std::pair<QGraphicsItem*, Height> items[] = {
+        {&body, robotHeight}, {&belief, beliefHeight}, {&trail, trailHeight},
+        {&wedge, wedgeHeight}};
+    for (const auto& [item, height] : items) {
+      item->setZValue(height);
+      scene->addItem(item);
+    }
+  }
+
+  RobotItem body;
+  BeliefItem belief;
+  TrailItem trail;
+  ViewWedgeItem wedge;
+};
+
+FieldScene::FieldScene(QObject* parent)
+    : QGraphicsScene(parent),
+      m_ball(new BallItem(&m_style)),
+      m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
+      m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
+      m_ruler(new RulerItem(&m_style)),
+      m_band(new RubberBandItem(&m_style)) {
+  // Everything moves all the time: an index would cost more than it saves.
+  setItemIndexMethod(QGraphicsScene::NoIndex);
+  const std::pair<QGraphicsItem*, Height> items[] = {{m_ball, ballHeight},
+                                                     {m_eopra, sectorHeight},
+                                                     {m_starVars, sectorHeight},
+                                                     {m_ruler, toolHeight},
+                                                     {m_band, toolHeight}};
+  for (const auto& [item, height] : items) {
+    item->setZValue(height);
+    item->setVisible(false);
+    addItem(item);
+  }
+}
+
+FieldScene::~FieldScene() = default;
+
+void FieldScene::styleChanged() {
+  for (auto& [id, robot] : m_robots) {
+    robot->body.styleChanges();
+    robot->belief.styleChanges();
+    robot->trail.styleChanges();
+    robot->wedge.styleChanges();
+  }
+  m_ball->styleChanges();
+  m_eopra->styleChanges();
+  m_starVars->styleChanges();
+  m_ruler->styleChanges();
+  if (m_frame) showFrame(m_frame);
+  update();
+}
+
+void FieldScene::showFrame(const FramePtr& frame) {
+  m_frame = frame;
+  m_ball->setVisible(frame != nullptr);
+  if (!frame) {
+    m_robots.clear();
+    setSelection({});
+    showSelected();
+    return;
+  }
+  if (!(m_style.field == frame->field)) {
+    m_style.field = frame->field;
+    update();
+  }
+  const sim::Snapshot& snapshot = frame->snapshot;
+  matchRobots(snapshot);
+  m_ball->setBall(snapshot.ball);
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    const bool known = i < frame->boards.size() &&
+                       frame->boards[i].id == snapshot.robots[i].identity.id;
+    showRobot(*m_robots.at(snapshot.robots[i].identity.id), snapshot.robots[i],
+              known ? &frame->boards[i] : nullptr, snapshot.time);
+  }
+  showSelected();
+}
+
+void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
+  std::set<RobotId> present;
+  for (const sim::RobotSnapshot& robot : snapshot.robots) {
+    const RobotId id = robot.identity.id;
+    present.insert(id);
+    if (!m_robots.contains(id)) m_robots.emplace(id, std::make_unique<Robot>(this, id));
+  }
+  if (std::erase_if(m_robots, [&](const auto& entry) { return !present.contains(entry.first); })) {
+    select(m_selection);
+    if (m_followed && !present.contains(*m_followed)) m_followed.reset();
+  }
+}
+
+void FieldScene::showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
+                           const link::RobotBoardView* board, double time) {
+  const RobotId id = snapshot.identity.id;
+  RobotLook look;
+  look.pose = snapshot.pose;
+  look.team = snapshot.identity.team;
+  look.number = snapshot.identity.number;
+  look.fallen = snapshot.fallen;
+  look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+  look.followed = m_followed == id;
+  if (snapshot.fallen) look.word = QStringLiteral("fallen");
+  robot.body.setLook(look);
+
+  robot.trail.append(snapshot.pose.position, time);
+  robot.trail.setVisible(m_style.shows(FieldLayer::Trails) && isTrailShown(id));
+  robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
+  robot.wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
+                         (look.selected || m_style.wedgeForAll));
+  robot.belief.setVisible(board != nullptr);
+  if (board) robot.belief.setLook(beliefOf(snapshot, *board, m_style.field));
+}
+
+void FieldScene::showSelected() {
+  const auto chosen = m_selection.empty() ? m_robots.end() : m_robots.find(m_selection.front());
+  const bool any = chosen != m_robots.end();
+  m_eopra->setVisible(any && m_style.shows(FieldLayer::Eopra));
+  m_starVars->setVisible(any && m_style.shows(FieldLayer::StarVars));
+  if (!any) return;
+  m_eopra->setPose(chosen->second->body.look().pose);
+  m_starVars->setPose(chosen->second->body.look().pose);
+}
+
+void FieldScene::select(const std::vector<RobotId>& ids) {
+  std::vector<RobotId> present;
+  for (const RobotId id : ids) {
+    if (m_robots.contains(id)) present.push_back(id);
+  }
+  setSelection(std::move(present));
+}
+
+void FieldScene::toggle(RobotId id) {
+  std::vector<RobotId> ids = m_selection;
+  if (const auto found = std::find(ids.begin(), ids.end(), id); found != ids.end()) {
+    ids.erase(found);
+  } else {
+    ids.push_back(id);
+  }
+  select(ids);
+}
+
+void FieldScene::setSelection(std::vector<RobotId> ids) {
+  if (ids == m_selection) return;
+  m_selection = std::move(ids);
+  for (auto& [id, robot] : m_robots) {
+    RobotLook look = robot->body.look();
+    look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+    robot->body.setLook(look);
+    robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
+                            (look.selected || m_style.wedgeForAll));
+  }
+  showSelected();
+  emit selectionChangedTo(m_selection);
+}
+
+FieldHit FieldScene::hit(const QPointF& metres) const {
+  const double margin = m_style.metres(hitMargin_px);
+  if (!m_style.readOnly) {
+    for (const RobotId id : m_selection) {
+      const QPointF handle = RobotItem::handlePosition(m_style, m_robots.at(id)->body.look().pose);
+      if (distance(handle, metres) <= RobotItem::handleRadius(m_style) + margin) {
+        return {FieldHit::Kind::Handle, id};
+      }
+    }
+  }
+  const double robotReach = m_style.robotDrawRadius() + margin;
+  FieldHit nearest;
+  double least = robotReach;
+  for (const auto& [id, robot] : m_robots) {
+    const double away = distance(toScene(robot->body.look().pose.position), metres);
+    if (away > least) continue;
+    least = away;
+    nearest = {FieldHit::Kind::Robot, id};
+  }
+  const bool onBall = m_frame && distance(toScene(m_frame->snapshot.ball), metres) <=
+                                     m_style.ballDrawRadius() + margin;
+  // A ball at a robot's foot is smaller and must still be reached.
+  if (onBall && (nearest.kind == FieldHit::Kind::Nothing ||
+                 distance(toScene(m_frame->snapshot.ball), metres) < least)) {
+    return {FieldHit::Kind::Ball, {}};
+  }
+  return nearest;
+}
+
+std::vector<RobotId> FieldScene::robotsIn(const QRectF& metres) const {
+  std::vector<RobotId> inside;
+  for (const auto& [id, robot] : m_robots) {
+    if (metres.contains(toScene(robot->body.look().pose.position))) inside.push_back(id);
+  }
+  return inside;
+}
+
+std::optional<Pose> FieldScene::pose(RobotId id) const {
+  const auto found = m_robots.find(id);
+  if (found == m_robots.end()) return {};
+  return found->second->body.look().pose;
+}
+
+Point FieldScene::ball() const { return m_frame ? m_frame->snapshot.ball : Point{}; }
+
+void FieldScene::setTrailShown(RobotId id, bool shown) {
+  if (shown) {
+    m_hiddenTrails.erase(id);
+  } else {
+    m_hiddenTrails.insert(id);
+  }
+  if (m_frame) showFrame(m_frame);
+}
+
+void FieldScene::setFollowed(std::optional<RobotId> id) {
+  m_followed = id && m_robots.contains(*id) ? id : std::nullopt;
+  if (m_frame) showFrame(m_frame);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/field_view.h>
+
+#include <ui/theme.h>
+
+#include <QAction>
+#include <QActionGroup>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QPainter>
+#include <QToolBar>
+#include <QToolButton>
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "field_canvas.h"
+#include "field_keys.h"
+#include "field_menu.h"
+#include "field_pointer.h"
+#include "field_scene.h"
+#include "help_overlay.h"
+#include "pose_editor.h"
+
+namespace pitchboard::ui {
+namespace {
+
+struct LayerText {
+  const char* text;
+  const char* key;   // shown only; the field handles its keys itself
+};
+constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "F6"},
+                                                             {"Belief", ""},
+                                                             {"Ghost at the believed pose", ""},
+                                                             {"Perceived ball", ""},
+                                                             {"Trails", ""},
+                                                             {"Numbers", ""},
+                                                             {"Coordinate grid", ""},
+                                                             {"Landmarks", "F9"},
+                                                             {"EOPRA sectors", "F7"},
+                                                             {"StarVars sectors", "F8"}}};
+
+struct ToolText {
+  FieldTool tool;
+  const char* icon;
+  const char* text;
+  const char* tip;
+};
+constexpr std::array<ToolText, 3> toolTexts{{
+    {FieldTool::Select, "edit-select", "Select and move", "Select, drag and turn robots"},
+    {FieldTool::Ruler, "measure", "Ruler", "Measure distance and direction by dragging"},
+    {FieldTool::Add, "list-add", "Add robots", "Click to add a robot; hold for its team"},
+}};
+
+constexpr double nudge_m = 0.01;
+constexpr double coarseNudge_m = 0.10;
+
+// X11 names of the right Shift key: its scan code on PC keyboards and its keysym.
+constexpr quint32 rightShiftScanCode = 62;
+constexpr quint32 rightShiftKeysym = 0xffe2;
+
+}  // namespace
+
+struct FieldView::Private : FieldKeyTarget {
+  Private(FieldView* view, MatchController* matchController)
+      : q(view),
+        controller(matchController),
+        scene(new FieldScene(view)),
+        pointer(new FieldPointer(scene, matchController, view)),
+        canvas(new FieldCanvas(scene, pointer, view)),
+        help(new HelpOverlay(canvas)) {}
+
+  void makeActions();
+  void makeToolStrip();
+  void showLayer(int layer, bool shown);
+  void openPoseEditor(RobotId id);
+  void openMenu(QPoint globalPosition, QPointF metres);
+  bool handleKey(QKeyEvent* event);
+  void addAtCursor(TeamColor color);
+
+  // FieldKeyTarget
+  void addRobotAtCursor(int color) override {
+    addAtCursor(teamColors[static_cast<std::size_t>(color)].color);
+  }
+  void addRobotByShift() override {
+    addAtCursor(rightShift ? TeamColor::Orange : TeamColor::Yellow);
+  }
+  void placeBallAtCursor() override {
+    if (controller) controller->moveBall(scene->ball(), fromScene(canvas->cursor()));
+  }
+  void selectRobot(int number) override { scene->select({RobotId{number}}); }
+  void moveSelectedToCursor() override;
+  void removeSelected() override {
+    if (controller) controller->removeRobots(scene->selection());
+  }
+  void commandSelected(int action, int actionB) override {
+    if (!controller) return;
+    for (const RobotId id : scene->selection()) {
+      controller->commandAction(id, action, actionB < 0 ? std::nullopt : std::optional(actionB));
+    }
+  }
+  void searchSelected(bool on) override {
+    if (!controller) return;
+    for (const RobotId id : scene->selection()) controller->commandSearch(id, on);
+  }
+  void nudgeSelected(int right, int up, bool coarse) override {
+    const double step = (coarse ? coarseNudge_m : nudge_m) * (scene->style().flipped ? -1 : 1);
+    pointer->nudge({right * step, up * step});
+  }
+  void toggleLayer(int layer) override { layers[static_cast<std::size_t>(layer)]->toggle(); }
+  void escape() override {
+    if (pointer->cancel()) return;
+    if (pointer->tool() != FieldTool::Select) {
+      pointer->setTool(FieldTool::Select);
+    } else {
+      scene->select({});
+    }
+  }
+  void fit() override { canvas->fit(); }
+  void toggleHelp() override { help->toggle(); }
+  void togglePause() override {
+    if (controller && controller->frame()) controller->setPaused(!controller->frame()->paused);
+  }
+  void loadMatch() override { emit q->loadMatchRequested(); }
+  void reset() override { emit q->resetRequested(); }
+  void clear() override { emit q->clearRequested(); }
+
+  FieldView* q;
+  MatchController* controller;
+  FieldScene* scene;
+  FieldPointer* pointer;
+  FieldCanvas* canvas;
+  HelpOverlay* help;
+  QToolBar* strip = nullptr;
+  std::vector<QAction*> layers;
+  std::vector<QAction*> tools;
+  QAction* flip = nullptr;
+  QAction* fitAction = nullptr;
+  QAction* keys = nullptr;
+  bool rightShift = false;
+};
+
+void FieldView::Private::makeActions() {
+  for (int i = 0; i < fieldLayerCount; ++i) {
+    const LayerText& text = layerTexts[static_cast<std::size_t>(i)];
+    auto* action = new QAction(tr(text.text), q);
+    action->setCheckable(true);
+    action->setChecked(scene->style().layers[static_cast<std::size_t>(i)]);
+    if (*text.key) action->setText(action->text() + QLatin1Char('\t') + QLatin1String(text.key));
+    connect(action, &QAction::toggled, q, [this, i](bool on) { showLayer(i, on); });
+    layers.push_back(action);
+  }
+  auto* group = new QActionGroup(q);
+  for (const ToolText& text : toolTexts) {
+    auto* action = new QAction(themedIcon(QLatin1String(text.icon)), tr(text.text), group);
+    action->setCheckable(true);
+    action->setChecked(text.tool == pointer->tool());
+    action->setToolTip(tr(text.tip));
+    connect(action, &QAction::triggered, q, [this, tool = text.tool] { pointer->setTool(tool); });
+    connect(pointer, &FieldPointer::toolChanged, action,
+            [action, tool = text.tool](FieldTool chosen) { action->setChecked(chosen == tool); });
+    tools.push_back(action);
+  }
+  flip = new QAction(themedIcon(QStringLiteral("object-flip-horizontal")), tr("Flip sides"), q);
+  flip->setCheckable(true);
+  flip->setToolTip(tr("See the field from the other side (Space)"));
+  connect(flip, &QAction::toggled, q, [this](bool on) { canvas->setFlipped(on); });
+  fitAction = new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Fit the field\tHome"), q);
+  fitAction->setToolTip(tr("Fit the field (Home)"));
+  connect(fitAction, &QAction::triggered, q, [this] { canvas->fit(); });
+  keys = new QAction(themedIcon(QStringLiteral("help-contextual")), tr("Keys of the field\tF1"), q);
+  keys->setToolTip(tr("All keys of the field (F1)"));
+  connect(keys, &QAction::triggered, q, [this] { help->toggle(); });
+}
+
+void FieldView::Private::makeToolStrip() {
+  strip = new QToolBar(q);
+  strip->setObjectName(QStringLiteral("fieldTools"));
+  strip->setOrientation(Qt::Vertical);
+  const int icon = scaled(q, 18);
+  strip->setIconSize(QSize(icon, icon));
+  strip->setFixedWidth(scaled(q, 36));
+  for (QAction* tool : tools) strip->addAction(tool);
+  if (auto* button = qobject_cast<QToolButton*>(strip->widgetForAction(tools.back()))) {
+    auto* teams = new QMenu(button);
+    auto* group = new QActionGroup(teams);
+    for (const TeamColorInfo& team : teamColors) {
+      QString name = QString::fromLatin1(team.name.data(), static_cast<qsizetype>(team.name.size()));
+      name[0] = name[0].toUpper();
+      auto* action = teams->addAction(name, q, [this, color = team.color] {
+        pointer->setTeam(color);
+        pointer->setTool(FieldTool::Add);
+      });
+      action->setCheckable(true);
+      action->setChecked(team.color == TeamColor::Blue);
+      group->addAction(action);
+    }
+    button->setMenu(teams);
+    button->setPopupMode(QToolButton::DelayedPopup);
+  }
+  strip->addSeparator();
+  auto* layersButton = new QToolButton;
+  layersButton->setIcon(themedIcon(QStringLiteral("layer-visible-on")));
+  layersButton->setToolTip(tr("Layers: what the field shows"));
+  layersButton->setAccessibleName(tr("Layers"));
+  layersButton->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(layersButton);
+  for (QAction* layer : layers) menu->addAction(layer);
+  layersButton->setMenu(menu);
+  strip->addWidget(layersButton);
+  for (QAction* action : {flip, fitAction, keys}) strip->addAction(action);
+}
+
+void FieldView::Private::showLayer(int layer, bool shown) {
+  scene->changeStyle(
+      [&](FieldStyle& style) { style.layers[static_cast<std::size_t>(layer)] = shown; });
+  canvas->viewport()->update();
+}
+
+void FieldView::Private::addAtCursor(TeamColor color) {
+  if (!controller) return;
+  controller->addRobot(
+      color, {fromScene(canvas->cursor()), info(color).facesLeft ? std::numbers::pi : 0.0});
+}
+
+void FieldView::Private::moveSelectedToCursor() {
+  if (!controller || scene->selection().empty()) return;
+  const auto first = scene->pose(scene->selection().front());
+  const Point cursor = fromScene(canvas->cursor());
+  // Several robots keep their formation round the first one.
+  pointer->nudge({cursor.x - first->position.x, cursor.y - first->position.y});
+}
+
+void FieldView::Private::openPoseEditor(RobotId id) {
+  const auto pose = scene->pose(id);
+  if (!pose || !controller) return;
+  QString name;
+  for (const sim::RobotSnapshot& robot : scene->frame()->snapshot.robots) {
+    if (robot.identity.id == id) name = robotName(robot.identity.team, robot.identity.number);
+  }
+  auto* editor = new PoseEditor(controller, scene->style().field, name, id, *pose, canvas);
+  const QPointF beside = canvas->viewPointAt(toScene(pose->position)) + QPointF(24, 24);
+  editor->adjustSize();
+  editor->move(canvas->viewport()->mapToGlobal(beside.toPoint()));
+  editor->show();
+}
+
+void FieldView::Private::openMenu(QPoint globalPosition, QPointF metres) {
+  auto* menu = new QMenu(q);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  fillFieldMenu(menu, scene, controller, metres,
+                {[this](RobotId id) { openPoseEditor(id); },
+                 [this] { emit q->saveScenarioRequested(); }});
+  if (menu->isEmpty()) {
+    delete menu;
+    return;
+  }
+  menu->popup(globalPosition);
+}
+
+bool FieldView::Private::handleKey(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Shift) {
+    rightShift = event->nativeScanCode() == rightShiftScanCode ||
+                 event->nativeVirtualKey() == rightShiftKeysym;
+    return false;
+  }
+  const FieldKey* key = findFieldKey(event->key(), event->modifiers());
+  if (!key) return false;
+  key->act(*this);
+  return true;
+}
+
+FieldView::FieldView(MatchController* controller, QWidget* parent)
+    : QWidget(parent), d(std::make_unique<Private>(this, controller)) {
+  d->makeActions();
+  d->makeToolStrip();
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(d->strip);
+  layout->addWidget(d->canvas, 1);
+  setFocusProxy(d->canvas);
+  d->canvas->setKeyHandler([this](QKeyEvent* event) { return d->handleKey(event); });
+  connect(d->canvas, &FieldCanvas::cursorMoved, this, &FieldView::cursorMoved);
+  connect(d->canvas, &FieldCanvas::menuRequested, this,
+          [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
+  connect(d->canvas, &FieldCanvas::spaceTapped, this, [this] { d->flip->toggle(); });
+  connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
+  connect(d->pointer, &FieldPointer::poseRequested, this,
+          [this](RobotId id) { d->openPoseEditor(id); });
+  if (!controller) return;
+  connect(controller, &MatchController::frameReceived, this, &FieldView::showFrame);
+  connect(controller, &MatchController::scenarioChanged, this,
+          [this] { showFrame(d->controller->frame()); });
+}
+
+FieldView::~FieldView() {
+  // The canvas asks the scene and the pointer until it is gone.
+  delete d->canvas;
+}
+
+void FieldView::showFrame(const FramePtr& frame) {
+  const bool otherField = frame && !(d->scene->style().field == frame->field);
+  const bool wasEmpty = !d->scene->frame() || d->scene->frame()->snapshot.robots.empty();
+  d->scene->showFrame(frame);
+  d->pointer->hold();
+  if (otherField) d->canvas->fit();
+  if (wasEmpty || !frame || frame->snapshot.robots.empty()) d->canvas->viewport()->update();
+  if (const auto id = d->scene->followed()) {
+    if (const auto pose = d->scene->pose(*id)) d->canvas->centreOnMetres(toScene(pose->position));
+  }
+}
+
+std::vector<RobotId> FieldView::selection() const { return d->scene->selection(); }
+void FieldView::select(const std::vector<RobotId>& ids) { d->scene->select(ids); }
+void FieldView::follow(std::optional<RobotId> id) { d->scene->setFollowed(id); }
+std::optional<RobotId> FieldView::followed() const { return d->scene->followed(); }
+std::vector<QAction*> FieldView::layerActions() const { return d->layers; }
+
+std::vector<QAction*> FieldView::viewActions() const {
+  std::vector<QAction*> actions = d->tools;
+  for (QAction* action : {d->flip, d->fitAction, d->keys}) actions.push_back(action);
+  return actions;
+}
+
+void FieldView::fitField() { d->canvas->fit(); }
+void FieldView::setFlipped(bool flipped) { d->flip->setChecked(flipped); }
+bool FieldView::isFlipped() const { return d->flip->isChecked(); }
+
+QImage FieldView::picture(QSize size) const {
+  QImage image(size, QImage::Format_RGB32);
+  const FieldStyle before = d->scene->style();
+  const sim::FieldSpec& field = before.field;
+  const double scale = std::min(size.width() / (field.length + 2 * field.border),
+                                size.height() / (field.width + 2 * field.border));
+  const double sign = before.flipped ? -1.0 : 1.0;
+  QTransform toPicture = QTransform::fromTranslate(size.width() / 2.0, size.height() / 2.0);
+  toPicture.scale(sign * scale, -sign * scale);
+  d->scene->changeStyle([&](FieldStyle& style) {
+    style.pixelsPerMetre = scale;
+    style.ornaments = false;
+  });
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paintFieldBackground(painter, d->scene->style(), toPicture, QRectF(QPointF(), QSizeF(size)));
+  // QGraphicsScene::render() knows no mirrored target, so the source is mirrored by the painter.
+  painter.setTransform(toPicture);
+  const QRectF source = toPicture.inverted().mapRect(QRectF(QPointF(), QSizeF(size)));
+  d->scene->render(&painter, source, source, Qt::IgnoreAspectRatio);
+  d->scene->changeStyle([&](FieldStyle& style) {
+    style.pixelsPerMetre = before.pixelsPerMetre;
+    style.ornaments = before.ornaments;
+  });
+  return image;
+}
+
+}  // namespace pitchboard::ui
