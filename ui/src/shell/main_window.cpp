@@ -88,7 +88,8 @@ void MainWindow::makeDocks() {
 // A tab says the name already.
 void MainWindow::showTitles() {
   for (QDockWidget* dock : m_docks) {
-    dock->titleBarWidget()->setVisible(dock->isFloating() || tabifiedDockWidgets(dock).isEmpty());
+    static_cast<DockTitle*>(dock->titleBarWidget())
+        ->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
   }
 }
 

@@ -123,7 +123,7 @@ QMenuBar { background: @window; border: none; }
 QMenuBar::item { padding: @4 @8; background: transparent; }
 QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radius: 3px; }
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
-QToolBar > QComboBox { min-height: @24; }
+QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
@@ -134,8 +134,6 @@ QToolButton#mode:checked { background: @fill; border-color: @fill; color: white;
 QToolButton::menu-indicator { image: none; }
 QStatusBar { border-top: 1px solid @edge; }
 QStatusBar::item { border: none; }
-#statusWorld, #statusProcesses, #statusSelected { border-left: 1px solid @line; }
-QTableView::item { padding: 0 @6; }
 QDockWidget > QWidget { border: none; }
 QTabBar#docks::tab, QMainWindow > QTabBar::tab {
   padding: @4 @12; border: 1px solid transparent; border-top: 2px solid transparent;
@@ -146,7 +144,7 @@ QMainWindow > QTabBar::tab:selected {
 QMainWindow > QTabBar::tab:hover:!selected { color: @text; }
 QAbstractItemView { selection-background-color: @row; selection-color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;
-  border-bottom: 1px solid @line; padding: @3 @6; }
+  border-bottom: 1px solid @line; padding: @3; }
 QToolTip { background: @window; color: @text; border: 1px solid @line; }
 )");
   const std::pair<const char*, QColor> names[] = {
