@@ -17,6 +17,8 @@ void addSimulateCommand(CLI::App& parent, int& exitCode);
 void addConformanceCommand(CLI::App& parent, int& exitCode);
 void addBlackboardCommands(CLI::App& parent, int& exitCode);
 void addCatalogCommands(CLI::App& parent, int& exitCode);
+void addListenCommand(CLI::App& parent, int& exitCode);
+void addDecodeCommand(CLI::App& parent, int& exitCode);
 
 /// Prints "error: ..." on stderr and returns 2.
 int reportError(const Error& error);

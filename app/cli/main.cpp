@@ -23,8 +23,13 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION);
 
   int exitCode = 0;
-  constexpr std::array<AddCommand, 4> commands{&addSimulateCommand, &addConformanceCommand,
-                                               &addBlackboardCommands, &addCatalogCommands};
+  constexpr std::array<AddCommand, 6> commands{
+      &addSimulateCommand,
+      &addConformanceCommand,
+      &addBlackboardCommands,
+      &addCatalogCommands,
+      &addListenCommand,
+      &addDecodeCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   try {

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <charconv>
 #include <fstream>
-#include <iterator>
 
 #include "spawn.h"
 
@@ -96,8 +95,14 @@ Result<RobotId> robotFromIniFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const int reason = errno;
   if (!file) return failure(ErrorCode::NotFound, "cannot be read: " + systemReason(reason), path);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) return failure(ErrorCode::SystemError, "cannot be read", path);
+  std::string text;
+  // Not by iterator: that throws when the path is a folder.
+  for (char buffer[4096]; file.read(buffer, sizeof buffer) || file.gcount() > 0;) {
+    text.append(buffer, static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) {
+    return failure(ErrorCode::SystemError, "cannot be read; is it a text file?", path);
+  }
   return robotFromIni(text, path);
 }
 

@@ -9,10 +9,27 @@ namespace pitchboard::telemetry {
 std::string pythonFloat(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+  // 12 significant digits, with the exponent they have after rounding.
+  constexpr int digits = 12;
   char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general,
-                                 12);
-  std::string text(buffer, end.ptr);
+  const auto scientific = std::to_chars(buffer, buffer + sizeof buffer, value,
+                                        std::chars_format::scientific, digits - 1);
+  std::string text(buffer, scientific.ptr);
+  int exponent = 0;
+  const char* sign = text.data() + text.find('e') + 1;
+  std::from_chars(*sign == '+' ? sign + 1 : sign, text.data() + text.size(), exponent);
+
+  // %g would write 100000000000 out. Python keeps a place of the twelve for the ".0", so that it
+  // begins to use exponents there.
+  if (exponent == digits - 1) {
+    const std::size_t e = text.find('e');
+    std::size_t mantissa = text.find_last_not_of('0', e - 1) + 1;
+    if (text[mantissa - 1] == '.') --mantissa;
+    return text.erase(mantissa, e - mantissa);
+  }
+  const auto general = std::to_chars(buffer, buffer + sizeof buffer, value,
+                                     std::chars_format::general, digits);
+  text.assign(buffer, general.ptr);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }

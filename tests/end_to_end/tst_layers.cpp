@@ -24,7 +24,8 @@ const QList<Layer>& layers() {
   static const QList<Layer> all{
       {"simcore/base", {"base/"}, {"Random123/", "tl/"}},
       {"simcore", {"base/", "simcore/"}, {"Eigen/", "box2d/", "tl/", "Random123/"}},
-      {"telemetry", {"base/", "telemetry/"}, {"tl/", "zstd.h"}},
+      // Profiles of the text protocol are JSON files, and the published one is a resource.
+      {"telemetry", {"base/", "telemetry/", "resources/"}, {"nlohmann/", "tl/", "zstd.h"}},
       {"resources", {"resources/"}, {}},
       {"robotlink",
        {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},

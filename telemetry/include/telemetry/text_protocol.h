@@ -28,7 +28,8 @@ struct TextMessage {
 /// whatever the locale.
 std::string encode(const TextMessage& message);
 
-/// A number as Python 2's str(float) writes it: %.12g, ".0" added to whole numbers, "nan", "inf".
+/// A number as Python 2.7's str(float) writes it: %.12g, ".0" added to whole numbers, exponents from
+/// 1e+11 on (%.12g alone: from 1e+12), "nan", "inf", "-inf".
 std::string pythonFloat(double value);
 
 }  // namespace pitchboard::telemetry

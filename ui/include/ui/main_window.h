@@ -49,6 +49,7 @@ class MainWindow : public QMainWindow {
  private:
   friend class StudioMenus;
   void makeDocks();
+  void showTitles();
   void connectField();
 
   MatchController* m_controller;

@@ -109,9 +109,11 @@ class MatchController : public QObject {
   friend class BallCommand;
 
   void poll();
-  /// Runs on the match's thread; a failure comes back as errorOccurred with `whatFailed` before it.
+  /// Runs on the match's thread; a failure comes back as errorOccurred with `whatFailed` before it, after
+  /// `onFailure` has run here.
   void postChecked(const QString& whatFailed,
-                   std::function<Result<void>(link::SimulatedMatch&)> command);
+                   std::function<Result<void>(link::SimulatedMatch&)> command,
+                   std::function<void()> onFailure = {});
   void insertRobot(const link::ScenarioRobot& robot);
   void eraseRobot(RobotId id);
   void placeRobots(const std::vector<RobotPlacement>& placements, bool back);

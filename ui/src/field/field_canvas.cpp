@@ -157,6 +157,7 @@ void FieldCanvas::mousePressEvent(QMouseEvent* event) {
   if (event->button() == Qt::MiddleButton ||
       (event->button() == Qt::LeftButton && m_spaceDown)) {
     m_panning = true;
+    m_spaceUsed = true;
     m_panFrom = event->position();
     updateCursorShape();
   } else if (event->button() == Qt::LeftButton) {
@@ -225,6 +226,7 @@ bool FieldCanvas::event(QEvent* event) {
 void FieldCanvas::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) {
     m_spaceDown = true;
+    m_spaceUsed = false;
     updateCursorShape();
     return;
   }
@@ -237,8 +239,10 @@ void FieldCanvas::keyPressEvent(QKeyEvent* event) {
 
 void FieldCanvas::keyReleaseEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Space || event->isAutoRepeat()) return;
+  const bool tapped = m_spaceDown && !m_spaceUsed;
   m_spaceDown = false;
   updateCursorShape();
+  if (tapped) emit spaceTapped();
 }
 
 void FieldCanvas::focusOutEvent(QFocusEvent* event) {

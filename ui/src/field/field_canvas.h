@@ -34,6 +34,8 @@ class FieldCanvas : public QGraphicsView {
  signals:
   void cursorMoved(QPointF metres, bool valid);
   void menuRequested(QPoint globalPosition, QPointF metres);
+  /// Space, without having been used to move the view.
+  void spaceTapped();
 
  protected:
   bool viewportEvent(QEvent* event) override;
@@ -66,6 +68,7 @@ class FieldCanvas : public QGraphicsView {
   QPointF m_panFrom;
   bool m_panning = false;
   bool m_spaceDown = false;
+  bool m_spaceUsed = false;
   bool m_fitted = true;
 };
 

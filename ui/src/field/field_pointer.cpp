@@ -49,15 +49,35 @@ Qt::CursorShape FieldPointer::shape(const QPointF& at) const {
 std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotId>& ids) const {
   std::vector<RobotPlacement> placements;
   for (const RobotId id : ids) {
-    if (const auto pose = m_scene->pose(id)) placements.push_back({id, *pose, *pose});
+    auto pose = m_scene->pose(id);
+    if (!pose) continue;
+    // Keys and wheel come faster than frames: none of their steps may be lost.
+    if (m_scene->frame() && m_scene->frame()->serial == m_onTheWaySince) {
+      for (const RobotPlacement& moved : m_onTheWay) {
+        if (moved.id == id) pose = moved.to;
+      }
+    }
+    placements.push_back({id, *pose, *pose});
   }
   return placements;
+}
+
+void FieldPointer::place(const std::vector<RobotPlacement>& placements) {
+  if (placements.empty()) return;
+  if (m_scene->frame()->serial != m_onTheWaySince) m_onTheWay.clear();
+  m_onTheWaySince = m_scene->frame()->serial;
+  for (const RobotPlacement& placement : placements) {
+    std::erase_if(m_onTheWay, [&](const auto& moved) { return moved.id == placement.id; });
+    m_onTheWay.push_back(placement);
+  }
+  m_controller->moveRobots(placements);
 }
 
 void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   cancel();
   m_from = m_at = at;
   m_moved = false;
+  m_clickedOneOfSeveral = false;
   m_selectedBefore = m_scene->selection();
   if (m_tool == FieldTool::Ruler) {
     m_drag = Drag::Ruler;
@@ -104,7 +124,10 @@ void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
 
 void FieldPointer::beginRobots(RobotId hit) {
   const auto& selected = m_scene->selection();
-  if (std::find(selected.begin(), selected.end(), hit) == selected.end()) m_scene->select({hit});
+  const bool among = std::find(selected.begin(), selected.end(), hit) != selected.end();
+  m_clickedOneOfSeveral = among && selected.size() > 1;
+  m_pivot = hit;
+  if (!among) m_scene->select({hit});
   m_drag = Drag::Robots;
   m_placements = standing(m_scene->selection());
 }
@@ -183,6 +206,7 @@ void FieldPointer::release(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (m_drag == Drag::None) return;
   move(at, modifiers);
   if (m_moved && canEdit()) finish();
+  if (!m_moved && m_drag == Drag::Robots && m_clickedOneOfSeveral) m_scene->select({m_pivot});
   m_scene->rubberBand()->setVisible(false);
   m_drag = Drag::None;
 }
@@ -208,7 +232,7 @@ bool FieldPointer::turnAt(const QPointF& at, double notches) {
   for (RobotPlacement& placement : placements) {
     placement.to.yaw = wrapToPi(placement.from.yaw + radiansFromDegrees(notches * degreesPerNotch));
   }
-  m_controller->moveRobots(placements);
+  place(placements);
   return true;
 }
 
@@ -233,7 +257,7 @@ void FieldPointer::nudge(const QPointF& metres) {
     placement.to.position.x += metres.x();
     placement.to.position.y += metres.y();
   }
-  m_controller->moveRobots(placements);
+  place(placements);
 }
 
 }  // namespace pitchboard::ui

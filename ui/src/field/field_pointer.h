@@ -52,6 +52,8 @@ class FieldPointer : public QObject {
   void dragTurn();
   void preview();
   void finish();
+  /// Moves that the next frame will show; further ones before it start from there.
+  void place(const std::vector<RobotPlacement>& placements);
   std::vector<RobotPlacement> standing(const std::vector<RobotId>& ids) const;
   bool canEdit() const;
 
@@ -66,6 +68,9 @@ class FieldPointer : public QObject {
   RobotId m_pivot;                   // the robot whose handle is held
   Point m_ballFrom;
   std::vector<RobotId> m_selectedBefore;
+  std::vector<RobotPlacement> m_onTheWay;
+  std::uint64_t m_onTheWaySince = 0;  // serial of the frame they were made on
+  bool m_clickedOneOfSeveral = false;
 };
 
 }  // namespace pitchboard::ui

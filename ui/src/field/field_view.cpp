@@ -164,7 +164,7 @@ void FieldView::Private::makeActions() {
   }
   flip = new QAction(themedIcon(QStringLiteral("object-flip-horizontal")), tr("Flip sides"), q);
   flip->setCheckable(true);
-  flip->setToolTip(tr("See the field from the other side"));
+  flip->setToolTip(tr("See the field from the other side (Space)"));
   connect(flip, &QAction::toggled, q, [this](bool on) { canvas->setFlipped(on); });
   fitAction = new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Fit the field\tHome"), q);
   fitAction->setToolTip(tr("Fit the field (Home)"));
@@ -285,6 +285,7 @@ FieldView::FieldView(MatchController* controller, QWidget* parent)
   connect(d->canvas, &FieldCanvas::cursorMoved, this, &FieldView::cursorMoved);
   connect(d->canvas, &FieldCanvas::menuRequested, this,
           [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
+  connect(d->canvas, &FieldCanvas::spaceTapped, this, [this] { d->flip->toggle(); });
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
   connect(d->pointer, &FieldPointer::poseRequested, this,
           [this](RobotId id) { d->openPoseEditor(id); });

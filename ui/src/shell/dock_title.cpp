@@ -40,7 +40,19 @@ DockTitle::DockTitle(QDockWidget* dock) : QWidget(dock) {
   row->addWidget(label, 1);
   row->addWidget(floating);
   row->addWidget(close);
-  setFixedHeight(scaled(this, 24));
+}
+
+QSize DockTitle::sizeHint() const {
+  return {QWidget::sizeHint().width(), m_folded ? 0 : scaled(this, 24)};
+}
+
+void DockTitle::setFolded(bool folded) {
+  if (folded == m_folded) return;
+  m_folded = folded;
+  setVisible(!folded);
+  updateGeometry();
+  // A dock asks its title for its size only when the title is set.
+  if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) dock->setTitleBarWidget(this);
 }
 
 }  // namespace pitchboard::ui

@@ -12,6 +12,13 @@ class DockTitle : public QWidget {
   Q_OBJECT
  public:
   explicit DockTitle(QDockWidget* dock);
+  /// Folded it takes no room: the dock is one of several tabs, and the tab says its name.
+  void setFolded(bool folded);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return sizeHint(); }
+
+ private:
+  bool m_folded = false;
 };
 
 }  // namespace pitchboard::ui

@@ -33,7 +33,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
     : QMainWindow(parent), m_controller(controller), m_settings(settings),
       m_selection(new RobotSelection(this)) {
   setWindowTitle(QStringLiteral("Pitchboard"));
-  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
+  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
   setContextMenuPolicy(Qt::PreventContextMenu);
 
@@ -77,6 +77,19 @@ void MainWindow::makeDocks() {
     dock->setWidget(info.make(context, dock));
     dock->setTitleBarWidget(new DockTitle(dock));
     m_docks.push_back(dock);
+    for (const auto changed : {&QDockWidget::visibilityChanged, &QDockWidget::topLevelChanged}) {
+      connect(dock, changed, this, &MainWindow::showTitles, Qt::QueuedConnection);
+    }
+    connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::showTitles,
+            Qt::QueuedConnection);
+  }
+}
+
+// A tab says the name already.
+void MainWindow::showTitles() {
+  for (QDockWidget* dock : m_docks) {
+    static_cast<DockTitle*>(dock->titleBarWidget())
+        ->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
   }
 }
 

@@ -15,6 +15,8 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
       m_timer(new QTimer(this)),
       m_undoStack(new QUndoStack(this)) {
   constexpr int displayMilliseconds = 16;
+  constexpr int undoLimit = 1000;
+  m_undoStack->setUndoLimit(undoLimit);
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
@@ -133,15 +135,19 @@ const link::ScenarioRobot* MatchController::robot(RobotId id) const {
 }
 
 void MatchController::postChecked(const QString& whatFailed,
-                                  std::function<Result<void>(link::SimulatedMatch&)> command) {
+                                  std::function<Result<void>(link::SimulatedMatch&)> command,
+                                  std::function<void()> onFailure) {
   if (!m_runner) return;
-  m_runner->post([this, whatFailed, command = std::move(command)](link::SimulatedMatch& match) {
+  m_runner->post([this, whatFailed, command = std::move(command),
+                  onFailure = std::move(onFailure)](link::SimulatedMatch& match) {
     const Result<void> done = command(match);
     if (done) return;
     const QString sentence = whatFailed + QStringLiteral(": ") +
                              QString::fromStdString(done.error().text());
-    QMetaObject::invokeMethod(this, [this, sentence] { emit errorOccurred(sentence); },
-                              Qt::QueuedConnection);
+    QMetaObject::invokeMethod(this, [this, sentence, onFailure] {
+      if (onFailure) onFailure();
+      emit errorOccurred(sentence);
+    }, Qt::QueuedConnection);
   });
 }
 

@@ -79,7 +79,8 @@ void MatchController::removeRobots(const std::vector<RobotId>& ids) {
 void MatchController::insertRobot(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
   postChecked(tr("%1 cannot be added").arg(robotName(entry.identity)),
-              [entry](link::SimulatedMatch& match) { return match.addRobot(entry); });
+              [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
+              [this, id = entry.identity.id] { m_robots.erase(id); });
 }
 
 void MatchController::eraseRobot(RobotId id) {

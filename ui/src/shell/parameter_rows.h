@@ -46,7 +46,7 @@ class ParameterRow : public QObject {
     m_box->setKeyboardTracking(false);
     m_box->setToolTip(tip);
     m_box->setAccessibleName(name);
-    m_box->setMinimumWidth(scaled(parent, 108));
+    m_box->setMinimumWidth(scaled(parent, 118));
     m_slider->setRange(0, steps);
     m_slider->setMinimumWidth(scaled(parent, 60));
     m_slider->setToolTip(tip);

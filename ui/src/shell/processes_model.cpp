@@ -87,9 +87,6 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
       default: return {};
     }
   }
-  if (role == Qt::TextAlignmentRole && index.column() == Pid) {
-    return QVariant(Qt::AlignRight | Qt::AlignVCenter);
-  }
   if (role == Qt::ForegroundRole && index.column() == State) {
     if (row.status.state == link::ChildState::Failed) return theme().errorText;
     if (row.status.state == link::ChildState::Ended) return theme().secondaryText;
@@ -99,9 +96,6 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
 
 QVariant ProcessesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  if (role == Qt::TextAlignmentRole) {
-    return QVariant((section == Pid ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-  }
   if (role != Qt::DisplayRole) return {};
   const QString names[] = {tr("Robot"), tr("Process"), tr("PID"), tr("State"), tr("Last output")};
   return section >= 0 && section < columns ? names[section] : QVariant();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenario_chooser.h"
 
+#include <QAbstractItemView>
 #include <QFileInfo>
 #include <QSettings>
 #include <algorithm>
@@ -18,6 +19,7 @@ ScenarioChooser::ScenarioChooser(QSettings* settings, QWidget* parent)
     : QComboBox(parent), m_settings(settings) {
   setObjectName(QStringLiteral("scenarioChooser"));
   setToolTip(tr("Scenario"));
+  setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setMinimumWidth(scaled(this, 168));
   setMaxVisibleItems(30);
   connect(this, &QComboBox::activated, this, [this](int index) {
@@ -63,6 +65,7 @@ void ScenarioChooser::fill() {
   if (!m_current.isEmpty() && findData(m_current) < 0) addItem(m_title, m_current);
   insertSeparator(count());
   addItem(tr("Open…"), QString());
+  view()->setMinimumWidth(view()->sizeHintForColumn(0) + scaled(this, 24));
   setCurrentIndex(findData(m_current));
 }
 

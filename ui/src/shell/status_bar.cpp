@@ -20,11 +20,11 @@ StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
     : QStatusBar(parent), m_context(context) {
   constexpr int refreshMilliseconds = 200;
   setSizeGripEnabled(false);
-  m_pace = addLabel("statusPace", false, 0);
-  m_world = addLabel("statusWorld", false, 0);
-  m_processes = addLabel("statusProcesses", false, 0);
-  m_cursor = addLabel("statusCursor", true, 0);
-  m_selected = addLabel("statusSelected", true, 0);
+  m_pace = addLabel("statusPace", false);
+  m_world = addLabel("statusWorld", false);
+  m_processes = addLabel("statusProcesses", false);
+  m_cursor = addLabel("statusCursor", true);
+  m_selected = addLabel("statusSelected", true);
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
   timer->start(refreshMilliseconds);
@@ -38,12 +38,20 @@ StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
   refresh();
 }
 
-QLabel* StudioStatusBar::addLabel(const char* name, bool atRight, int) {
+QLabel* StudioStatusBar::addLabel(const char* name, bool atRight) {
   auto* label = new QLabel(this);
   label->setObjectName(QLatin1String(name));
   label->setFont(themeFont(TypeRole::Secondary));
   label->setForegroundRole(QPalette::PlaceholderText);
   label->setContentsMargins(scaled(this, 8), 0, scaled(this, 8), 0);
+  // Labels at the right may be empty: no lines between nothings.
+  if (m_labels++ > 0 && !atRight) {
+    auto* line = new QWidget(this);
+    line->setFixedSize(1, scaled(this, 14));
+    line->setBackgroundRole(QPalette::Mid);
+    line->setAutoFillBackground(true);
+    addWidget(line);
+  }
   if (atRight) addPermanentWidget(label);
   else addWidget(label);
   return label;

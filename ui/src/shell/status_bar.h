@@ -22,9 +22,10 @@ class StudioStatusBar : public QStatusBar {
 
  private:
   void refresh();
-  QLabel* addLabel(const char* name, bool atRight, int characters);
+  QLabel* addLabel(const char* name, bool atRight);
 
   StudioContext m_context;
+  int m_labels = 0;
   QLabel* m_pace;
   QLabel* m_world;
   QLabel* m_processes;

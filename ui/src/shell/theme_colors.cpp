@@ -123,6 +123,7 @@ QMenuBar { background: @window; border: none; }
 QMenuBar::item { padding: @4 @8; background: transparent; }
 QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radius: 3px; }
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
+QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
@@ -143,7 +144,7 @@ QMainWindow > QTabBar::tab:selected {
 QMainWindow > QTabBar::tab:hover:!selected { color: @text; }
 QAbstractItemView { selection-background-color: @row; selection-color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;
-  border-bottom: 1px solid @line; padding: @3 @6; }
+  border-bottom: 1px solid @line; padding: @3; }
 QToolTip { background: @window; color: @text; border: 1px solid @line; }
 )");
   const std::pair<const char*, QColor> names[] = {
@@ -152,7 +153,7 @@ QToolTip { background: @window; color: @text; border: 1px solid @line; }
       {"@fill", c.accentFill}, {"@row", c.selectedRow}, {"@secondary", c.secondaryText},
       {"@text", c.text}};
   for (const auto& [name, color] : names) sheet.replace(QLatin1String(name), color.name());
-  for (const int pixels : {12, 8, 6, 4, 3, 2}) {
+  for (const int pixels : {24, 12, 8, 6, 4, 3, 2}) {
     sheet.replace(QStringLiteral("@%1").arg(pixels),
                   QStringLiteral("%1px").arg(scaled(nullptr, pixels)));
   }

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include "commands.h"
+#include "live_json.h"
+
+namespace pitchboard::cli {
+namespace {
+
+using namespace telemetry;
+
+constexpr std::size_t maxFileBytes = 256U << 20;
+
+struct Options {
+  std::vector<std::string> files;
+  std::string profile;
+  bool json = false;
+};
+
+Result<std::string> readAll(const std::string& path) {
+  std::string text;
+  const auto readFrom = [&text](std::istream& in) {
+    char block[65536];
+    while (in.read(block, sizeof block) || in.gcount() > 0) {
+      text.append(block, static_cast<std::size_t>(in.gcount()));
+      if (text.size() > maxFileBytes) return false;
+    }
+    return true;
+  };
+  bool fits = true;
+  if (path == "-") {
+    fits = readFrom(std::cin);
+  } else {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+      return failure(errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
+                     std::string("The file cannot be read: ") + std::strerror(errno) + ".", path);
+    }
+    fits = readFrom(file);
+    if (file.bad()) return failure(ErrorCode::SystemError, "The file cannot be read.", path);
+  }
+  if (!fits) {
+    return failure(ErrorCode::Unsupported, "The file is larger than 256 MiB; split it.", path);
+  }
+  return text;
+}
+
+/// `unix time <tab> sender <tab> datagram`, as in a capture.
+struct CapturedLine {
+  std::optional<double> time;
+  std::string_view sender;
+  std::string_view datagram;
+};
+
+CapturedLine splitLine(std::string_view line) {
+  const auto first = line.find('\t');
+  const auto second = first == line.npos ? line.npos : line.find('\t', first + 1);
+  double time = 0.0;
+  if (second != line.npos) {
+    const auto [stop, code] = std::from_chars(line.data(), line.data() + first, time);
+    if (code == std::errc{} && stop == line.data() + first) {
+      return {time, line.substr(first + 1, second - first - 1), line.substr(second + 1)};
+    }
+  }
+  return {std::nullopt, {}, line};
+}
+
+template <class Visit>
+void forEachLine(std::string_view text, Visit visit) {
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    visit(text.substr(0, end), ++number);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+void put(const Options& options, Json json, const Json& body, const std::string& line) {
+  json.update(body);
+  std::printf("%s\n", options.json ? dump(json).c_str() : line.c_str());
+}
+
+int decodeTelemetry(const Options& options) {
+  Profile profile = publishedProfile();
+  if (!options.profile.empty()) {
+    auto loaded = loadProfile(options.profile);
+    if (!loaded) return reportError(loaded.error());
+    profile = std::move(*loaded);
+  }
+  const TextDecoder decoder(std::move(profile));
+  auto decoded = std::make_unique<DecodedText>();
+  int exitCode = 0;
+  for (const std::string& file : options.files) {
+    const auto text = readAll(file);
+    if (!text) return reportError(text.error());
+    if (text->empty()) {
+      return reportError({ErrorCode::ParseError, "The file is empty.", file});
+    }
+    forEachLine(*text, [&](std::string_view line, std::size_t number) {
+      const CapturedLine captured = splitLine(line);
+      decoder.decode(captured.datagram, *decoded);
+      Json head{{"file", file}, {"line", number}};
+      if (captured.time) {
+        head["time"] = *captured.time;
+        head["sender"] = printable(captured.sender);
+      }
+      put(options, std::move(head), telemetryJson(decoder, *decoded, captured.datagram),
+          telemetryLine(decoder, *decoded, captured.datagram));
+      if (!decoded->accepted()) exitCode = 1;
+    });
+  }
+  return exitCode;
+}
+
+/// A file with one packet, or lines of JSON with the packet's bytes under "hex".
+struct StoredPacket {
+  std::string bytes;
+  std::size_t line = 0;  ///< 0: the whole file
+};
+
+Result<std::vector<StoredPacket>> storedPackets(const std::string& file, const std::string& text) {
+  if (!text.starts_with('{')) return std::vector<StoredPacket>{{text, 0}};
+  std::vector<StoredPacket> packets;
+  std::optional<Error> error;
+  forEachLine(text, [&](std::string_view line, std::size_t number) {
+    if (error || line.find_first_not_of(" \t\r") == line.npos) return;
+    const Json json = Json::parse(line, nullptr, false);
+    const bool good = json.is_object() && json.contains("hex") && json["hex"].is_string();
+    const std::string hex = good ? json["hex"].get<std::string>() : std::string();
+    StoredPacket packet{{}, number};
+    bool digits = good && hex.size() % 2 == 0;
+    for (std::size_t i = 0; digits && i < hex.size(); i += 2) {
+      unsigned byte = 0;
+      const auto [stop, code] = std::from_chars(hex.data() + i, hex.data() + i + 2, byte, 16);
+      digits = code == std::errc{} && stop == hex.data() + i + 2;
+      packet.bytes += static_cast<char>(byte);
+    }
+    if (!digits) {
+      error = Error{ErrorCode::ParseError,
+                    "A line holds a JSON object with the packet under \"hex\", two digits a byte.",
+                    file + ":" + std::to_string(number)};
+      return;
+    }
+    packets.push_back(std::move(packet));
+  });
+  if (error) return tl::unexpected(*error);
+  return packets;
+}
+
+int decodeGameController(const Options& options) {
+  int exitCode = 0;
+  for (const std::string& file : options.files) {
+    const auto text = readAll(file);
+    if (!text) return reportError(text.error());
+    const auto packets = storedPackets(file, *text);
+    if (!packets) return reportError(packets.error());
+    for (const StoredPacket& stored : *packets) {
+      Json head{{"file", file}};
+      if (stored.line > 0) head["line"] = stored.line;
+      const auto packet = decodeReferee(stored.bytes);
+      if (packet) {
+        put(options, std::move(head), refereeJson(*packet), refereeLine(*packet));
+        continue;
+      }
+      exitCode = 1;
+      put(options, std::move(head),
+          Json{{"error", packet.error().message}, {"bytes", stored.bytes.size()},
+               {"text", printable(stored.bytes)}},
+          file + ": " + packet.error().message);
+    }
+  }
+  return exitCode;
+}
+
+}  // namespace
+
+void addDecodeCommand(CLI::App& parent, int& exitCode) {
+  CLI::App* decode = parent.add_subcommand(
+      "decode",
+      "Decode stored datagrams. Exit code 1 when one of them could not be used.\n"
+      "Examples: pitchboard-cli decode telemetry --json capture.txt\n"
+      "          pitchboard-cli decode gamecontroller --json packet.bin\n"
+      "          echo '1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT' |\n"
+      "            pitchboard-cli decode telemetry -");
+  decode->require_subcommand(1);
+
+  auto text = std::make_shared<Options>();
+  CLI::App* telemetry = decode->add_subcommand(
+      "telemetry",
+      "Text datagrams of robots, one per line; a line may begin with time, tab, sender, tab");
+  telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
+  telemetry->add_option("--profile", text->profile, "Order of the fields as JSON (docs/LIVE.md)");
+  telemetry->add_flag("--json", text->json, "One JSON object per datagram");
+  telemetry->callback([text, &exitCode] { exitCode = decodeTelemetry(*text); });
+
+  auto referee = std::make_shared<Options>();
+  CLI::App* controller = decode->add_subcommand(
+      "gamecontroller",
+      "Referee packets: one packet per file, or lines of JSON with the bytes under \"hex\"");
+  controller->add_option("FILE", referee->files, "Files; - is standard input")->required();
+  controller->add_flag("--json", referee->json, "One JSON object per packet");
+  controller->callback([referee, &exitCode] { exitCode = decodeGameController(*referee); });
+}
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What listen and decode print: one JSON object, or one line for people, per message.
+
+#include <telemetry/datagram.h>
+#include <telemetry/gamecontroller.h>
+#include <telemetry/text_decoder.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace pitchboard::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// {"robot": 1, "values": {"X": 258, ...}, "errors": [...]}; "text" is added when there are errors.
+Json telemetryJson(const telemetry::TextDecoder& decoder, const telemetry::DecodedText& message,
+                   std::string_view datagram);
+std::string telemetryLine(const telemetry::TextDecoder& decoder,
+                          const telemetry::DecodedText& message, std::string_view datagram);
+
+/// The names of tests/data/gamecontroller (docs/LIVE.md lists them).
+Json refereeJson(const telemetry::RefereePacket& packet);
+std::string refereeLine(const telemetry::RefereePacket& packet);
+
+/// Text of any bytes: what is not UTF-8 is replaced.
+std::string dump(const Json& json);
+
+/// Seconds since 1970 with microseconds.
+double unixSeconds(telemetry::WallTime time);
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What arrives from the network, before anybody has looked at it.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+
+namespace pitchboard::telemetry {
+
+/// Wall time with the resolution of the kernel's time stamps. Everything in this library that needs
+/// "now" is handed it; nothing here reads a clock except the receiver.
+using WallTime = std::chrono::sys_time<std::chrono::nanoseconds>;
+using Duration = std::chrono::nanoseconds;
+
+/// An IPv4 address in host byte order, so that 127.0.0.1 is 0x7f000001.
+struct Address {
+  std::uint32_t value = 0;
+  auto operator<=>(const Address&) const = default;
+  std::string text() const;
+};
+
+/// Reads "192.168.0.7". Error InvalidArgument for anything else, host names included.
+Result<Address> parseAddress(std::string_view text);
+
+/// Where a datagram came from.
+struct Sender {
+  Address address;
+  std::uint16_t port = 0;
+  auto operator<=>(const Sender&) const = default;
+  std::string text() const;  ///< "192.168.0.7:41708"
+};
+
+/// One received datagram; the payload belongs to the batch it stands in.
+struct DatagramView {
+  WallTime time;             ///< when the kernel received it, or when it was read if the kernel does not say
+  Sender sender;
+  std::uint16_t localPort = 0;
+  bool truncated = false;    ///< longer than the receive buffer; the rest is lost
+  std::string_view payload;
+};
+
+/// Many datagrams in two blocks of memory. Clearing keeps the memory, so that a batch which goes
+/// round between two threads allocates nothing once it has grown to the traffic.
+class DatagramBatch {
+ public:
+  void append(const DatagramView& datagram);
+  void clear();
+  std::size_t size() const { return m_heads.size(); }
+  std::size_t bytes() const { return m_bytes.size(); }
+  bool empty() const { return m_heads.empty(); }
+  /// Valid until the batch is changed or destroyed.
+  DatagramView operator[](std::size_t index) const;
+
+ private:
+  struct Head {
+    WallTime time;
+    Sender sender;
+    std::uint16_t localPort;
+    bool truncated;
+    std::size_t offset;
+    std::size_t length;
+  };
+  std::vector<Head> m_heads;
+  std::string m_bytes;
+};
+
+}  // namespace pitchboard::telemetry

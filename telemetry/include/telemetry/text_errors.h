@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What can be wrong with a text datagram, and how much of it was seen.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace pitchboard::telemetry {
+
+/// The first seven refuse the message. The others spoil a field, or nothing: the rest is used.
+enum class TextError : std::uint8_t {
+  Empty,          ///< no text at all
+  TooLong,        ///< more than 64 KiB
+  Truncated,      ///< the receiver says that the end is missing
+  Binary,         ///< bytes that are not printable ASCII
+  MissingFields,  ///< fewer fields than the profile has
+  MissingEnd,     ///< no OUT
+  BadRobot,       ///< the robot's number is not a whole number from 1 to 64295
+  NotANumber,     ///< text where a number should be, or 1.5 where a whole number should be
+  NotFinite,      ///< nan or inf
+  TooLarge,       ///< does not fit the field's type
+  BadFlag,        ///< neither 0 nor 1
+  TooManyFields,  ///< more extra fields than are kept
+  TrailingText,   ///< something after OUT, e.g. a second message
+  Duplicate       ///< the same message again at once
+};
+inline constexpr std::size_t textErrorCount = 14;
+
+/// "missing-end": for files and JSON.
+std::string_view errorName(TextError error);
+/// "no OUT at the end": for the screen.
+std::string_view errorWords(TextError error);
+constexpr bool refuses(TextError error) { return error <= TextError::BadRobot; }
+
+/// A set of errors in one word.
+class TextErrors {
+ public:
+  void add(TextError error) { m_bits |= 1U << static_cast<unsigned>(error); }
+  bool has(TextError error) const { return (m_bits >> static_cast<unsigned>(error) & 1U) != 0; }
+  bool empty() const { return m_bits == 0; }
+  bool refused() const { return (m_bits & ((1U << 7U) - 1U)) != 0; }
+  bool operator==(const TextErrors&) const = default;
+
+ private:
+  std::uint32_t m_bits = 0;
+};
+
+/// Counts by kind and the last offending text of each kind, of bounded size and without allocation.
+class ErrorTally {
+ public:
+  static constexpr std::size_t sampleBytes = 160;
+
+  void add(TextErrors errors, std::string_view datagram);
+  std::uint64_t count(TextError error) const { return m_kinds[index(error)].count; }
+  std::uint64_t total() const;
+  /// Printable: other bytes as \xNN, cut with "..." where the text is longer.
+  std::string sample(TextError error) const;
+
+ private:
+  struct Kind {
+    std::uint64_t count = 0;
+    std::array<char, sampleBytes> text{};
+    std::uint16_t length = 0;
+    bool cut = false;
+  };
+  static std::size_t index(TextError error) { return static_cast<std::size_t>(error); }
+  std::array<Kind, textErrorCount> m_kinds{};
+};
+
+/// The beginning of any bytes as one printable line.
+std::string printable(std::string_view bytes, std::size_t limit = ErrorTally::sampleBytes);
+
+}  // namespace pitchboard::telemetry

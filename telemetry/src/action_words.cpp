@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/action_words.h>
+
+#include <array>
+#include <string_view>
+
+namespace pitchboard::telemetry {
+
+std::string actionWords(int code) {
+  static constexpr std::array<std::string_view, 23> words{
+      "stop",
+      "walk forward fast",
+      "turn left",
+      "turn right",
+      "kick right",
+      "kick left",
+      "walk left",
+      "walk right",
+      "walk forward slow",
+      "turn around the ball left",
+      "defend the goal",
+      "gait in place",
+      "pass left",
+      "pass right",
+      "turn around the ball right",
+      "get up from the front",
+      "get up from the back",
+      "walk backward fast",
+      "walk backward slow",
+      "greet",
+      "say goodbye",
+      "kick right weak",
+      "kick left weak"};
+  if (code < 0 || static_cast<std::size_t>(code) >= words.size()) {
+    return "action " + std::to_string(code);
+  }
+  return std::string(words[static_cast<std::size_t>(code)]);
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The listen and decode commands as people run them.
+
+#include <QDir>
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <csignal>
+
+#include "../telemetry/test_socket.h"
+
+namespace {
+
+const QString program = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
+const QString data = QStringLiteral(PITCHBOARD_TEST_DATA "/");
+
+struct Outcome {
+  int exitCode = -1;
+  QByteArray out, err;
+  QList<QJsonObject> objects() const {
+    QList<QJsonObject> list;
+    for (const QByteArray& line : out.split('\n')) {
+      if (!line.isEmpty()) list << QJsonDocument::fromJson(line).object();
+    }
+    return list;
+  }
+};
+
+Outcome run(const QStringList& arguments, const QByteArray& input = {}) {
+  QProcess process;
+  process.start(program, arguments);
+  process.write(input);
+  process.closeWriteChannel();
+  process.waitForFinished(30'000);
+  return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
+          process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+/// A listening pitchboard-cli on free ports of 127.0.0.1.
+class Listener {
+ public:
+  explicit Listener(const QStringList& more = {}) {
+    const TestSocket robots, referee;
+    base = robots.port() - 1;
+    refereePort = referee.port();
+    if (refereePort == base + 2) refereePort = base + 3;
+    arguments = QStringList{"listen", "--json", "--bind", "127.0.0.1", "--robots", "2", "--port-base",
+                            QString::number(base), "--gamecontroller-port", QString::number(refereePort)} +
+                more;
+  }
+  /// True once it says that it listens.
+  bool start() {
+    process.start(program, arguments);
+    while (!err.contains("listening at")) {
+      if (!process.waitForReadyRead(10'000) && process.state() != QProcess::Running) return false;
+      err += process.readAllStandardError();
+    }
+    return true;
+  }
+  QList<QJsonObject> read(int count) {
+    QList<QJsonObject> list;
+    process.setReadChannel(QProcess::StandardOutput);
+    while (list.size() < count) {
+      if (!process.canReadLine() && !process.waitForReadyRead(10'000)) break;
+      while (process.canReadLine()) {
+        list << QJsonDocument::fromJson(process.readLine()).object();
+      }
+    }
+    return list;
+  }
+  /// Exit code after SIGINT; -1 when it did not end by itself.
+  int interrupt() {
+    kill(static_cast<pid_t>(process.processId()), SIGINT);
+    if (!process.waitForFinished(10'000) || process.exitStatus() != QProcess::NormalExit) return -1;
+    err += process.readAllStandardError();
+    return process.exitCode();
+  }
+
+  QProcess process;
+  QStringList arguments;
+  QByteArray err;
+  int base = 0;
+  int refereePort = 0;
+
+ private:
+  // Standard error is read while waiting for the first line.
+  struct Channel {
+    explicit Channel(QProcess& p) { p.setReadChannel(QProcess::StandardError); }
+  } m_channel{process};
+};
+
+}  // namespace
+
+class TestCliLive : public QObject {
+  Q_OBJECT
+ private slots:
+  void hearsRobotsWrittenByOthers() {
+    Listener listener;
+    QVERIFY(listener.start());
+    QProcess sender;
+    sender.start("python3", {QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/robot_sender.py"),
+                             QString::number(listener.base), "2", "5"});
+    if (!sender.waitForStarted()) QSKIP("python3 is not installed");
+    QVERIFY(sender.waitForFinished());
+    QCOMPARE(sender.exitCode(), 0);
+    const QList<QJsonObject> heard = listener.read(10);
+    QCOMPARE(heard.size(), 10);
+    QMap<int, int> messages;
+    for (const QJsonObject& object : heard) {
+      QCOMPARE(object["type"].toString(), "telemetry");
+      const int robot = object["robot"].toInt();
+      QCOMPARE(object["port"].toInt(), listener.base + robot);
+      const QJsonObject values = object["values"].toObject();
+      QCOMPARE(values["X"].toInt(), 100 + messages[robot]++);
+      QCOMPARE(values["THETA"].toInt(), -45);
+      QCOMPARE(values["BALL_DIST"].toDouble(), 80.25);
+      QCOMPARE(values["LOCALIZATION"].toInt(), 0);
+      QCOMPARE(object["action"].toString(), "turn right");
+      QVERIFY(object["errors"].toArray().isEmpty());
+    }
+    QCOMPARE(messages[2], 5);
+    QCOMPARE(listener.interrupt(), 0);
+    QVERIFY2(listener.err.contains("10 datagrams from 2 robots"), listener.err.constData());
+  }
+
+  void hearsTheRefereeAndSurvivesRubbish() {
+    Listener listener;
+    QVERIFY(listener.start());
+    const TestSocket socket;
+    QFile packet(data + "gamecontroller/v12hl688_CORNER_KICK.bin");
+    QVERIFY(packet.open(QIODevice::ReadOnly));
+    const auto referee = static_cast<std::uint16_t>(listener.refereePort);
+    const auto robot = static_cast<std::uint16_t>(listener.base + 1);
+    QVERIFY(socket.send(referee, packet.readAll().toStdString()));
+    QCOMPARE(listener.read(1)[0]["secGameStateName"].toString(), "CORNER_KICK");
+    QVERIFY(socket.send(referee, "RGme\x63" "later version"));
+    QVERIFY(listener.read(1)[0]["error"].toString().contains("version 99"));
+    for (const std::string& text : {std::string(), std::string("\0\xff\x01", 3), std::string("1 2 3"),
+                                    std::string(60000, 'A'), std::string("1 nan")}) {
+      QVERIFY(socket.send(robot, text));
+      const QList<QJsonObject> heard = listener.read(1);
+      QCOMPARE(heard.size(), 1);
+      QCOMPARE(heard[0]["accepted"].toBool(true), false);
+      QVERIFY(!heard[0]["errors"].toArray().isEmpty());
+    }
+    QVERIFY(!socket.heard());
+    QCOMPARE(listener.interrupt(), 0);
+    QVERIFY2(listener.err.contains("not text: 1"), listener.err.constData());
+  }
+
+  void aTakenPortIsAWarning() {
+    Listener listener;
+    TestSocket blocker;  // does not share its port
+    listener.arguments.replace(listener.arguments.indexOf("--gamecontroller-port") + 1,
+                               QString::number(blocker.port()));
+    listener.arguments << "--duration" << "0.01";
+    const Outcome outcome = run(listener.arguments);
+    QCOMPARE(outcome.exitCode, 0);
+    QVERIFY2(outcome.err.contains("warning: UDP port " + QByteArray::number(blocker.port())),
+             outcome.err.constData());
+  }
+
+  void mistakesEndWithTwo_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QByteArray>("expected");
+    const auto row = [](const char* name, const QStringList& arguments, const char* expected) {
+      QTest::newRow(name) << arguments << QByteArray(expected);
+    };
+    row("address", {"listen", "--bind", "localhost"}, "IPv4");
+    row("port base", {"listen", "--port-base", "65530"}, "port base");
+    row("referee among the robots", {"listen", "--gamecontroller-port", "1245"}, "GameController");
+    row("duration", {"listen", "--duration", "-1"}, "--duration");
+    row("sender", {"listen", "--from", "10.0.0.0/40"}, "network");
+    row("no profile", {"listen", "--profile", "/nonexistent.json"}, "/nonexistent.json");
+    row("no file", {"decode", "telemetry", "/nonexistent.txt"}, "/nonexistent.txt");
+    row("a folder", {"decode", "gamecontroller", "/"}, "cannot be read");
+    row("no kind", {"decode"}, "subcommand");
+    row("no files", {"decode", "telemetry"}, "FILE");
+  }
+  void mistakesEndWithTwo() {
+    QFETCH(QStringList, arguments);
+    QFETCH(QByteArray, expected);
+    const Outcome outcome = run(arguments);
+    QCOMPARE(outcome.exitCode, 2);
+    QVERIFY2(outcome.err.startsWith("error: "), outcome.err.constData());
+    QVERIFY2(outcome.err.contains(expected), outcome.err.constData());
+  }
+
+  void decodesTheCapture() {
+    const Outcome outcome =
+        run({"decode", "telemetry", "--json", data + "telemetry/telemetry_capture_1_robot_60s.txt"});
+    QCOMPARE(outcome.exitCode, 0);
+    const QList<QJsonObject> objects = outcome.objects();
+    QCOMPARE(objects.size(), 60);
+    QCOMPARE(objects[0]["sender"].toString(), "127.0.0.1:41708");
+    QCOMPARE(objects[0]["values"].toObject()["BELIEF"].toDouble(), 56.3184547424);
+  }
+
+  void decodesWithATeamsProfile() {
+    QTemporaryDir folder;
+    QFile profile(folder.filePath("p.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"name": "t", "fields": [{"name": "ID", "type": "int", "meaning": "robot"},
+                      {"name": "TEMP", "type": "float"}]})");
+    profile.close();
+    const Outcome outcome =
+        run({"decode", "telemetry", "--json", "--profile", profile.fileName(), "-"}, "4 36.5 7 OUT\n");
+    QCOMPARE(outcome.exitCode, 0);
+    const QJsonObject values = outcome.objects()[0]["values"].toObject();
+    QCOMPARE(values["TEMP"].toDouble(), 36.5);
+    QCOMPARE(values["OTHER_1"].toInt(), 7);
+    QCOMPARE(outcome.objects()[0]["robot"].toInt(), 4);
+    const Outcome bad = run({"decode", "telemetry", "-"}, "4 36.5\n");
+    QCOMPARE(bad.exitCode, 1);
+    QVERIFY(bad.out.contains("too few fields"));
+  }
+
+  /// Every value that a recording holds stands in the output under the same name.
+  void decodesEveryRecording() {
+    QStringList files;
+    for (const QString& file : QDir(data + "gamecontroller").entryList({"*.bin"})) {
+      files << data + "gamecontroller/" + file;
+    }
+    const Outcome outcome = run(QStringList{"decode", "gamecontroller", "--json"} + files);
+    QCOMPARE(outcome.exitCode, 0);
+    const QList<QJsonObject> objects = outcome.objects();
+    QCOMPARE(objects.size(), files.size());
+    for (int i = 0; i < files.size(); ++i) {
+      QFile file(files[i].chopped(3) + "json");
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      const QJsonValue expected = QJsonDocument::fromJson(file.readAll()).object()["expected"];
+      QStringList wrong;
+      compare(expected, objects[i], {}, wrong);
+      // Not on the wire (tst_gamecontroller says why).
+      if (files[i].contains("v7compat")) wrong.removeAll(".gameType");
+      QVERIFY2(wrong.isEmpty(), qPrintable(files[i] + wrong.join(' ')));
+    }
+    const Outcome stream =
+        run({"decode", "gamecontroller", "--json", data + "gamecontroller/stream_v12_688.jsonl"});
+    QCOMPARE(stream.exitCode, 0);
+    QCOMPARE(stream.objects().size(), 149);
+  }
+
+  void helpShowsExamples() {
+    for (const QStringList& command : {QStringList{"listen", "--help"}, {"decode", "--help"}}) {
+      const Outcome outcome = run(command);
+      QCOMPARE(outcome.exitCode, 0);
+      QVERIFY(outcome.out.contains("Example"));
+    }
+  }
+
+ private:
+  static void compare(const QJsonValue& expected, const QJsonValue& actual, const QString& name,
+                      QStringList& wrong) {
+    if (expected.isObject()) {
+      const QJsonObject object = expected.toObject();
+      for (auto it = object.begin(); it != object.end(); ++it) {
+        // Remarks of whoever recorded the packet.
+        if (it.key() == "notes") continue;
+        compare(it.value(), actual.toObject()[it.key()], name + "." + it.key(), wrong);
+      }
+    } else if (expected.isArray()) {
+      const QJsonArray list = expected.toArray();
+      if (list.size() != actual.toArray().size()) wrong << name;
+      for (int i = 0; i < list.size(); ++i) {
+        compare(list[i], actual.toArray()[i], name + QStringLiteral("[%1]").arg(i), wrong);
+      }
+    } else if (expected != actual) {
+      wrong << name;
+    }
+  }
+};
+
+QTEST_GUILESS_MAIN(TestCliLive)
+#include "tst_cli_live.moc"

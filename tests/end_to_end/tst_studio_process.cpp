@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The studio as a program: pictures, bad arguments, and that nothing outlives it.
+#include <QImage>
+#include <QProcess>
+#include <QRegularExpression>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <csignal>
+
+#include <robotlink/system_v.h>
+
+using namespace pitchboard;
+
+class TestStudioProcess : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+
+  QStringList withSettings(const QStringList& arguments) const {
+    return arguments + QStringList{QStringLiteral("--settings"),
+                                   m_folder.filePath(QStringLiteral("s.ini")),
+                                   QStringLiteral("--key-base"), QString::number(m_keyBase)};
+  }
+  void launch(QProcess& studio, const QStringList& arguments) const {
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert(QStringLiteral("QT_QPA_PLATFORM"), QStringLiteral("offscreen"));
+    studio.setProcessEnvironment(environment);
+    studio.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard"), withSettings(arguments));
+    QVERIFY(studio.waitForStarted());
+  }
+  // Processes whose command line names one of our keys.
+  int robotProcesses() const {
+    int found = 0;
+    for (const QString& pid : QDir(QStringLiteral("/proc")).entryList(QDir::Dirs)) {
+      QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
+      if (!file.open(QIODevice::ReadOnly)) continue;
+      const QByteArray line = file.readAll();
+      if (line.contains("pitchboard-robot") &&
+          line.contains(QByteArray::number(m_keyBase + 100))) {
+        ++found;
+      }
+    }
+    return found;
+  }
+  std::size_t segments() const { return link::SystemVSegments::list(m_keyBase).size(); }
+
+ private slots:
+  void cleanup() {
+    for (const auto& segment : link::SystemVSegments::list(m_keyBase)) {
+      (void)link::SystemVSegments::remove(segment.key);
+    }
+  }
+
+  void aScreenshotHasTheSizeAskedFor() {
+    const QString file = m_folder.filePath(QStringLiteral("shot.png"));
+    QProcess studio;
+    launch(studio, {QStringLiteral("--screenshot-to"), file, QStringLiteral("--after"),
+                    QStringLiteral("0.5"), QStringLiteral("--size"), QStringLiteral("1280x800"),
+                    QStringLiteral("--theme"), QStringLiteral("dark")});
+    QVERIFY(studio.waitForFinished(30000));
+    QCOMPARE(studio.exitCode(), 0);
+    QCOMPARE(QImage(file).size(), QSize(1280, 800));
+    QTRY_COMPARE(robotProcesses(), 0);
+    QCOMPARE(segments(), std::size_t(0));
+  }
+
+  void aScenarioIsDrawnWithoutAWindow() {
+    const QString file = m_folder.filePath(QStringLiteral("field.png"));
+    QProcess studio;
+    launch(studio, {QStringLiteral("--render-scenario"), QStringLiteral("match-3v3"),
+                    QStringLiteral("--picture"), file, QStringLiteral("--size"),
+                    QStringLiteral("800x600")});
+    QVERIFY(studio.waitForFinished(30000));
+    QCOMPARE(studio.exitCode(), 0);
+    QCOMPARE(QImage(file).size(), QSize(800, 600));
+    QCOMPARE(segments(), std::size_t(0));
+  }
+
+  void nothingIsLeftAfter_data() {
+    QTest::addColumn<int>("signal");
+    QTest::addColumn<bool>("clean");
+    QTest::newRow("SIGTERM") << SIGTERM << true;
+    QTest::newRow("SIGINT") << SIGINT << true;
+    QTest::newRow("SIGKILL") << SIGKILL << false;   // segments cannot be removed then: orphans
+  }
+  void nothingIsLeftAfter() {
+    QFETCH(int, signal);
+    QFETCH(bool, clean);
+    QProcess studio;
+    launch(studio, {});
+    QTRY_VERIFY_WITH_TIMEOUT(robotProcesses() > 0, 20000);
+    QTRY_COMPARE_WITH_TIMEOUT(segments(), std::size_t(6), 20000);
+    ::kill(static_cast<pid_t>(studio.processId()), signal);
+    QVERIFY(studio.waitForFinished(10000));
+    QTRY_COMPARE(robotProcesses(), 0);
+    if (!clean) return;
+    QCOMPARE(studio.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(studio.exitCode(), 0);
+    QCOMPARE(segments(), std::size_t(0));
+  }
+
+  void badArgumentsEndWithASentence_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("says");
+    const auto row = [](const char* name, const QString& line, const char* says) {
+      QTest::newRow(name) << line.split(QLatin1Char(' ')) << QString::fromUtf8(says);
+    };
+    row("option", QStringLiteral("--nonsense"), "nonsense");
+    row("scenario", QStringLiteral("--scenario no-such"), "no-such");
+    row("speed", QStringLiteral("--speed fast"), "--speed");
+    row("speed below", QStringLiteral("--speed 0"), "--speed");
+    row("size", QStringLiteral("--size 12"), "--size");
+    row("size rest", QStringLiteral("--size 800x600x3"), "--size");
+    row("theme", QStringLiteral("--theme pink"), "pink");
+    row("physics", QStringLiteral("--physics jelly"), "jelly");
+    row("noise", QStringLiteral("--noise loud"), "loud");
+    row("picture missing", QStringLiteral("--render-scenario match-3v3"), "--picture");
+  }
+  void badArgumentsEndWithASentence() {
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, says);
+    QProcess studio;
+    launch(studio, arguments);
+    QVERIFY(studio.waitForFinished(10000));
+    QCOMPARE(studio.exitCode(), 2);
+    const QString error = QString::fromUtf8(studio.readAllStandardError());
+    QVERIFY2(error.startsWith(QStringLiteral("error: ")), qPrintable(error));
+    QVERIFY2(error.contains(says), qPrintable(error));
+  }
+
+  void helpShowsAnExample() {
+    QProcess studio;
+    launch(studio, {QStringLiteral("--help")});
+    QVERIFY(studio.waitForFinished(10000));
+    QCOMPARE(studio.exitCode(), 0);
+    QVERIFY(studio.readAllStandardOutput().contains("Example: pitchboard"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestStudioProcess)
+#include "tst_studio_process.moc"

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A process that shares no code with this project plays a simulated robot through its blackboard.
+#include <robotlink/simulated_match.h>
+
+#include <QElapsedTimer>
+#include <QProcess>
+#include <QtTest>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "../robotlink/segment_keys.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+class TestUnchangedProcess : public QObject {
+  Q_OBJECT
+
+  const int m_base = testKeyBase();
+
+ private slots:
+  void cleanup() { removeSegment(m_base + 100); }
+
+  void walksToTheBallAndKicksIt_data() {
+    QTest::addColumn<QString>("physics");
+    QTest::newRow("rigid-body") << "rigid-body";
+    QTest::newRow("published") << "published";
+  }
+  void walksToTheBallAndKicksIt() {
+    QFETCH(QString, physics);
+    constexpr double speed = 8.0;
+    Scenario scenario;
+    scenario.settings.physics = physics.toStdString();
+    ScenarioRobot robot;
+    robot.identity.id = {1};
+    robot.pose = {{-1.0, 0.0}, 0.0};
+    robot.behaviour = noBehaviour;
+    scenario.robots = {robot};
+    scenario.ball = {0.0, 0.0};
+    scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
+    MatchOptions options;
+    options.cognition = Cognition::None;
+    options.keyBase = m_base;
+
+    {
+      auto match = SimulatedMatch::create(scenario, options);
+      QVERIFY2(match, match ? "" : match.error().text().c_str());
+      match->tick();  // vision has spoken before the process decides for the first time
+
+      QProcess process;
+      process.setProcessChannelMode(QProcess::ForwardedChannels);
+      process.start("python3", {PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py",
+                                QString::number(m_base + 100), QString::number(0.25 / speed)});
+      QVERIFY(process.waitForStarted());
+
+      // A late tick is not made up for: the process would be left behind on a busy computer.
+      using Time = std::chrono::steady_clock;
+      const auto tick = std::chrono::duration_cast<Time::duration>(
+          std::chrono::duration<double>(1 / (scenario.settings.tickRate * speed)));
+      QElapsedTimer limit;
+      limit.start();
+      bool kicked = false;
+      double ballPath = 0.0, walkedAtKick = 0.0;
+      while (limit.elapsed() < 90'000 && !(kicked && ballPath > 0.3)) {
+        const auto next = Time::now() + tick;
+        match->tick();
+        for (const sim::Event& event : match->simulation().events()) {
+          if (event.kind != sim::EventKind::Kick || kicked) continue;
+          kicked = true;
+          QCOMPARE(event.robot, RobotId{1});
+          walkedAtKick = match->simulation().state().statistics.front().distanceWalked;
+        }
+        const Point ball = match->simulation().snapshot().ball;
+        ballPath = std::hypot(ball.x, ball.y);
+        std::this_thread::sleep_until(next);
+      }
+      QVERIFY2(kicked, "the robot did not kick");
+      QVERIFY2(ballPath > 0.3, "the ball did not move");
+      QVERIFY2(walkedAtKick > 0.6, qPrintable(QString::number(walkedAtKick)));
+      QCOMPARE(process.state(), QProcess::Running);
+      process.kill();
+      QVERIFY(process.waitForFinished());
+    }
+    QVERIFY(!SystemVSegments::info(m_base + 100));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestUnchangedProcess)
+#include "tst_unchanged_process.moc"

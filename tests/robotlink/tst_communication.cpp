@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/cognitive_process.h>
+#include <robotlink/robot_variables.h>
+
+#include <QtTest>
+#include <arpa/inet.h>
+#include <limits>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "udp_sender.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+// A UDP socket on 127.0.0.1; what is sent there is in its queue when send() has returned.
+class Receiver {
+ public:
+  explicit Receiver(int port = 0) : m_socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    socklen_t size = sizeof address;
+    const bool bound =
+        ::bind(m_socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
+        ::getsockname(m_socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+    m_port = bound ? ntohs(address.sin_port) : 0;
+  }
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+  ~Receiver() { ::close(m_socket); }
+
+  int port() const { return m_port; }
+  /// The next datagram, or nothing.
+  QByteArray take() {
+    char buffer[2000];
+    const ssize_t got = ::recv(m_socket, buffer, sizeof buffer, 0);
+    return got < 0 ? QByteArray() : QByteArray(buffer, static_cast<qsizetype>(got));
+  }
+
+ private:
+  int m_socket;
+  int m_port = 0;
+};
+
+// Four neighbouring ports.
+std::vector<std::unique_ptr<Receiver>> team() {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    std::vector<std::unique_ptr<Receiver>> receivers;
+    receivers.push_back(std::make_unique<Receiver>());
+    const int first = receivers.front()->port();
+    for (int n = 1; n < 4; ++n) receivers.push_back(std::make_unique<Receiver>(first + n));
+    if (std::all_of(receivers.begin(), receivers.end(),
+                    [](const auto& receiver) { return receiver->port() > 0; })) {
+      return receivers;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+class TestCommunication : public QObject {
+  Q_OBJECT
+
+  RobotVariables m_variables;
+  const IntVar m_request = *VariableCatalog::published().intVar("CONTROL_MESSAGES");
+
+  static std::unique_ptr<CognitiveProcess> make(const ProcessOptions& options) {
+    auto process = findProcess("communication")->make(options);
+    return process ? std::move(*process) : nullptr;
+  }
+  static std::string refusal(const ProcessOptions& options) {
+    const auto process = findProcess("communication")->make(options);
+    return process ? "" : process.error().text();
+  }
+
+ private slots:
+  void telemetryByteForByte() {
+    Receiver telemetry;
+    const auto ports = team();
+    QVERIFY(!ports.empty());
+    ProcessOptions options;
+    options.robot = {3};
+    options.telemetryPortBase = telemetry.port() - 3;
+    options.teamPortBase = ports.front()->port() - 1;
+    const auto process = make(options);
+    QVERIFY(process);
+
+    Blackboard board = Blackboard::onHeap();
+    const RobotVariables& v = m_variables;
+    board.write(v.visionLost, 1);
+    board.write(v.localizationX, 258);
+    board.write(v.localizationY, 448);
+    board.write(v.localizationTheta, -8);
+    board.write(v.localizationBelief, 56.3184547424F);
+    board.write(v.visionBallDist, 184.634048462F);
+    board.write(v.visionPanDeg, 41.0279350281F);
+    board.write(v.visionBallAngle, 99.0F);  // is not what is sent
+    board.write(v.decisionActionA, 8);
+    board.write(v.imuEulerZ, 0.0578468590975F);
+    board.write(v.voltage, 189);
+    const std::array flags{v.controlWorking, v.visionWorking, v.localizationWorking,
+                           v.decisionWorking, v.imuWorking};
+    for (std::size_t i = 0; i < flags.size(); ++i) board.write(flags[i], i % 2 == 0 ? 1 : 0);
+
+    process->step(board, {0.0});
+    QCOMPARE(telemetry.take(), QByteArray("3 258 448 -8 56.3184547424 184.634048462 41.0279350281 "
+                                          "1 0 1 0 1 8 0.0578468590975 189 OUT"));
+    QCOMPARE(telemetry.take(), QByteArray());
+    QCOMPARE(board.read(v.robotNumber), 3);
+    for (const IntVar flag : flags) QCOMPARE(board.read(flag), 0);
+
+    board.write(v.decisionWorking, 1);
+    board.write(v.imuEulerZ, std::numeric_limits<float>::quiet_NaN());
+    process->step(board, {1.0});
+    QCOMPARE(telemetry.take(), QByteArray("3 258 448 -8 56.3184547424 184.634048462 41.0279350281 "
+                                          "0 0 0 1 0 8 nan 189 OUT"));
+    QCOMPARE(process->period(), 1.0);
+  }
+
+  void eachFlagHasItsPlace() {
+    Receiver telemetry;
+    ProcessOptions options;
+    options.telemetryPortBase = telemetry.port() - 1;
+    const auto process = make(options);
+    QVERIFY(process);
+    const RobotVariables& v = m_variables;
+    const std::array flags{v.controlWorking, v.visionWorking, v.localizationWorking,
+                           v.decisionWorking, v.imuWorking};
+    for (int i = 0; i < 5; ++i) {
+      Blackboard board = Blackboard::onHeap();
+      board.write(v.visionLost, 1);
+      board.write(flags[static_cast<std::size_t>(i)], 1);
+      process->step(board, {});
+      const QList<QByteArray> fields = telemetry.take().split(' ');
+      QCOMPARE(fields.size(), 16);
+      for (int k = 0; k < 5; ++k) QCOMPARE(fields[7 + k], QByteArray(k == i ? "1" : "0"));
+    }
+  }
+
+  void teamMessages_data() {
+    QTest::addColumn<int>("robot");
+    QTest::addColumn<int>("lost");
+    QTest::addColumn<int>("request");
+    QTest::addColumn<QByteArray>("message");
+    QTest::newRow("ball in view") << 2 << 0 << 0 << QByteArray("2 2 150.25");
+    QTest::newRow("ball lost") << 2 << 1 << 0 << QByteArray();
+    QTest::newRow("asked for") << 2 << 1 << 2 << QByteArray("2 2 77.5");
+    QTest::newRow("another request") << 2 << 1 << 1 << QByteArray();
+    QTest::newRow("robot without a variable for it") << 12 << 0 << 2 << QByteArray("2 12 150.25");
+  }
+  void teamMessages() {
+    QFETCH(int, robot);
+    QFETCH(int, lost);
+    QFETCH(int, request);
+    QFETCH(QByteArray, message);
+    const auto ports = team();
+    QVERIFY(!ports.empty());
+    Receiver telemetry;
+    ProcessOptions options;
+    options.robot = {robot};
+    options.telemetryPortBase = telemetry.port() - robot;
+    options.teamPortBase = ports.front()->port() - 1;
+    const auto process = make(options);
+    QVERIFY(process);
+    Blackboard board = Blackboard::onHeap();
+    board.write(m_variables.visionLost, lost);
+    board.write(m_variables.visionBallDist, 150.25F);
+    board.write(*VariableCatalog::published().floatVar("DECISION_RBT02_DIST_BALL"), 77.5F);
+    board.write(m_request, request);
+    process->step(board, {});
+    for (const auto& port : ports) {
+      QCOMPARE(port->take(), message);
+      QCOMPARE(port->take(), QByteArray());
+    }
+    QCOMPARE(board.read(m_request), request == 2 ? 0 : request);
+    QVERIFY(telemetry.take().endsWith("OUT"));
+  }
+
+  void nobodyListens() {
+    int freePort = 0;
+    {
+      Receiver gone;
+      freePort = gone.port();
+    }
+    ProcessOptions options;
+    options.telemetryPortBase = freePort - 1;
+    const auto process = make(options);
+    QVERIFY(process);
+    Blackboard board = Blackboard::onHeap();
+    for (int i = 0; i < 3; ++i) {
+      board.write(m_variables.imuWorking, 1);
+      process->step(board, {1.0 * i});
+      QCOMPARE(board.read(m_variables.imuWorking), 0);
+    }
+  }
+
+  void whatCannotBeSentIsCounted() {
+    Receiver receiver;
+    auto sender = UdpSender::to("127.0.0.1");
+    QVERIFY(sender);
+    QVERIFY(sender->send(receiver.port(), "small"));
+    QCOMPARE(sender->errors(), std::uint64_t{0});
+    QVERIFY(!sender->send(receiver.port(), std::string(70'000, 'x')));  // no datagram is so long
+    QVERIFY(!sender->send(receiver.port(), std::string(70'000, 'x')));
+    QCOMPARE(sender->errors(), std::uint64_t{2});
+    QCOMPARE(receiver.take(), QByteArray("small"));
+    QCOMPARE(receiver.take(), QByteArray());
+
+    auto unreachable = UdpSender::to("240.0.0.1");  // reserved: no computer has a way to it
+    QVERIFY(unreachable);
+    if (!unreachable->send(1241, "x")) QCOMPARE(unreachable->errors(), std::uint64_t{1});
+  }
+
+  void refusals_data() {
+    QTest::addColumn<QString>("address");
+    QTest::addColumn<int>("telemetry");
+    QTest::addColumn<int>("teamBase");
+    QTest::addColumn<QString>("reason");
+    for (const char* address : {"", "localhost", "127.0.0", "256.0.0.1", "::1", "127.0.0.1 x"}) {
+      QTest::addRow("address '%s'", address) << QString(address) << 1240 << 1230 << "IPv4 address";
+    }
+    QTest::newRow("telemetry too high") << "127.0.0.1" << 65535 << 1230 << "1..65535";
+    QTest::newRow("telemetry too low") << "127.0.0.1" << -1 << 1230 << "1..65535";
+    QTest::newRow("team too high") << "127.0.0.1" << 1240 << 65532 << "1..65535";
+    QTest::newRow("team too low") << "127.0.0.1" << 1240 << -1 << "1..65535";
+  }
+  void refusals() {
+    QFETCH(QString, address);
+    QFETCH(int, telemetry);
+    QFETCH(int, teamBase);
+    QFETCH(QString, reason);
+    ProcessOptions options;
+    options.udpAddress = address.toStdString();
+    options.telemetryPortBase = telemetry;
+    options.teamPortBase = teamBase;
+    const QString text = QString::fromStdString(refusal(options));
+    QVERIFY2(text.contains(reason), qPrintable(text));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestCommunication)
+#include "tst_communication.moc"

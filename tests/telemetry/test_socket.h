@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A UDP socket on 127.0.0.1 for tests: sends, and hears whether anybody sends back.
+
+#include <cstdint>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+/// Bound to a free port of 127.0.0.1.
+class TestSocket {
+ public:
+  explicit TestSocket(std::uint32_t address = INADDR_LOOPBACK) {
+    m_descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    sockaddr_in name = at(address, 0);
+    socklen_t length = sizeof name;
+    m_good = bind(m_descriptor, reinterpret_cast<sockaddr*>(&name), length) == 0 &&
+             getsockname(m_descriptor, reinterpret_cast<sockaddr*>(&name), &length) == 0;
+    m_port = ntohs(name.sin_port);
+    const int on = 1;
+    setsockopt(m_descriptor, SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
+  }
+  ~TestSocket() { close(m_descriptor); }
+  TestSocket(const TestSocket&) = delete;
+  TestSocket& operator=(const TestSocket&) = delete;
+
+  bool good() const { return m_good; }
+  std::uint16_t port() const { return m_port; }
+  int descriptor() const { return m_descriptor; }
+
+  bool send(std::uint16_t port, std::string_view text, std::uint32_t address = INADDR_LOOPBACK) const {
+    const sockaddr_in to = at(address, port);
+    return sendto(m_descriptor, text.data(), text.size(), 0, reinterpret_cast<const sockaddr*>(&to),
+                  sizeof to) == static_cast<ssize_t>(text.size());
+  }
+  /// True when something has been received.
+  bool heard() const {
+    char byte;
+    return recv(m_descriptor, &byte, 1, MSG_DONTWAIT | MSG_PEEK) >= 0;
+  }
+
+ private:
+  static sockaddr_in at(std::uint32_t address, std::uint16_t port) {
+    sockaddr_in out{};
+    out.sin_family = AF_INET;
+    out.sin_port = htons(port);
+    out.sin_addr.s_addr = htonl(address);
+    return out;
+  }
+  int m_descriptor = -1;
+  std::uint16_t m_port = 0;
+  bool m_good = false;
+};

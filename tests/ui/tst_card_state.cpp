@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a card says, from frames; and that its states look different.
+#include <QSignalSpy>
+#include <QtTest>
+
+#include <robots/card_state.h>
+#include <robots/robot_card.h>
+#include <ui/theme.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+link::MatchFrame frameOf(std::uint64_t serial) {
+  link::MatchFrame frame;
+  frame.serial = serial;
+  sim::RobotSnapshot robot;
+  robot.identity = {RobotId{4}, TeamColor::Red, 2, true};
+  robot.action = 8;
+  frame.snapshot.robots.push_back(robot);
+  link::RobotBoardView board;
+  board.id = RobotId{4};
+  board.actionA = 8;
+  board.voltage = 189;
+  board.visionWorking = board.decisionWorking = board.imuWorking = true;
+  frame.boards.push_back(board);
+  return frame;
+}
+
+}  // namespace
+
+class TestCardState : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void saysWhatTheFrameHolds() {
+    CardTracker tracker;
+    const auto cards = tracker.update(frameOf(1), 0);
+    QCOMPARE(cards.size(), std::size_t(1));
+    QCOMPARE(cards[0].name, QStringLiteral("R2"));
+    QCOMPARE(cards[0].action, QStringLiteral("walk forward, slow"));
+    QCOMPARE(cards[0].tagKind, TagKind::None);
+    QCOMPARE(cards[0].lamps[1].state, LampState::Working);
+    QCOMPARE(cards[0].lamps[2].state, LampState::Unknown);
+  }
+
+  void aProcessThatStopsIsSilentAndSaysSinceWhen() {
+    CardTracker tracker;
+    link::MatchFrame frame = frameOf(1);
+    tracker.update(frame, 0);
+    frame.boards[0].decisionWorking = false;
+    tracker.update(frame, 1000);
+    const auto cards = tracker.update(frame, 9000);
+    QCOMPARE(cards[0].lamps[3].state, LampState::Silent);
+    QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
+    QCOMPARE(cards[0].tagKind, TagKind::Error);
+    frame.boards[0].decisionWorking = true;
+    QCOMPARE(tracker.update(frame, 9100)[0].lamps[3].state, LampState::Working);
+  }
+
+  void timeStandsStillWhilePaused() {
+    CardTracker tracker;
+    link::MatchFrame frame = frameOf(1);
+    tracker.update(frame, 0);
+    frame.paused = true;
+    frame.boards[0].decisionWorking = false;
+    QCOMPARE(tracker.update(frame, 60000)[0].lamps[3].state, LampState::Working);
+  }
+
+  void aProcessNeverSeenIsUnknownForEver() {
+    CardTracker tracker;
+    const link::MatchFrame frame = frameOf(1);
+    tracker.update(frame, 0);
+    QCOMPARE(tracker.update(frame, 100000)[0].lamps[2].state, LampState::Unknown);
+  }
+
+  void communicationIsItsChildProcess() {
+    CardTracker tracker;
+    link::MatchFrame frame = frameOf(1);
+    link::ChildStatus child;
+    child.spec.robot = RobotId{4};
+    child.spec.name = "communication";
+    frame.children.push_back(child);
+    QCOMPARE(tracker.update(frame, 0)[0].lamps[0].state, LampState::Working);
+    frame.children[0].state = link::ChildState::Failed;
+    QCOMPARE(tracker.update(frame, 100)[0].lamps[0].state, LampState::Silent);
+  }
+
+  void tags_data() {
+    QTest::addColumn<int>("voltage");
+    QTest::addColumn<bool>("fallen");
+    QTest::addColumn<int>("unknown");
+    QTest::addColumn<QString>("tag");
+    QTest::newRow("full") << 189 << false << 0 << QString();
+    QTest::newRow("low") << 151 << false << 0 << QStringLiteral("battery low");
+    QTest::newRow("just enough") << 160 << false << 0 << QString();
+    QTest::newRow("low comes before fallen") << 151 << true << 0 << QStringLiteral("battery low");
+    QTest::newRow("fallen") << 189 << true << 0 << QStringLiteral("fallen");
+    QTest::newRow("unknown action") << 189 << false << 42 << QStringLiteral("unknown action");
+  }
+  void tags() {
+    QFETCH(int, voltage);
+    QFETCH(bool, fallen);
+    QFETCH(int, unknown);
+    QFETCH(QString, tag);
+    link::MatchFrame frame = frameOf(1);
+    frame.boards[0].voltage = voltage;
+    frame.snapshot.robots[0].fallen = fallen;
+    if (unknown != 0) {
+      frame.boards[0].actionA = unknown;
+      frame.snapshot.robots[0].statistics.unknownActions = 1;
+      frame.snapshot.robots[0].statistics.lastUnknownAction = unknown;
+    }
+    CardTracker tracker;
+    QCOMPARE(tracker.update(frame, 0)[0].tag, tag);
+  }
+
+  void statesLookDifferent() {
+    CardState base = CardTracker().update(frameOf(1), 0)[0];
+    CardState silent = base;
+    silent.lamps[3] = {LampState::Silent, 8};
+    CardState low = base;
+    low.voltage = 151;
+    CardState tagged = base;
+    tagged.tag = QStringLiteral("fallen");
+    tagged.tagKind = TagKind::Warning;
+    QList<QImage> seen;
+    const auto look = [&seen](const CardState& state, bool selected, bool collapsed) {
+      RobotCard card;
+      card.setState(state);
+      card.setSelected(selected);
+      card.setCollapsed(collapsed);
+      card.resize(card.sizeHint());
+      const QImage image = card.grab().toImage();
+      for (const QImage& other : seen) QVERIFY(other != image);
+      seen << image;
+    };
+    for (const CardState& state : {base, silent, low, tagged}) look(state, false, false);
+    look(base, true, false);
+    look(base, false, true);
+  }
+
+  void clicksSelectAndCollapse() {
+    RobotCard card;
+    card.setState(CardTracker().update(frameOf(1), 0)[0]);
+    card.resize(card.sizeHint());
+    QSignalSpy clicked(&card, &RobotCard::clicked);
+    QTest::mouseClick(&card, Qt::LeftButton, {}, QPoint(40, 60));
+    QCOMPARE(clicked.count(), 1);
+    const int tall = card.sizeHint().height();
+    QTest::mouseClick(&card, Qt::LeftButton, {}, QPoint(card.width() - 14, 14));
+    QVERIFY(card.isCollapsed());
+    QVERIFY(card.sizeHint().height() < tall);
+    QCOMPARE(clicked.count(), 1);
+  }
+};
+
+QTEST_MAIN(TestCardState)
+#include "tst_card_state.moc"

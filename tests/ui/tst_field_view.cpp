@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The field with real mouse and keyboard events on a real match that stands still.
+
+#include <QGraphicsView>
+#include <QMenu>
+#include <QSignalSpy>
+#include <QTest>
+#include <QUndoStack>
+#include <QWheelEvent>
+
+#include <base/angles.h>
+#include <robotlink/scenario.h>
+#include <ui/field_view.h>
+#include <ui/match_controller.h>
+
+#include <cmath>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestFieldView : public QObject {
+  Q_OBJECT
+ private slots:
+  void init() {
+    link::MatchOptions options;
+    options.cognition = link::Cognition::Inline;
+    m_controller = std::make_unique<MatchController>(options);
+    const auto scenario = link::loadScenario("match-3v3");
+    QVERIFY2(scenario.has_value(), scenario ? "" : scenario.error().text().c_str());
+    m_view = std::make_unique<FieldView>(m_controller.get());
+    m_view->resize(900, 660);
+    m_view->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+    m_controller->open(*scenario, true);
+    QTRY_VERIFY(m_controller->frame() && m_controller->frame()->snapshot.robots.size() == 6);
+    m_canvas = m_view->findChild<QGraphicsView*>();
+    QVERIFY(m_canvas);
+    m_canvas->setFocus();
+  }
+  void cleanup() {
+    m_view.reset();
+    m_controller.reset();
+  }
+
+  void dragMovesTheRobotInTheWorldAndCanBeUndone() {
+    const Pose before = pose(1);
+    const QPoint from = at(before.position);
+    const QPoint to = from + QPoint(80, -40);
+    drag(from, to);
+    const QPointF target = metres(to) - metres(from);
+    QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x - target.x()) < 0.03);
+    QVERIFY(std::abs(pose(1).position.y - before.position.y - target.y()) < 0.03);
+    QCOMPARE(m_controller->undoStack()->count(), 1);
+    m_controller->undoStack()->undo();
+    QTRY_VERIFY(near(pose(1), before));
+    m_controller->undoStack()->redo();
+    QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x - target.x()) < 0.03);
+  }
+
+  void dragMovesTheBall() {
+    const Point before = m_controller->frame()->snapshot.ball;
+    const QPoint from = at(before);
+    drag(from, from + QPoint(60, 60));
+    QTRY_VERIFY(m_controller->frame()->snapshot.ball.y < before.y - 0.3);
+    m_controller->undoStack()->undo();
+    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
+  }
+
+  void escapeGivesADragUp() {
+    const Pose before = pose(1);
+    const QPoint from = at(before.position);
+    QTest::mousePress(m_canvas->viewport(), Qt::LeftButton, {}, from);
+    moveTo(from + QPoint(30, 30));
+    moveTo(from + QPoint(70, 70));
+    QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x) > 0.3);
+    QTest::keyClick(m_canvas, Qt::Key_Escape);
+    QTest::mouseRelease(m_canvas->viewport(), Qt::LeftButton, {}, from + QPoint(70, 70));
+    QTRY_VERIFY(near(pose(1), before));
+    QCOMPARE(m_controller->undoStack()->count(), 0);
+  }
+
+  void shiftDragTurns() {
+    const Pose before = pose(1);
+    const QPoint from = at(before.position);
+    drag(from, from + QPoint(0, -60), Qt::ShiftModifier);
+    QTRY_VERIFY(std::abs(wrapToPi(pose(1).yaw - radiansFromDegrees(90))) < 0.05);
+    QVERIFY(std::abs(pose(1).position.x - before.position.x) < 1e-6);
+  }
+
+  void handleTurns() {
+    m_view->select({RobotId{1}});
+    const Pose before = pose(1);  // faces right: the handle lies to the right of the robot
+    const double scale = m_canvas->transform().m11();
+    const int reach = static_cast<int>(std::lround(std::max(0.13 * scale, 5.0) * 1.7 + 18));
+    const QPoint centre = at(before.position);
+    drag(centre + QPoint(reach, 0), centre + QPoint(0, reach));
+    QTRY_VERIFY(std::abs(wrapToPi(pose(1).yaw + radiansFromDegrees(90))) < 0.06);
+  }
+
+  void wheelOverARobotTurnsIt() {
+    wheel(at(pose(1).position), 120);
+    QTRY_VERIFY(std::abs(pose(1).yaw - radiansFromDegrees(5)) < 1e-6);
+  }
+
+  void everyNotchOfTheWheelCounts() {
+    for (int i = 0; i < 4; ++i) wheel(at(pose(1).position), 120);
+    QTRY_VERIFY(std::abs(pose(1).yaw - radiansFromDegrees(20)) < 1e-6);
+  }
+
+  void wheelZoomKeepsThePointUnderTheCursor_data() {
+    QTest::addColumn<QPoint>("point");
+    QTest::addColumn<int>("delta");
+    QTest::newRow("in") << QPoint(500, 150) << 240;
+    QTest::newRow("out") << QPoint(200, 400) << -120;
+    QTest::newRow("far in") << QPoint(333, 222) << 1200;
+  }
+  void wheelZoomKeepsThePointUnderTheCursor() {
+    QFETCH(QPoint, point);
+    QFETCH(int, delta);
+    const QPointF before = metres(point);
+    const double scale = m_canvas->transform().m11();
+    wheel(point, delta);
+    QVERIFY(std::abs(m_canvas->transform().m11() - scale) > 1);
+    const QPointF shown = m_canvas->viewportTransform().map(before);
+    QVERIFY2((shown - QPointF(point)).manhattanLength() <= 2.0, "the point moved on the screen");
+    QTest::keyClick(m_canvas, Qt::Key_Home);
+    QCOMPARE(m_canvas->transform().m11(), scale);
+  }
+
+  void severalAreSelectedAndMovedTogether() {
+    const QSignalSpy changed(m_view.get(), &FieldView::selectionChanged);
+    QTest::mouseClick(m_canvas->viewport(), Qt::LeftButton, {}, at(pose(1).position));
+    QTest::mouseClick(m_canvas->viewport(), Qt::LeftButton, Qt::ControlModifier,
+                      at(pose(2).position));
+    QCOMPARE(m_view->selection(), (std::vector{RobotId{1}, RobotId{2}}));
+    QCOMPARE(changed.count(), 2);
+    const Pose one = pose(1), two = pose(2);
+    drag(at(one.position), at(one.position) + QPoint(30, 0));
+    QTRY_VERIFY(pose(1).position.x > one.position.x + 0.2);
+    QTRY_VERIFY(pose(2).position.x > two.position.x + 0.2);
+    QCOMPARE(m_controller->undoStack()->count(), 1);
+  }
+
+  void aClickOnOneOfSeveralSelectsThatOne() {
+    m_view->select({RobotId{1}, RobotId{2}});
+    QTest::mouseClick(m_canvas->viewport(), Qt::LeftButton, {}, at(pose(2).position));
+    QCOMPARE(m_view->selection(), std::vector{RobotId{2}});
+  }
+
+  void rubberBandSelects() {
+    drag(at({-4.6, 3.3}), at({-0.2, -3.3}));
+    QCOMPARE(m_view->selection(), (std::vector{RobotId{1}, RobotId{2}, RobotId{3}}));
+  }
+
+  void arrowsNudge_data() {
+    QTest::addColumn<int>("key");
+    QTest::addColumn<bool>("coarse");
+    QTest::addColumn<bool>("flipped");
+    QTest::addColumn<QPointF>("way");
+    QTest::newRow("left") << int(Qt::Key_Left) << false << false << QPointF(-0.01, 0);
+    QTest::newRow("up") << int(Qt::Key_Up) << false << false << QPointF(0, 0.01);
+    QTest::newRow("right, coarse") << int(Qt::Key_Right) << true << false << QPointF(0.1, 0);
+    QTest::newRow("down, coarse") << int(Qt::Key_Down) << true << false << QPointF(0, -0.1);
+    QTest::newRow("right, flipped") << int(Qt::Key_Right) << false << true << QPointF(-0.01, 0);
+  }
+  void arrowsNudge() {
+    QFETCH(int, key);
+    QFETCH(bool, coarse);
+    QFETCH(bool, flipped);
+    QFETCH(QPointF, way);
+    m_view->setFlipped(flipped);
+    m_view->select({RobotId{1}});
+    const Pose before = pose(1);
+    const auto modifier = coarse ? Qt::ShiftModifier : Qt::NoModifier;
+    for (int i = 0; i < 3; ++i) QTest::keyClick(m_canvas, Qt::Key(key), modifier);
+    QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x - 3 * way.x()) < 1e-6 &&
+                std::abs(pose(1).position.y - before.position.y - 3 * way.y()) < 1e-6);
+  }
+
+  void deleteRemovesAndUndoBringsBack() {
+    m_view->select({RobotId{4}});
+    QTest::keyClick(m_canvas, Qt::Key_Delete);
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(5));
+    QVERIFY(m_view->selection().empty());
+    m_controller->undoStack()->undo();
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(6));
+  }
+
+  void aAddsARobot_data() {
+    QTest::addColumn<Qt::KeyboardModifiers>("modifiers");
+    QTest::addColumn<int>("team");
+    QTest::newRow("plain") << Qt::KeyboardModifiers() << int(TeamColor::Blue);
+    QTest::newRow("Ctrl") << Qt::KeyboardModifiers(Qt::ControlModifier) << int(TeamColor::Red);
+    QTest::newRow("Alt") << Qt::KeyboardModifiers(Qt::AltModifier) << int(TeamColor::Black);
+    QTest::newRow("Shift") << Qt::KeyboardModifiers(Qt::ShiftModifier) << int(TeamColor::Yellow);
+  }
+  void aAddsARobot() {
+    QFETCH(Qt::KeyboardModifiers, modifiers);
+    QFETCH(int, team);
+    moveTo(at({1.0, 1.5}));
+    QTest::keyClick(m_canvas, Qt::Key_A, modifiers);
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
+    const auto& made = m_controller->frame()->snapshot.robots.back();
+    QCOMPARE(int(made.identity.team), team);
+    QVERIFY(std::abs(made.pose.position.x - 1.0) < 0.03);
+    QCOMPARE(std::abs(made.pose.yaw) > 1.0, info(made.identity.team).facesLeft);
+  }
+
+  void digitsSelect() {
+    QTest::keyClick(m_canvas, Qt::Key_4);
+    QCOMPARE(m_view->selection(), std::vector{RobotId{4}});
+  }
+
+  void spaceTurnsTheFieldRound() {
+    const QPoint before = at({3.0, 1.0});
+    QTest::keyClick(m_canvas, Qt::Key_Space);
+    QVERIFY(m_view->isFlipped());
+    const QPoint after = at({3.0, 1.0});
+    const QPoint middle = m_canvas->viewport()->rect().center();
+    QVERIFY(((after - middle) + (before - middle)).manhattanLength() <= 4);
+  }
+
+  void cursorIsToldInMetres() {
+    const QSignalSpy moved(m_view.get(), &FieldView::cursorMoved);
+    moveTo(at({2.0, -1.0}));
+    QVERIFY(!moved.isEmpty());
+    const QPointF told = moved.back().front().toPointF();
+    QVERIFY(std::abs(told.x() - 2.0) < 0.02 && std::abs(told.y() + 1.0) < 0.02);
+  }
+
+  void functionKeysAsk() {
+    const QSignalSpy load(m_view.get(), &FieldView::loadMatchRequested);
+    const QSignalSpy reset(m_view.get(), &FieldView::resetRequested);
+    const QSignalSpy clear(m_view.get(), &FieldView::clearRequested);
+    QTest::keyClick(m_canvas, Qt::Key_F2);
+    QTest::keyClick(m_canvas, Qt::Key_F3);
+    QTest::keyClick(m_canvas, Qt::Key_F4);
+    QCOMPARE(load.count() + reset.count() + clear.count(), 3);
+  }
+
+  void pictureHasTheAskedSizeAndShowsRobots() {
+    const QImage with = m_view->picture(QSize(640, 455));
+    QCOMPARE(with.size(), QSize(640, 455));
+    m_controller->removeRobots({RobotId{1}, RobotId{2}});
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(4));
+    QVERIFY(with != m_view->picture(QSize(640, 455)));
+  }
+
+  void withoutMatchNothingHappens() {
+    FieldView alone(nullptr);
+    alone.resize(400, 300);
+    alone.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&alone));
+    auto* canvas = alone.findChild<QGraphicsView*>();
+    for (const int key : {int(Qt::Key_A), int(Qt::Key_B), int(Qt::Key_Delete), int(Qt::Key_F),
+                          int(Qt::Key_F5), int(Qt::Key_Left), int(Qt::Key_Insert)}) {
+      QTest::keyClick(canvas, Qt::Key(key));
+    }
+    QTest::mouseClick(canvas->viewport(), Qt::LeftButton);
+    alone.showFrame(nullptr);
+    QVERIFY(alone.selection().empty());
+  }
+
+ private:
+  Pose pose(int id) const {
+    for (const auto& robot : m_controller->frame()->snapshot.robots) {
+      if (robot.identity.id == RobotId{id}) return robot.pose;
+    }
+    return {};
+  }
+  QPoint at(const Point& p) const {
+    return m_canvas->viewportTransform().map(QPointF(p.x, p.y)).toPoint();
+  }
+  QPointF metres(const QPoint& p) const {
+    return m_canvas->viewportTransform().inverted().map(QPointF(p));
+  }
+  static bool near(const Pose& a, const Pose& b) {
+    return std::abs(a.position.x - b.position.x) < 1e-6 &&
+           std::abs(a.position.y - b.position.y) < 1e-6;
+  }
+  // QTest::mouseMove() tells no buttons, which a drag needs.
+  void moveTo(const QPoint& to, Qt::MouseButtons held = Qt::LeftButton,
+              Qt::KeyboardModifiers modifiers = {}) {
+    QMouseEvent event(QEvent::MouseMove, QPointF(to), m_canvas->viewport()->mapToGlobal(QPointF(to)),
+                      Qt::NoButton, held, modifiers);
+    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
+  }
+  void drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers = {}) {
+    QTest::mousePress(m_canvas->viewport(), Qt::LeftButton, modifiers, from);
+    for (int i = 1; i <= 5; ++i) moveTo(from + (to - from) * i / 5, Qt::LeftButton, modifiers);
+    QTest::mouseRelease(m_canvas->viewport(), Qt::LeftButton, modifiers, to);
+  }
+  void wheel(const QPoint& point, int delta) {
+    QWheelEvent event(QPointF(point), m_canvas->viewport()->mapToGlobal(QPointF(point)), {},
+                      QPoint(0, delta), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
+  }
+
+  std::unique_ptr<MatchController> m_controller;
+  std::unique_ptr<FieldView> m_view;
+  QGraphicsView* m_canvas = nullptr;
+};
+
+QTEST_MAIN(TestFieldView)
+#include "tst_field_view.moc"

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window as a person uses it: real clicks and keys on a real match.
+#include <QComboBox>
+#include <QDockWidget>
+#include <QMenuBar>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QToolBar>
+#include <QToolButton>
+#include <QUndoStack>
+#include <QtTest>
+
+#include <robots/robot_card.h>
+#include <shell/notice_bar.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+#include <ui/scenario_files.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestMainWindow : public QObject {
+  Q_OBJECT
+
+  struct Studio {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    MatchController controller;
+    MainWindow window;
+    explicit Studio(bool paused = true)
+        : controller(options()), window(&controller, &settings) {
+      controller.open(link::loadScenario("match-3v3").value(), paused);
+      window.files()->showCurrent(QStringLiteral("match-3v3"));
+      window.resize(1280, 800);
+      window.show();
+    }
+    static link::MatchOptions options() {
+      link::MatchOptions made;
+      made.cognition = link::Cognition::Inline;
+      return made;
+    }
+    QWidget* button(const char* action) {
+      auto* bar = window.findChild<QToolBar*>(QStringLiteral("transportBar"));
+      return bar->widgetForAction(window.findChild<QAction*>(QLatin1String(action)));
+    }
+    QDockWidget* dock(const char* id) {
+      return window.findChild<QDockWidget*>(QLatin1String(id));
+    }
+    QAction* menuAction(const QString& text) {
+      for (QAction* action : window.findChildren<QAction*>()) {
+        if (action->text().remove(QLatin1Char('&')).startsWith(text)) return action;
+      }
+      return nullptr;
+    }
+  };
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void theToolBarPlaysPausesAndSteps() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    QTest::mouseClick(s.button("step"), Qt::LeftButton);
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(1));
+    QTest::mouseClick(s.button("play"), Qt::LeftButton);
+    QTRY_VERIFY(s.controller.frame()->snapshot.tick > 10);
+    QTest::mouseClick(s.button("play"), Qt::LeftButton);
+    QVERIFY(s.controller.isPaused());
+    QTRY_VERIFY(s.controller.frame()->paused);
+    QTest::mouseClick(s.button("restart"), Qt::LeftButton);
+    QTRY_VERIFY(s.controller.frame());
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(0));
+  }
+
+  void theSpeedBoxSetsTheSpeed() {
+    Studio s(false);
+    auto* speed = s.window.findChild<QComboBox*>(QStringLiteral("speed"));
+    speed->setFocus();
+    QTest::keyClick(speed, Qt::Key_End);
+    QCOMPARE(s.controller.speed(), link::MatchRunner::unlimitedSpeed);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick > 2000);
+    QTest::keyClick(speed, Qt::Key_Home);
+    QCOMPARE(s.controller.speed(), 0.1);
+  }
+
+  void theChooserOpensAScenario() {
+    Studio s;
+    auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("scenarioChooser"));
+    QCOMPARE(chooser->currentData().toString(), QStringLiteral("match-3v3"));
+    const int other = chooser->findData(QStringLiteral("one-robot"));
+    QVERIFY(other > 0);
+    emit chooser->activated(other);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.robots.size() == 1);
+    QCOMPARE(chooser->currentData().toString(), QStringLiteral("one-robot"));
+  }
+
+  void aBadFileIsANoticeAndTheMatchGoesOn() {
+    Studio s;
+    const QString path = s.folder.filePath(QStringLiteral("bad.json"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("{ \"robots\": 3 }");
+    file.close();
+    s.window.files()->open(path);
+    QVERIFY(s.window.notices()->isVisible());
+    QVERIFY(s.window.notices()->text().contains(QStringLiteral("bad.json")));
+    QVERIFY(s.controller.isOpen());
+    QTest::mouseClick(s.window.notices()->findChild<QToolButton*>(), Qt::LeftButton);
+    QVERIFY(!s.window.notices()->isVisible());
+  }
+
+  void aSavedMomentOpensAgain() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    const QString path = s.folder.filePath(QStringLiteral("moment.json"));
+    s.window.files()->save(path);
+    s.window.files()->open(path);
+    QVERIFY2(s.window.notices()->text().isEmpty(), qPrintable(s.window.notices()->text()));
+    auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("scenarioChooser"));
+    QCOMPARE(chooser->currentData().toString(), path);
+    s.window.files()->save(QStringLiteral("/nonexistent/folder/x.json"));
+    QVERIFY(!s.window.notices()->text().isEmpty());
+  }
+
+  void theMenuUndoes() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    s.controller.removeRobots({RobotId{1}});
+    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(5));
+    s.menuAction(QStringLiteral("Undo"))->trigger();
+    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(6));
+    s.menuAction(QStringLiteral("Redo"))->trigger();
+    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(5));
+  }
+
+  void cardsComeGoAndSelect() {
+    Studio s;
+    const auto cards = [&s] { return s.window.findChildren<RobotCard*>(); };
+    QTRY_COMPARE(cards().size(), qsizetype(6));
+    QTest::mouseClick(cards()[2], Qt::LeftButton, {}, QPoint(60, 60));
+    QVERIFY(cards()[2]->isSelected());
+    QTest::mouseClick(cards()[3], Qt::LeftButton, Qt::ControlModifier, QPoint(60, 60));
+    QVERIFY(cards()[2]->isSelected() && cards()[3]->isSelected());
+    s.controller.removeRobots({RobotId{1}});
+    QTRY_COMPARE(cards().size(), qsizetype(5));
+  }
+
+  void theThemeSwitches() {
+    Studio s;
+    s.menuAction(QStringLiteral("Light"))->trigger();
+    QVERIFY(!isDarkTheme());
+    const QImage light = s.window.grab().toImage();
+    s.menuAction(QStringLiteral("Dark"))->trigger();
+    QVERIFY(isDarkTheme());
+    QVERIFY(s.window.grab().toImage() != light);
+    QCOMPARE(s.settings.value(QStringLiteral("window/theme")).toInt(), 2);
+  }
+
+  void theLayoutIsSavedRestoredAndReset() {
+    Studio s;
+    QVERIFY(s.dock("robots")->isVisible());
+    QVERIFY(!s.dock("noise")->isVisible());
+    s.dock("robots")->close();
+    s.dock("noise")->show();
+    s.window.close();
+    {
+      MainWindow again(&s.controller, &s.settings);
+      again.show();
+      QVERIFY(!again.findChild<QDockWidget*>(QStringLiteral("robots"))->isVisible());
+      QVERIFY(again.findChild<QDockWidget*>(QStringLiteral("noise"))->isVisible());
+      again.resetLayout();
+      QVERIFY(again.findChild<QDockWidget*>(QStringLiteral("robots"))->isVisible());
+      QVERIFY(!again.findChild<QDockWidget*>(QStringLiteral("noise"))->isVisible());
+    }
+  }
+
+  void garbageForALayoutGivesTheDefault() {
+    Studio s;
+    s.settings.setValue(QStringLiteral("window/layout"), QByteArray("no layout at all"));
+    s.settings.setValue(QStringLiteral("window/geometry"), QByteArray("\x01\x02"));
+    MainWindow again(&s.controller, &s.settings);
+    again.show();
+    QVERIFY(again.findChild<QDockWidget*>(QStringLiteral("robots"))->isVisible());
+    QVERIFY(again.width() > 600);
+  }
+};
+
+QTEST_MAIN(TestMainWindow)
+#include "tst_main_window.moc"

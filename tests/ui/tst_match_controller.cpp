@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Edits and transport of a real match with inline processes.
+#include <QSignalSpy>
+#include <QUndoStack>
+#include <QtTest>
+#include <cmath>
+
+#include <ui/match_controller.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestMatchController : public QObject {
+  Q_OBJECT
+
+  static link::Scenario match() { return link::loadScenario("match-3v3").value(); }
+  static link::MatchOptions inside() {
+    link::MatchOptions options;
+    options.cognition = link::Cognition::Inline;
+    return options;
+  }
+  static double xOf(const MatchController& c, int id) {
+    if (!c.frame()) return NAN;
+    for (const auto& robot : c.frame()->snapshot.robots) {
+      if (robot.identity.id.value == id) return robot.pose.position.x;
+    }
+    return NAN;
+  }
+  static std::size_t count(const MatchController& c) {
+    return c.frame() ? c.frame()->snapshot.robots.size() : 0;
+  }
+
+ private slots:
+  void playsPausesAndSteps() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    QCOMPARE(c.frame()->snapshot.tick, std::uint64_t(0));
+    c.stepOnce();
+    QTRY_COMPARE(c.frame()->snapshot.tick, std::uint64_t(1));
+    c.setPaused(false);
+    QTRY_VERIFY(c.frame()->snapshot.tick > 5);
+    c.restart();
+    QTRY_VERIFY(c.frame());
+    QVERIFY(!c.isPaused());
+  }
+
+  void movesAreUndoneAndRedone() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    const Pose from = c.frame()->snapshot.robots[0].pose;
+    const RobotId id = c.frame()->snapshot.robots[0].identity.id;
+    c.moveRobots({{id, from, {{1.5, 1.5}, 0.0}}});
+    QTRY_COMPARE(xOf(c, id.value), 1.5);
+    c.undoStack()->undo();
+    QTRY_VERIFY(std::abs(xOf(c, id.value) - from.position.x) < 1e-9);
+    c.undoStack()->redo();
+    QTRY_COMPARE(xOf(c, id.value), 1.5);
+  }
+
+  void movesInQuickSuccessionAreOneCommand() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    const Pose from = c.frame()->snapshot.robots[0].pose;
+    const RobotId id = c.frame()->snapshot.robots[0].identity.id;
+    const Pose middle{{1.0, 1.5}, 0.0}, end{{1.5, 1.5}, 0.0};
+    c.moveRobots({{id, from, middle}});
+    c.moveRobots({{id, middle, end}});
+    QCOMPARE(c.undoStack()->count(), 1);
+    c.undoStack()->undo();
+    QTRY_VERIFY(std::abs(xOf(c, id.value) - from.position.x) < 1e-9);
+  }
+
+  void addAndRemove() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_COMPARE(count(c), std::size_t(6));
+    c.addRobot(TeamColor::Blue, {{0, 2.5}, 0});
+    QTRY_COMPARE(count(c), std::size_t(7));
+    QCOMPARE(c.frame()->snapshot.robots.back().identity.number, 4);
+    c.removeRobots({RobotId{1}, RobotId{2}});
+    QTRY_COMPARE(count(c), std::size_t(5));
+    c.undoStack()->undo();
+    QTRY_COMPARE(count(c), std::size_t(7));
+    c.undoStack()->undo();
+    QTRY_COMPARE(count(c), std::size_t(6));
+  }
+
+  void aNumberThatIsTakenIsRefused() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    c.addRobot(TeamColor::Blue, {{0, 2.5}, 0}, 1);
+    QCOMPARE(errors.count(), 1);
+    QVERIFY(!c.undoStack()->canUndo());
+  }
+
+  void badNoiseIsRefusedInWords() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    sim::NoiseParameters noise;
+    noise.forward = NAN;
+    c.setNoise(noise);
+    QTRY_COMPARE(errors.count(), 1);
+    noise.forward = 0.25;
+    c.setNoise(noise);
+    QTRY_COMPARE(c.frame() ? c.frame()->noise.forward : 0.0, 0.25);
+  }
+
+  void aScenarioThatCannotBePlayedLeavesNoFrame() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    link::Scenario bad = match();
+    bad.settings.physics = "no-such-model";
+    c.open(bad);
+    QCOMPARE(errors.count(), 1);
+    QVERIFY(!c.isOpen());
+    QVERIFY(!c.frame());
+  }
+
+  void withoutSeparateProcessesTheMatchPlaysInside() {
+    link::MatchOptions options;
+    options.cognition = link::Cognition::External;
+    options.robotProgram = "/nonexistent/pitchboard-robot";
+    options.keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+    MatchController c(options);
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    QCOMPARE(errors.count(), 1);
+    QCOMPARE(c.cognition(), link::Cognition::Inline);
+    QTRY_COMPARE(count(c), std::size_t(6));
+  }
+};
+
+QTEST_MAIN(TestMatchController)
+#include "tst_match_controller.moc"
