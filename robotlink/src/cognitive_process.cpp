@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <robotlink/naive_decision.h>
 
@@ -41,6 +42,10 @@ constexpr auto behaviourInfos = [] {
 }();
 
 Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& options) {
+  if (!std::isfinite(options.distanceToKick)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "the distance to kick must be a number of centimetres, for example 25");
+  }
   std::string known;
   for (const NamedBehaviour& behaviour : behaviourList) {
     if (behaviour.info.name == options.behaviour) return behaviour.make(options);

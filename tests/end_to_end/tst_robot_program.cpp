@@ -89,7 +89,8 @@ class TestRobotProgram : public QObject {
 
   void distanceToKick() {
     QProcess process;
-    start(process, withBase({"decision", "--robot", "2", "--distance-to-kick", "40"}));
+    start(process, withBase({"decision", "--robot", "2", "--behaviour", "naive",
+                             "--distance-to-kick", "40"}));
     auto board = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
     QVERIFY(board);
     board->write(m_variables.visionPanDeg, 10.0F);
