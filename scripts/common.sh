@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# For ./run and ./test: install_packages LIST..., build [CMAKE OPTION...]. Run from the top folder.
+# For ./run and ./test: install_packages LIST..., build TARGET. Run from the top folder.
 
 install_packages() {
   local missing=() package
@@ -23,12 +23,12 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# Quiet when all is well; the log when it is not.
+# build programs | build all. Quiet when all is well; the log when it is not.
 build() {
   mkdir -p build
   local log=build/build.log
   echo "Building (the log is in $log) ..." >&2
-  if ! { cmake --preset release "$@" && cmake --build --preset release; } >"$log" 2>&1; then
+  if ! { cmake --preset release && cmake --build --preset release --target "$1"; } >"$log" 2>&1; then
     tail -n 60 "$log" >&2
     echo "error: the build failed; the whole log is in $log" >&2
     return 2
