@@ -64,8 +64,7 @@ void BeliefItem::paintGhost(QPainter* painter) const {
   }
   if (m_style->shows(FieldLayer::Ghost)) {
     const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;
-    QColor line = theme().fieldLines;
-    line.setAlphaF(isDarkTheme() ? 0.72F : 0.95F);
+    const QColor line = onGrass(theme().fieldLines, isDarkTheme() ? 0.72 : 0.95);
     painter->setPen(QPen(line, std::clamp(radius * 0.13, 1.2, 2.2)));
     painter->setBrush(Qt::NoBrush);
     painter->drawEllipse(QPointF(0, 0), radius, radius);
@@ -78,11 +77,9 @@ void BeliefItem::paintPerceivedBall(QPainter* painter) const {
   const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 3.0);
   const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));
   const double length = std::hypot(start.x(), start.y());
-  QColor line = theme().ball;
   painter->setBrush(Qt::NoBrush);
   if (length > radius + 1) {
-    line.setAlphaF(0.85F);
-    QPen pen(line, 1.2);
+    QPen pen(onGrass(theme().ball, 0.85), 1.2);
     pen.setDashPattern({3.5, 2.6});
     pen.setCapStyle(Qt::FlatCap);
     painter->setPen(pen);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_style.h"
 
+#include <ui/theme.h>
+
 #include <QFontMetricsF>
 #include <QGuiApplication>
 #include <QHash>
-#include <QPainterPath>
-#include <QStaticText>
 #include <algorithm>
 #include <cmath>
 
@@ -55,6 +55,15 @@ const QFont& fieldFont(int pixelSize, bool bold) {
     found = fonts.insert(key, font);
   }
   return *found;
+}
+
+QColor onGrass(const QColor& color, double opacity) {
+  const QColor& ground = theme().grass;
+  const auto mixed = [opacity](int above, int below) {
+    return static_cast<int>(std::lround(opacity * above + (1.0 - opacity) * below));
+  };
+  return {mixed(color.red(), ground.red()), mixed(color.green(), ground.green()),
+          mixed(color.blue(), ground.blue())};
 }
 
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
