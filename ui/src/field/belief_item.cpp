@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_stamps.h"
+
 namespace pitchboard::ui {
 
 void BeliefItem::setLook(const BeliefLook& look) {
@@ -52,15 +54,20 @@ void BeliefItem::paintGhost(QPainter* painter) const {
   const double scale = screen.pixelsPerMetre();
   const QColor team = theme().team(m_look.team);
   if (m_style->shows(FieldLayer::Belief)) {
-    const double radius = std::max(m_look.sigma, leastRadius) * scale;
+    // In half pixels, so that a changing uncertainty still finds its stamp.
+    const int size = static_cast<int>(std::lround(2 * std::max(m_look.sigma, leastRadius) * scale));
+    const double radius = size / 2.0;
     QColor fill = team;
     fill.setAlphaF(isDarkTheme() ? 0.15F : 0.22F);
     QPen pen(isDarkTheme() ? team : team.darker(115), 1.3);
     pen.setDashPattern({3.0, 2.4});
     pen.setCapStyle(Qt::FlatCap);
-    painter->setPen(pen);
-    painter->setBrush(fill);
-    painter->drawEllipse(QPointF(0, 0), radius, radius);
+    drawStamp(painter, {}, {Stamp::Kind::Belief, size, fill.rgba(), pen.color().rgba(), {}},
+              {radius + 2, radius + 2}, [&](QPainter& p) {
+                p.setPen(pen);
+                p.setBrush(fill);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+              });
   }
   if (m_style->shows(FieldLayer::Ghost)) {
     const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_stamps.h"
+
 namespace pitchboard::ui {
 
 double FieldStyle::atLeast(double length, double pixels) const {
@@ -69,15 +71,20 @@ QColor onGrass(const QColor& color, double opacity) {
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo) {
   const QFontMetricsF metrics(font);
-  const QPointF base(centre.x() - metrics.horizontalAdvance(text) / 2,
-                     centre.y() + (metrics.ascent() - metrics.descent()) / 2);
-  painter->setFont(font);
-  painter->setPen(halo);
-  for (const QPointF& shift : {QPointF(-1, 0), QPointF(1, 0), QPointF(0, -1), QPointF(0, 1)}) {
-    painter->drawText(base + shift, text);
-  }
-  painter->setPen(color);
-  painter->drawText(base, text);
+  const double width = metrics.horizontalAdvance(text);
+  const auto kind = font.bold() ? Stamp::Kind::BoldText : Stamp::Kind::Text;
+  drawStamp(painter, centre, {kind, font.pixelSize(), color.rgba(), halo.rgba(), text},
+            {width / 2 + 3, metrics.height() / 2 + 3}, [&](QPainter& p) {
+              const QPointF base(-width / 2, (metrics.ascent() - metrics.descent()) / 2);
+              p.setFont(font);
+              p.setPen(halo);
+              for (const QPointF& shift :
+                   {QPointF(-1, 0), QPointF(1, 0), QPointF(0, -1), QPointF(0, 1)}) {
+                p.drawText(base + shift, text);
+              }
+              p.setPen(color);
+              p.drawText(base, text);
+            });
 }
 
 QString robotName(TeamColor team, int number) {

@@ -6,10 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_stamps.h"
+
 namespace pitchboard::ui {
 namespace {
 
 constexpr double handleGap_px = 18.0;
+
+void paintNumber(QPainter& painter, double radius, const QString& text) {
+  const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
+  painter.setFont(fieldFont(static_cast<int>(std::lround(std::max(8.0, size))), true));
+  painter.setPen(Qt::white);
+  painter.drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, text);
+}
 
 QPointF across(const QPointF& direction) { return {-direction.y(), direction.x()}; }
 
@@ -102,22 +111,27 @@ void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, doubl
     const QPointF nose[] = {ahead * radius * 1.62, ahead * radius * 0.45 + side * radius * 0.80,
                             ahead * radius * 0.45 - side * radius * 0.80};
     painter->drawPolygon(nose, 3);
-    painter->setBrush(team);
-    painter->drawEllipse(QPointF(0, 0), radius, radius);
   }
-  if (!m_style->shows(FieldLayer::Numbers)) return;
-  const QString text = QString::number(m_look.number);
-  const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
-  const QFont& font = fieldFont(static_cast<int>(std::lround(std::max(8.0, size))), true);
-  if (radius < 6.5) {
+  const bool numbered = m_style->shows(FieldLayer::Numbers);
+  const bool fitsInside = radius >= 6.5;
+  const QString text = numbered && fitsInside ? QString::number(m_look.number) : QString();
+  if (m_look.fallen) {
+    if (!text.isEmpty()) paintNumber(*painter, radius, text);
+  } else {
+    const int size = static_cast<int>(std::lround(radius * 16));
+    drawStamp(painter, {}, {Stamp::Kind::Disc, size, team.rgba(), outline.rgba(), text},
+              {radius + stroke, radius + stroke}, [&](QPainter& p) {
+                p.setPen(QPen(outline, stroke));
+                p.setBrush(team);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+                if (!text.isEmpty()) paintNumber(p, radius, text);
+              });
+  }
+  if (numbered && !fitsInside) {
     // Too small to write in: the name goes beside the robot.
     drawHaloText(painter, {0, -radius - 8}, robotName(m_look.team, m_look.number),
                  fieldFont(10, true), theme().fieldLines, theme().fieldBorder.darker(130));
-    return;
   }
-  painter->setFont(font);
-  painter->setPen(Qt::white);
-  painter->drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, text);
 }
 
 }  // namespace pitchboard::ui
