@@ -72,9 +72,14 @@ void BeliefItem::paintGhost(QPainter* painter) const {
   if (m_style->shows(FieldLayer::Ghost)) {
     const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;
     const QColor line = onGrass(theme().fieldLines, isDarkTheme() ? 0.72 : 0.95);
-    painter->setPen(QPen(line, std::clamp(radius * 0.13, 1.2, 2.2)));
-    painter->setBrush(Qt::NoBrush);
-    painter->drawEllipse(QPointF(0, 0), radius, radius);
+    const QPen pen(line, std::clamp(radius * 0.13, 1.2, 2.2), Qt::SolidLine, Qt::FlatCap);
+    drawStamp(painter, {}, {Stamp::Kind::Ghost, stampSize(radius), line.rgba(), 0, {}},
+              {radius + 2, radius + 2}, [&](QPainter& p) {
+                p.setPen(pen);
+                p.setBrush(Qt::NoBrush);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+              });
+    painter->setPen(pen);
     painter->drawLine(QPointF(0, 0), screen.direction(m_look.believed->yaw) * radius * 1.25);
   }
 }
@@ -84,7 +89,6 @@ void BeliefItem::paintPerceivedBall(QPainter* painter) const {
   const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 3.0);
   const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));
   const double length = std::hypot(start.x(), start.y());
-  painter->setBrush(Qt::NoBrush);
   if (length > radius + 1) {
     QPen pen(onGrass(theme().ball, 0.85), 1.2);
     pen.setDashPattern({3.5, 2.6});
@@ -92,8 +96,13 @@ void BeliefItem::paintPerceivedBall(QPainter* painter) const {
     painter->setPen(pen);
     painter->drawLine(start, start * (radius / length));
   }
-  painter->setPen(QPen(theme().ball, std::clamp(radius * 0.26, 1.6, 3.0)));
-  painter->drawEllipse(QPointF(0, 0), radius - 0.5, radius - 0.5);
+  const QColor ball = theme().ball;
+  drawStamp(painter, {}, {Stamp::Kind::PerceivedBall, stampSize(radius), ball.rgba(), 0, {}},
+            {radius + 2, radius + 2}, [&](QPainter& p) {
+              p.setPen(QPen(ball, std::clamp(radius * 0.26, 1.6, 3.0)));
+              p.setBrush(Qt::NoBrush);
+              p.drawEllipse(QPointF(0, 0), radius - 0.5, radius - 0.5);
+            });
 }
 
 }  // namespace pitchboard::ui

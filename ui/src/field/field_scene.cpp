@@ -164,9 +164,9 @@ void FieldScene::showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
 
   robot.trail.append(snapshot.pose.position, time);
   robot.trail.setVisible(m_style.shows(FieldLayer::Trails) && isTrailShown(id));
-  robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
   robot.wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
+  robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
   robot.belief.setVisible(board != nullptr);
   if (board) robot.belief.setLook(beliefOf(snapshot, *board, m_style.field));
 }
@@ -208,6 +208,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
     robot->body.setLook(look);
     robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
                             (look.selected || m_style.wedgeForAll));
+    robot->wedge.styleChanges();
   }
   showSelected();
   emit selectionChangedTo(m_selection);

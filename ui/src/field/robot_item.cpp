@@ -80,14 +80,25 @@ void RobotItem::paintSelection(QPainter* painter, const ScreenPainting& screen,
     painter->drawEllipse(QPointF(0, 0), ring + 3.5, ring + 3.5);
   }
   if (!m_look.selected) return;
-  painter->setPen(QPen(accent, 2.2));
-  painter->drawEllipse(QPointF(0, 0), ring, ring);
+  const QPen pen(accent, 2.2, Qt::SolidLine, Qt::FlatCap);
+  const auto paintRing = [&](double ringRadius, const QColor& ground) {
+    return [&pen, ringRadius, ground](QPainter& p) {
+      p.setPen(pen);
+      p.setBrush(ground);
+      p.drawEllipse(QPointF(0, 0), ringRadius, ringRadius);
+    };
+  };
+  drawStamp(painter, {}, {Stamp::Kind::Ring, stampSize(ring), accent.rgba(), 0, {}},
+            {ring + 2, ring + 2}, paintRing(ring, Qt::transparent));
   if (m_style->readOnly) return;
+  painter->setPen(pen);
   const QPointF ahead = screen.direction(m_look.pose.yaw);
   const double reach = radius * 1.7 + handleGap_px;
   painter->drawLine(ahead * ring, ahead * (reach - 4));
-  painter->setBrush(theme().fieldBorder);
-  painter->drawEllipse(ahead * reach, 4.0, 4.0);
+  const QColor inside = theme().fieldBorder;
+  drawStamp(painter, ahead * reach,
+            {Stamp::Kind::Ring, stampSize(4.0), accent.rgba(), inside.rgba(), {}}, {6, 6},
+            paintRing(4.0, inside));
 }
 
 void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const {
@@ -118,8 +129,7 @@ void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, doubl
   if (m_look.fallen) {
     if (!text.isEmpty()) paintNumber(*painter, radius, text);
   } else {
-    const int size = static_cast<int>(std::lround(radius * 16));
-    drawStamp(painter, {}, {Stamp::Kind::Disc, size, team.rgba(), outline.rgba(), text},
+    drawStamp(painter, {}, {Stamp::Kind::Disc, stampSize(radius), team.rgba(), outline.rgba(), text},
               {radius + stroke, radius + stroke}, [&](QPainter& p) {
                 p.setPen(QPen(outline, stroke));
                 p.setBrush(team);
