@@ -85,6 +85,17 @@ void BeliefItem::paintGhost(QPainter* painter) const {
 }
 
 void BeliefItem::paintPerceivedBall(QPainter* painter) const {
+  const sim::FieldSpec& field = m_style->field;
+  const QRectF area(-field.halfLength() - field.border, -field.halfWidth() - field.border,
+                    field.length + 2 * field.border, field.width + 2 * field.border);
+  const double reach = m_style->ballDrawRadius();
+  const bool inside = area.adjusted(reach, reach, -reach, -reach).contains(toScene(*m_look.ball));
+  if (!inside) painter->setClipRect(area);
+  paintBallInside(painter);
+  if (!inside) painter->setClipping(false);
+}
+
+void BeliefItem::paintBallInside(QPainter* painter) const {
   const ScreenPainting screen(painter, toScene(*m_look.ball));
   const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 3.0);
   const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));

@@ -45,7 +45,7 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
   look.origin = origin.position;
   const double range = sim::published_frame::metresFromCm(static_cast<double>(board.ballDistCm));
   const double bearing = radiansFromDegrees(static_cast<double>(board.panDeg));
-  if (!board.visionLost && range > 0.0 && range < 2 * field.length && std::isfinite(bearing)) {
+  if (board.visionWorking && !board.visionLost && range > 0.0 && range < 2 * field.length && std::isfinite(bearing)) {
     look.ball = Point{origin.position.x + range * std::cos(origin.yaw + bearing),
                       origin.position.y + range * std::sin(origin.yaw + bearing)};
   }
@@ -187,6 +187,12 @@ void FieldScene::select(const std::vector<RobotId>& ids) {
     if (m_robots.contains(id)) present.push_back(id);
   }
   setSelection(std::move(present));
+}
+
+void FieldScene::selectAll() {
+  std::vector<RobotId> all;
+  for (const auto& [id, robot] : m_robots) all.push_back(id);
+  setSelection(std::move(all));
 }
 
 void FieldScene::toggle(RobotId id) {
