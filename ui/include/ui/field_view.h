@@ -38,6 +38,8 @@ class FieldView : public QWidget {
   std::optional<RobotId> followed() const;
   /// One checkable action per layer, for menus; also on the tool strip.
   std::vector<QAction*> layerActions() const;
+  /// How layers look: field of view of all robots, granularity of EOPRA; also on the tool strip.
+  std::vector<QAction*> layerOptionActions() const;
   /// Select, ruler, add, flip, fit, keys: for the View menu; also on the tool strip.
   std::vector<QAction*> viewActions() const;
   void fitField();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "field_stamps.h"
+
 namespace pitchboard::ui {
 
 void BallItem::setSelected(bool selected) {
@@ -27,10 +29,14 @@ void BallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget
     painter->setBrush(Qt::NoBrush);
     painter->drawEllipse(QPointF(0, 0), radius + 5, radius + 5);
   }
-  painter->setPen(QPen(isDarkTheme() ? QColor(16, 20, 24) : QColor(90, 45, 10),
-                       std::clamp(radius * 0.12, 1.0, 2.0)));
-  painter->setBrush(theme().ball);
-  painter->drawEllipse(QPointF(0, 0), radius, radius);
+  const QColor outline = isDarkTheme() ? QColor(16, 20, 24) : QColor(90, 45, 10);
+  const QColor ball = theme().ball;
+  drawStamp(painter, {}, {Stamp::Kind::Ball, stampSize(radius), ball.rgba(), outline.rgba(), {}},
+            {radius + 2, radius + 2}, [&](QPainter& p) {
+              p.setPen(QPen(outline, std::clamp(radius * 0.12, 1.0, 2.0)));
+              p.setBrush(ball);
+              p.drawEllipse(QPointF(0, 0), radius, radius);
+            });
 }
 
 }  // namespace pitchboard::ui

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_stamps.h"
+
 namespace pitchboard::ui {
 
 void BeliefItem::setLook(const BeliefLook& look) {
@@ -52,44 +54,66 @@ void BeliefItem::paintGhost(QPainter* painter) const {
   const double scale = screen.pixelsPerMetre();
   const QColor team = theme().team(m_look.team);
   if (m_style->shows(FieldLayer::Belief)) {
-    const double radius = std::max(m_look.sigma, leastRadius) * scale;
+    // In half pixels, so that a changing uncertainty still finds its stamp.
+    const int size = static_cast<int>(std::lround(2 * std::max(m_look.sigma, leastRadius) * scale));
+    const double radius = size / 2.0;
     QColor fill = team;
     fill.setAlphaF(isDarkTheme() ? 0.15F : 0.22F);
     QPen pen(isDarkTheme() ? team : team.darker(115), 1.3);
     pen.setDashPattern({3.0, 2.4});
     pen.setCapStyle(Qt::FlatCap);
-    painter->setPen(pen);
-    painter->setBrush(fill);
-    painter->drawEllipse(QPointF(0, 0), radius, radius);
+    drawStamp(painter, {}, {Stamp::Kind::Belief, size, fill.rgba(), pen.color().rgba(), {}},
+              {radius + 2, radius + 2}, [&](QPainter& p) {
+                p.setPen(pen);
+                p.setBrush(fill);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+              });
   }
   if (m_style->shows(FieldLayer::Ghost)) {
     const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;
-    QColor line = theme().fieldLines;
-    line.setAlphaF(isDarkTheme() ? 0.72F : 0.95F);
-    painter->setPen(QPen(line, std::clamp(radius * 0.13, 1.2, 2.2)));
-    painter->setBrush(Qt::NoBrush);
-    painter->drawEllipse(QPointF(0, 0), radius, radius);
+    const QColor line = onGrass(theme().fieldLines, isDarkTheme() ? 0.72 : 0.95);
+    const QPen pen(line, std::clamp(radius * 0.13, 1.2, 2.2), Qt::SolidLine, Qt::FlatCap);
+    drawStamp(painter, {}, {Stamp::Kind::Ghost, stampSize(radius), line.rgba(), 0, {}},
+              {radius + 2, radius + 2}, [&](QPainter& p) {
+                p.setPen(pen);
+                p.setBrush(Qt::NoBrush);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+              });
+    painter->setPen(pen);
     painter->drawLine(QPointF(0, 0), screen.direction(m_look.believed->yaw) * radius * 1.25);
   }
 }
 
 void BeliefItem::paintPerceivedBall(QPainter* painter) const {
+  const sim::FieldSpec& field = m_style->field;
+  const QRectF area(-field.halfLength() - field.border, -field.halfWidth() - field.border,
+                    field.length + 2 * field.border, field.width + 2 * field.border);
+  const double reach = m_style->ballDrawRadius();
+  const bool inside = area.adjusted(reach, reach, -reach, -reach).contains(toScene(*m_look.ball));
+  if (!inside) painter->setClipRect(area);
+  paintBallInside(painter);
+  if (!inside) painter->setClipping(false);
+}
+
+void BeliefItem::paintBallInside(QPainter* painter) const {
   const ScreenPainting screen(painter, toScene(*m_look.ball));
   const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 3.0);
   const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));
   const double length = std::hypot(start.x(), start.y());
-  QColor line = theme().ball;
-  painter->setBrush(Qt::NoBrush);
   if (length > radius + 1) {
-    line.setAlphaF(0.85F);
-    QPen pen(line, 1.2);
+    QPen pen(onGrass(theme().ball, 0.85), 1.2);
     pen.setDashPattern({3.5, 2.6});
     pen.setCapStyle(Qt::FlatCap);
     painter->setPen(pen);
     painter->drawLine(start, start * (radius / length));
   }
-  painter->setPen(QPen(theme().ball, std::clamp(radius * 0.26, 1.6, 3.0)));
-  painter->drawEllipse(QPointF(0, 0), radius - 0.5, radius - 0.5);
+  const QColor ball = theme().ball;
+  drawStamp(painter, {}, {Stamp::Kind::PerceivedBall, stampSize(radius), ball.rgba(), 0, {}},
+            {radius + 2, radius + 2}, [&](QPainter& p) {
+              p.setPen(QPen(ball, std::clamp(radius * 0.26, 1.6, 3.0)));
+              p.setBrush(Qt::NoBrush);
+              p.drawEllipse(QPointF(0, 0), radius - 0.5, radius - 0.5);
+            });
 }
 
 }  // namespace pitchboard::ui

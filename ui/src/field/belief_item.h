@@ -39,6 +39,7 @@ class BeliefItem : public QGraphicsItem {
   QRectF computeBounds() const;
   void paintGhost(QPainter* painter) const;
   void paintPerceivedBall(QPainter* painter) const;
+  void paintBallInside(QPainter* painter) const;
 
   const FieldStyle* m_style;
   BeliefLook m_look;

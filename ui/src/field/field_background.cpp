@@ -37,7 +37,11 @@ void paintLines(QPainter& painter, const sim::FieldSpec& f, double lineWidth) {
   };
   area(f.goalAreaLength, f.goalAreaWidth);
   area(f.penaltyAreaLength, f.penaltyAreaWidth);
-  const double arm = std::max(0.06, 1.2 * lineWidth);
+  // A cross as thick as a line would be a blot at this size.
+  const double arm = std::max(0.08, 1.6 * lineWidth);
+  QPen thin = painter.pen();
+  thin.setWidthF(0.7 * lineWidth);
+  painter.setPen(thin);
   const auto cross = [&](double at) {
     painter.drawLine(QPointF(at - arm, 0), QPointF(at + arm, 0));
     painter.drawLine(QPointF(at, -arm), QPointF(at, arm));

@@ -32,7 +32,9 @@ FieldCanvas::FieldCanvas(FieldScene* scene, FieldPointer* pointer, QWidget* pare
   setResizeAnchor(QGraphicsView::NoAnchor);
   setRenderHint(QPainter::Antialiasing);
   setOptimizationFlag(QGraphicsView::DontSavePainterState);
-  setViewportUpdateMode(QGraphicsView::SmartViewportUpdate);
+  // Robots move all over the field: one rectangle round them is painted faster than a region of
+  // many, by which everything would have to be clipped.
+  setViewportUpdateMode(QGraphicsView::BoundingRectViewportUpdate);
   setSceneRect(-canvasHalf, -canvasHalf, 2 * canvasHalf, 2 * canvasHalf);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
@@ -91,35 +93,52 @@ QPointF FieldCanvas::viewPointAt(const QPointF& metres) const {
   return viewportTransform().map(metres);
 }
 
-void FieldCanvas::drawBackground(QPainter* painter, const QRectF&) {
+void FieldCanvas::drawBackground(QPainter* painter, const QRectF& exposed) {
   const QPixmap& pixmap = m_background.pixmap(m_scene->style(), viewportTransform(),
                                               viewport()->size(), devicePixelRatioF());
   const QTransform before = painter->worldTransform();
   painter->resetTransform();
-  painter->drawPixmap(0, 0, pixmap);
+  const QRectF area = before.mapRect(exposed).toAlignedRect().adjusted(-1, -1, 1, 1) &
+                      viewport()->rect();
+  const double ratio = pixmap.devicePixelRatio();
+  painter->drawPixmap(area, pixmap, QRectF(area.topLeft() * ratio, area.size() * ratio));
   painter->setWorldTransform(before);
 }
 
 void FieldCanvas::drawForeground(QPainter* painter, const QRectF&) {
+  const QTransform before = painter->worldTransform();
+  painter->resetTransform();
+  paintEmptyState(painter);
+  if (hasFocus()) {
+    painter->setRenderHint(QPainter::Antialiasing, false);
+    painter->setPen(QPen(theme().accentLine, 1));
+    painter->setBrush(Qt::NoBrush);
+    painter->drawRect(viewport()->rect().adjusted(0, 0, -1, -1));
+    painter->setRenderHint(QPainter::Antialiasing);
+  }
+  painter->setWorldTransform(before);
+}
+
+void FieldCanvas::paintEmptyState(QPainter* painter) const {
   const FramePtr& frame = m_scene->frame();
   const bool empty = frame && frame->snapshot.robots.empty();
   if (frame && !empty) return;
   const QString text = frame ? tr("Press A to add a robot where the cursor is, B to put the ball "
                                   "there.")
                              : tr("No match is open. Choose a scenario in the toolbar.");
-  const QTransform before = painter->worldTransform();
-  painter->resetTransform();
   const QFont& font = fieldFont(scaled(this, 13), true);
   painter->setFont(font);
-  QRectF box = QFontMetricsF(font).boundingRect(text).adjusted(-14, -8, 14, 8);
   const QRectF area(viewport()->rect());
+  constexpr int wrapped = Qt::AlignCenter | Qt::TextWordWrap;
+  QRectF box = QFontMetricsF(font)
+                   .boundingRect(area.adjusted(30, 0, -30, 0), wrapped, text)
+                   .adjusted(-14, -8, 14, 8);
   box.moveCenter({area.center().x(), area.top() + area.height() * 0.36});
   painter->setPen(QPen(theme().innerLine, 1));
   painter->setBrush(theme().window);
   painter->drawRoundedRect(box, 3, 3);
   painter->setPen(theme().text);
-  painter->drawText(box, Qt::AlignCenter, text);
-  painter->setWorldTransform(before);
+  painter->drawText(box.adjusted(14, 8, -14, -8), wrapped, text);
 }
 
 void FieldCanvas::resizeEvent(QResizeEvent* event) {
@@ -245,9 +264,15 @@ void FieldCanvas::keyReleaseEvent(QKeyEvent* event) {
   if (tapped) emit spaceTapped();
 }
 
+void FieldCanvas::focusInEvent(QFocusEvent* event) {
+  QGraphicsView::focusInEvent(event);
+  viewport()->update();
+}
+
 void FieldCanvas::focusOutEvent(QFocusEvent* event) {
   m_spaceDown = false;
   QGraphicsView::focusOutEvent(event);
+  viewport()->update();
 }
 
 }  // namespace pitchboard::ui

@@ -52,9 +52,11 @@ class FieldCanvas : public QGraphicsView {
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
+  void paintEmptyState(QPainter* painter) const;
   double fittingScale() const;
   void setScale(double pixelsPerMetre);
   void pan(const QPointF& to);

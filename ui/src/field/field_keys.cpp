@@ -61,6 +61,8 @@ const std::array table{
     FieldKey{Qt::Key_4, ctrl, choose, "", "", select<14>},
     FieldKey{Qt::Key_5, ctrl, choose, "", "", select<15>},
     FieldKey{Qt::Key_6, ctrl, choose, "", "", select<16>},
+    FieldKey{Qt::Key_A, ctrl | shift, choose, "Ctrl+Shift+A", "select all robots",
+             [](Target& t) { t.selectAll(); }},
     FieldKey{Qt::Key_Escape, none, choose, "Esc", "cancel a drag, select nothing",
              [](Target& t) { t.escape(); }},
     FieldKey{Qt::Key_Left, none, choose, "Arrows", "move by 1 cm, with Shift by 10 cm",

@@ -35,6 +35,7 @@ class FieldKeyTarget {
   virtual void addRobotByShift() = 0;               ///< left Shift yellow, right Shift orange
   virtual void placeBallAtCursor() = 0;
   virtual void selectRobot(int number) = 0;         ///< RobotId
+  virtual void selectAll() = 0;
   virtual void moveSelectedToCursor() = 0;
   virtual void removeSelected() = 0;
   virtual void commandSelected(int action, int actionB = -1) = 0;

@@ -95,6 +95,11 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
                                       : QObject::tr("Remove %1 robots").arg(ids.size()),
                       controller, [controller, ids] { controller->removeRobots(ids); });
     }
+  } else if (editable && hit.kind == FieldHit::Kind::Ball) {
+    menu->addAction(QObject::tr("Ball position…"), menu, [actions] { actions.editBall(); });
+    menu->addAction(QObject::tr("Ball to the centre mark"), controller, [controller, scene] {
+      controller->moveBall(scene->ball(), {0.0, 0.0});
+    });
   } else if (editable) {
     addPlaces(menu, scene, controller, metres);
   }

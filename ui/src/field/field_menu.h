@@ -15,6 +15,7 @@ namespace pitchboard::ui {
 /// What the menu cannot do through the controller or the scene.
 struct FieldMenuActions {
   std::function<void(RobotId)> editPose;
+  std::function<void()> editBall;
   std::function<void()> saveMoment;
 };
 

@@ -45,7 +45,7 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
   look.origin = origin.position;
   const double range = sim::published_frame::metresFromCm(static_cast<double>(board.ballDistCm));
   const double bearing = radiansFromDegrees(static_cast<double>(board.panDeg));
-  if (!board.visionLost && range > 0.0 && range < 2 * field.length && std::isfinite(bearing)) {
+  if (board.visionWorking && !board.visionLost && range > 0.0 && range < 2 * field.length && std::isfinite(bearing)) {
     look.ball = Point{origin.position.x + range * std::cos(origin.yaw + bearing),
                       origin.position.y + range * std::sin(origin.yaw + bearing)};
   }
@@ -164,9 +164,9 @@ void FieldScene::showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
 
   robot.trail.append(snapshot.pose.position, time);
   robot.trail.setVisible(m_style.shows(FieldLayer::Trails) && isTrailShown(id));
-  robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
   robot.wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
+  robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
   robot.belief.setVisible(board != nullptr);
   if (board) robot.belief.setLook(beliefOf(snapshot, *board, m_style.field));
 }
@@ -189,6 +189,12 @@ void FieldScene::select(const std::vector<RobotId>& ids) {
   setSelection(std::move(present));
 }
 
+void FieldScene::selectAll() {
+  std::vector<RobotId> all;
+  for (const auto& [id, robot] : m_robots) all.push_back(id);
+  setSelection(std::move(all));
+}
+
 void FieldScene::toggle(RobotId id) {
   std::vector<RobotId> ids = m_selection;
   if (const auto found = std::find(ids.begin(), ids.end(), id); found != ids.end()) {
@@ -208,6 +214,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
     robot->body.setLook(look);
     robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
                             (look.selected || m_style.wedgeForAll));
+    robot->wedge.styleChanges();
   }
   showSelected();
   emit selectionChangedTo(m_selection);

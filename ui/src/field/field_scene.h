@@ -51,6 +51,7 @@ class FieldScene : public QGraphicsScene {
   const std::vector<RobotId>& selection() const { return m_selection; }
   /// Robots that are not there are left out.
   void select(const std::vector<RobotId>& ids);
+  void selectAll();
   void toggle(RobotId id);
 
   FieldHit hit(const QPointF& metres) const;

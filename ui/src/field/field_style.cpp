@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_style.h"
 
+#include <ui/theme.h>
+
 #include <QFontMetricsF>
 #include <QGuiApplication>
 #include <QHash>
-#include <QPainterPath>
-#include <QStaticText>
 #include <algorithm>
 #include <cmath>
+
+#include "field_stamps.h"
 
 namespace pitchboard::ui {
 
@@ -57,18 +59,32 @@ const QFont& fieldFont(int pixelSize, bool bold) {
   return *found;
 }
 
+QColor onGrass(const QColor& color, double opacity) {
+  const QColor& ground = theme().grass;
+  const auto mixed = [opacity](int above, int below) {
+    return static_cast<int>(std::lround(opacity * above + (1.0 - opacity) * below));
+  };
+  return {mixed(color.red(), ground.red()), mixed(color.green(), ground.green()),
+          mixed(color.blue(), ground.blue())};
+}
+
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo) {
   const QFontMetricsF metrics(font);
-  const QPointF base(centre.x() - metrics.horizontalAdvance(text) / 2,
-                     centre.y() + (metrics.ascent() - metrics.descent()) / 2);
-  painter->setFont(font);
-  painter->setPen(halo);
-  for (const QPointF& shift : {QPointF(-1, 0), QPointF(1, 0), QPointF(0, -1), QPointF(0, 1)}) {
-    painter->drawText(base + shift, text);
-  }
-  painter->setPen(color);
-  painter->drawText(base, text);
+  const double width = metrics.horizontalAdvance(text);
+  const auto kind = font.bold() ? Stamp::Kind::BoldText : Stamp::Kind::Text;
+  drawStamp(painter, centre, {kind, font.pixelSize(), color.rgba(), halo.rgba(), text},
+            {width / 2 + 3, metrics.height() / 2 + 3}, [&](QPainter& p) {
+              const QPointF base(-width / 2, (metrics.ascent() - metrics.descent()) / 2);
+              p.setFont(font);
+              p.setPen(halo);
+              for (const QPointF& shift :
+                   {QPointF(-1, 0), QPointF(1, 0), QPointF(0, -1), QPointF(0, 1)}) {
+                p.drawText(base + shift, text);
+              }
+              p.setPen(color);
+              p.drawText(base, text);
+            });
 }
 
 QString robotName(TeamColor team, int number) {

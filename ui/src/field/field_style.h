@@ -65,6 +65,9 @@ class ScreenPainting {
 
 /// The application's font in bold or plain with this pixel height, cached.
 const QFont& fieldFont(int pixelSize, bool bold);
+/// `color` as it looks with this opacity on grass. Opaque colours are painted several times faster:
+/// Qt hands the spans of translucent shapes to a pool of threads, piece by piece.
+QColor onGrass(const QColor& color, double opacity);
 /// Text centred on a point in pixels, with a thin shade behind it so that it reads on any ground.
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo);

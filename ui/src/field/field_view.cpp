@@ -72,9 +72,12 @@ struct FieldView::Private : FieldKeyTarget {
         help(new HelpOverlay(canvas)) {}
 
   void makeActions();
+  void makeLayerOptions();
   void makeToolStrip();
   void showLayer(int layer, bool shown);
   void openPoseEditor(RobotId id);
+  void openBallEditor();
+  void openEditor(PoseEdit edit);
   void openMenu(QPoint globalPosition, QPointF metres);
   bool handleKey(QKeyEvent* event);
   void addAtCursor(TeamColor color);
@@ -90,6 +93,7 @@ struct FieldView::Private : FieldKeyTarget {
     if (controller) controller->moveBall(scene->ball(), fromScene(canvas->cursor()));
   }
   void selectRobot(int number) override { scene->select({RobotId{number}}); }
+  void selectAll() override { scene->selectAll(); }
   void moveSelectedToCursor() override;
   void removeSelected() override {
     if (controller) controller->removeRobots(scene->selection());
@@ -134,6 +138,7 @@ struct FieldView::Private : FieldKeyTarget {
   HelpOverlay* help;
   QToolBar* strip = nullptr;
   std::vector<QAction*> layers;
+  std::vector<QAction*> layerOptions;
   std::vector<QAction*> tools;
   QAction* flip = nullptr;
   QAction* fitAction = nullptr;
@@ -151,6 +156,7 @@ void FieldView::Private::makeActions() {
     connect(action, &QAction::toggled, q, [this, i](bool on) { showLayer(i, on); });
     layers.push_back(action);
   }
+  makeLayerOptions();
   auto* group = new QActionGroup(q);
   for (const ToolText& text : toolTexts) {
     auto* action = new QAction(themedIcon(QLatin1String(text.icon)), tr(text.text), group);
@@ -172,6 +178,27 @@ void FieldView::Private::makeActions() {
   keys = new QAction(themedIcon(QStringLiteral("help-contextual")), tr("Keys of the field\tF1"), q);
   keys->setToolTip(tr("All keys of the field (F1)"));
   connect(keys, &QAction::triggered, q, [this] { help->toggle(); });
+}
+
+void FieldView::Private::makeLayerOptions() {
+  auto* all = new QAction(tr("Field of view of all robots"), q);
+  all->setCheckable(true);
+  all->setChecked(scene->style().wedgeForAll);
+  connect(all, &QAction::toggled, q, [this](bool on) {
+    scene->changeStyle([on](FieldStyle& style) { style.wedgeForAll = on; });
+  });
+  layerOptions.push_back(all);
+  auto* group = new QActionGroup(q);
+  for (const int granularity : {4, 6}) {
+    auto* action = new QAction(tr("EOPRA granularity %1").arg(granularity), group);
+    action->setCheckable(true);
+    action->setChecked(scene->style().eopraGranularity == granularity);
+    connect(action, &QAction::toggled, q, [this, granularity](bool on) {
+      if (!on) return;
+      scene->changeStyle([granularity](FieldStyle& style) { style.eopraGranularity = granularity; });
+    });
+    layerOptions.push_back(action);
+  }
 }
 
 void FieldView::Private::makeToolStrip() {
@@ -207,6 +234,8 @@ void FieldView::Private::makeToolStrip() {
   layersButton->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(layersButton);
   for (QAction* layer : layers) menu->addAction(layer);
+  menu->addSeparator();
+  for (QAction* option : layerOptions) menu->addAction(option);
   layersButton->setMenu(menu);
   strip->addWidget(layersButton);
   for (QAction* action : {flip, fitAction, keys}) strip->addAction(action);
@@ -239,8 +268,26 @@ void FieldView::Private::openPoseEditor(RobotId id) {
   for (const sim::RobotSnapshot& robot : scene->frame()->snapshot.robots) {
     if (robot.identity.id == id) name = robotName(robot.identity.team, robot.identity.number);
   }
-  auto* editor = new PoseEditor(controller, scene->style().field, name, id, *pose, canvas);
-  const QPointF beside = canvas->viewPointAt(toScene(pose->position)) + QPointF(24, 24);
+  openEditor({tr("Pose of %1").arg(name), *pose, true,
+              [this, id, from = *pose](const Pose& to) {
+                controller->previewRobots({{id, from, to}});
+              },
+              [this, id, from = *pose](const Pose& to) {
+                controller->moveRobots({{id, from, to}});
+              }});
+}
+
+void FieldView::Private::openBallEditor() {
+  if (!controller || !scene->frame()) return;
+  const Point ball = scene->ball();
+  openEditor({tr("Position of the ball"), {ball, 0.0}, false,
+              [this](const Pose& to) { controller->previewBall(to.position); },
+              [this, ball](const Pose& to) { controller->moveBall(ball, to.position); }});
+}
+
+void FieldView::Private::openEditor(PoseEdit edit) {
+  const QPointF beside = canvas->viewPointAt(toScene(edit.from.position)) + QPointF(24, 24);
+  auto* editor = new PoseEditor(std::move(edit), scene->style().field, canvas);
   editor->adjustSize();
   editor->move(canvas->viewport()->mapToGlobal(beside.toPoint()));
   editor->show();
@@ -250,7 +297,7 @@ void FieldView::Private::openMenu(QPoint globalPosition, QPointF metres) {
   auto* menu = new QMenu(q);
   menu->setAttribute(Qt::WA_DeleteOnClose);
   fillFieldMenu(menu, scene, controller, metres,
-                {[this](RobotId id) { openPoseEditor(id); },
+                {[this](RobotId id) { openPoseEditor(id); }, [this] { openBallEditor(); },
                  [this] { emit q->saveScenarioRequested(); }});
   if (menu->isEmpty()) {
     delete menu;
@@ -317,6 +364,8 @@ void FieldView::select(const std::vector<RobotId>& ids) { d->scene->select(ids);
 void FieldView::follow(std::optional<RobotId> id) { d->scene->setFollowed(id); }
 std::optional<RobotId> FieldView::followed() const { return d->scene->followed(); }
 std::vector<QAction*> FieldView::layerActions() const { return d->layers; }
+
+std::vector<QAction*> FieldView::layerOptionActions() const { return d->layerOptions; }
 
 std::vector<QAction*> FieldView::viewActions() const {
   std::vector<QAction*> actions = d->tools;

@@ -10,6 +10,8 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QVBoxLayout>
+#include <utility>
+#include <vector>
 
 namespace pitchboard::ui {
 namespace {
@@ -29,44 +31,56 @@ QDoubleSpinBox* spinBox(const char* name, double most, double value, double step
 
 }  // namespace
 
-PoseEditor::PoseEditor(MatchController* controller, const sim::FieldSpec& field,
-                       const QString& robotName, RobotId id, const Pose& pose, QWidget* parent)
-    : QFrame(parent, Qt::Popup), m_controller(controller), m_id(id), m_from(pose) {
+PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* parent)
+    : QFrame(parent, Qt::Popup), m_edit(std::move(edit)) {
   setAttribute(Qt::WA_DeleteOnClose);
   setFrameShape(QFrame::StyledPanel);
-  m_x = spinBox("x", field.halfLength() + field.border, pose.position.x, 0.05, 2,
+  m_x = spinBox("x", field.halfLength() + field.border, m_edit.from.position.x, 0.05, 2,
                 QStringLiteral(" m"));
-  m_y = spinBox("y", field.halfWidth() + field.border, pose.position.y, 0.05, 2,
+  m_y = spinBox("y", field.halfWidth() + field.border, m_edit.from.position.y, 0.05, 2,
                 QStringLiteral(" m"));
-  m_heading = spinBox("heading", 180.0, degreesFromRadians(pose.yaw), 5.0, 1, QStringLiteral("°"));
-  m_heading->setWrapping(true);
-
-  auto* title = new QLabel(tr("Pose of %1").arg(robotName));
+  auto* form = new QFormLayout;
+  form->addRow(QStringLiteral("x"), m_x);
+  form->addRow(QStringLiteral("y"), m_y);
+  std::vector<QDoubleSpinBox*> boxes{m_x, m_y};
+  if (m_edit.hasHeading) {
+    m_heading = spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1,
+                        QStringLiteral("°"));
+    m_heading->setWrapping(true);
+    form->addRow(tr("heading"), m_heading);
+    boxes.push_back(m_heading);
+  }
+  auto* title = new QLabel(m_edit.title);
   QFont bold = title->font();
   bold.setBold(true);
   title->setFont(bold);
   auto* hint = new QLabel(tr("Enter keeps it, Esc puts it back"));
   hint->setForegroundRole(QPalette::PlaceholderText);
-  auto* form = new QFormLayout;
-  form->addRow(QStringLiteral("x"), m_x);
-  form->addRow(QStringLiteral("y"), m_y);
-  form->addRow(tr("heading"), m_heading);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(title);
   layout->addLayout(form);
   layout->addWidget(hint);
-  for (QDoubleSpinBox* box : {m_x, m_y, m_heading}) {
-    connect(box, &QDoubleSpinBox::valueChanged, this, &PoseEditor::preview);
+  for (QDoubleSpinBox* box : boxes) {
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this] { m_edit.preview(pose()); });
   }
   m_x->setFocus();
   m_x->selectAll();
 }
 
 Pose PoseEditor::pose() const {
-  return {{m_x->value(), m_y->value()}, radiansFromDegrees(m_heading->value())};
+  return {{m_x->value(), m_y->value()},
+          m_heading ? radiansFromDegrees(m_heading->value()) : m_edit.from.yaw};
 }
 
-void PoseEditor::preview() { m_controller->previewRobots({{m_id, m_from, pose()}}); }
+bool PoseEditor::isChanged() const {
+  // What the boxes show is rounded; only a change of that counts.
+  const auto differs = [](const QDoubleSpinBox* box, double before) {
+    return QString::number(box->value(), 'f', box->decimals()) !=
+           QString::number(before, 'f', box->decimals());
+  };
+  return differs(m_x, m_edit.from.position.x) || differs(m_y, m_edit.from.position.y) ||
+         (m_heading && differs(m_heading, degreesFromRadians(m_edit.from.yaw)));
+}
 
 void PoseEditor::keyPressEvent(QKeyEvent* event) {
   m_cancelled = event->key() == Qt::Key_Escape;
@@ -79,16 +93,10 @@ void PoseEditor::keyPressEvent(QKeyEvent* event) {
 }
 
 void PoseEditor::closeEvent(QCloseEvent* event) {
-  // What the boxes show is rounded; only a change counts.
-  const auto shown = [](double value, int decimals) { return QString::number(value, 'f', decimals); };
-  const bool changed =
-      shown(m_x->value(), 2) != shown(m_from.position.x, 2) ||
-      shown(m_y->value(), 2) != shown(m_from.position.y, 2) ||
-      shown(m_heading->value(), 1) != shown(degreesFromRadians(m_from.yaw), 1);
   if (m_cancelled) {
-    m_controller->previewRobots({{m_id, m_from, m_from}});
-  } else if (changed) {
-    m_controller->moveRobots({{m_id, m_from, pose()}});
+    m_edit.preview(m_edit.from);
+  } else if (isChanged()) {
+    m_edit.keep(pose());
   }
   QFrame::closeEvent(event);
 }

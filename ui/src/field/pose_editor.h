@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A small popup with a robot's pose as numbers: metres and degrees. Changes are shown at once;
-// Enter keeps them as one undoable command, Esc puts the robot back.
+// A small popup with the place of a robot or of the ball as numbers: metres and degrees. Changes
+// are shown at once; Enter keeps them as one undoable command, Esc puts back what was.
 
 #include <QFrame>
+#include <functional>
 
-#include <ui/match_controller.h>
+#include <base/geometry.h>
+#include <simcore/field.h>
 
 class QDoubleSpinBox;
 
 namespace pitchboard::ui {
 
+/// What is edited, and how its changes reach the world.
+struct PoseEdit {
+  QString title;
+  Pose from;
+  bool hasHeading = true;
+  std::function<void(const Pose&)> preview;   ///< while typing, and `from` on Esc
+  std::function<void(const Pose&)> keep;      ///< at most once, and only for a change
+};
+
 class PoseEditor : public QFrame {
   Q_OBJECT
  public:
-  PoseEditor(MatchController* controller, const sim::FieldSpec& field, const QString& robotName,
-             RobotId id, const Pose& pose, QWidget* parent);
+  PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* parent);
 
   Pose pose() const;
 
@@ -25,15 +35,13 @@ class PoseEditor : public QFrame {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  void preview();
+  bool isChanged() const;
 
-  MatchController* m_controller;
-  RobotId m_id;
-  Pose m_from;
+  PoseEdit m_edit;
   bool m_cancelled = false;
   QDoubleSpinBox* m_x;
   QDoubleSpinBox* m_y;
-  QDoubleSpinBox* m_heading;
+  QDoubleSpinBox* m_heading = nullptr;   // none for the ball
 };
 
 }  // namespace pitchboard::ui

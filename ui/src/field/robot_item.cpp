@@ -6,10 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_stamps.h"
+
 namespace pitchboard::ui {
 namespace {
 
 constexpr double handleGap_px = 18.0;
+
+void paintNumber(QPainter& painter, double radius, const QString& text) {
+  const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
+  painter.setFont(fieldFont(static_cast<int>(std::lround(std::max(8.0, size))), true));
+  painter.setPen(Qt::white);
+  painter.drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, text);
+}
 
 QPointF across(const QPointF& direction) { return {-direction.y(), direction.x()}; }
 
@@ -71,14 +80,25 @@ void RobotItem::paintSelection(QPainter* painter, const ScreenPainting& screen,
     painter->drawEllipse(QPointF(0, 0), ring + 3.5, ring + 3.5);
   }
   if (!m_look.selected) return;
-  painter->setPen(QPen(accent, 2.2));
-  painter->drawEllipse(QPointF(0, 0), ring, ring);
+  const QPen pen(accent, 2.2, Qt::SolidLine, Qt::FlatCap);
+  const auto paintRing = [&](double ringRadius, const QColor& ground) {
+    return [&pen, ringRadius, ground](QPainter& p) {
+      p.setPen(pen);
+      p.setBrush(ground);
+      p.drawEllipse(QPointF(0, 0), ringRadius, ringRadius);
+    };
+  };
+  drawStamp(painter, {}, {Stamp::Kind::Ring, stampSize(ring), accent.rgba(), 0, {}},
+            {ring + 2, ring + 2}, paintRing(ring, Qt::transparent));
   if (m_style->readOnly) return;
+  painter->setPen(pen);
   const QPointF ahead = screen.direction(m_look.pose.yaw);
   const double reach = radius * 1.7 + handleGap_px;
   painter->drawLine(ahead * ring, ahead * (reach - 4));
-  painter->setBrush(theme().fieldBorder);
-  painter->drawEllipse(ahead * reach, 4.0, 4.0);
+  const QColor inside = theme().fieldBorder;
+  drawStamp(painter, ahead * reach,
+            {Stamp::Kind::Ring, stampSize(4.0), accent.rgba(), inside.rgba(), {}}, {6, 6},
+            paintRing(4.0, inside));
 }
 
 void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const {
@@ -102,22 +122,26 @@ void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, doubl
     const QPointF nose[] = {ahead * radius * 1.62, ahead * radius * 0.45 + side * radius * 0.80,
                             ahead * radius * 0.45 - side * radius * 0.80};
     painter->drawPolygon(nose, 3);
-    painter->setBrush(team);
-    painter->drawEllipse(QPointF(0, 0), radius, radius);
   }
-  if (!m_style->shows(FieldLayer::Numbers)) return;
-  const QString text = QString::number(m_look.number);
-  const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
-  const QFont& font = fieldFont(static_cast<int>(std::lround(std::max(8.0, size))), true);
-  if (radius < 6.5) {
+  const bool numbered = m_style->shows(FieldLayer::Numbers);
+  const bool fitsInside = radius >= 6.5;
+  const QString text = numbered && fitsInside ? QString::number(m_look.number) : QString();
+  if (m_look.fallen) {
+    if (!text.isEmpty()) paintNumber(*painter, radius, text);
+  } else {
+    drawStamp(painter, {}, {Stamp::Kind::Disc, stampSize(radius), team.rgba(), outline.rgba(), text},
+              {radius + stroke, radius + stroke}, [&](QPainter& p) {
+                p.setPen(QPen(outline, stroke));
+                p.setBrush(team);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+                if (!text.isEmpty()) paintNumber(p, radius, text);
+              });
+  }
+  if (numbered && !fitsInside) {
     // Too small to write in: the name goes beside the robot.
     drawHaloText(painter, {0, -radius - 8}, robotName(m_look.team, m_look.number),
                  fieldFont(10, true), theme().fieldLines, theme().fieldBorder.darker(130));
-    return;
   }
-  painter->setFont(font);
-  painter->setPen(Qt::white);
-  painter->drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, text);
 }
 
 }  // namespace pitchboard::ui

@@ -13,11 +13,7 @@ constexpr int starVarsGranularity = 8;
 constexpr double starVarsReach = 2.5;  // metres; the rays have no end of their own
 constexpr double delta = 1.0;          // metres, the elevation distance of EOPRA
 
-QColor faint(float alpha) {
-  QColor color = theme().fieldLines;
-  color.setAlphaF(alpha);
-  return color;
-}
+QColor faint(double opacity) { return onGrass(theme().fieldLines, opacity); }
 
 QColor shade() { return theme().fieldBorder.darker(isDarkTheme() ? 130 : 170); }
 
@@ -64,14 +60,14 @@ void SectorItem::paintEopra(QPainter* painter, const ScreenPainting& screen) con
   const double outer = reach() * scale;
   for (const double ring : eopraRings(m, delta)) {
     const bool elevation = std::abs(ring - delta) < 1e-9;
-    painter->setPen(QPen(faint(elevation ? 0.75F : 0.35F), elevation ? 1.6 : 1.0));
+    painter->setPen(QPen(faint(elevation ? 0.75 : 0.35), elevation ? 1.6 : 1.0));
     painter->drawEllipse(QPointF(0, 0), ring * scale, ring * scale);
   }
-  painter->setPen(QPen(faint(0.35F), 1.0));
+  painter->setPen(QPen(faint(0.35), 1.0));
   const double sector = std::numbers::pi / m;
   for (int i = 0; i < 2 * m; ++i) {
     const QPointF ray = screen.direction(m_yaw + i * sector);
-    painter->setPen(QPen(faint(i == 0 ? 0.8F : 0.35F), i == 0 ? 1.6 : 1.0));
+    painter->setPen(QPen(faint(i == 0 ? 0.8 : 0.35), i == 0 ? 1.6 : 1.0));
     painter->drawLine(QPointF(0, 0), ray * outer);
   }
   // As in OPRA the rays have even numbers and the sectors between them odd ones.
@@ -87,7 +83,7 @@ void SectorItem::paintStarVars(QPainter* painter, const ScreenPainting& screen) 
   const double sector = 2 * std::numbers::pi / starVarsGranularity;
   for (int i = 0; i < starVarsGranularity; ++i) {
     const QPointF ray = screen.direction(m_yaw + i * sector);
-    QPen pen(faint(i == 0 ? 0.9F : 0.55F), i == 0 ? 1.8 : 1.2);
+    QPen pen(faint(i == 0 ? 0.9 : 0.55), i == 0 ? 1.8 : 1.2);
     pen.setDashPattern({5.0, 3.0});
     painter->setPen(pen);
     painter->drawLine(QPointF(0, 0), ray * outer);

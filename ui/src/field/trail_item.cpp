@@ -84,26 +84,27 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   if (m_count < 2) return;
   // A few strokes of growing strength instead of one per point.
   constexpr int shades = 6;
-  std::array<QPointF, capacity + 1> points;
-  QPen pen;
-  pen.setCosmetic(true);
-  pen.setWidthF(1.5);
+  const ScreenPainting screen(painter, m_tip);
+  const auto pixels = [&](const QPointF& at) { return screen.pixels(at - m_tip); };
+  // Separate lines with flat caps need no stroker; at this width no joint shows.
+  std::array<QLineF, capacity + 1> lines;
+  QPen pen(theme().fieldLines, 1.5);
   pen.setCapStyle(Qt::FlatCap);
-  QColor color = theme().fieldLines;
-  int i = 0;
+  QPointF last = pixels(mark(0).at);
+  int i = 1;
   for (int shade = 0; shade < shades; ++shade) {
     const double until = m_now - seconds * (shades - 1 - shade) / shades;
     int used = 0;
-    if (i > 0) points[static_cast<std::size_t>(used++)] = mark(i - 1).at;
-    while (i < m_count && mark(i).time <= until) {
-      points[static_cast<std::size_t>(used++)] = mark(i++).at;
-    }
-    if (shade == shades - 1) points[static_cast<std::size_t>(used++)] = m_tip;
-    if (used < 2) continue;
-    color.setAlphaF(static_cast<float>(0.08 + 0.52 * (shade + 1) / shades));
-    pen.setColor(color);
+    const auto lineTo = [&](const QPointF& next) {
+      lines[static_cast<std::size_t>(used++)] = QLineF(last, next);
+      last = next;
+    };
+    while (i < m_count && mark(i).time <= until) lineTo(pixels(mark(i++).at));
+    if (shade == shades - 1) lineTo(QPointF(0, 0));
+    if (used == 0) continue;
+    pen.setColor(onGrass(theme().fieldLines, 0.08 + 0.52 * (shade + 1) / shades));
     painter->setPen(pen);
-    painter->drawPolyline(points.data(), used);
+    painter->drawLines(lines.data(), used);
   }
 }
 

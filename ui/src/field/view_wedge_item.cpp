@@ -4,47 +4,81 @@
 #include <base/angles.h>
 #include <ui/theme.h>
 
+#include <cmath>
+
 namespace pitchboard::ui {
 namespace {
 
-QPainterPath sector(double yaw) {
-  // QPainterPath counts angles with y down; the scene has y up.
-  const double start = -degreesFromRadians(yaw) - ViewWedgeItem::openingDegrees / 2;
-  QPainterPath path;
-  path.arcTo(QRectF(-ViewWedgeItem::range, -ViewWedgeItem::range, 2 * ViewWedgeItem::range,
-                    2 * ViewWedgeItem::range),
-             start, ViewWedgeItem::openingDegrees);
-  path.closeSubpath();
-  return path;
+constexpr int arcSteps = 28;
+
+QPolygonF sector(const QPointF& at, double yaw) {
+  const double opening = radiansFromDegrees(ViewWedgeItem::openingDegrees);
+  QPolygonF corners{at};
+  for (int i = 0; i <= arcSteps; ++i) {
+    const double angle = yaw + opening * (static_cast<double>(i) / arcSteps - 0.5);
+    corners << at + ViewWedgeItem::range * QPointF(std::cos(angle), std::sin(angle));
+  }
+  return corners;
+}
+
+/// The part of a convex polygon where `inside` is not negative; `inside` is linear.
+template <class Inside>
+QPolygonF clipped(const QPolygonF& polygon, Inside inside) {
+  QPolygonF kept;
+  for (qsizetype i = 0; i < polygon.size(); ++i) {
+    const QPointF& a = polygon[i];
+    const QPointF& b = polygon[(i + 1) % polygon.size()];
+    const double atA = inside(a), atB = inside(b);
+    if (atA >= 0) kept << a;
+    if ((atA < 0) != (atB < 0)) kept << a + (b - a) * (atA / (atA - atB));
+  }
+  return kept;
 }
 
 }  // namespace
 
-ViewWedgeItem::ViewWedgeItem(const FieldStyle* style) : m_style(style), m_path(sector(0.0)) {}
-
 void ViewWedgeItem::setHead(const Point& position, double headYaw) {
-  setPos(toScene(position));
-  if (headYaw == m_yaw) return;
-  prepareGeometryChange();
+  if (position == m_position && headYaw == m_yaw && isVisible() == !m_outline.isEmpty()) return;
+  m_position = position;
   m_yaw = headYaw;
-  m_path = sector(headYaw);
+  updateOutline();
+}
+
+void ViewWedgeItem::styleChanges() { updateOutline(); }
+
+void ViewWedgeItem::updateOutline() {
+  prepareGeometryChange();
+  const double x = m_style->field.halfLength() + m_style->field.border;
+  const double y = m_style->field.halfWidth() + m_style->field.border;
+  if (!isVisible()) {
+    m_outline.clear();
+    return;
+  }
+  m_outline = sector(toScene(m_position), m_yaw);
+  m_outline = clipped(m_outline, [x](const QPointF& p) { return x - p.x(); });
+  m_outline = clipped(m_outline, [x](const QPointF& p) { return x + p.x(); });
+  m_outline = clipped(m_outline, [y](const QPointF& p) { return y - p.y(); });
+  m_outline = clipped(m_outline, [y](const QPointF& p) { return y + p.y(); });
 }
 
 QRectF ViewWedgeItem::boundingRect() const {
   const double margin = m_style->metres(1.0);
-  return m_path.boundingRect().adjusted(-margin, -margin, margin, margin);
+  return m_outline.boundingRect().adjusted(-margin, -margin, margin, margin);
 }
 
 void ViewWedgeItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  if (m_outline.size() < 3) return;
   QColor fill = isDarkTheme() ? theme().fieldLines : QColor(Qt::white);
   fill.setAlphaF(isDarkTheme() ? 0.13F : 0.22F);
-  QColor edge = theme().fieldLines;
-  edge.setAlphaF(0.45F);
-  QPen pen(edge, 1.0);
-  pen.setCosmetic(true);
-  painter->setPen(pen);
+  painter->setPen(Qt::NoPen);
   painter->setBrush(fill);
-  painter->drawPath(m_path);
+  painter->drawConvexPolygon(m_outline);
+  QPen pen(onGrass(theme().fieldLines, 0.52), 1.0);
+  pen.setCosmetic(true);
+  pen.setCapStyle(Qt::FlatCap);
+  painter->setPen(pen);
+  painter->setBrush(Qt::NoBrush);
+  painter->drawPolygon(m_outline);
 }
 
 }  // namespace pitchboard::ui

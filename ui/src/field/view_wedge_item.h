@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a robot's camera can see: a sector round the direction of the head.
+// What a robot's camera can see: a sector round the direction of the head, as far as the playing
+// area with its border goes.
 
 #include <QGraphicsItem>
-#include <QPainterPath>
+#include <QPolygonF>
 
 #include "field_style.h"
 
@@ -16,18 +17,23 @@ class ViewWedgeItem : public QGraphicsItem {
   static constexpr double openingDegrees = 70.0;
   static constexpr double range = 3.0;  ///< metres
 
-  explicit ViewWedgeItem(const FieldStyle* style);
+  explicit ViewWedgeItem(const FieldStyle* style) : m_style(style) {}
 
   void setHead(const Point& position, double headYaw);
-  void styleChanges() { prepareGeometryChange(); }
+  void styleChanges();
+  /// Its corners in metres of the scene; empty for a robot that sees nothing of the field.
+  const QPolygonF& outline() const { return m_outline; }
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
+  void updateOutline();
+
   const FieldStyle* m_style;
-  QPainterPath m_path;    // of the present direction, relative to the robot
+  Point m_position;
   double m_yaw = 0.0;
+  QPolygonF m_outline;
 };
 
 }  // namespace pitchboard::ui

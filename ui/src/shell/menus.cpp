@@ -109,6 +109,8 @@ void StudioMenus::makeView() {
   menu->addSeparator();
   QMenu* layers = menu->addMenu(QObject::tr("Field &layers"));
   for (QAction* action : m_window.m_field->layerActions()) layers->addAction(action);
+  layers->addSeparator();
+  for (QAction* action : m_window.m_field->layerOptionActions()) layers->addAction(action);
   for (QAction* action : m_window.m_field->viewActions()) menu->addAction(action);
   menu->addSeparator();
   makeThemes(menu->addMenu(QObject::tr("&Theme")));
