@@ -72,7 +72,8 @@ void StudioMenus::makeEdit() {
                              }
                              selection->set(all);
                            }),
-           "edit-select-all", QKeySequence::SelectAll);
+           // Ctrl+A is a key of the field: it adds a red robot.
+           "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
   QAction* remove = menu->addAction(
       QObject::tr("&Delete selected robots"), controller,

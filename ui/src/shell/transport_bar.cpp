@@ -112,7 +112,9 @@ void TransportBar::showTransport() {
                                                    m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
-  for (QAction* action : transportActions()) action->setEnabled(controller.isOpen());
+  for (QAction* action : transportActions()) {
+    action->setEnabled(controller.isOpen() || controller.isOpening());
+  }
   int at = m_speed->findData(controller.speed());
   if (at < 0) {
     m_speed->addItem(QStringLiteral("%1×").arg(controller.speed()), controller.speed());
