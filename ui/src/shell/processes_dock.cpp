@@ -41,7 +41,7 @@ class ProcessesDock : public QStackedWidget {
     m_table->setObjectName(QStringLiteral("processesTable"));
     m_table->setModel(m_model);
     styleTable(m_table);
-    const int widths[] = {60, 130, 80, 220};
+    const int widths[] = {68, 140, 84, 220};
     for (int column = 0; column < 4; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }

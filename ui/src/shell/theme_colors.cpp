@@ -143,8 +143,10 @@ QMainWindow > QTabBar::tab:selected {
   border-bottom-color: @view; }
 QMainWindow > QTabBar::tab:hover:!selected { color: @text; }
 QAbstractItemView { selection-background-color: @row; selection-color: @text; }
+QTableView::item { padding: 0 @8; border: none; }
+QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;
-  border-bottom: 1px solid @line; padding: @3; }
+  border-bottom: 1px solid @line; padding: @3 @8; }
 QToolTip { background: @window; color: @text; border: 1px solid @line; }
 )");
   const std::pair<const char*, QColor> names[] = {

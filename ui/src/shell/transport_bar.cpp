@@ -43,6 +43,10 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
   toggleViewAction()->setVisible(false);
   setContextMenuPolicy(Qt::PreventContextMenu);
   setIconSize(QSize(scaled(this, 20), scaled(this, 20)));
+  // A tool bar takes its padding at the top for its left, too.
+  auto* edge = new QWidget(this);
+  edge->setFixedWidth(0);
+  addWidget(edge);
   addModes();
   addSeparator();
   addWidget(m_scenarios);
