@@ -62,6 +62,8 @@ class MatchController : public QObject {
   // Transport.
   void setPaused(bool paused);
   void stepOnce();
+  /// Plays at full speed up to this tick of the match, then pauses; for repeatable pictures.
+  void runTo(std::uint64_t tick);
   void setSpeed(double timesRealTime);   ///< link::MatchRunner::unlimitedSpeed = maximum
   double speed() const { return m_speed; }
   bool isPaused() const { return m_paused; }
@@ -147,6 +149,7 @@ class MatchController : public QObject {
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;
+  std::optional<std::uint64_t> m_runTo;          // once it is open
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;   // of the match; grows with every open() and close()
   QThreadPool m_worker;                          // one thread: matches end and start in order

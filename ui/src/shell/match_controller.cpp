@@ -64,6 +64,7 @@ std::shared_ptr<link::MatchRunner> MatchController::retire() {
   m_timer->stop();
   m_opening = false;
   m_whenOpen.clear();
+  m_runTo.reset();
   m_frame.reset();
   m_undoStack->clear();
   return std::move(m_runner);
@@ -119,10 +120,12 @@ void MatchController::take(Opening& opening) {
   if (m_runner) {
     m_runner->setSpeed(m_speed);
     m_runner->setPaused(m_paused);
+    if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
     m_timer->start();
   }
   m_whenOpen.clear();
+  m_runTo.reset();
   emit opened();
   emit transportChanged();
   if (!opening.error.isEmpty()) emit errorOccurred(opening.error);
@@ -145,6 +148,7 @@ void MatchController::poll() {
 void MatchController::setPaused(bool paused) {
   if (!m_runner && !m_opening) return;
   m_paused = paused;
+  m_runTo.reset();
   if (m_runner) m_runner->setPaused(paused);
   emit transportChanged();
 }
@@ -153,6 +157,14 @@ void MatchController::stepOnce() {
   if (!m_runner) return;
   m_paused = true;
   m_runner->stepOnce();
+  emit transportChanged();
+}
+
+void MatchController::runTo(std::uint64_t tick) {
+  if (!m_runner && !m_opening) return;
+  m_paused = true;
+  if (m_runner) m_runner->runTo(tick);
+  else m_runTo = tick;
   emit transportChanged();
 }
 
