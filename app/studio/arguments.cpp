@@ -34,6 +34,9 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--theme", a.theme, "Colours, this time only")
       ->type_name("light|dark")->check(CLI::IsMember({"light", "dark"}));
   app.add_flag("--paused", a.paused, "Do not start playing");
+  app.add_option("--play-to", a.playTo,
+                 "Play at full speed up to this tick, then pause: the same moment every time")
+      ->type_name("TICK");
   app.add_option("--size", a.size, "Size of the window or the picture")->type_name("WxH");
   app.add_option("--settings", a.settings,
                  "File for layout and preferences instead of the user's own")->type_name("FILE");

@@ -25,6 +25,7 @@ struct Arguments {
   int keyBase = 0;
   std::string theme;
   bool paused = false;
+  std::optional<std::uint64_t> playTo;
   std::string screenshotFile;
   double after = 2.0;
   std::string size;

@@ -89,6 +89,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
   window.offerToRemoveOrphans();
   controller.setSpeed(speed);
   controller.open(scenario, arguments.paused);
+  if (arguments.playTo) controller.runTo(*arguments.playTo);
   window.files()->showCurrent(QString::fromStdString(arguments.scenario));
   window.show();
   int exitCode = 0;

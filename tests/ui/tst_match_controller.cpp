@@ -92,6 +92,7 @@ class TestMatchController : public QObject {
     MatchController c(inside());
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);
+    QTRY_VERIFY(c.isOpen());
     c.addRobot(TeamColor::Blue, {{0, 2.5}, 0}, 1);
     QCOMPARE(errors.count(), 1);
     QVERIFY(!c.undoStack()->canUndo());
@@ -116,7 +117,7 @@ class TestMatchController : public QObject {
     link::Scenario bad = match();
     bad.settings.physics = "no-such-model";
     c.open(bad);
-    QCOMPARE(errors.count(), 1);
+    QTRY_COMPARE(errors.count(), 1);
     QVERIFY(!c.isOpen());
     QVERIFY(!c.frame());
   }
@@ -129,7 +130,7 @@ class TestMatchController : public QObject {
     MatchController c(options);
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);
-    QCOMPARE(errors.count(), 1);
+    QTRY_COMPARE(errors.count(), 1);
     QCOMPARE(c.cognition(), link::Cognition::Inline);
     QTRY_COMPARE(count(c), std::size_t(6));
   }

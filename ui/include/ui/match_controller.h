@@ -3,11 +3,15 @@
 
 // The studio's hold on the match being simulated: owns the runner, polls it on the display timer,
 // and hands frames, events and log lines to docks and field as values. Everything done by hand goes
-// through here, as a command on the undo stack. UI thread only; never blocks on the match.
+// through here, as a command on the undo stack. UI thread only. Matches are made and ended on a worker
+// thread; only currentMoment() and stateHash() wait, for the tick in progress.
 
 #include <QObject>
 #include <QPointF>
 #include <QString>
+#include <QThreadPool>
+#include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,14 +39,18 @@ class MatchController : public QObject {
   explicit MatchController(link::MatchOptions options, QObject* parent = nullptr);
   ~MatchController() override;
 
-  /// Ends the running match and starts this one; on failure the old one is gone, `errorOccurred`
-  /// tells why and there is no frame. When separate processes cannot be had (a key is in use), the
-  /// match plays with inline processes on heap blackboards and `errorOccurred` says so. Waits for
-  /// the old match's processes, at most their grace period.
+  /// Ends the running match and starts this one, both on a worker thread: returns at once. Until
+  /// `opened` there is no frame and isOpening() holds; orders given meanwhile reach the new match,
+  /// edits that can be undone are ignored. Opening again supersedes what was not started yet.
+  /// On failure the old match is gone and `errorOccurred` tells why. When separate processes cannot
+  /// be had (a key is in use), the match plays with inline processes on heap blackboards and
+  /// `errorOccurred` says so.
   void open(const link::Scenario& scenario, bool paused = false);
-  /// Ends the match; its processes and blackboards go. restart() plays it again.
+  /// Ends the match; its processes and blackboards go, on the worker thread. restart() plays it
+  /// again.
   void close();
   bool isOpen() const { return m_runner != nullptr; }
+  bool isOpening() const { return m_opening; }
   const link::Scenario& scenario() const { return m_scenario; }
   FramePtr frame() const { return m_frame; }
   QUndoStack* undoStack() const { return m_undoStack; }
@@ -54,10 +62,15 @@ class MatchController : public QObject {
   // Transport.
   void setPaused(bool paused);
   void stepOnce();
+  /// Plays at full speed up to this tick of the match, then pauses; for repeatable pictures.
+  void runTo(std::uint64_t tick);
   void setSpeed(double timesRealTime);   ///< link::MatchRunner::unlimitedSpeed = maximum
   double speed() const { return m_speed; }
   bool isPaused() const { return m_paused; }
   void restart();                        ///< the scenario from its beginning
+  /// The same; `between` runs on the worker thread when the old match is gone and the new one is
+  /// not made yet.
+  void restartAfter(std::function<void()> between);
 
   // Edits by hand: take effect at once and can be undone.
   void moveRobots(const std::vector<RobotPlacement>& placements);
@@ -98,8 +111,9 @@ class MatchController : public QObject {
   void frameReceived(const pitchboard::ui::FramePtr& frame);
   void eventsReceived(const std::vector<pitchboard::sim::Event>& events);
   void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
-  void scenarioChanged();
-  void transportChanged();   ///< paused or speed
+  void scenarioChanged();    ///< another match is being opened, or none
+  void opened();             ///< it is there, or failed
+  void transportChanged();   ///< paused, speed, or whether there is a match
   void errorOccurred(const QString& sentence);
 
  private:
@@ -108,7 +122,14 @@ class MatchController : public QObject {
   friend class PlacementCommand;
   friend class BallCommand;
 
+  struct Opening;            ///< what the worker made
   void poll();
+  void openAfter(const link::Scenario& scenario, bool paused, std::function<void()> between);
+  /// Forgets the match; the worker ends it.
+  std::shared_ptr<link::MatchRunner> retire();
+  void take(Opening& opening);
+  /// To the match, or to the one that is being opened.
+  void post(link::MatchRunner::Command command);
   /// Runs on the match's thread; a failure comes back as errorOccurred with `whatFailed` before it, after
   /// `onFailure` has run here.
   void postChecked(const QString& whatFailed,
@@ -118,8 +139,6 @@ class MatchController : public QObject {
   void eraseRobot(RobotId id);
   void placeRobots(const std::vector<RobotPlacement>& placements, bool back);
   void placeBall(Point position);
-  Result<std::unique_ptr<link::MatchRunner>> startRunner(const link::Scenario& scenario,
-                                                         bool paused);
 
   link::MatchOptions m_options;
   link::Cognition m_cognition = link::Cognition::Inline;
@@ -129,6 +148,11 @@ class MatchController : public QObject {
   FramePtr m_frame;
   double m_speed = 1.0;
   bool m_paused = false;
+  bool m_opening = false;
+  std::optional<std::uint64_t> m_runTo;          // once it is open
+  std::vector<link::MatchRunner::Command> m_whenOpen;
+  std::atomic<std::uint64_t> m_generation = 0;   // of the match; grows with every open() and close()
+  QThreadPool m_worker;                          // one thread: matches end and start in order
   QTimer* m_timer = nullptr;
   QUndoStack* m_undoStack = nullptr;
 };

@@ -118,7 +118,11 @@ void RobotCard::paintLamps(QPainter& painter) const {
       painter.setBrush(theme().errorGround);
       painter.drawRoundedRect(sharp(box), 2, 2);
     } else {
-      painter.setPen(QPen(theme().disabledText, 1, Qt::DashLine));
+      QPen dashes(theme().disabledText, 1);
+      // Short enough that every side, corners included, shows some.
+      dashes.setDashPattern({2, 2});
+      dashes.setCapStyle(Qt::FlatCap);
+      painter.setPen(dashes);
       painter.setBrush(Qt::NoBrush);
       painter.drawRoundedRect(sharp(box), 2, 2);
       painter.setPen(theme().disabledText);

@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include <ui/field_view.h>
 #include <ui/match_controller.h>
 #include <ui/theme.h>
 
@@ -30,7 +31,8 @@ RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
   const int gap = scaled(this, 4);
   m_column->setContentsMargins(gap, gap, gap, gap);
   m_column->setSpacing(gap);
-  m_empty = new QLabel(tr("No robots on the field.\nPress A over the field to add one."), list);
+  m_empty = new QLabel(list);
+  m_empty->setObjectName(QStringLiteral("noRobots"));
   m_empty->setFont(themeFont(TypeRole::Secondary));
   m_empty->setForegroundRole(QPalette::PlaceholderText);
   m_empty->setContentsMargins(scaled(this, 8), scaled(this, 8), scaled(this, 8), 0);
@@ -70,6 +72,13 @@ void RobotsDock::refresh() {
 
 void RobotsDock::makeCards(std::size_t count) {
   m_empty->setVisible(count == 0);
+  if (count == 0) {
+    const MatchController& controller = *m_context.controller;
+    m_empty->setText(controller.isOpening() ? tr("Opening…")
+                     : controller.isOpen()
+                         ? tr("No robots on the field.\nPress A over the field to add one.")
+                         : tr("No match is open.\nChoose a scenario in the tool bar."));
+  }
   while (m_cards.size() > static_cast<qsizetype>(count)) delete m_cards.takeLast();
   while (m_cards.size() < static_cast<qsizetype>(count)) {
     auto* card = new RobotCard(widget());
@@ -109,6 +118,12 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   };
   for (const link::BehaviourInfo& known : link::behaviours()) offer(known.name, {});
   offer(link::noBehaviour, tr("none (your own process)"));
+  QAction* follow = menu.addAction(tr("Follow"));
+  follow->setCheckable(true);
+  follow->setChecked(m_context.field->followed() == id);
+  connect(follow, &QAction::toggled, m_context.field, [field = m_context.field, id](bool on) {
+    field->follow(on ? std::optional(id) : std::nullopt);
+  });
   menu.addAction(tr("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();
   });

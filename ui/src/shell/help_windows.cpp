@@ -25,7 +25,7 @@ constexpr Keys shortcuts[] = {
     {"Ctrl+R", "restart the scenario"},
     {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
     {"Ctrl+O, Ctrl+S", "open a scenario, save this moment"},
-    {"Ctrl+A", "select all robots"},
+    {"Ctrl+Shift+A", "select all robots"},
     {"F11", "full screen"},
     {nullptr, "Field"},
     {"Drag, Shift-drag", "move, turn"},

@@ -29,8 +29,8 @@ class LogDock : public QWidget {
     m_table->setModel(m_filter);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     styleTable(m_table);
-    m_table->setColumnWidth(LogModel::Time, scaled(this, 70));
-    m_table->setColumnWidth(LogModel::Origin, scaled(this, 150));
+    m_table->setColumnWidth(LogModel::Time, scaled(this, 80));
+    m_table->setColumnWidth(LogModel::Origin, scaled(this, 160));
 
     auto* words = new QLineEdit(this);
     words->setObjectName(QStringLiteral("logFilter"));

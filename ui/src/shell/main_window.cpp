@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/main_window.h>
 
+#include <QAbstractScrollArea>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QScreen>
@@ -15,6 +16,7 @@
 #include "dock_title.h"
 #include "menus.h"
 #include "notice_bar.h"
+#include "opening_label.h"
 #include "orphan_notice.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
@@ -56,6 +58,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   makeDocks();
   StudioMenus(*this).make();
   connectField();
+  if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
+    new OpeningLabel(controller, canvas);
+  }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
   connect(m_files, &ScenarioFiles::failed, m_notices,

@@ -19,59 +19,116 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
   m_undoStack->setUndoLimit(undoLimit);
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
+  m_worker.setMaxThreadCount(1);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
 }
 
-// The runner's commands post back to this object: it must be gone while we are still whole.
-MatchController::~MatchController() { m_runner.reset(); }
+// Runners' commands and the worker post back to this object: they must be gone while it is whole.
+MatchController::~MatchController() {
+  ++m_generation;
+  m_runner.reset();
+  m_worker.waitForDone();
+}
 
-Result<std::unique_ptr<link::MatchRunner>> MatchController::startRunner(
-    const link::Scenario& scenario, bool paused) {
-  m_cognition = m_options.cognition;
-  auto runner = link::MatchRunner::start(scenario, m_options, paused);
-  if (runner || m_options.cognition == link::Cognition::Inline) return runner;
+struct MatchController::Opening {
+  std::unique_ptr<link::MatchRunner> runner;
+  link::Cognition cognition = link::Cognition::Inline;
+  QString error;   // of a match that plays otherwise than asked for, or not at all
 
-  link::MatchOptions inside = m_options;
-  inside.cognition = link::Cognition::Inline;
-  inside.systemV = false;
-  auto second = link::MatchRunner::start(scenario, inside, paused);
-  if (!second) return second;
-  m_cognition = link::Cognition::Inline;
-  emit errorOccurred(tr("Separate robot processes cannot run: %1. The robots decide inside the "
-                        "studio instead, and other programs cannot see their blackboards. Close "
-                        "the other program, then restart the match.")
-                         .arg(QString::fromStdString(runner.error().text())));
-  return second;
+  void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused);
+};
+
+void MatchController::Opening::start(const link::Scenario& scenario,
+                                     const link::MatchOptions& options, bool paused) {
+  const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
+  cognition = options.cognition;
+  auto made = link::MatchRunner::start(scenario, options, paused);
+  if (!made && options.cognition != link::Cognition::Inline) {
+    const Error reason = made.error();
+    link::MatchOptions inside = options;
+    inside.cognition = cognition = link::Cognition::Inline;
+    inside.systemV = false;
+    made = link::MatchRunner::start(scenario, inside, paused);
+    if (made) {
+      error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
+                 "instead, and other programs cannot see their blackboards. Close the other "
+                 "program, then restart the match.").arg(words(reason));
+    }
+  }
+  if (made) runner = std::move(*made);
+  else error = tr("The match cannot be played: %1").arg(words(made.error()));
+}
+
+std::shared_ptr<link::MatchRunner> MatchController::retire() {
+  ++m_generation;
+  m_timer->stop();
+  m_opening = false;
+  m_whenOpen.clear();
+  m_runTo.reset();
+  m_frame.reset();
+  m_undoStack->clear();
+  return std::move(m_runner);
 }
 
 void MatchController::close() {
-  m_timer->stop();
-  m_runner.reset();
-  m_frame.reset();
-  m_undoStack->clear();
+  m_worker.start([old = retire()]() mutable { old.reset(); });
+  emit scenarioChanged();
+  emit transportChanged();
 }
 
 void MatchController::open(const link::Scenario& scenario, bool paused) {
-  close();
+  openAfter(scenario, paused, {});
+}
+
+void MatchController::restart() { restartAfter({}); }
+
+void MatchController::restartAfter(std::function<void()> between) {
+  const link::Scenario scenario = m_scenario;
+  openAfter(scenario, m_paused, std::move(between));
+}
+
+void MatchController::openAfter(const link::Scenario& scenario, bool paused,
+                                std::function<void()> between) {
+  auto old = retire();
   m_robots.clear();
   m_scenario = scenario;
   m_paused = paused;
+  m_opening = true;
   for (const link::ScenarioRobot& entry : scenario.robots) {
     m_robots.emplace(entry.identity.id, entry);
   }
-  auto runner = startRunner(m_scenario, paused);
-  if (runner) {
-    m_runner = std::move(*runner);
-    if (m_speed != 1.0) m_runner->setSpeed(m_speed);
-    m_timer->start();
-  }
+  m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
+                  options = m_options, generation = m_generation.load()]() mutable {
+    old.reset();
+    if (between) between();
+    if (generation != m_generation) return;
+    const auto opening = std::make_shared<Opening>();
+    opening->start(scenario, options, paused);
+    QMetaObject::invokeMethod(this, [this, opening, generation] {
+      if (generation == m_generation) take(*opening);
+      else m_worker.start([opening] { opening->runner.reset(); });
+    }, Qt::QueuedConnection);
+  });
   emit scenarioChanged();
   emit transportChanged();
-  if (!runner) {
-    emit errorOccurred(tr("The match cannot be played: %1")
-                           .arg(QString::fromStdString(runner.error().text())));
-    return;
+}
+
+void MatchController::take(Opening& opening) {
+  m_opening = false;
+  m_cognition = opening.cognition;
+  m_runner = std::move(opening.runner);
+  if (m_runner) {
+    m_runner->setSpeed(m_speed);
+    m_runner->setPaused(m_paused);
+    if (m_runTo) m_runner->runTo(*m_runTo);
+    for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
+    m_timer->start();
   }
+  m_whenOpen.clear();
+  m_runTo.reset();
+  emit opened();
+  emit transportChanged();
+  if (!opening.error.isEmpty()) emit errorOccurred(opening.error);
   poll();
 }
 
@@ -89,9 +146,10 @@ void MatchController::poll() {
 }
 
 void MatchController::setPaused(bool paused) {
-  if (!m_runner) return;
+  if (!m_runner && !m_opening) return;
   m_paused = paused;
-  m_runner->setPaused(paused);
+  m_runTo.reset();
+  if (m_runner) m_runner->setPaused(paused);
   emit transportChanged();
 }
 
@@ -102,15 +160,18 @@ void MatchController::stepOnce() {
   emit transportChanged();
 }
 
+void MatchController::runTo(std::uint64_t tick) {
+  if (!m_runner && !m_opening) return;
+  m_paused = true;
+  if (m_runner) m_runner->runTo(tick);
+  else m_runTo = tick;
+  emit transportChanged();
+}
+
 void MatchController::setSpeed(double timesRealTime) {
   m_speed = timesRealTime;
   if (m_runner) m_runner->setSpeed(timesRealTime);
   emit transportChanged();
-}
-
-void MatchController::restart() {
-  const link::Scenario scenario = m_scenario;
-  open(scenario, m_paused);
 }
 
 link::Scenario MatchController::currentMoment() {
@@ -137,18 +198,23 @@ const link::ScenarioRobot* MatchController::robot(RobotId id) const {
 void MatchController::postChecked(const QString& whatFailed,
                                   std::function<Result<void>(link::SimulatedMatch&)> command,
                                   std::function<void()> onFailure) {
-  if (!m_runner) return;
-  m_runner->post([this, whatFailed, command = std::move(command),
-                  onFailure = std::move(onFailure)](link::SimulatedMatch& match) {
+  post([this, whatFailed, command = std::move(command), onFailure = std::move(onFailure),
+        generation = m_generation.load()](link::SimulatedMatch& match) {
     const Result<void> done = command(match);
     if (done) return;
     const QString sentence = whatFailed + QStringLiteral(": ") +
                              QString::fromStdString(done.error().text());
-    QMetaObject::invokeMethod(this, [this, sentence, onFailure] {
+    QMetaObject::invokeMethod(this, [this, sentence, onFailure, generation] {
+      if (generation != m_generation) return;
       if (onFailure) onFailure();
       emit errorOccurred(sentence);
     }, Qt::QueuedConnection);
   });
+}
+
+void MatchController::post(link::MatchRunner::Command command) {
+  if (m_runner) m_runner->post(std::move(command));
+  else if (m_opening) m_whenOpen.push_back(std::move(command));
 }
 
 }  // namespace pitchboard::ui

@@ -92,8 +92,7 @@ void MatchController::eraseRobot(RobotId id) {
 }
 
 void MatchController::placeRobots(const std::vector<RobotPlacement>& placements, bool back) {
-  if (!m_runner) return;
-  m_runner->post([placements, back](link::SimulatedMatch& match) {
+  post([placements, back](link::SimulatedMatch& match) {
     // A robot that left meanwhile has nothing to be placed.
     for (const RobotPlacement& placement : placements) {
       (void)match.simulation().placeRobot(placement.id, back ? placement.from : placement.to);
@@ -108,8 +107,7 @@ void MatchController::placeBall(Point position) {
 }
 
 void MatchController::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
-  if (!m_runner) return;
-  m_runner->post([id, actionA, actionB](link::SimulatedMatch& match) {
+  post([id, actionA, actionB](link::SimulatedMatch& match) {
     link::Blackboard* board = match.blackboard(id);
     if (board == nullptr) return;
     // B first: control reads it in the moment it sees a new A.
@@ -119,8 +117,7 @@ void MatchController::commandAction(RobotId id, int actionA, std::optional<int> 
 }
 
 void MatchController::commandSearch(RobotId id, bool on) {
-  if (!m_runner) return;
-  m_runner->post([id, on](link::SimulatedMatch& match) {
+  post([id, on](link::SimulatedMatch& match) {
     if (link::Blackboard* board = match.blackboard(id)) {
       board->write(match.variables().decisionSearchOn, on ? 1 : 0);
     }
@@ -162,20 +159,17 @@ void MatchController::restartProcesses(RobotId id) {
 }
 
 void MatchController::stopProcesses(RobotId id) {
-  if (!m_runner) return;
-  m_runner->post([id](link::SimulatedMatch& match) { match.supervisor().stop(id); });
+  post([id](link::SimulatedMatch& match) { match.supervisor().stop(id); });
 }
 
 void MatchController::setClockRunning(bool running) {
-  if (!m_runner) return;
-  m_runner->post([running](link::SimulatedMatch& match) {
+  post([running](link::SimulatedMatch& match) {
     match.simulation().setClockRunning(running);
   });
 }
 
 void MatchController::resetScore() {
-  if (!m_runner) return;
-  m_runner->post([](link::SimulatedMatch& match) {
+  post([](link::SimulatedMatch& match) {
     match.simulation().setScore({});
     match.simulation().editState().clockTicks = 0;
   });

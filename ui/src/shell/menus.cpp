@@ -4,6 +4,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QMenuBar>
 #include <QSettings>
 #include <QUndoStack>
@@ -15,6 +16,7 @@
 
 #include "help_windows.h"
 #include "robot_selection.h"
+#include "scenario_chooser.h"
 #include "status_bar.h"
 #include "transport_bar.h"
 
@@ -42,6 +44,17 @@ void StudioMenus::makeFile() {
   ScenarioFiles* files = m_window.m_files;
   withIcon(menu->addAction(QObject::tr("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
            "document-open", QKeySequence::Open);
+  QMenu* recent = menu->addMenu(QObject::tr("Open &recent"));
+  QObject::connect(menu, &QMenu::aboutToShow, recent, [recent, files, bar = m_window.m_bar] {
+    recent->clear();
+    for (const QString& file : bar->scenarios()->recentFiles()) {
+      QAction* action = recent->addAction(QFileInfo(file).completeBaseName(), files,
+                                          [files, file] { files->open(file); });
+      action->setToolTip(file);
+    }
+    recent->setToolTipsVisible(true);
+    recent->setEnabled(!recent->isEmpty());
+  });
   withIcon(menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
                            &ScenarioFiles::askAndSave),
            "document-save", QKeySequence::Save);
@@ -72,7 +85,8 @@ void StudioMenus::makeEdit() {
                              }
                              selection->set(all);
                            }),
-           "edit-select-all", QKeySequence::SelectAll);
+           // Ctrl+A is a key of the field: it adds a red robot.
+           "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
   QAction* remove = menu->addAction(
       QObject::tr("&Delete selected robots"), controller,

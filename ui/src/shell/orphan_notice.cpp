@@ -31,15 +31,15 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   notices->show(sentence,
                 {{QObject::tr("Remove"),
                   [controller, keys] {
-                    controller->close();
-                    for (const int key : keys) {
-                      const auto segment = link::SystemVSegments::info(key);
-                      // Somebody else may have come to use it meanwhile.
-                      if (segment && segment->attached == 0) {
-                        (void)link::SystemVSegments::remove(key);
+                    controller->restartAfter([keys] {
+                      for (const int key : keys) {
+                        const auto segment = link::SystemVSegments::info(key);
+                        // Somebody else may have come to use it meanwhile.
+                        if (segment && segment->attached == 0) {
+                          (void)link::SystemVSegments::remove(key);
+                        }
                       }
-                    }
-                    controller->restart();
+                    });
                   }},
                  {QObject::tr("Keep"), {}}});
 }

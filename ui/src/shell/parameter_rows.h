@@ -44,9 +44,10 @@ class ParameterRow : public QObject {
     m_box->setSingleStep((maximum - minimum) / 50);
     m_box->setAlignment(Qt::AlignRight);
     m_box->setKeyboardTracking(false);
+    m_box->setButtonSymbols(QAbstractSpinBox::NoButtons);   // the slider is the quick way
     m_box->setToolTip(tip);
     m_box->setAccessibleName(name);
-    m_box->setMinimumWidth(scaled(parent, 118));
+    m_box->setMinimumWidth(scaled(parent, 108));
     m_slider->setRange(0, steps);
     m_slider->setMinimumWidth(scaled(parent, 60));
     m_slider->setToolTip(tip);

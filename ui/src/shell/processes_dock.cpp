@@ -14,14 +14,19 @@
 namespace pitchboard::ui {
 namespace {
 
-QString emptyText(link::Cognition cognition) {
-  switch (cognition) {
+QString emptyText(const MatchController& controller) {
+  if (controller.isOpening()) return QObject::tr("Opening…");
+  if (!controller.isOpen()) {
+    return QObject::tr("No match is open. Choose a scenario in the tool bar.");
+  }
+  switch (controller.cognition()) {
     case link::Cognition::Inline:
-      return QObject::tr("The robots decide inside the studio: there are no separate processes.");
+      return QObject::tr("The robots decide inside the studio, so there are no separate processes to "
+                         "show. Start the studio with --cognition external to have them.");
     case link::Cognition::None:
       return QObject::tr("Nothing was started. Attach your own processes to the robots' "
                          "blackboards: key 100 × robot number (plus the key base).");
-    case link::Cognition::External: return QObject::tr("No processes are running.");
+    case link::Cognition::External: return QObject::tr("There are no robots, so no processes run.");
   }
   return {};
 }
@@ -36,10 +41,11 @@ class ProcessesDock : public QStackedWidget {
     m_table->setObjectName(QStringLiteral("processesTable"));
     m_table->setModel(m_model);
     styleTable(m_table);
-    const int widths[] = {60, 130, 80, 220};
+    const int widths[] = {68, 140, 84, 220};
     for (int column = 0; column < 4; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }
+    m_empty->setObjectName(QStringLiteral("noProcesses"));
     m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     m_empty->setForegroundRole(QPalette::PlaceholderText);
     m_empty->setBackgroundRole(QPalette::Base);
@@ -53,7 +59,9 @@ class ProcessesDock : public QStackedWidget {
       if (isVisible()) refresh();
     });
     timer->start(refreshMilliseconds);
-    connect(m_controller, &MatchController::scenarioChanged, this, [this] { refresh(); });
+    for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
+      connect(m_controller, changed, this, [this] { refresh(); });
+    }
     m_table->setContextMenuPolicy(Qt::CustomContextMenu);
     connect(m_table, &QWidget::customContextMenuRequested, this,
             [this](const QPoint& at) { showMenu(at); });
@@ -64,7 +72,7 @@ class ProcessesDock : public QStackedWidget {
   void refresh() {
     if (const FramePtr frame = m_controller->frame()) m_model->update(*frame);
     else m_model->clear();
-    m_empty->setText(emptyText(m_controller->cognition()));
+    m_empty->setText(emptyText(*m_controller));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 
@@ -75,10 +83,10 @@ class ProcessesDock : public QStackedWidget {
     const QString name = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
     QMenu menu(this);
     menu.addAction(themedIcon(QStringLiteral("view-refresh")),
-                   tr("Restart the processes of %1").arg(name), m_controller,
+                   tr("Restart all processes of %1").arg(name), m_controller,
                    [this, id] { m_controller->restartProcesses(id); });
     menu.addAction(themedIcon(QStringLiteral("media-playback-stop")),
-                   tr("Stop the processes of %1").arg(name), m_controller,
+                   tr("Stop all processes of %1").arg(name), m_controller,
                    [this, id] { m_controller->stopProcesses(id); });
     menu.exec(m_table->viewport()->mapToGlobal(at));
   }

@@ -49,14 +49,19 @@ void ScenarioChooser::showCurrent(const QString& nameOrPath, const QString& titl
   fill();
 }
 
+QStringList ScenarioChooser::recentFiles() const {
+  QStringList files = m_settings->value(recentKey).toStringList();
+  files.removeIf([](const QString& file) { return !QFileInfo::exists(file); });
+  return files;
+}
+
 void ScenarioChooser::fill() {
   clear();
   for (const link::ScenarioName& known : link::builtInScenarios()) {
     addItem(QString::fromStdString(known.title), QString::fromStdString(known.name));
   }
   bool separated = false;
-  for (const QString& file : m_settings->value(recentKey).toStringList()) {
-    if (!QFileInfo::exists(file)) continue;
+  for (const QString& file : recentFiles()) {
     if (!separated) insertSeparator(count());
     separated = true;
     addItem(QFileInfo(file).completeBaseName(), file);

@@ -16,6 +16,8 @@ class ScenarioChooser : public QComboBox {
   explicit ScenarioChooser(QSettings* settings, QWidget* parent = nullptr);
   /// Name of a built-in scenario, or path of a file (remembered as recent).
   void showCurrent(const QString& nameOrPath, const QString& title);
+  /// Paths, newest first, of files that are still there.
+  QStringList recentFiles() const;
 
  signals:
   void chosen(const QString& nameOrPath);

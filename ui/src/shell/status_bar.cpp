@@ -75,7 +75,7 @@ void StudioStatusBar::copyStateHash() {
 void StudioStatusBar::refresh() {
   const FramePtr frame = m_context.controller->frame();
   if (!frame) {
-    m_pace->setText(tr("No match"));
+    m_pace->setText(m_context.controller->isOpening() ? tr("Opening…") : tr("No match"));
     for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
     return;
   }

@@ -3,10 +3,10 @@
 
 #include <QApplication>
 #include <QFontInfo>
-#include <QStyleFactory>
 #include <cmath>
 
 #include "desktop_theme.h"
+#include "flat_style.h"
 #include "theme_colors.h"
 
 namespace pitchboard::ui {
@@ -43,7 +43,7 @@ void setTheme(QApplication& application, ThemeChoice choice) {
   DesktopTheme* desktop = DesktopTheme::of(application);
   if (application.property("pitchboardStyled").isNull()) {
     application.setProperty("pitchboardStyled", true);
-    QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    QApplication::setStyle(new FlatStyle);
     QObject::connect(desktop, &DesktopTheme::changed, &application, [&application](bool dark) {
       if (current().choice == ThemeChoice::FollowDesktop) apply(application, dark);
     });

@@ -143,8 +143,19 @@ QMainWindow > QTabBar::tab:selected {
   border-bottom-color: @view; }
 QMainWindow > QTabBar::tab:hover:!selected { color: @text; }
 QAbstractItemView { selection-background-color: @row; selection-color: @text; }
+QScrollBar { background: @view; border: none; margin: 0; }
+QScrollBar:vertical { width: @10; }
+QScrollBar:horizontal { height: @10; }
+QScrollBar::handle { background: @line; border-radius: 3px; margin: @2; }
+QScrollBar::handle:vertical { min-height: @24; }
+QScrollBar::handle:horizontal { min-width: @24; }
+QScrollBar::handle:hover { background: @secondary; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: none; }
+QTableView::item { padding: 0 @5; border: none; }
+QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;
-  border-bottom: 1px solid @line; padding: @3; }
+  border-bottom: 1px solid @line; padding: @3 @8; }
 QToolTip { background: @window; color: @text; border: 1px solid @line; }
 )");
   const std::pair<const char*, QColor> names[] = {
@@ -153,7 +164,7 @@ QToolTip { background: @window; color: @text; border: 1px solid @line; }
       {"@fill", c.accentFill}, {"@row", c.selectedRow}, {"@secondary", c.secondaryText},
       {"@text", c.text}};
   for (const auto& [name, color] : names) sheet.replace(QLatin1String(name), color.name());
-  for (const int pixels : {24, 12, 8, 6, 4, 3, 2}) {
+  for (const int pixels : {24, 12, 10, 8, 6, 5, 4, 3, 2}) {
     sheet.replace(QStringLiteral("@%1").arg(pixels),
                   QStringLiteral("%1px").arg(scaled(nullptr, pixels)));
   }

@@ -43,6 +43,10 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
   toggleViewAction()->setVisible(false);
   setContextMenuPolicy(Qt::PreventContextMenu);
   setIconSize(QSize(scaled(this, 20), scaled(this, 20)));
+  // A tool bar takes its padding at the top for its left, too.
+  auto* edge = new QWidget(this);
+  edge->setFixedWidth(0);
+  addWidget(edge);
   addModes();
   addSeparator();
   addWidget(m_scenarios);
@@ -112,7 +116,9 @@ void TransportBar::showTransport() {
                                                    m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
-  for (QAction* action : transportActions()) action->setEnabled(controller.isOpen());
+  for (QAction* action : transportActions()) {
+    action->setEnabled(controller.isOpen() || controller.isOpening());
+  }
   int at = m_speed->findData(controller.speed());
   if (at < 0) {
     m_speed->addItem(QStringLiteral("%1×").arg(controller.speed()), controller.speed());

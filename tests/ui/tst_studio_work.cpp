@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the window does to the match behind it: opening without waiting, notices with buttons,
+// processes, noise, two studios on one key base, and the same numbers as the command line.
+#include <QDoubleSpinBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QLabel>
+#include <QMenu>
+#include <QProcess>
+#include <QPushButton>
+#include <QSemaphore>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <sys/shm.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <robotlink/system_v.h>
+#include <shell/notice_bar.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+#include <ui/theme.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestStudioWork : public QObject {
+  Q_OBJECT
+
+  int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+
+  static link::Scenario match() { return link::loadScenario("match-3v3").value(); }
+  link::MatchOptions options(link::Cognition cognition) const {
+    link::MatchOptions made;
+    made.cognition = cognition;
+    made.keyBase = m_keyBase;
+    made.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    return made;
+  }
+  struct Studio {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    MatchController controller;
+    MainWindow window;
+    explicit Studio(const link::MatchOptions& made)
+        : controller(made), window(&controller, &settings) {
+      window.resize(1280, 800);
+      window.show();
+    }
+    QPushButton* noticeButton(const QString& text) {
+      for (auto* button : window.notices()->findChildren<QPushButton*>()) {
+        if (button->text() == text && button->isVisible()) return button;
+      }
+      return nullptr;
+    }
+    link::ChildStatus child(int robot, const std::string& name) {
+      link::ChildStatus newest;
+      if (!controller.frame()) return newest;
+      for (const link::ChildStatus& status : controller.frame()->children) {
+        if (status.spec.robot.value == robot && status.spec.name == name) newest = status;
+      }
+      return newest;
+    }
+  };
+
+  // A segment whose creator is gone, as after a studio that was killed.
+  void leaveOrphan(int key) {
+    const pid_t other = fork();
+    if (other == 0) _exit(shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600) < 0 ? 1 : 0);
+    int status = 0;
+    QCOMPARE(waitpid(other, &status, 0), other);
+    QCOMPARE(status, 0);
+  }
+  // Opens the context menu of the processes table's first row and takes the entry.
+  static void chooseInProcesses(Studio& s, const QString& starts, bool& chosen) {
+    auto* table = s.window.findChild<QTableView*>(QStringLiteral("processesTable"));
+    QTimer::singleShot(0, table, [&chosen, starts] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      if (!menu) return;
+      for (QAction* action : menu->actions()) {
+        if (!action->text().startsWith(starts)) continue;
+        chosen = true;
+        action->trigger();
+      }
+      menu->close();
+    });
+    emit table->customContextMenuRequested(QPoint(5, 5));
+  }
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+  void cleanup() {
+    for (const auto& segment : link::SystemVSegments::list(m_keyBase)) {
+      (void)link::SystemVSegments::remove(segment.key);
+    }
+  }
+
+  void openingDoesNotKeepTheWindowWaiting() {
+    Studio s(options(link::Cognition::Inline));
+    s.controller.open(match(), true);
+    QTRY_VERIFY(s.controller.frame());
+    // The worker stands until we let it go on; the window lives meanwhile.
+    QSemaphore gate;
+    s.controller.restartAfter([&gate] { gate.acquire(); });
+    QVERIFY(!s.controller.frame());
+    QVERIFY(s.controller.isOpening());
+    auto* label = s.window.findChild<QLabel*>(QStringLiteral("openingLabel"));
+    QTRY_VERIFY(label->isVisible());
+    QTRY_VERIFY(s.window.findChild<QLabel*>(QStringLiteral("noRobots"))->isVisible());
+    QVERIFY(s.window.findChild<QLabel*>(QStringLiteral("noRobots"))->text().startsWith(
+        QStringLiteral("Opening")));
+    sim::NoiseParameters noise;
+    noise.forward = 0.25;
+    s.controller.setNoise(noise);   // reaches the match once it is there
+    gate.release();
+    QTRY_VERIFY(s.controller.frame());
+    QTRY_COMPARE(s.controller.frame()->noise.forward, 0.25);
+    QVERIFY(!label->isVisible());
+  }
+
+  void aNewerOpenSupersedes() {
+    MatchController c(options(link::Cognition::Inline));
+    QSignalSpy opened(&c, &MatchController::opened);
+    QSemaphore gate;
+    c.open(match(), true);
+    c.restartAfter([&gate] { gate.acquire(); });
+    link::Scenario bad = match();
+    bad.settings.physics = "no-such-model";
+    c.open(bad, true);
+    c.open(link::loadScenario("one-robot").value(), true);
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    gate.release();
+    QTRY_VERIFY(c.frame());
+    QCOMPARE(c.frame()->snapshot.robots.size(), std::size_t(1));
+    QCOMPARE(opened.count(), 1);
+    QCOMPARE(errors.count(), 0);
+  }
+
+  void closingWhileOpeningLeavesNothing() {
+    {
+      MatchController c(options(link::Cognition::External));
+      c.open(match());
+      c.close();
+      QVERIFY(!c.isOpening());
+      c.open(match());
+    }
+    QVERIFY(link::SystemVSegments::list(m_keyBase).empty());
+  }
+
+  void removeTakesTheOrphanAwayAndKeepKeepsIt_data() {
+    QTest::addColumn<QString>("button");
+    QTest::addColumn<bool>("stays");
+    QTest::newRow("remove") << QStringLiteral("Remove") << false;
+    QTest::newRow("keep") << QStringLiteral("Keep") << true;
+  }
+  void removeTakesTheOrphanAwayAndKeepKeepsIt() {
+    QFETCH(QString, button);
+    QFETCH(bool, stays);
+    const int key = m_keyBase + 100 * 40;   // no robot of the match has it
+    leaveOrphan(key);
+    Studio s(options(link::Cognition::None));
+    s.window.offerToRemoveOrphans();
+    s.controller.open(match(), true);
+    QTRY_VERIFY(s.controller.frame());
+    QVERIFY(s.window.notices()->text().contains(QString::number(key)));
+    QVERIFY(s.noticeButton(button));
+    QTest::mouseClick(s.noticeButton(button), Qt::LeftButton);
+    QVERIFY(!s.window.notices()->isVisible());
+    QTRY_VERIFY(s.controller.frame());
+    QCOMPARE(link::SystemVSegments::info(key).has_value(), stays);
+  }
+
+  void theProcessesMenuRestartsAndStops() {
+    Studio s(options(link::Cognition::External));
+    s.controller.open(match());
+    QTRY_VERIFY_WITH_TIMEOUT(s.child(1, "communication").pid > 0, 20000);
+    const link::ChildStatus first = s.child(1, "decision");
+    QVERIFY(first.pid > 0);
+    bool chosen = false;
+    QTRY_VERIFY(s.window.findChild<QTableView*>(QStringLiteral("processesTable"))->isVisible());
+    chooseInProcesses(s, QStringLiteral("Restart all processes of B1"), chosen);
+    QVERIFY(chosen);
+    QTRY_VERIFY(s.child(1, "decision").handle != first.handle);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ChildState::Running);
+    QVERIFY(s.child(1, "decision").pid != first.pid);
+    chosen = false;
+    chooseInProcesses(s, QStringLiteral("Stop all processes of B1"), chosen);
+    QVERIFY(chosen);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ChildState::Ended);
+    QTRY_COMPARE(s.child(1, "communication").state, link::ChildState::Ended);
+    QCOMPARE(s.child(2, "decision").state, link::ChildState::Running);
+  }
+
+  void noiseSetInTheDockReachesTheSimulation() {
+    Studio s(options(link::Cognition::Inline));
+    s.controller.open(match(), true);
+    QTRY_VERIFY(s.controller.frame());
+    auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("noise"));
+    dock->show();
+    const auto box = [dock](const char* name) -> QDoubleSpinBox* {
+      for (auto* spin : dock->findChildren<QDoubleSpinBox*>()) {
+        if (spin->accessibleName() == QLatin1String(name)) return spin;
+      }
+      return nullptr;
+    };
+    QVERIFY(box("Forward"));
+    box("Forward")->setFocus();
+    box("Forward")->selectAll();
+    QTest::keyClicks(box("Forward"), QStringLiteral("1.25"));
+    QTest::keyClick(box("Forward"), Qt::Key_Return);
+    QTRY_COMPARE(s.controller.frame()->noise.forward, 0.0125);
+    auto* preset = dock->findChild<QComboBox*>(QStringLiteral("noisePreset"));
+    QCOMPARE(preset->currentText(), QStringLiteral("custom"));
+    const int none = preset->findText(QStringLiteral("none"));
+    preset->setCurrentIndex(none);
+    emit preset->activated(none);
+    QTRY_COMPARE(s.controller.frame()->noise, link::noisePreset("none").value());
+    auto* model = dock->findChild<QComboBox*>(QStringLiteral("physicsModel"));
+    const int published = model->findData(QStringLiteral("published"));
+    QVERIFY(published >= 0);
+    model->setCurrentIndex(published);
+    emit model->activated(published);
+    QTRY_COMPARE(s.controller.frame() ? s.controller.frame()->physics : std::string(),
+                 std::string("published"));
+  }
+
+  void aSecondStudioOnTheSameKeysPlaysInside() {
+    Studio first(options(link::Cognition::None));
+    first.controller.open(match(), true);
+    QTRY_VERIFY(first.controller.frame());
+    Studio second(options(link::Cognition::None));
+    second.controller.open(match(), true);
+    QTRY_VERIFY(second.controller.frame());
+    QCOMPARE(first.controller.cognition(), link::Cognition::None);
+    QCOMPARE(second.controller.cognition(), link::Cognition::Inline);
+    QVERIFY(second.window.notices()->isVisible());
+    QVERIFY2(second.window.notices()->text().contains(QStringLiteral("decide inside the studio")),
+             qPrintable(second.window.notices()->text()));
+    QCOMPARE(link::SystemVSegments::list(m_keyBase).size(), std::size_t(6));
+  }
+
+  void theWindowAndTheCommandLineGiveTheSameHash() {
+    QProcess cli;
+    cli.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
+              QStringLiteral("simulate --scenario match-3v3 --seed 7 --duration 60 --json")
+                  .split(QLatin1Char(' ')));
+    QVERIFY(cli.waitForFinished(30000));
+    const QJsonObject outcome = QJsonDocument::fromJson(cli.readAllStandardOutput()).object();
+    const auto tick = static_cast<std::uint64_t>(outcome[QLatin1String("ticks")].toInteger());
+    QVERIFY(tick > 0);
+
+    Studio s(options(link::Cognition::Inline));
+    link::Scenario scenario = match();
+    scenario.settings.seed = 7;
+    s.controller.open(scenario);
+    s.controller.runTo(tick);
+    QTRY_VERIFY_WITH_TIMEOUT(s.controller.frame() && s.controller.frame()->snapshot.tick == tick,
+                             30000);
+    QCOMPARE(QStringLiteral("0x%1").arg(s.controller.stateHash(), 16, 16, QLatin1Char('0')),
+             outcome[QLatin1String("state_hash")].toString());
+    QTRY_VERIFY(s.controller.frame()->paused);
+  }
+};
+
+QTEST_MAIN(TestStudioWork)
+#include "tst_studio_work.moc"
