@@ -20,6 +20,10 @@ endif()
 if(PITCHBOARD_SANITIZE)
   add_compile_options(-fsanitize=${PITCHBOARD_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PITCHBOARD_SANITIZE})
+  if(PITCHBOARD_SANITIZE MATCHES undefined)
+    # UBSan prints and goes on by default, and the test would pass.
+    add_compile_options(-fno-sanitize-recover=all)
+  endif()
 endif()
 
 # A simulation step must give the same bits in every build: no fused multiply-add, no -ffast-math.
