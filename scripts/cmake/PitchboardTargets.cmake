@@ -20,6 +20,10 @@ endif()
 if(PITCHBOARD_SANITIZE)
   add_compile_options(-fsanitize=${PITCHBOARD_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PITCHBOARD_SANITIZE})
+  if(PITCHBOARD_SANITIZE MATCHES undefined)
+    # UBSan prints and goes on by default, and the test would pass.
+    add_compile_options(-fno-sanitize-recover=all)
+  endif()
 endif()
 
 # A simulation step must give the same bits in every build: no fused multiply-add, no -ffast-math.
@@ -80,10 +84,18 @@ function(pitchboard_test name)
   if(ARG_GUI)
     list(APPEND environment "QT_QPA_PLATFORM=offscreen")
   endif()
-  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${ARG_LABELS}")
-  if(ARG_TIMEOUT)
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
-  else()
-    set_tests_properties(${name} PROPERTIES TIMEOUT 120)
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
   endif()
+  if(PITCHBOARD_SANITIZE)
+    set(suppressions ${PROJECT_SOURCE_DIR}/tests/sanitizers)
+    list(APPEND environment
+         "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1"
+         "LSAN_OPTIONS=suppressions=${suppressions}/lsan.supp:print_suppressions=0"
+         "UBSAN_OPTIONS=print_stacktrace=1"
+         "TSAN_OPTIONS=suppressions=${suppressions}/tsan.supp:second_deadlock_stack=1")
+    math(EXPR ARG_TIMEOUT "${ARG_TIMEOUT} * 4")
+  endif()
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${ARG_LABELS}"
+                       TIMEOUT ${ARG_TIMEOUT})
 endfunction()

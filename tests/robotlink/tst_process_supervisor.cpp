@@ -249,7 +249,7 @@ class TestProcessSupervisor : public QObject {
 
   void nothingSurvivesAKilledParent() {
     QProcess host;
-    host.start(PITCHBOARD_BIN "/supervisor_host", QStringList());
+    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host", QStringList());
     QByteArray output;
     QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
     QList<pid_t> pids;

@@ -75,7 +75,7 @@ class TestTeamMonitor : public QObject {
     WallTime silentAt{};
     for (int i = 5; i < 15; ++i) {
       give(monitor, text(1, 0), start + i * 1s);
-      const auto& decision = monitor.status(start + i * 1s).robots[0].processes[3];
+      const ProcessStatus decision = monitor.status(start + i * 1s).robots[0].processes[3];
       if (decision.state == ProcessState::Silent && silentAt == WallTime{}) silentAt = start + i * 1s;
     }
     QVERIFY(silentAt != WallTime{});
