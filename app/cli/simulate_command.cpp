@@ -15,6 +15,7 @@
 #include <robotlink/simulated_match.h>
 
 #include "commands.h"
+#include "output_file.h"
 #include "simulate_report.h"
 #include "trace_writer.h"
 
@@ -48,6 +49,7 @@ struct Arguments {
   std::string noise;
   std::string physics;
   std::string trace;
+  std::string moment;
   std::string robotProgram;
   int keyBase = 0;
   bool force = false;
@@ -229,6 +231,11 @@ Result<void> simulate(const Arguments& arguments) {
   if (trace) {
     if (auto finished = trace->finish(); !finished) return finished;
   }
+  if (!arguments.moment.empty()) {
+    auto saved = writeFile(arguments.moment, arguments.force,
+                           link::scenarioToJson(match->toScenario()), "the moment");
+    if (!saved) return saved;
+  }
   arguments.json ? printJson(*match, *outcome) : printSummary(*match, *outcome);
   return {};
 }
@@ -268,7 +275,10 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       ->type_name("PRESET");
   command->add_option("--physics", a.physics, "rigid-body or published")->type_name("MODEL");
   command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
-  command->add_flag("--force", a.force, "Overwrite the trace if it exists");
+  command->add_option("--save-moment", a.moment,
+                      "Save the last moment as a scenario, to go on from or to draw")
+      ->type_name("FILE.json");
+  command->add_flag("--force", a.force, "Overwrite the trace or the moment if it exists");
   command->add_flag("--json", a.json, "Print the outcome as one JSON object");
   command->add_option("--key-base", a.keyBase, "Added to the blackboard keys 100 x robot number")
       ->type_name("B")->capture_default_str()->check(CLI::Range(0, 2'000'000'000));

@@ -4,9 +4,10 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 
 #include <base/angles.h>
+
+#include "output_file.h"
 
 namespace pitchboard::cli {
 namespace {
@@ -19,23 +20,15 @@ void append(std::string& line, T value) {
   line.append(text.data(), end.ptr);
 }
 
-tl::unexpected<Error> cannotWrite(const std::string& path, int reason) {
-  return failure(ErrorCode::SystemError,
-                 std::string("the trace cannot be written: ") + std::strerror(reason), path);
-}
+constexpr const char* what = "the trace";
 
 }  // namespace
 
 Result<TraceWriter> TraceWriter::create(const std::string& path, bool overwrite,
                                         const sim::Snapshot& first) {
-  errno = 0;
-  std::FILE* file = std::fopen(path.c_str(), overwrite ? "we" : "wxe");
-  if (!file && errno == EEXIST) {
-    return failure(ErrorCode::Conflict, "this file exists; choose another name or add --force",
-                   path);
-  }
-  if (!file) return cannotWrite(path, errno);
-  TraceWriter writer(file, path);
+  auto file = openForWriting(path, overwrite, what);
+  if (!file) return tl::unexpected(file.error());
+  TraceWriter writer(*file, path);
   writer.m_line = "tick,time_s,ball_x,ball_y,ball_vx,ball_vy,score_left,score_right";
   for (const sim::RobotSnapshot& robot : first.robots) {
     const std::string name = std::string(info(robot.identity.team).letter) +
@@ -71,14 +64,14 @@ Result<void> TraceWriter::add(const sim::Snapshot& snapshot) {
 Result<void> TraceWriter::write() {
   m_line += '\n';
   if (std::fwrite(m_line.data(), 1, m_line.size(), m_file.get()) != m_line.size()) {
-    return cannotWrite(m_path, errno);
+    return cannotWrite(m_path, errno, what);
   }
   return {};
 }
 
 Result<void> TraceWriter::finish() {
   std::FILE* file = m_file.release();
-  if (std::fclose(file) != 0) return cannotWrite(m_path, errno);
+  if (std::fclose(file) != 0) return cannotWrite(m_path, errno, what);
   return {};
 }
 

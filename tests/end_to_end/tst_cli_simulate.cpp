@@ -65,6 +65,24 @@ class TestCliSimulate : public QObject {
     QVERIFY(simulate({"--help"}).out.contains("pitchboard-cli simulate --scenario"));
   }
 
+  void savedMomentGoesOn() {
+    QTemporaryDir dir;
+    const QString path = dir.filePath("moment.json");
+    const QStringList save{"--scenario", "one-robot", "--duration", "3", "--save-moment", path};
+    QCOMPARE(simulate(save).exitCode, 0);
+    const auto moment = link::loadScenario(path.toStdString());
+    QVERIFY2(moment.has_value(), moment ? "" : moment.error().text().c_str());
+    QCOMPARE(moment->robots.size(), std::size_t{1});
+    QVERIFY(!(moment->robots[0].pose == link::loadScenario("one-robot")->robots[0].pose));
+    const Run again = simulate(save);
+    QCOMPARE(again.exitCode, 2);
+    QVERIFY(again.err.contains("this file exists"));
+    QCOMPARE(simulate(save + QStringList("--force")).exitCode, 0);
+    const Run nowhere = simulate({"--duration", "1", "--save-moment", "/nowhere/moment.json"});
+    QCOMPARE(nowhere.exitCode, 2);
+    QVERIFY(nowhere.err.contains("the moment cannot be written: No such file"));
+  }
+
   void traceHasARowPerTick() {
     QTemporaryDir dir;
     const QString path = dir.filePath("a.csv");
