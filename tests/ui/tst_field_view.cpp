@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The field with real mouse and keyboard events on a real match that stands still.
 
+#include <QApplication>
+#include <QContextMenuEvent>
+#include <QDoubleSpinBox>
 #include <QGraphicsView>
 #include <QMenu>
 #include <QSignalSpy>
@@ -13,6 +16,7 @@
 #include <ui/field_view.h>
 #include <ui/match_controller.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace pitchboard;
@@ -246,6 +250,107 @@ class TestFieldView : public QObject {
     QVERIFY(with != m_view->picture(QSize(640, 455)));
   }
 
+  void theRightShiftKeyMakesOrangeRobots() {
+    moveTo(at({1.0, 1.5}));
+    constexpr quint32 rightShiftScanCode = 62;
+    QKeyEvent shift(QEvent::KeyPress, Qt::Key_Shift, Qt::NoModifier, rightShiftScanCode, 0, 0);
+    QCoreApplication::sendEvent(m_canvas, &shift);
+    // Not QTest::keyClick(), which would press a Shift key of its own.
+    QKeyEvent a(QEvent::KeyPress, Qt::Key_A, Qt::ShiftModifier);
+    QCoreApplication::sendEvent(m_canvas, &a);
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
+    QCOMPARE(int(m_controller->frame()->snapshot.robots.back().identity.team),
+             int(TeamColor::Orange));
+  }
+
+  void allAreSelectedByKey() {
+    QTest::keyClick(m_canvas, Qt::Key_A, Qt::ControlModifier | Qt::ShiftModifier);
+    QCOMPARE(m_view->selection().size(), std::size_t(6));
+    QCOMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(6));
+  }
+
+  void menuOfARobotCommandsIt_data() {
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<int>("action");
+    QTest::newRow("kick left") << "Kick left" << 5;
+    QTest::newRow("kick right") << "Kick right" << 4;
+    QTest::newRow("pass left") << "Pass left" << 12;
+    QTest::newRow("pass right") << "Pass right" << 13;
+    QTest::newRow("walk") << "Walk forward" << 1;
+  }
+  void menuOfARobotCommandsIt() {
+    QFETCH(QString, text);
+    QFETCH(int, action);
+    QVERIFY(trigger(pose(1).position, text));
+    QCOMPARE(m_view->selection(), std::vector{RobotId{1}});
+    QTRY_COMPARE(m_controller->frame()->boards.front().actionA, action);
+  }
+
+  void menuOfARobotRemovesAndFollows() {
+    QVERIFY(trigger(pose(2).position, "Follow"));
+    QCOMPARE(m_view->followed(), std::optional(RobotId{2}));
+    QVERIFY(trigger(pose(2).position, "Remove robot"));
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(5));
+    QVERIFY(!m_view->followed());
+  }
+
+  void menuOfTheGroundPlacesTheBallAndRobots() {
+    const Point place{1.0, 2.0};
+    QVERIFY(trigger(place, "Place ball here"));
+    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.x - 1.0) < 0.03);
+    QVERIFY(trigger({-1.0, -2.0}, "Red"));
+    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
+    QCOMPARE(int(m_controller->frame()->snapshot.robots.back().identity.team), int(TeamColor::Red));
+    QCOMPARE(m_controller->undoStack()->count(), 2);
+  }
+
+  void menuAsksToSaveTheMoment() {
+    const QSignalSpy save(m_view.get(), &FieldView::saveScenarioRequested);
+    QVERIFY(trigger({-1.0, -2.0}, "Save this moment as a scenario…"));
+    QCOMPARE(save.count(), 1);
+  }
+
+  void poseEditorKeepsOrPutsBack_data() {
+    QTest::addColumn<int>("key");
+    QTest::addColumn<int>("commands");
+    QTest::newRow("Enter keeps it") << int(Qt::Key_Return) << 1;
+    QTest::newRow("Esc puts it back") << int(Qt::Key_Escape) << 0;
+  }
+  void poseEditorKeepsOrPutsBack() {
+    QFETCH(int, key);
+    QFETCH(int, commands);
+    const Pose before = pose(1);
+    QTest::mouseDClick(m_canvas->viewport(), Qt::LeftButton, {}, at(before.position));
+    auto* x = m_view->findChild<QDoubleSpinBox*>("x");
+    auto* heading = m_view->findChild<QDoubleSpinBox*>("heading");
+    QVERIFY(x && heading);
+    x->setValue(0.75);
+    heading->setValue(90.0);
+    QTRY_VERIFY(std::abs(pose(1).position.x - 0.75) < 1e-6);  // shown while typing
+    QTest::keyClick(x, Qt::Key(key));
+    QCOMPARE(m_controller->undoStack()->count(), commands);
+    const Pose after = commands ? Pose{{0.75, before.position.y}, radiansFromDegrees(90)} : before;
+    QTRY_VERIFY(near(pose(1), after) && std::abs(wrapToPi(pose(1).yaw - after.yaw)) < 1e-6);
+    QTRY_VERIFY(!m_view->findChild<QDoubleSpinBox*>("x"));
+    if (!commands) return;
+    m_controller->undoStack()->undo();
+    QTRY_VERIFY(near(pose(1), before));
+  }
+
+  void ballEditorHasNoHeading() {
+    const Point before = m_controller->frame()->snapshot.ball;
+    QVERIFY(trigger(before, "Ball position…"));
+    auto* y = m_view->findChild<QDoubleSpinBox*>("y");
+    QVERIFY(y);
+    QVERIFY(!m_view->findChild<QDoubleSpinBox*>("heading"));
+    y->setValue(-1.25);
+    QTest::keyClick(y, Qt::Key_Return);
+    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y + 1.25) < 1e-6);
+    QCOMPARE(m_controller->undoStack()->count(), 1);
+    m_controller->undoStack()->undo();
+    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
+  }
+
   void withoutMatchNothingHappens() {
     FieldView alone(nullptr);
     alone.resize(400, 300);
@@ -262,6 +367,22 @@ class TestFieldView : public QObject {
   }
 
  private:
+  /// Asks for the context menu at a place of the field and triggers the action with this text, also
+  /// of a submenu.
+  bool trigger(const Point& place, const QString& text) {
+    const QPoint point = at(place);
+    QContextMenuEvent event(QContextMenuEvent::Mouse, point,
+                            m_canvas->viewport()->mapToGlobal(point));
+    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    if (!menu) return false;
+    const auto actions = menu->findChildren<QAction*>();
+    const auto found = std::find_if(actions.begin(), actions.end(),
+                                    [&](const QAction* action) { return action->text() == text; });
+    if (found != actions.end()) (*found)->trigger();
+    menu->close();
+    return found != actions.end();
+  }
   Pose pose(int id) const {
     for (const auto& robot : m_controller->frame()->snapshot.robots) {
       if (robot.identity.id == RobotId{id}) return robot.pose;

@@ -85,9 +85,7 @@ void BeliefItem::paintGhost(QPainter* painter) const {
 }
 
 void BeliefItem::paintPerceivedBall(QPainter* painter) const {
-  const sim::FieldSpec& field = m_style->field;
-  const QRectF area(-field.halfLength() - field.border, -field.halfWidth() - field.border,
-                    field.length + 2 * field.border, field.width + 2 * field.border);
+  const QRectF area = m_style->playingArea();
   const double reach = m_style->ballDrawRadius();
   const bool inside = area.adjusted(reach, reach, -reach, -reach).contains(toScene(*m_look.ball));
   if (!inside) painter->setClipRect(area);

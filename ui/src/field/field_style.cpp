@@ -17,6 +17,12 @@ double FieldStyle::atLeast(double length, double pixels) const {
   return std::max(length, pixels / pixelsPerMetre);
 }
 
+QRectF FieldStyle::playingArea() const {
+  const double x = field.halfLength() + field.border;
+  const double y = field.halfWidth() + field.border;
+  return {-x, -y, 2 * x, 2 * y};
+}
+
 double FieldStyle::robotDrawRadius() const { return atLeast(field.robotRadius, 5.0); }
 
 double FieldStyle::ballDrawRadius() const { return atLeast(field.ballRadius, 3.0); }

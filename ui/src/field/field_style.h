@@ -9,6 +9,7 @@
 #include <QFont>
 #include <QPainter>
 #include <QPointF>
+#include <QRectF>
 #include <QString>
 #include <array>
 #include <cstddef>
@@ -34,6 +35,7 @@ struct FieldStyle {
   /// A length that is at least so many pixels on the screen, metres.
   double atLeast(double metres, double pixels) const;
   double metres(double pixels) const { return pixels / pixelsPerMetre; }
+  QRectF playingArea() const;      ///< with its border, metres
   double robotDrawRadius() const;  ///< metres; never smaller than a dot that can be hit
   double ballDrawRadius() const;   ///< metres
 };

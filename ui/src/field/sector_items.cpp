@@ -45,6 +45,12 @@ QRectF SectorItem::boundingRect() const {
 }
 
 void SectorItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  painter->setClipRect(m_style->playingArea().translated(-pos()));
+  paintSectors(painter);
+  painter->setClipping(false);
+}
+
+void SectorItem::paintSectors(QPainter* painter) const {
   const ScreenPainting screen(painter, QPointF(0, 0));
   painter->setBrush(Qt::NoBrush);
   if (m_kind == Kind::Eopra) {

@@ -27,6 +27,7 @@ class SectorItem : public QGraphicsItem {
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
+  void paintSectors(QPainter* painter) const;
   void paintEopra(QPainter* painter, const ScreenPainting& screen) const;
   void paintStarVars(QPainter* painter, const ScreenPainting& screen) const;
   double reach() const;

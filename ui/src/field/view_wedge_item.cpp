@@ -48,12 +48,12 @@ void ViewWedgeItem::styleChanges() { updateOutline(); }
 
 void ViewWedgeItem::updateOutline() {
   prepareGeometryChange();
-  const double x = m_style->field.halfLength() + m_style->field.border;
-  const double y = m_style->field.halfWidth() + m_style->field.border;
   if (!isVisible()) {
     m_outline.clear();
     return;
   }
+  const QRectF area = m_style->playingArea();
+  const double x = area.right(), y = area.bottom();
   m_outline = sector(toScene(m_position), m_yaw);
   m_outline = clipped(m_outline, [x](const QPointF& p) { return x - p.x(); });
   m_outline = clipped(m_outline, [x](const QPointF& p) { return x + p.x(); });

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every key of the field, pressed on a real canvas, asks for what the published simulator's key
+// does (SYSTEM.md section 9); and what the ruler reads.
+
+#include <QTest>
+
+#include <field/field_canvas.h>
+#include <field/field_keys.h>
+#include <field/field_pointer.h>
+#include <field/overlay_items.h>
+
+#include <set>
+
+using namespace pitchboard::ui;
+
+namespace {
+
+/// Writes down what it is asked for.
+class RecordingTarget : public FieldKeyTarget {
+ public:
+  QStringList calls;
+
+  void addRobotAtCursor(int color) override { note("add", color); }
+  void addRobotByShift() override { note("add by shift"); }
+  void placeBallAtCursor() override { note("ball"); }
+  void selectRobot(int number) override { note("select", number); }
+  void selectAll() override { note("select all"); }
+  void moveSelectedToCursor() override { note("move here"); }
+  void removeSelected() override { note("remove"); }
+  void commandSelected(int action, int b) override { note("action", action, b); }
+  void searchSelected(bool on) override { note("search", on); }
+  void nudgeSelected(int right, int up, bool coarse) override {
+    note(coarse ? "nudge far" : "nudge", right, up);
+  }
+  void toggleLayer(int layer) override { note("layer", layer); }
+  void escape() override { note("escape"); }
+  void fit() override { note("fit"); }
+  void toggleHelp() override { note("help"); }
+  void togglePause() override { note("pause"); }
+  void loadMatch() override { note("load"); }
+  void reset() override { note("reset"); }
+  void clear() override { note("clear"); }
+
+ private:
+  template <class... Numbers>
+  void note(const char* what, Numbers... numbers) {
+    QString call = QLatin1String(what);
+    ((call += QLatin1Char(' ') + QString::number(static_cast<int>(numbers))), ...);
+    calls << call;
+  }
+};
+
+struct Expected {
+  int key;
+  Qt::KeyboardModifiers modifiers;
+  QString call;
+};
+
+QString layer(FieldLayer which) {
+  return QStringLiteral("layer %1").arg(static_cast<int>(which));
+}
+
+std::vector<Expected> expectations() {
+  const auto none = Qt::NoModifier;
+  const auto ctrl = Qt::ControlModifier;
+  const auto shift = Qt::ShiftModifier;
+  std::vector<Expected> all{
+      {Qt::Key_A, none, "add 0"},
+      {Qt::Key_A, ctrl, "add 1"},
+      {Qt::Key_A, Qt::AltModifier, "add 2"},
+      {Qt::Key_A, shift, "add by shift"},
+      {Qt::Key_A, ctrl | shift, "select all"},
+      {Qt::Key_B, none, "ball"},
+      {Qt::Key_Insert, none, "move here"},
+      {Qt::Key_Delete, none, "remove"},
+      {Qt::Key_Escape, none, "escape"},
+      {Qt::Key_Left, none, "nudge -1 0"},
+      {Qt::Key_Right, none, "nudge 1 0"},
+      {Qt::Key_Up, none, "nudge 0 1"},
+      {Qt::Key_Down, none, "nudge 0 -1"},
+      {Qt::Key_Left, shift, "nudge far -1 0"},
+      {Qt::Key_Right, shift, "nudge far 1 0"},
+      {Qt::Key_Up, shift, "nudge far 0 1"},
+      {Qt::Key_Down, shift, "nudge far 0 -1"},
+      {Qt::Key_F, none, "action 1 -1"},
+      {Qt::Key_K, none, "action 8 10"},
+      {Qt::Key_V, none, "action 17 -1"},
+      {Qt::Key_R, none, "action 18 -1"},
+      {Qt::Key_M, none, "action 6 -1"},
+      {Qt::Key_N, none, "action 7 -1"},
+      {Qt::Key_E, none, "action 2 -1"},
+      {Qt::Key_D, none, "action 3 -1"},
+      {Qt::Key_O, none, "action 9 -1"},
+      {Qt::Key_Q, none, "action 14 -1"},
+      {Qt::Key_L, none, "action 5 -1"},
+      {Qt::Key_P, none, "action 4 -1"},
+      {Qt::Key_I, none, "action 12 -1"},
+      {Qt::Key_J, none, "action 13 -1"},
+      {Qt::Key_S, none, "action 11 -1"},
+      {Qt::Key_T, none, "action 0 -1"},
+      {Qt::Key_Y, none, "search 1"},
+      {Qt::Key_Z, none, "search 0"},
+      {Qt::Key_F1, none, "help"},
+      {Qt::Key_F2, none, "load"},
+      {Qt::Key_F3, none, "reset"},
+      {Qt::Key_F4, none, "clear"},
+      {Qt::Key_F5, none, "pause"},
+      {Qt::Key_F6, none, layer(FieldLayer::FieldOfView)},
+      {Qt::Key_F7, none, layer(FieldLayer::Eopra)},
+      {Qt::Key_F8, none, layer(FieldLayer::StarVars)},
+      {Qt::Key_F9, none, layer(FieldLayer::Landmarks)},
+      {Qt::Key_Home, none, "fit"},
+  };
+  for (int i = 1; i <= 9; ++i) {
+    all.push_back({Qt::Key_0 + i, none, QStringLiteral("select %1").arg(i)});
+  }
+  for (int i = 0; i <= 6; ++i) {
+    all.push_back({Qt::Key_0 + i, ctrl, QStringLiteral("select %1").arg(10 + i)});
+  }
+  return all;
+}
+
+}  // namespace
+
+class TestFieldKeys : public QObject {
+  Q_OBJECT
+ private slots:
+  void everyKeyAsksForItsEffect_data() {
+    QTest::addColumn<int>("key");
+    QTest::addColumn<Qt::KeyboardModifiers>("modifiers");
+    QTest::addColumn<QString>("call");
+    for (const Expected& row : expectations()) {
+      const QKeySequence shown(QKeyCombination(row.modifiers, static_cast<Qt::Key>(row.key)));
+      QTest::newRow(qPrintable(shown.toString())) << row.key << row.modifiers << row.call;
+    }
+  }
+  void everyKeyAsksForItsEffect() {
+    QFETCH(int, key);
+    QFETCH(Qt::KeyboardModifiers, modifiers);
+    QFETCH(QString, call);
+    FieldScene scene;
+    FieldPointer pointer(&scene, nullptr, nullptr);
+    FieldCanvas canvas(&scene, &pointer, nullptr);
+    RecordingTarget target;
+    canvas.setKeyHandler([&](QKeyEvent* event) {
+      const FieldKey* entry = findFieldKey(event->key(), event->modifiers());
+      if (entry) entry->act(target);
+      return entry != nullptr;
+    });
+    QTest::keyClick(&canvas, static_cast<Qt::Key>(key), modifiers);
+    QCOMPARE(target.calls, QStringList{call});
+  }
+
+  void theTableHasNoOtherKeysAndNoneTwice() {
+    std::set<std::pair<int, int>> known, found;
+    for (const Expected& row : expectations()) known.insert({row.key, row.modifiers.toInt()});
+    for (const FieldKey& entry : fieldKeys()) {
+      QVERIFY2(found.insert({entry.key, entry.modifiers.toInt()}).second, entry.meaning);
+    }
+    QVERIFY(known == found);
+  }
+
+  void theKeypadCountsAsPlainDigits() {
+    const FieldKey* plain = findFieldKey(Qt::Key_3, Qt::NoModifier);
+    QVERIFY(plain);
+    QCOMPARE(findFieldKey(Qt::Key_3, Qt::KeypadModifier), plain);
+    QVERIFY(!findFieldKey(Qt::Key_3, Qt::AltModifier));
+  }
+
+  void rulerReadsMetresAndDegrees_data() {
+    QTest::addColumn<QPointF>("from");
+    QTest::addColumn<QPointF>("to");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("along x") << QPointF(1, 1) << QPointF(3, 1) << QStringLiteral("2.00 m   0.0°");
+    QTest::newRow("3-4-5") << QPointF(0, 0) << QPointF(3, 4) << QStringLiteral("5.00 m   53.1°");
+    QTest::newRow("down, real minus") << QPointF(0, 2) << QPointF(0, 0.5) << QStringLiteral("1.50 m   −90.0°");
+    QTest::newRow("back") << QPointF(0, 0) << QPointF(-1.234, 0) << QStringLiteral("1.23 m   180.0°");
+    QTest::newRow("nothing") << QPointF(2, 2) << QPointF(2, 2) << QStringLiteral("0.00 m   0.0°");
+    QTest::newRow("no minus zero") << QPointF(0, 0) << QPointF(3, -0.001) << QStringLiteral("3.00 m   0.0°");
+  }
+  void rulerReadsMetresAndDegrees() {
+    QFETCH(QPointF, from);
+    QFETCH(QPointF, to);
+    QFETCH(QString, text);
+    QCOMPARE(rulerText(from, to), text);
+  }
+};
+
+QTEST_MAIN(TestFieldKeys)
+#include "tst_field_keys.moc"
