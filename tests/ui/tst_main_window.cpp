@@ -147,6 +147,19 @@ class TestMainWindow : public QObject {
     QTRY_COMPARE(cards().size(), qsizetype(5));
   }
 
+  void aCollapsedCardStaysWithItsRobot() {
+    Studio s;
+    const auto cards = [&s] { return s.window.findChildren<RobotCard*>(); };
+    QTRY_COMPARE(cards().size(), qsizetype(6));
+    cards()[2]->setCollapsed(true);
+    const RobotId id = cards()[2]->state().id;
+    s.controller.removeRobots({cards()[0]->state().id});
+    QTRY_COMPARE(cards().size(), qsizetype(5));
+    QCOMPARE(cards()[1]->state().id, id);
+    QVERIFY(cards()[1]->isCollapsed());
+    QVERIFY(!cards()[2]->isCollapsed());
+  }
+
   void selectAllLeavesCtrlAToTheField() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
