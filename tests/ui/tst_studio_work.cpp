@@ -273,6 +273,8 @@ class TestStudioWork : public QObject {
     QVERIFY(second.window.notices()->isVisible());
     QVERIFY2(second.window.notices()->text().contains(QStringLiteral("decide inside the studio")),
              qPrintable(second.window.notices()->text()));
+    QVERIFY(second.window.findChild<QLabel*>(QStringLiteral("noProcesses"))->text().contains(
+        QStringLiteral("could not be started")));
     QCOMPARE(link::SystemVSegments::list(m_keyBase).size(), std::size_t(6));
   }
 
