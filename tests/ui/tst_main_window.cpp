@@ -2,6 +2,7 @@
 // The window as a person uses it: real clicks and keys on a real match.
 #include <QComboBox>
 #include <QDockWidget>
+#include <QGraphicsView>
 #include <QMenuBar>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -12,6 +13,7 @@
 
 #include <robots/robot_card.h>
 #include <shell/notice_bar.h>
+#include <ui/field_view.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
 #include <ui/scenario_files.h>
@@ -143,6 +145,33 @@ class TestMainWindow : public QObject {
     QVERIFY(cards()[2]->isSelected() && cards()[3]->isSelected());
     s.controller.removeRobots({RobotId{1}});
     QTRY_COMPARE(cards().size(), qsizetype(5));
+  }
+
+  void aCollapsedCardStaysWithItsRobot() {
+    Studio s;
+    const auto cards = [&s] { return s.window.findChildren<RobotCard*>(); };
+    QTRY_COMPARE(cards().size(), qsizetype(6));
+    cards()[2]->setCollapsed(true);
+    const RobotId id = cards()[2]->state().id;
+    s.controller.removeRobots({cards()[0]->state().id});
+    QTRY_COMPARE(cards().size(), qsizetype(5));
+    QCOMPARE(cards()[1]->state().id, id);
+    QVERIFY(cards()[1]->isCollapsed());
+    QVERIFY(!cards()[2]->isCollapsed());
+  }
+
+  void selectAllLeavesCtrlAToTheField() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    canvas->setFocus();
+    QVERIFY(QTest::qWaitForWindowActive(&s.window));
+    QTest::keyClick(canvas, Qt::Key_A, Qt::ControlModifier | Qt::ShiftModifier);
+    QCOMPARE(s.window.field()->selection().size(), std::size_t(6));
+    QTest::mouseMove(canvas->viewport(), canvas->viewport()->rect().center() + QPoint(40, 60));
+    QTest::keyClick(canvas, Qt::Key_A, Qt::ControlModifier);
+    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(7));
+    QCOMPARE(s.controller.frame()->snapshot.robots.back().identity.team, TeamColor::Red);
   }
 
   void theThemeSwitches() {

@@ -13,6 +13,7 @@
 #include <QSemaphore>
 #include <QSettings>
 #include <QSignalSpy>
+#include <QSlider>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -22,6 +23,7 @@
 
 #include <robotlink/system_v.h>
 #include <shell/notice_bar.h>
+#include <ui/field_view.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
 #include <ui/theme.h>
@@ -229,6 +231,36 @@ class TestStudioWork : public QObject {
                  std::string("published"));
   }
 
+  void scrollingTheNoiseDockChangesNothing() {
+    Studio s(options(link::Cognition::Inline));
+    s.controller.open(match(), true);
+    QTRY_VERIFY(s.controller.frame());
+    auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("noise"));
+    dock->show();
+    s.window.field()->setFocus();
+    QList<QWidget*> controls = dock->findChildren<QWidget*>(QStringLiteral("physicsModel"));
+    for (auto* box : dock->findChildren<QDoubleSpinBox*>()) controls << box;
+    for (auto* slider : dock->findChildren<QSlider*>()) controls << slider;
+    const std::string physics = s.controller.scenario().settings.physics;
+    const auto values = [&controls] {
+      QList<double> all;
+      for (QWidget* control : controls) {
+        if (auto* box = qobject_cast<QDoubleSpinBox*>(control)) all << box->value();
+      }
+      return all;
+    };
+    const QList<double> before = values();
+    for (QWidget* control : controls) {
+      const QPointF at = control->rect().center();
+      QWheelEvent wheel(at, control->mapToGlobal(at), {}, {0, -120}, {}, {}, Qt::NoScrollPhase,
+                        false);
+      QCoreApplication::sendEvent(control, &wheel);
+    }
+    QCOMPARE(values(), before);
+    QCOMPARE(s.controller.scenario().settings.physics, physics);
+    QVERIFY(s.controller.isOpen());
+  }
+
   void aSecondStudioOnTheSameKeysPlaysInside() {
     Studio first(options(link::Cognition::None));
     first.controller.open(match(), true);
@@ -241,6 +273,8 @@ class TestStudioWork : public QObject {
     QVERIFY(second.window.notices()->isVisible());
     QVERIFY2(second.window.notices()->text().contains(QStringLiteral("decide inside the studio")),
              qPrintable(second.window.notices()->text()));
+    QVERIFY(second.window.findChild<QLabel*>(QStringLiteral("noProcesses"))->text().contains(
+        QStringLiteral("could not be started")));
     QCOMPARE(link::SystemVSegments::list(m_keyBase).size(), std::size_t(6));
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "blackboard_window.h"
 
-#include <QHeaderView>
 #include <QLabel>
 #include <QTableWidget>
 #include <QTimer>
@@ -12,6 +11,7 @@
 #include <ui/theme.h>
 
 #include "shell/robot_words.h"
+#include "shell/table_style.h"
 
 namespace pitchboard::ui {
 
@@ -24,16 +24,16 @@ BlackboardWindow::BlackboardWindow(MatchController* controller, RobotId id, QWid
   setWindowTitle(tr("Blackboard of %1").arg(robot ? robotName(robot->identity) : QString()));
   m_where->setWordWrap(true);
   m_where->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  m_table->setHorizontalHeaderLabels({tr("Name"), tr("Value"), tr("Unit")});
-  m_table->verticalHeader()->hide();
-  m_table->setShowGrid(false);
-  m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  m_table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  m_table->setHorizontalHeaderLabels({tr("Name"), tr("Value"), tr("Unit, meaning")});
+  styleTable(m_table);
+  m_table->setFrameShape(QFrame::StyledPanel);
+  m_table->setColumnWidth(0, scaled(this, 200));
+  m_table->setColumnWidth(1, scaled(this, 80));
+  m_table->horizontalHeaderItem(1)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
   auto* column = new QVBoxLayout(this);
   column->addWidget(m_where);
   column->addWidget(m_table, 1);
-  resize(scaled(this, 420), scaled(this, 340));
+  resize(scaled(this, 460), scaled(this, 300));
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &BlackboardWindow::refresh);
   timer->start(refreshMilliseconds);

@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <set>
 
 #include <ui/field_view.h>
 #include <ui/match_controller.h>
@@ -63,9 +64,16 @@ void RobotsDock::refresh() {
     return;
   }
   const std::vector<CardState> states = m_tracker.update(*frame, m_clock.elapsed());
+  // A card stands for the robot at its place: when one leaves, those after it move up.
+  std::set<RobotId> collapsed;
+  for (const RobotCard* card : m_cards) {
+    if (card->isCollapsed()) collapsed.insert(card->state().id);
+  }
   makeCards(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
-    m_cards[static_cast<qsizetype>(i)]->setState(states[i]);
+    RobotCard* card = m_cards[static_cast<qsizetype>(i)];
+    card->setState(states[i]);
+    card->setCollapsed(collapsed.count(states[i].id) != 0);
   }
   showSelection();
 }

@@ -44,8 +44,8 @@ constexpr Keys shortcuts[] = {
     {"Y, Z", "ball search on, off"},
     {nullptr, "As in the published simulator"},
     {"F1", "help over the field"},
-    {"F2, F3, F4", "load the match, reset, clear"},
-    {"F5", "game clock"},
+    {"F2, F3, F4", "load the match, start it again, clear the field"},
+    {"F5", "pause or go on"},
     {"F6, F7, F8", "field of view, EOPRA, StarVars"},
 };
 
@@ -76,10 +76,12 @@ void showShortcuts(QWidget* parent) {
   auto* scroll = new QScrollArea(dialog);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(list);
+  scroll->setMinimumWidth(list->sizeHint().width() + scaled(parent, 16));
   auto* column = new QVBoxLayout(dialog);
   column->addWidget(scroll);
-  dialog->resize(scaled(parent, 460), scaled(parent, 600));
+  dialog->resize(scaled(parent, 500), scaled(parent, 640));
   dialog->show();
 }
 

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
+#include <QLabel>
 #include <QLineEdit>
 #include <QScrollBar>
 #include <QToolButton>
@@ -23,7 +24,7 @@ class LogDock : public QWidget {
  public:
   LogDock(const StudioContext& context, QWidget* parent)
       : QWidget(parent), m_controller(context.controller), m_model(new LogModel(this)),
-        m_filter(new WordsFilter(this)), m_table(new QTableView(this)) {
+        m_filter(new WordsFilter(this)), m_table(new QTableView(this)), m_empty(new QLabel(this)) {
     m_model->setObjectName(QStringLiteral("logModel"));
     m_filter->setSourceModel(m_model);
     m_table->setModel(m_filter);
@@ -54,6 +55,19 @@ class LogDock : public QWidget {
     column->setSpacing(0);
     column->addLayout(row);
     column->addWidget(m_table, 1);
+    column->addWidget(m_empty, 1);
+    m_empty->setObjectName(QStringLiteral("emptyLog"));
+    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setBackgroundRole(QPalette::Base);
+    m_empty->setAutoFillBackground(true);
+    m_empty->setMargin(scaled(this, 12));
+    m_empty->setWordWrap(true);
+    for (const auto changed : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
+      connect(m_filter, changed, this, &LogDock::showEmpty);
+    }
+    connect(m_filter, &QAbstractItemModel::modelReset, this, &LogDock::showEmpty);
+    showEmpty();
 
     auto* copy = new QAction(tr("Copy"), this);
     copy->setShortcut(QKeySequence::Copy);
@@ -73,6 +87,16 @@ class LogDock : public QWidget {
   }
 
  private:
+  void showEmpty() {
+    const bool empty = m_filter->rowCount() == 0;
+    m_table->setVisible(!empty);
+    m_empty->setVisible(empty);
+    m_empty->setText(m_model->rowCount() > 0
+                         ? tr("No line has all of these words.")
+                         : tr("Nothing yet. Kicks, goals, falls, errors and what the robots' "
+                              "processes print appear here."));
+  }
+
   void append(const std::vector<link::LogLine>& lines) {
     const QScrollBar* bar = m_table->verticalScrollBar();
     const bool follows = bar->value() >= bar->maximum();
@@ -107,6 +131,7 @@ class LogDock : public QWidget {
   LogModel* m_model;
   WordsFilter* m_filter;
   QTableView* m_table;
+  QLabel* m_empty;
 };
 
 }  // namespace

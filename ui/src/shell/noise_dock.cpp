@@ -88,10 +88,25 @@ class NoiseDock : public QScrollArea {
     column->addStretch(1);
     setWidget(form);
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
+    for (auto* control : form->findChildren<QWidget*>()) {
+      if (control->focusPolicy() != Qt::WheelFocus && !qobject_cast<QSlider*>(control)) continue;
+      if (control->focusPolicy() == Qt::WheelFocus) control->setFocusPolicy(Qt::StrongFocus);
+      control->installEventFilter(this);
+    }
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
     connect(m_controller, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { follow(*frame); });
     adopt();
+  }
+
+ protected:
+  // Scrolling the panel must not change what happens to lie under the cursor.
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() != QEvent::Wheel || static_cast<QWidget*>(watched)->hasFocus()) {
+      return QScrollArea::eventFilter(watched, event);
+    }
+    event->ignore();
+    return true;
   }
 
  private:

@@ -21,6 +21,10 @@ QString emptyText(const MatchController& controller) {
   }
   switch (controller.cognition()) {
     case link::Cognition::Inline:
+      if (controller.options().cognition != link::Cognition::Inline) {
+        return QObject::tr("The robots decide inside the studio, because separate processes could "
+                           "not be started: the Log says why.");
+      }
       return QObject::tr("The robots decide inside the studio, so there are no separate processes to "
                          "show. Start the studio with --cognition external to have them.");
     case link::Cognition::None:

@@ -143,7 +143,7 @@ QMainWindow > QTabBar::tab:selected {
   border-bottom-color: @view; }
 QMainWindow > QTabBar::tab:hover:!selected { color: @text; }
 QAbstractItemView { selection-background-color: @row; selection-color: @text; }
-QScrollBar { background: @view; border: none; margin: 0; }
+QScrollBar { background: transparent; border: none; margin: 0; }
 QScrollBar:vertical { width: @10; }
 QScrollBar:horizontal { height: @10; }
 QScrollBar::handle { background: @line; border-radius: 3px; margin: @2; }
@@ -152,6 +152,9 @@ QScrollBar::handle:horizontal { min-width: @24; }
 QScrollBar::handle:hover { background: @secondary; }
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: none; }
+QDockWidget QDoubleSpinBox, QLineEdit#logFilter { background: @view; color: @text;
+  border: 1px solid @line; border-radius: 3px; padding: @2 @4; }
+QDockWidget QDoubleSpinBox:focus, QLineEdit#logFilter:focus { border-color: @accent; }
 QTableView::item { padding: 0 @5; border: none; }
 QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;
