@@ -204,7 +204,7 @@ class TestFieldView : public QObject {
     moveTo(at({1.0, 1.5}));
     QTest::keyClick(m_canvas, Qt::Key_A, modifiers);
     QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
-    const auto& made = m_controller->frame()->snapshot.robots.back();
+    const sim::RobotSnapshot made = m_controller->frame()->snapshot.robots.back();
     QCOMPARE(int(made.identity.team), team);
     QVERIFY(std::abs(made.pose.position.x - 1.0) < 0.03);
     QCOMPARE(std::abs(made.pose.yaw) > 1.0, info(made.identity.team).facesLeft);
