@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The field with real mouse and keyboard events on a real match that stands still.
 
+#include <QAction>
 #include <QApplication>
 #include <QContextMenuEvent>
 #include <QDoubleSpinBox>
@@ -349,6 +350,37 @@ class TestFieldView : public QObject {
     QCOMPARE(m_controller->undoStack()->count(), 1);
     m_controller->undoStack()->undo();
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
+  }
+
+  void layerOptionsChangeThePicture() {
+    const auto options = m_view->layerOptionActions();
+    QCOMPARE(options.size(), std::size_t(3));
+    const QSize size(640, 455);
+    const QImage one = m_view->picture(size);
+    options[0]->setChecked(true);  // fields of view of robots that are not selected
+    const QImage all = m_view->picture(size);
+    QVERIFY(all != one);
+    m_view->select({RobotId{1}});
+    m_view->layerActions()[std::size_t(FieldLayer::Eopra)]->setChecked(true);
+    const QImage four = m_view->picture(size);
+    options[2]->setChecked(true);
+    QVERIFY(!options[1]->isChecked());
+    QVERIFY(m_view->picture(size) != four);
+  }
+
+  void nothingIsDrawnBesideThePlayingArea() {
+    // A picture much wider than the field: with everything shown, its sides stay empty.
+    for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
+    for (QAction* option : m_view->layerOptionActions()) option->setChecked(true);
+    m_view->layerActions()[std::size_t(FieldLayer::Grid)]->setChecked(false);
+    m_controller->moveRobots({{RobotId{1}, pose(1), {{-4.9, 0.0}, radiansFromDegrees(180)}}});
+    m_view->select({RobotId{1}});
+    QTRY_VERIFY(pose(1).position.x < -4.8);
+    const QImage image = m_view->picture(QSize(1400, 455));
+    const QRgb ground = image.pixel(0, 0);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < 300; ++x) QCOMPARE(image.pixel(x, y), ground);
+    }
   }
 
   void withoutMatchNothingHappens() {

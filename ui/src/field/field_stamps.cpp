@@ -3,6 +3,7 @@
 
 #include <QCache>
 #include <QPixmap>
+#include <algorithm>
 #include <cmath>
 
 namespace pitchboard::ui {

@@ -8,7 +8,6 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMenu>
-#include <QPainter>
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "field_canvas.h"
 #include "field_keys.h"
 #include "field_menu.h"
+#include "field_picture.h"
 #include "field_pointer.h"
 #include "field_scene.h"
 #include "help_overlay.h"
@@ -377,31 +377,6 @@ void FieldView::fitField() { d->canvas->fit(); }
 void FieldView::setFlipped(bool flipped) { d->flip->setChecked(flipped); }
 bool FieldView::isFlipped() const { return d->flip->isChecked(); }
 
-QImage FieldView::picture(QSize size) const {
-  QImage image(size, QImage::Format_RGB32);
-  const FieldStyle before = d->scene->style();
-  const sim::FieldSpec& field = before.field;
-  const double scale = std::min(size.width() / (field.length + 2 * field.border),
-                                size.height() / (field.width + 2 * field.border));
-  const double sign = before.flipped ? -1.0 : 1.0;
-  QTransform toPicture = QTransform::fromTranslate(size.width() / 2.0, size.height() / 2.0);
-  toPicture.scale(sign * scale, -sign * scale);
-  d->scene->changeStyle([&](FieldStyle& style) {
-    style.pixelsPerMetre = scale;
-    style.ornaments = false;
-  });
-  QPainter painter(&image);
-  painter.setRenderHint(QPainter::Antialiasing);
-  paintFieldBackground(painter, d->scene->style(), toPicture, QRectF(QPointF(), QSizeF(size)));
-  // QGraphicsScene::render() knows no mirrored target, so the source is mirrored by the painter.
-  painter.setTransform(toPicture);
-  const QRectF source = toPicture.inverted().mapRect(QRectF(QPointF(), QSizeF(size)));
-  d->scene->render(&painter, source, source, Qt::IgnoreAspectRatio);
-  d->scene->changeStyle([&](FieldStyle& style) {
-    style.pixelsPerMetre = before.pixelsPerMetre;
-    style.ornaments = before.ornaments;
-  });
-  return image;
-}
+QImage FieldView::picture(QSize size) const { return paintPicture(*d->scene, size); }
 
 }  // namespace pitchboard::ui

@@ -72,7 +72,10 @@ void ViewWedgeItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QW
   fill.setAlphaF(isDarkTheme() ? 0.13F : 0.22F);
   painter->setPen(Qt::NoPen);
   painter->setBrush(fill);
+  // The edge drawn over it is smooth; a fill without smooth edges has few spans and is fast.
+  painter->setRenderHint(QPainter::Antialiasing, false);
   painter->drawConvexPolygon(m_outline);
+  painter->setRenderHint(QPainter::Antialiasing, true);
   QPen pen(onGrass(theme().fieldLines, 0.52), 1.0);
   pen.setCosmetic(true);
   pen.setCapStyle(Qt::FlatCap);

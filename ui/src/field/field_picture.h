@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The field as a picture without window, for files and documents.
+
+#include <QImage>
+
+#include "field_scene.h"
+
+namespace pitchboard::ui {
+
+/// The whole field as large as it fits into `size` pixels, without selection marks. UI thread; the
+/// scene is as before afterwards.
+QImage paintPicture(FieldScene& scene, QSize size);
+
+}  // namespace pitchboard::ui
