@@ -160,6 +160,23 @@ class TestMainWindow : public QObject {
     QVERIFY(!cards()[2]->isCollapsed());
   }
 
+  void onlyTheFieldsOwnKeysGoBeforeShortcuts() {
+    Studio s;
+    auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    const auto keeps = [canvas](int key, Qt::KeyboardModifiers modifiers) {
+      QKeyEvent event(QEvent::ShortcutOverride, key, modifiers);
+      event.ignore();
+      QCoreApplication::sendEvent(canvas, &event);
+      return event.isAccepted();
+    };
+    QVERIFY(keeps(Qt::Key_F, Qt::NoModifier));
+    QVERIFY(keeps(Qt::Key_A, Qt::ControlModifier));
+    QVERIFY(keeps(Qt::Key_Space, Qt::NoModifier));
+    QVERIFY(!keeps(Qt::Key_F11, Qt::NoModifier));
+    QVERIFY(!keeps(Qt::Key_Z, Qt::ControlModifier));
+    QVERIFY(!keeps(Qt::Key_1, Qt::AltModifier));
+  }
+
   void selectAllLeavesCtrlAToTheField() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field_keys.h"
 #include "field_pointer.h"
 
 namespace pitchboard::ui {
@@ -231,10 +232,7 @@ bool FieldCanvas::event(QEvent* event) {
   // The field's own keys go before the window's shortcuts while it has the focus.
   if (event->type() == QEvent::ShortcutOverride) {
     const auto* key = static_cast<QKeyEvent*>(event);
-    const bool plain = !(key->modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier));
-    const bool addsRobot = key->key() == Qt::Key_A;
-    const bool selects = key->key() >= Qt::Key_0 && key->key() <= Qt::Key_9;
-    if (plain || addsRobot || selects) {
+    if (key->key() == Qt::Key_Space || findFieldKey(key->key(), key->modifiers())) {
       event->accept();
       return true;
     }

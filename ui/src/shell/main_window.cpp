@@ -4,7 +4,6 @@
 #include <QAbstractScrollArea>
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QKeyEvent>
 #include <QScreen>
 #include <QSettings>
 #include <QVBoxLayout>
@@ -61,7 +60,6 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
-    canvas->installEventFilter(this);
   }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
@@ -151,15 +149,6 @@ void MainWindow::resetLayout() {
 }
 
 void MainWindow::offerToRemoveOrphans() { showOrphanNotice(m_notices, m_controller); }
-
-// The field keeps A with any modifier for itself; this one combination selects all robots.
-bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride) {
-    const auto* key = static_cast<QKeyEvent*>(event);
-    if (key->keyCombination() == (Qt::CTRL | Qt::SHIFT | Qt::Key_A)) return true;
-  }
-  return QMainWindow::eventFilter(watched, event);
-}
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   m_settings->setValue(geometryKey, saveGeometry());
