@@ -23,7 +23,9 @@ class MatchController;
 class NoticeBar;
 class RobotSelection;
 class ScenarioFiles;
+class SourceSwitch;
 class StudioStatusBar;
+struct StudioContext;
 class TransportBar;
 
 class MainWindow : public QMainWindow {
@@ -48,12 +50,14 @@ class MainWindow : public QMainWindow {
 
  private:
   friend class StudioMenus;
+  StudioContext context() const;
   void makeDocks();
   void showTitles();
   void connectField();
 
   MatchController* m_controller;
   QSettings* m_settings;
+  SourceSwitch* m_source;
   RobotSelection* m_selection;
   FieldView* m_field;
   NoticeBar* m_notices;

@@ -15,10 +15,12 @@ namespace pitchboard::ui {
 class FieldView;
 class MatchController;
 class RobotSelection;
+class SourceSwitch;
 
 /// What a dock may use; everything outlives it.
 struct StudioContext {
-  MatchController* controller = nullptr;
+  MatchController* controller = nullptr;  ///< edits and transport of the simulated match
+  SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
 };
