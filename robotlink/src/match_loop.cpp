@@ -84,8 +84,15 @@ bool MatchLoop::carryOutCommands() {
     const std::lock_guard lock(m_shared.mutex);
     commands.swap(m_shared.commands);
   }
+  if (commands.empty()) return false;
+  const std::uint64_t before = m_match.simulation().hash();
   for (const auto& command : commands) command(m_match);
-  return !commands.empty();
+  if (m_match.simulation().hash() != before) {
+    for (const auto& observer : m_observers) observer->worldChanged(m_match);
+  }
+  // Otherwise the next tick shows what they did.
+  if (m_still) showObservers({});
+  return true;
 }
 
 MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
@@ -132,9 +139,28 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
 }
 
 void MatchLoop::tickOnce() {
+  const auto begin = Clock::now();
   m_match.tick();
+  const auto tickTime = Clock::now() - begin;
   const auto events = m_match.simulation().events();
   m_newEvents.insert(m_newEvents.end(), events.begin(), events.end());
+  if (!events.empty()) {
+    for (const auto& observer : m_observers) observer->happened(events);
+  }
+  showObservers(tickTime);
+}
+
+void MatchLoop::showObservers(std::chrono::nanoseconds tickTime) {
+  for (const auto& observer : m_observers) observer->ticked(m_match, tickTime);
+}
+
+void MatchLoop::observe(std::shared_ptr<TickObserver> observer) {
+  observer->ticked(m_match, {});
+  m_observers.push_back(std::move(observer));
+}
+
+void MatchLoop::stopObserving(const std::shared_ptr<TickObserver>& observer) {
+  std::erase(m_observers, observer);
 }
 
 std::uint64_t MatchLoop::playBatch(Clock::time_point until, std::uint64_t lastTick) {
@@ -220,6 +246,7 @@ void MatchLoop::noteFinish() {
 void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {
   const sim::WorldState& state = m_match.simulation().state();
   LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text, warning};
+  for (const auto& observer : m_observers) observer->logged(line);
   const std::lock_guard lock(m_shared.mutex);
   pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);
 }

@@ -27,6 +27,8 @@ class FramePool : public std::enable_shared_from_this<FramePool> {
   std::vector<std::unique_ptr<MatchFrame>> m_free;
 };
 
+class MatchLoop;
+
 struct MatchRunner::Shared {
   static constexpr std::size_t mostQueued = 10'000;
 
@@ -45,6 +47,8 @@ struct MatchRunner::Shared {
   std::deque<LogLine> log;
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
+
+  MatchLoop* loop = nullptr;              // for commands, which run on its thread
 };
 
 class MatchLoop {
@@ -53,6 +57,9 @@ class MatchLoop {
   /// Until stopped.
   void run(const std::stop_token& stop);
   void publish();
+  /// Shows it the present moment.
+  void observe(std::shared_ptr<TickObserver> observer);
+  void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -62,6 +69,7 @@ class MatchLoop {
   Clock::time_point play(Clock::time_point now);
   void tickOnce();
   std::uint64_t playBatch(Clock::time_point until, std::uint64_t lastTick);
+  void showObservers(std::chrono::nanoseconds tickTime);
   void collectEvents();
   void pollChildren();
   void log(const std::string& origin, const std::string& text, bool warning);
@@ -74,6 +82,7 @@ class MatchLoop {
   Pacer m_pacer;
   FrameBuilder m_builder;
   std::shared_ptr<FramePool> m_pool = std::make_shared<FramePool>();
+  std::vector<std::shared_ptr<TickObserver>> m_observers;
   std::vector<sim::Event> m_newEvents;
   std::vector<ChildState> m_childStates;   // as last seen
   Clock::time_point m_lastPublish;

@@ -10,7 +10,9 @@ namespace pitchboard::link {
 
 Result<std::unique_ptr<MatchRunner>> MatchRunner::start(const Scenario& scenario,
                                                         const MatchOptions& options, bool paused,
-                                                        const VariableCatalog& catalog) {
+                                                        const VariableCatalog& catalog,
+                                                        std::vector<std::shared_ptr<TickObserver>>
+                                                            observers) {
   auto shared = std::make_shared<Shared>();
   shared->paused = paused;
   std::unique_ptr<MatchRunner> runner(new MatchRunner(shared));
@@ -18,6 +20,7 @@ Result<std::unique_ptr<MatchRunner>> MatchRunner::start(const Scenario& scenario
   auto outcome = made.get_future();
   // `scenario` and `options` are only used before the promise is kept, while this call waits.
   runner->m_thread = std::jthread([&scenario, &options, &catalog, shared,
+                                   observers = std::move(observers),
                                    promise = std::move(made)](const std::stop_token& stop) mutable {
     auto match = SimulatedMatch::create(scenario, options, catalog);
     if (!match) {
@@ -25,6 +28,8 @@ Result<std::unique_ptr<MatchRunner>> MatchRunner::start(const Scenario& scenario
       return;
     }
     MatchLoop loop(*shared, std::move(*match));
+    for (auto& observer : observers) loop.observe(std::move(observer));
+    shared->loop = &loop;
     loop.publish();
     promise.set_value({});
     loop.run(stop);
@@ -95,6 +100,16 @@ void MatchRunner::execute(const Command& command) {
   const auto done = task->get_future();
   post([task](SimulatedMatch& match) { (*task)(match); });
   done.wait();
+}
+
+void MatchRunner::observe(std::shared_ptr<TickObserver> observer) {
+  post([shared = m_shared.get(), observer = std::move(observer)](SimulatedMatch&) {
+    shared->loop->observe(observer);
+  });
+}
+
+void MatchRunner::stopObserving(const std::shared_ptr<TickObserver>& observer) {
+  execute([this, &observer](SimulatedMatch&) { m_shared->loop->stopObserving(observer); });
 }
 
 std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial) const {

@@ -10,57 +10,30 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <robotlink/match_frame.h>
 #include <robotlink/simulated_match.h>
 
 namespace pitchboard::link {
 
-/// What a person sees of one robot besides its snapshot: read from its blackboard.
-struct RobotBoardView {
-  RobotId id;
-  int key = 0;                       ///< System V key, 0 = heap
-  int actionA = 0;                   ///< DECISION_ACTION_A
-  int voltage = 0;                   ///< tenths of a volt
-  bool visionLost = false;
-  float ballDistCm = 0.0F;           ///< VISION_BALL_DIST
-  float panDeg = 0.0F;               ///< VISION_PAN_DEG
-  int localizationX = 0, localizationY = 0, localizationTheta = 0;
-  float belief = 0.0F;               ///< cm
-  /// communication, vision, localization, decision, IMU: *_WORKING seen set within the last second
-  /// (communication has no flag: running child process).
-  bool controlWorking = false, visionWorking = false, localizationWorking = false,
-       decisionWorking = false, imuWorking = false;
-  std::string behaviour;
-};
-
-struct MatchFrame {
-  std::uint64_t serial = 0;          ///< grows with every frame
-  sim::Snapshot snapshot;
-  std::vector<RobotBoardView> boards;
-  std::vector<ChildStatus> children;
-  double speed = 0.0;                ///< simulated seconds per second, measured over the last second
-  double ticksPerSecond = 0.0;       ///< measured
-  double tickMicroseconds = 0.0;     ///< mean time of a tick, measured
-  bool paused = false;
-  bool finished = false;             ///< a stop condition of the scenario is met; it stands still
-  sim::FieldSpec field;
-  sim::NoiseParameters noise;
-  std::string physics;
-  std::uint64_t seed = 0;
-  double tickRate = 60.0;
-  std::string finishedBy;            ///< "goal", "ball_out", "duration"; empty unless finished
-  std::uint64_t droppedEvents = 0;   ///< nobody took them in time
-  std::uint64_t droppedLogLines = 0;
-};
-
-struct LogLine {
-  double time = 0.0;                 ///< simulated s
-  std::string origin;                ///< "simulation", "B1 decision"
-  std::string text;
-  bool warning = false;
+/// Sees every tick of a match, for sampling and recording. Called on the match's thread: must not
+/// wait, and what it allocates makes the match slower.
+class TickObserver {
+ public:
+  virtual ~TickObserver() = default;
+  /// At the first moment, after every tick, and after a command changed a match that stands still.
+  /// `tickTime`: what the tick took; zero where there was none.
+  virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
+  /// Before ticked() of the tick in which they happened.
+  virtual void happened(std::span<const sim::Event> /*events*/) {}
+  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on from
+  /// here and not from what ticked() has shown. Before the ticked() of a match that stands still.
+  virtual void worldChanged(const SimulatedMatch& /*match*/) {}
+  virtual void logged(const LogLine& /*line*/) {}
 };
 
 class MatchRunner {
@@ -68,10 +41,12 @@ class MatchRunner {
   static constexpr double unlimitedSpeed = 0.0;
 
   /// Makes the match on the runner's thread (its processes must belong to that thread) and starts
-  /// paused or playing. Fails with the reason when the match cannot be made.
+  /// paused or playing. Fails with the reason when the match cannot be made. `observers` see the
+  /// match from its first moment.
   static Result<std::unique_ptr<MatchRunner>> start(
       const Scenario& scenario, const MatchOptions& options, bool paused = false,
-      const VariableCatalog& catalog = VariableCatalog::published());
+      const VariableCatalog& catalog = VariableCatalog::published(),
+      std::vector<std::shared_ptr<TickObserver>> observers = {});
   ~MatchRunner();                    ///< stops, ends processes, joins
 
   void setPaused(bool paused);
@@ -89,6 +64,11 @@ class MatchRunner {
   void post(Command command);
   /// The same, and waits for it. Not from within a command.
   void execute(const Command& command);
+
+  /// From the next tick on, until stopObserving(); the present moment is shown at once.
+  void observe(std::shared_ptr<TickObserver> observer);
+  /// Waits until the observer is not called any more. Not from within a command.
+  void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
   /// The newest frame, or nothing when `knownSerial` is already the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0) const;

@@ -25,7 +25,9 @@ inline constexpr int fieldLayerCount = 10;
 class FieldView : public QWidget {
   Q_OBJECT
  public:
-  /// Follows the controller's frames; without a controller showFrame() feeds it.
+  /// Shows the source's frames; what is done by hand goes to the controller. Without a source
+  /// showFrame() feeds it; without a controller nothing can be moved.
+  FieldView(FrameSource* source, MatchController* controller, QWidget* parent = nullptr);
   explicit FieldView(MatchController* controller, QWidget* parent = nullptr);
   ~FieldView() override;
 

@@ -19,11 +19,15 @@ struct Scenario;
 namespace pitchboard::ui {
 
 class FieldView;
+class LinkedTime;
 class MatchController;
 class NoticeBar;
+class PlotTarget;
 class RobotSelection;
 class ScenarioFiles;
+class SourceSwitch;
 class StudioStatusBar;
+struct StudioContext;
 class TransportBar;
 
 class MainWindow : public QMainWindow {
@@ -48,13 +52,17 @@ class MainWindow : public QMainWindow {
 
  private:
   friend class StudioMenus;
+  StudioContext context() const;
   void makeDocks();
   void showTitles();
   void connectField();
 
   MatchController* m_controller;
   QSettings* m_settings;
+  SourceSwitch* m_source;
   RobotSelection* m_selection;
+  LinkedTime* m_time;
+  PlotTarget* m_plots;
   FieldView* m_field;
   NoticeBar* m_notices;
   TransportBar* m_bar;

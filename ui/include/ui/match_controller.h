@@ -18,13 +18,12 @@
 #include <vector>
 
 #include <robotlink/match_runner.h>
+#include <ui/frame_source.h>
 
 class QTimer;
 class QUndoStack;
 
 namespace pitchboard::ui {
-
-using FramePtr = std::shared_ptr<const link::MatchFrame>;
 
 /// A robot and where it is to stand; for moving several at once.
 struct RobotPlacement {
@@ -33,7 +32,7 @@ struct RobotPlacement {
   Pose to;
 };
 
-class MatchController : public QObject {
+class MatchController : public FrameSource {
   Q_OBJECT
  public:
   explicit MatchController(link::MatchOptions options, QObject* parent = nullptr);
@@ -52,7 +51,10 @@ class MatchController : public QObject {
   bool isOpen() const { return m_runner != nullptr; }
   bool isOpening() const { return m_opening; }
   const link::Scenario& scenario() const { return m_scenario; }
-  FramePtr frame() const { return m_frame; }
+  SourceKind kind() const override { return SourceKind::Simulate; }
+  FramePtr frame() const override { return m_frame; }
+  std::shared_ptr<const telemetry::SeriesStore> series() const override;
+  QString emptyText() const override;
   QUndoStack* undoStack() const { return m_undoStack; }
   /// Where the robots' processes run: as asked for, or Inline when that was not possible.
   link::Cognition cognition() const { return m_cognition; }
@@ -108,10 +110,7 @@ class MatchController : public QObject {
   const link::ScenarioRobot* robot(RobotId id) const;
 
  signals:
-  void frameReceived(const pitchboard::ui::FramePtr& frame);
-  void eventsReceived(const std::vector<pitchboard::sim::Event>& events);
-  void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
-  void scenarioChanged();    ///< another match is being opened, or none
+  void scenarioChanged();    ///< another match is being opened, or none; `restarted` follows
   void opened();             ///< it is there, or failed
   void transportChanged();   ///< paused, speed, or whether there is a match
   void errorOccurred(const QString& sentence);
@@ -146,6 +145,7 @@ class MatchController : public QObject {
   std::map<RobotId, link::ScenarioRobot> m_robots;   // present, or about to be
   std::unique_ptr<link::MatchRunner> m_runner;
   FramePtr m_frame;
+  std::shared_ptr<telemetry::SeriesStore> m_series;
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;

@@ -319,6 +319,9 @@ bool FieldView::Private::handleKey(QKeyEvent* event) {
 }
 
 FieldView::FieldView(MatchController* controller, QWidget* parent)
+    : FieldView(controller, controller, parent) {}
+
+FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* parent)
     : QWidget(parent), d(std::make_unique<Private>(this, controller)) {
   d->makeActions();
   d->makeToolStrip();
@@ -336,10 +339,9 @@ FieldView::FieldView(MatchController* controller, QWidget* parent)
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
   connect(d->pointer, &FieldPointer::poseRequested, this,
           [this](RobotId id) { d->openPoseEditor(id); });
-  if (!controller) return;
-  connect(controller, &MatchController::frameReceived, this, &FieldView::showFrame);
-  connect(controller, &MatchController::scenarioChanged, this,
-          [this] { showFrame(d->controller->frame()); });
+  if (!source) return;
+  connect(source, &FrameSource::frameReceived, this, &FieldView::showFrame);
+  connect(source, &FrameSource::restarted, this, [this, source] { showFrame(source->frame()); });
 }
 
 FieldView::~FieldView() {

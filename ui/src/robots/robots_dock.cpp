@@ -15,6 +15,7 @@
 #include "blackboard_window.h"
 #include "robot_card.h"
 #include "shell/robot_selection.h"
+#include "shell/source_switch.h"
 
 namespace pitchboard::ui {
 
@@ -48,7 +49,7 @@ RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
     if (isVisible()) refresh();
   });
   timer->start(refreshMilliseconds);
-  connect(context.controller, &MatchController::scenarioChanged, this, [this] {
+  connect(context.source, &FrameSource::restarted, this, [this] {
     m_tracker.reset();
     refresh();
   });
@@ -58,7 +59,7 @@ RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
 QSize RobotsDock::sizeHint() const { return {scaled(this, 256), scaled(this, 300)}; }
 
 void RobotsDock::refresh() {
-  const FramePtr frame = m_context.controller->frame();
+  const FramePtr frame = m_context.source->frame();
   if (!frame) {
     makeCards(0);
     return;
@@ -81,11 +82,7 @@ void RobotsDock::refresh() {
 void RobotsDock::makeCards(std::size_t count) {
   m_empty->setVisible(count == 0);
   if (count == 0) {
-    const MatchController& controller = *m_context.controller;
-    m_empty->setText(controller.isOpening() ? tr("Opening…")
-                     : controller.isOpen()
-                         ? tr("No robots on the field.\nPress A over the field to add one.")
-                         : tr("No match is open.\nChoose a scenario in the tool bar."));
+    m_empty->setText(m_context.source->emptyText());
   }
   while (m_cards.size() > static_cast<qsizetype>(count)) delete m_cards.takeLast();
   while (m_cards.size() < static_cast<qsizetype>(count)) {

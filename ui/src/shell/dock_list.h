@@ -13,14 +13,20 @@ class QWidget;
 namespace pitchboard::ui {
 
 class FieldView;
+class LinkedTime;
 class MatchController;
+class PlotTarget;
 class RobotSelection;
+class SourceSwitch;
 
 /// What a dock may use; everything outlives it.
 struct StudioContext {
-  MatchController* controller = nullptr;
+  MatchController* controller = nullptr;  ///< edits and transport of the simulated match
+  SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
+  LinkedTime* time = nullptr;             ///< visible range, cursor and marks of plots and timeline
+  PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
 };
 
 struct DockInfo {

@@ -18,8 +18,11 @@
 #include "notice_bar.h"
 #include "opening_label.h"
 #include "orphan_notice.h"
+#include "plots/linked_time.h"
+#include "plots/plot_target.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
+#include "source_switch.h"
 #include "status_bar.h"
 #include "transport_bar.h"
 
@@ -33,7 +36,8 @@ const QString layoutKey = QStringLiteral("window/layout");
 
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
     : QMainWindow(parent), m_controller(controller), m_settings(settings),
-      m_selection(new RobotSelection(this)) {
+      m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)),
+      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)) {
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -44,12 +48,12 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   m_notices = new NoticeBar(centre);
-  m_field = new FieldView(controller, centre);
+  m_field = new FieldView(m_source, controller, centre);
   column->addWidget(m_notices);
   column->addWidget(m_field, 1);
   setCentralWidget(centre);
 
-  const StudioContext context{controller, m_selection, m_field};
+  const StudioContext context = this->context();
   m_bar = new TransportBar(context, settings, this);
   addToolBar(m_bar);
   m_status = new StudioStatusBar(context, this);
@@ -74,8 +78,12 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 
 MainWindow::~MainWindow() = default;
 
+StudioContext MainWindow::context() const {
+  return {m_controller, m_source, m_selection, m_field, m_time, m_plots};
+}
+
 void MainWindow::makeDocks() {
-  const StudioContext context{m_controller, m_selection, m_field};
+  const StudioContext context = this->context();
   for (const DockInfo& info : studioDocks()) {
     auto* dock = new QDockWidget(tr(info.title), this);
     dock->setObjectName(QLatin1String(info.id));

@@ -10,7 +10,7 @@
 namespace pitchboard::ui {
 
 MatchController::MatchController(link::MatchOptions options, QObject* parent)
-    : QObject(parent),
+    : FrameSource(parent),
       m_options(std::move(options)),
       m_timer(new QTimer(this)),
       m_undoStack(new QUndoStack(this)) {
@@ -59,6 +59,14 @@ void MatchController::Opening::start(const link::Scenario& scenario,
   else error = tr("The match cannot be played: %1").arg(words(made.error()));
 }
 
+std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const { return m_series; }
+
+QString MatchController::emptyText() const {
+  return isOpening() ? tr("Opening…")
+         : isOpen()  ? tr("No robots on the field.\nPress A over the field to add one.")
+                     : tr("No match is open.\nChoose a scenario in the tool bar.");
+}
+
 std::shared_ptr<link::MatchRunner> MatchController::retire() {
   ++m_generation;
   m_timer->stop();
@@ -73,6 +81,7 @@ std::shared_ptr<link::MatchRunner> MatchController::retire() {
 void MatchController::close() {
   m_worker.start([old = retire()]() mutable { old.reset(); });
   emit scenarioChanged();
+  emit restarted();
   emit transportChanged();
 }
 
@@ -110,6 +119,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
     }, Qt::QueuedConnection);
   });
   emit scenarioChanged();
+  emit restarted();
   emit transportChanged();
 }
 
