@@ -40,7 +40,8 @@ struct TimeRange {
   bool operator==(const TimeRange&) const = default;
 };
 
-/// What one pixel column of a curve covers. NaN samples are not counted in min and max.
+/// What one pixel column of a curve covers. NaN samples are not counted in min and max; both are
+/// NaN where there is no other sample.
 struct SeriesBucket {
   double min = 0.0, max = 0.0;
   double first = 0.0, last = 0.0;   ///< NaN where that sample is
@@ -94,6 +95,7 @@ class SeriesStore {
   GroupId addGroup(const GroupInfo& info);
   /// Rows of one group in order of time; equal times are kept in order. A time before the last one
   /// means that the source was put back: the rows at and after the new time are dropped first.
+  /// A row of an unknown group, of another width, or whose time is not finite is refused and counted.
   void append(GroupId group, const RowView& row);
   /// Forgets every row; the groups stay.
   void clear();
@@ -102,12 +104,15 @@ class SeriesStore {
   /// Grows whenever groups came (lists are then to be read anew).
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;
+  /// Null for an id that is unknown, or whose group was replaced by one with other columns.
   std::shared_ptr<const GroupView> view(GroupId group) const;
   std::optional<GroupId> findGroup(std::string_view name) const;
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;
   /// From the oldest row of any group to the newest.
   std::optional<TimeRange> range() const;
+  /// Of the rows; chunks that left but are still looked at by a view are not counted.
   std::size_t memoryBytes() const;
+  std::uint64_t refusedRows() const;
   void setMemoryBudget(std::size_t bytes);
 
  private:

@@ -19,8 +19,10 @@ struct Scenario;
 namespace pitchboard::ui {
 
 class FieldView;
+class LinkedTime;
 class MatchController;
 class NoticeBar;
+class PlotTarget;
 class RobotSelection;
 class ScenarioFiles;
 class SourceSwitch;
@@ -59,6 +61,8 @@ class MainWindow : public QMainWindow {
   QSettings* m_settings;
   SourceSwitch* m_source;
   RobotSelection* m_selection;
+  LinkedTime* m_time;
+  PlotTarget* m_plots;
   FieldView* m_field;
   NoticeBar* m_notices;
   TransportBar* m_bar;

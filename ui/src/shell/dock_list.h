@@ -13,7 +13,9 @@ class QWidget;
 namespace pitchboard::ui {
 
 class FieldView;
+class LinkedTime;
 class MatchController;
+class PlotTarget;
 class RobotSelection;
 class SourceSwitch;
 
@@ -23,6 +25,8 @@ struct StudioContext {
   SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
+  LinkedTime* time = nullptr;             ///< visible range, cursor and marks of plots and timeline
+  PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
 };
 
 struct DockInfo {

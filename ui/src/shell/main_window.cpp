@@ -18,6 +18,8 @@
 #include "notice_bar.h"
 #include "opening_label.h"
 #include "orphan_notice.h"
+#include "plots/linked_time.h"
+#include "plots/plot_target.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "source_switch.h"
@@ -34,7 +36,8 @@ const QString layoutKey = QStringLiteral("window/layout");
 
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
     : QMainWindow(parent), m_controller(controller), m_settings(settings),
-      m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)) {
+      m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)),
+      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)) {
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -76,7 +79,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field};
+  return {m_controller, m_source, m_selection, m_field, m_time, m_plots};
 }
 
 void MainWindow::makeDocks() {

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One column of one chunk. A column that does not change costs 24 bytes; otherwise every block of
+// 64 rows that does not change costs its value only, the others are kept raw. Minimum and maximum
+// are kept for 64, 512 and 4096 rows. Private to the library; immutable once made.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "series_layout.h"
+
+namespace pitchboard::telemetry::series {
+
+template <class T>
+struct Extremes {
+  T min, max;   ///< NaN where there is no other value
+};
+
+/// Running minimum and maximum that pass over NaN.
+template <class T>
+struct MinMax {
+  T min{}, max{};
+  bool any = false;
+
+  void add(const Extremes<T>& other) { add(other.min, other.max); }
+  void add(T low, T high) {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (std::isnan(low)) return;   // both are then
+    }
+    min = any ? std::min(min, low) : low;
+    max = any ? std::max(max, high) : high;
+    any = true;
+  }
+
+  /// Comparisons with NaN are false, so NaN changes nothing. Four lanes, because one would wait
+  /// for its own last result.
+  void scan(const T* values, std::size_t count) {
+    std::size_t start = 0;
+    if constexpr (std::is_floating_point_v<T>) {
+      while (start < count && std::isnan(values[start])) ++start;
+    }
+    if (start == count) return;
+    const T seed = values[start];
+    T low[4] = {seed, seed, seed, seed}, high[4] = {seed, seed, seed, seed};
+    const T* value = values + start;
+    const T* const end = values + count;
+    for (; end - value >= 4; value += 4) {
+      for (std::size_t lane = 0; lane < 4; ++lane) {
+        low[lane] = value[lane] < low[lane] ? value[lane] : low[lane];
+        high[lane] = value[lane] > high[lane] ? value[lane] : high[lane];
+      }
+    }
+    for (; value != end; ++value) {
+      low[0] = *value < low[0] ? *value : low[0];
+      high[0] = *value > high[0] ? *value : high[0];
+    }
+    add(std::min(std::min(low[0], low[1]), std::min(low[2], low[3])),
+        std::max(std::max(high[0], high[1]), std::max(high[2], high[3])));
+  }
+};
+
+class Column {
+ public:
+  /// From `count` (1 to 64) values of one block.
+  template <class T>
+  static Column ofBlock(const T* values, std::uint32_t count) {
+    Column out;
+    const auto first = bitsOf(values[0]);
+    bool same = true;
+    for (std::uint32_t i = 1; i < count; ++i) same = same && bitsOf(values[i]) == first;
+    if (same) {
+      std::memcpy(&out.m_constant, &first, sizeof first);
+      return out;
+    }
+    out.allocate<T>(1, 1);
+    out.m_raw = 1;
+    MinMax<T> range;
+    range.scan(values, count);
+    out.setSummary<T>(0, range);
+    T* raw = out.array<T>() + 2;
+    std::copy_n(values, count, raw);
+    std::fill(raw + count, raw + blockRows, T{});
+    return out;
+  }
+
+  /// Joins 64 columns of one block each.
+  template <class T>
+  static Column join(std::span<const Column* const> blocks) {
+    Column out;
+    std::uint64_t raw = 0;
+    bool same = true;
+    const auto first = bitsOf(blocks[0]->at<T>(0, 1));
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (blocks[b]->m_bytes) raw |= std::uint64_t{1} << b;
+      same = same && !blocks[b]->m_bytes && bitsOf(blocks[b]->constant<T>()) == first;
+    }
+    if (same) {
+      std::memcpy(&out.m_constant, &first, sizeof first);
+      return out;
+    }
+    out.m_raw = raw;
+    out.allocate<T>(chunkBlocks, static_cast<std::uint32_t>(std::popcount(raw)));
+    T* values = out.array<T>() + 2 * std::size_t{summaries(chunkBlocks)};
+    MinMax<T> all, super;
+    for (std::uint32_t b = 0; b < chunkBlocks; ++b) {
+      MinMax<T> range;
+      if (blocks[b]->m_bytes) {
+        range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
+        values = std::copy_n(blocks[b]->array<T>() + 2, blockRows, values);
+        out.setSummary<T>(b, range);
+      } else {
+        const T value = blocks[b]->constant<T>();
+        range.add(value, value);
+        out.array<Extremes<T>>()[b] = {value, value};   // its bits, also where it is NaN
+      }
+      if (range.any) super.add(range.min, range.max);
+      if ((b + 1) % superBlocks == 0) {
+        out.setSummary<T>(chunkBlocks + b / superBlocks, super);
+        if (super.any) all.add(super.min, super.max);
+        super = {};
+      }
+    }
+    out.setSummary<T>(summaries(chunkBlocks) - 1, all);
+    return out;
+  }
+
+  bool isConstant() const { return !m_bytes; }
+  bool isRaw(std::uint32_t block) const { return (m_raw >> block & 1) != 0; }
+
+  template <class T>
+  T constant() const {
+    T value;
+    std::memcpy(&value, &m_constant, sizeof value);
+    return value;
+  }
+
+  /// `blocks`: of the chunk, 1 or 64.
+  template <class T>
+  T at(std::uint32_t row, std::uint32_t blocks) const {
+    if (!m_bytes) return constant<T>();
+    const std::uint32_t block = row / blockRows;
+    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(block).min;
+  }
+
+  template <class T>
+  const T* raw(std::uint32_t block, std::uint32_t blocks) const {
+    const std::uint64_t before = m_raw & ((std::uint64_t{1} << block) - 1);
+    return array<T>() + 2 * std::size_t{summaries(blocks)} +
+           static_cast<std::size_t>(std::popcount(before)) * blockRows;
+  }
+
+  /// Minimum and maximum of the rows [begin, end).
+  template <class T>
+  void range(std::uint32_t begin, std::uint32_t end, std::uint32_t blocks, MinMax<T>& out) const {
+    if (begin >= end) return;
+    if (!m_bytes) return out.add(constant<T>(), constant<T>());
+    const Extremes<T>* kept = array<Extremes<T>>();
+    std::uint32_t row = begin;
+    while (row < end) {
+      const std::uint32_t block = row / blockRows, left = end - row;
+      if (row % chunkRows == 0 && left >= chunkRows) {
+        out.add(kept[summaries(blocks) - 1]);
+        row += chunkRows;
+      } else if (row % (superBlocks * blockRows) == 0 && left >= superBlocks * blockRows) {
+        out.add(kept[blocks + block / superBlocks]);
+        row += superBlocks * blockRows;
+      } else if ((row % blockRows == 0 && left >= blockRows) || !isRaw(block)) {
+        out.add(kept[block]);
+        row = (block + 1) * blockRows;
+      } else {
+        const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
+        out.scan(raw<T>(block, blocks) + row % blockRows, stop - row);
+        row = stop;
+      }
+    }
+  }
+
+  template <class T>
+  std::size_t heapBytes(std::uint32_t blocks) const {
+    if (!m_bytes) return 0;
+    return sizeof(T) * (2 * std::size_t{summaries(blocks)} +
+                        static_cast<std::size_t>(std::popcount(m_raw)) * blockRows);
+  }
+
+ private:
+  /// Of the blocks, of groups of 8 blocks, of the whole chunk; the raw blocks follow.
+  static constexpr std::uint32_t summaries(std::uint32_t blocks) {
+    return blocks == 1 ? 1 : blocks + blocks / superBlocks + 1;
+  }
+  template <class T>
+  void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
+    m_bytes = std::make_unique_for_overwrite<std::byte[]>(
+        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * blockRows));
+  }
+  template <class T>
+  void setSummary(std::uint32_t at, const MinMax<T>& range) {
+    T none{};
+    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
+    array<Extremes<T>>()[at] = {range.any ? range.min : none, range.any ? range.max : none};
+  }
+  template <class T>
+  T* array() const {
+    return reinterpret_cast<T*>(m_bytes.get());
+  }
+  template <class T>
+  const Extremes<T>& summary(std::uint32_t at) const {
+    return array<Extremes<T>>()[at];
+  }
+
+  std::uint64_t m_raw = 0;        // bit b: block b is kept raw
+  std::uint64_t m_constant = 0;   // bits of the value, without m_bytes
+  std::unique_ptr<std::byte[]> m_bytes;
+};
+
+}  // namespace pitchboard::telemetry::series
