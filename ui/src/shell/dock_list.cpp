@@ -5,6 +5,7 @@
 #include "noise_dock.h"
 #include "processes_dock.h"
 #include "robots/robots_dock.h"
+#include "timeline/timeline_dock.h"
 
 namespace pitchboard::ui {
 
@@ -14,6 +15,7 @@ std::span<const DockInfo> studioDocks() {
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 330, makeNoiseDock},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, makeLogDock},
+      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, makeTimelineDock, true},
   };
   return docks;
 }
