@@ -17,12 +17,18 @@
 
 namespace pitchboard::telemetry::series {
 
+template <class T>
+struct Extremes {
+  T min, max;   ///< NaN where there is no other value
+};
+
 /// Running minimum and maximum that pass over NaN.
 template <class T>
 struct MinMax {
   T min{}, max{};
   bool any = false;
 
+  void add(const Extremes<T>& other) { add(other.min, other.max); }
   void add(T low, T high) {
     if constexpr (std::is_floating_point_v<T>) {
       if (std::isnan(low)) return;   // both are then
@@ -76,7 +82,7 @@ class Column {
     out.m_raw = 1;
     MinMax<T> range;
     range.scan(values, count);
-    out.setSummary<T>(1, 0, range);
+    out.setSummary<T>(0, range);
     T* raw = out.array<T>() + 2;
     std::copy_n(values, count, raw);
     std::fill(raw + count, raw + blockRows, T{});
@@ -105,23 +111,22 @@ class Column {
     for (std::uint32_t b = 0; b < chunkBlocks; ++b) {
       MinMax<T> range;
       if (blocks[b]->m_bytes) {
-        range.add(blocks[b]->minima<T>()[0], blocks[b]->maxima<T>(1)[0]);
+        range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
         values = std::copy_n(blocks[b]->array<T>() + 2, blockRows, values);
-        out.setSummary<T>(chunkBlocks, b, range);
+        out.setSummary<T>(b, range);
       } else {
         const T value = blocks[b]->constant<T>();
         range.add(value, value);
-        out.array<T>()[b] = value;   // its bits, also where it is NaN
-        out.array<T>()[summaries(chunkBlocks) + b] = value;
+        out.array<Extremes<T>>()[b] = {value, value};   // its bits, also where it is NaN
       }
       if (range.any) super.add(range.min, range.max);
       if ((b + 1) % superBlocks == 0) {
-        out.setSummary<T>(chunkBlocks, chunkBlocks + b / superBlocks, super);
+        out.setSummary<T>(chunkBlocks + b / superBlocks, super);
         if (super.any) all.add(super.min, super.max);
         super = {};
       }
     }
-    out.setSummary<T>(chunkBlocks, summaries(chunkBlocks) - 1, all);
+    out.setSummary<T>(summaries(chunkBlocks) - 1, all);
     return out;
   }
 
@@ -140,7 +145,7 @@ class Column {
   T at(std::uint32_t row, std::uint32_t blocks) const {
     if (!m_bytes) return constant<T>();
     const std::uint32_t block = row / blockRows;
-    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : minima<T>()[block];
+    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(block).min;
   }
 
   template <class T>
@@ -155,20 +160,18 @@ class Column {
   void range(std::uint32_t begin, std::uint32_t end, std::uint32_t blocks, MinMax<T>& out) const {
     if (begin >= end) return;
     if (!m_bytes) return out.add(constant<T>(), constant<T>());
-    const T* low = minima<T>();
-    const T* high = maxima<T>(blocks);
+    const Extremes<T>* kept = array<Extremes<T>>();
     std::uint32_t row = begin;
     while (row < end) {
       const std::uint32_t block = row / blockRows, left = end - row;
       if (row % chunkRows == 0 && left >= chunkRows) {
-        const std::uint32_t top = summaries(blocks) - 1;
-        out.add(low[top], high[top]);
+        out.add(kept[summaries(blocks) - 1]);
         row += chunkRows;
       } else if (row % (superBlocks * blockRows) == 0 && left >= superBlocks * blockRows) {
-        out.add(low[blocks + block / superBlocks], high[blocks + block / superBlocks]);
+        out.add(kept[blocks + block / superBlocks]);
         row += superBlocks * blockRows;
       } else if ((row % blockRows == 0 && left >= blockRows) || !isRaw(block)) {
-        out.add(low[block], high[block]);
+        out.add(kept[block]);
         row = (block + 1) * blockRows;
       } else {
         const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
@@ -186,7 +189,7 @@ class Column {
   }
 
  private:
-  /// Minima (as many maxima follow): of the blocks, of groups of 8 blocks, of the whole chunk.
+  /// Of the blocks, of groups of 8 blocks, of the whole chunk; the raw blocks follow.
   static constexpr std::uint32_t summaries(std::uint32_t blocks) {
     return blocks == 1 ? 1 : blocks + blocks / superBlocks + 1;
   }
@@ -196,23 +199,18 @@ class Column {
         sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * blockRows));
   }
   template <class T>
-  void setSummary(std::uint32_t blocks, std::uint32_t at, const MinMax<T>& range) {
+  void setSummary(std::uint32_t at, const MinMax<T>& range) {
     T none{};
     if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
-    array<T>()[at] = range.any ? range.min : none;
-    array<T>()[summaries(blocks) + at] = range.any ? range.max : none;
+    array<Extremes<T>>()[at] = {range.any ? range.min : none, range.any ? range.max : none};
   }
   template <class T>
   T* array() const {
     return reinterpret_cast<T*>(m_bytes.get());
   }
   template <class T>
-  const T* minima() const {
-    return array<T>();
-  }
-  template <class T>
-  const T* maxima(std::uint32_t blocks) const {
-    return array<T>() + summaries(blocks);
+  const Extremes<T>& summary(std::uint32_t at) const {
+    return array<Extremes<T>>()[at];
   }
 
   std::uint64_t m_raw = 0;        // bit b: block b is kept raw
