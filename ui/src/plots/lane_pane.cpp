@@ -130,6 +130,8 @@ void LanePane::draw() {
   m_lanes->update();
 }
 
+QWidget* LanePane::surface() const { return m_lanes; }
+
 void LanePane::paintLanes(QPainter& painter) const {
   const ThemeColors& colors = theme();
   const TimeScale scale = timeScale();

@@ -6,6 +6,7 @@
 #include "plots/plots_dock.h"
 #include "processes_dock.h"
 #include "robots/robots_dock.h"
+#include "timeline/timeline_dock.h"
 
 namespace pitchboard::ui {
 
@@ -16,6 +17,7 @@ std::span<const DockInfo> studioDocks() {
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, makePlotsDock},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, makeLogDock},
+      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, makeTimelineDock, true},
   };
   return docks;
 }
