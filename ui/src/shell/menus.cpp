@@ -15,6 +15,8 @@
 #include <ui/scenario_files.h>
 
 #include "help_windows.h"
+#include "plots/plot_menus.h"
+#include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
@@ -38,6 +40,7 @@ void StudioMenus::make() {
   makeView();
   makeSimulation();
   makeTimeline();
+  makePlots();
   makeHelp();
 }
 
@@ -157,6 +160,12 @@ void StudioMenus::makeSimulation() {
 
 void StudioMenus::makeTimeline() {
   m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
+}
+
+void StudioMenus::makePlots() {
+  if (auto* plots = m_window.findChild<PlotsDock*>()) {
+    m_window.menuBar()->addMenu(makePlotsMenu(plots));
+  }
 }
 
 void StudioMenus::makeHelp() {

@@ -20,6 +20,7 @@ class StudioMenus {
   void makeThemes(QMenu* menu);
   void makeSimulation();
   void makeTimeline();
+  void makePlots();
   void makeHelp();
 
   MainWindow& m_window;
