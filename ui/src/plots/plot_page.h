@@ -10,6 +10,7 @@
 #include "plot_pane.h"
 
 class QLabel;
+class QMimeData;
 class QSplitter;
 
 namespace pitchboard::ui {
