@@ -15,6 +15,7 @@
 #include <plots/plots_dock.h>
 #include <plots/time_ruler.h>
 #include <plots/xy_pane.h>
+#include <ui/theme.h>
 
 #include "plot_source.h"
 
@@ -331,7 +332,7 @@ class TestPlots : public QObject {
     auto* xy = qobject_cast<XyPane*>(s.pane());
     QVERIFY(xy);
     s.time.setRange({0.0, 2.0});
-    QTRY_COMPARE(xy->points().value(0).size(), std::size_t(121));
+    QTRY_COMPARE(xy->points().at(0).size(), std::size_t(121));
     for (int i = 0; i <= 120; ++i) {
       QCOMPARE(xy->points()[0][std::size_t(i)],
                QPointF(PlotSource::distanceAt(i / 60.0), 90.0 * (i / 60.0)));

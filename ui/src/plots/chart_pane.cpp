@@ -108,10 +108,13 @@ void ChartPane::draw() {
 void ChartPane::paintCurves(QPainter& painter) {
   const TimeScale time = timeScale();
   const ValueScale values = valueScale();
+  std::size_t points = 0;
+  for (const CurveTrace& trace : m_traces) points += trace.samples.size() + trace.columns.size();
   for (std::size_t i = 0; i < m_traces.size() && i < m_curves.size(); ++i) {
     const CurveSpec& spec = m_curves[i].spec();
     paintTrace(painter, m_traces[i], time, values,
-               {m_curves[i].color(), spec.style, spec.width * scaled(this, 100) / 100.0});
+               {m_curves[i].color(), spec.style, spec.width * scaled(this, 100) / 100.0,
+                points > manyPoints});
   }
 }
 
