@@ -270,9 +270,9 @@ class TestPlotCurves : public QObject {
   void axesAreDividedNicely() {
     QCOMPARE(niceStep(10, 5), 2.0);
     QCOMPARE(niceStep(0.37, 4), 0.1);
-    QVERIFY(niceLimits(17, 295, 3) == (ValueLimits{0, 300}));
-    QVERIFY(niceLimits(5, 5, 4).low < 5 && niceLimits(5, 5, 4).high > 5);
-    QVERIFY(niceLimits(0, 0, 4) == (ValueLimits{-1, 1}));
+    QVERIFY(niceLimits(17, 295, 3).limits == (ValueLimits{0, 300}));
+    QVERIFY(niceLimits(5, 5, 4).limits.low < 5 && niceLimits(5, 5, 4).limits.high > 5);
+    QVERIFY(niceLimits(0, 0, 4).limits == (ValueLimits{-1, 1}));
     QCOMPARE(decimalsOf(0.05), 2);
     QCOMPARE(decimalsOf(20), 0);
   }

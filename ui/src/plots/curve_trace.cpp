@@ -138,6 +138,7 @@ namespace {
 /// Columns are rectangles where they are tall, and a thin line where they are flat: both are fast.
 void paintColumns(QPainter& painter, const std::vector<QPolygonF>& lines, const QColor& color) {
   const double pixel = 1.0 / painter.device()->devicePixelRatioF();
+  QList<QRectF> rects;
   for (const QPolygonF& line : lines) {
     QPolygonF flat;
     const auto draw = [&] {
@@ -157,11 +158,12 @@ void paintColumns(QPainter& painter, const std::vector<QPolygonF>& lines, const 
       if (to - from < tall) {
         flat << QPointF(at.x(), (y0 + y1) / 2);
       } else {
-        if (!flat.isEmpty()) flat << QPointF(at.x(), (y0 + y1) / 2);
+        // Rectangles side by side touch; only a flat stretch is led up to them.
+        if (flat.size() > 1) flat << QPointF(at.x(), (y0 + y1) / 2);
         draw();
         const double x = std::floor(at.x() / pixel) * pixel;
-        painter.fillRect(QRectF(x, std::floor(from / pixel) * pixel, pixel,
-                                std::ceil((to - from) / pixel) * pixel), color);
+        rects << QRectF(x, std::floor(from / pixel) * pixel, pixel,
+                        std::ceil((to - from) / pixel) * pixel);
         flat << QPointF(at.x(), (y0 + y1) / 2);
       }
       top = y0;
@@ -169,6 +171,12 @@ void paintColumns(QPainter& painter, const std::vector<QPolygonF>& lines, const 
     }
     draw();
   }
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  painter.drawRects(rects);
+  painter.restore();
 }
 
 void paintLine(QPainter& painter, const QPolygonF& line, bool thin) {
