@@ -436,19 +436,28 @@ class TestPlots : public QObject {
     picture.setDevicePixelRatio(ratio);
     s.dock->render(&picture);
     const QImage image = picture.toImage().convertToFormat(QImage::Format_RGB32);
-    // A pixel of each curve's colour somewhere, over the right ground.
-    for (const int number : {0, 1, 2, 3}) {
-      const QColor wanted = curveColor(number);
-      bool found = false;
-      for (int y = 0; y < image.height() && !found; ++y) {
-        for (int x = 0; x < image.width() * 7 / 10 && !found; ++x) {
-          const QColor is = image.pixelColor(x, y);
-          found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
-                      std::abs(is.blue() - wanted.blue()) < 24;
+    // In each plot a pixel of its curves' colours, below the legend.
+    for (int pane = 0; pane < 2; ++pane) {
+      const QWidget* surface = s.pane(pane)->surface();
+      const QRect where(surface->mapTo(s.dock.get(), QPoint()) * ratio, surface->size() * ratio);
+      for (const int number : {2 * pane, 2 * pane + 1}) {
+        const QColor wanted = curveColor(number);
+        bool found = false;
+        for (int y = where.top(); y < where.bottom() && !found; ++y) {
+          for (int x = where.left(); x < where.right() && !found; ++x) {
+            const QColor is = image.pixelColor(x, y);
+            found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
+                        std::abs(is.blue() - wanted.blue()) < 40;
+          }
         }
+        QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));
       }
-      QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));
     }
+    // The lane leaves no room unused below it.
+    const PlotPane* last = s.page()->panes().last();
+    const int below = s.page()->picture()->height() -
+                      last->mapTo(s.page()->picture(), QPoint(0, last->height())).y();
+    QVERIFY2(below < 30, qPrintable(QString::number(below)));
     const QString folder = qEnvironmentVariable("PITCHBOARD_PICTURES");
     if (!folder.isEmpty()) {
       QVERIFY(image.save(QStringLiteral("%1/plots-%2.png").arg(folder, QTest::currentDataTag())));

@@ -348,6 +348,7 @@ void PlotPage::refresh() {
   for (PlotPane* pane : panes()) pane->refresh();
   m_marks->refresh(panes());
   m_ruler->update();
+  giveLanesTheirHeight();
   placeLines();
   m_lines->follow();
 }

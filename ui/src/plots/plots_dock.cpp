@@ -199,7 +199,7 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
   const int index = m_tabs->addTab(page, spec.name);
   auto* close = new QToolButton(m_tabs->tabBar());
   close->setIcon(themedIcon(QStringLiteral("window-close")));
-  close->setIconSize(QSize(scaled(this, 10), scaled(this, 10)));
+  close->setIconSize(QSize(scaled(this, 14), scaled(this, 14)));
   close->setFixedSize(scaled(this, 16), scaled(this, 16));
   close->setAutoRaise(true);
   close->setFocusPolicy(Qt::NoFocus);

@@ -183,6 +183,7 @@ void ValueChart::redraw() {
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
   if (m_area.isEmpty() || !(m_stepY > 0.0)) return;
   painter->setPen(theme().innerLine);
+  painter->setBrush(Qt::NoBrush);
   painter->drawRect(m_area);
   painter->setFont(themeFont(TypeRole::Small));
   painter->setPen(theme().secondaryText);
