@@ -447,7 +447,7 @@ class TestPlots : public QObject {
           for (int x = where.left(); x < where.right() && !found; ++x) {
             const QColor is = image.pixelColor(x, y);
             found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
-                        std::abs(is.blue() - wanted.blue()) < 40;
+                        std::abs(is.blue() - wanted.blue()) < 60;
           }
         }
         QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));

@@ -200,13 +200,12 @@ void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& tim
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.setBrush(Qt::NoBrush);
   if (look.style != CurveStyle::Points || !trace.exact) {
-    const bool thin = look.thin || !trace.exact;
-    QPen pen(look.color, thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
-    painter.setPen(pen);
-    if (trace.exact) {
-      for (const QPolygonF& line : lines) paintLine(painter, line, thin);
-    } else {
+    painter.setPen(QPen(look.color, look.thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap,
+                        Qt::BevelJoin));
+    if (look.thin && !trace.exact) {
       paintColumns(painter, lines, look.color);
+    } else {
+      for (const QPolygonF& line : lines) paintLine(painter, line, look.thin);
     }
   }
   const double distance = trace.samples.empty()

@@ -133,6 +133,9 @@ void ValueChart::place() {
   m_area = area.isValid() ? area : QRectF();
   if (m_area.isEmpty()) return;
   chart()->setPlotArea(m_area);
+  // Axes and grid take the new place only with the next layout.
+  chart()->layout()->invalidate();
+  chart()->layout()->activate();
   m_layer->setArea(m_area);
   redraw();
 }
