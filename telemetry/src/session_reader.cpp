@@ -360,6 +360,15 @@ bool SessionReader::walk(SessionRange range, const std::function<bool(const Sess
   return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
 }
 
+bool SessionReader::walkRows(SessionRange range,
+                             const std::function<bool(const SessionItem&)>& visit,
+                             const std::function<bool(double)>& progress) const {
+  std::vector<std::uint16_t> wanted;
+  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  std::sort(wanted.begin(), wanted.end());
+  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+}
+
 void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
                          const std::function<bool(GroupId, const RowView&)>& visit) const {
   std::vector<std::uint16_t> wanted;

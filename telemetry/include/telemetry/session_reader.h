@@ -83,6 +83,9 @@ class SessionReader {
   /// and then. Ends when one of them says false.
   bool walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
             const std::function<bool(double)>& progress = {}) const;
+  /// The same with rows only.
+  bool walkRows(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+                const std::function<bool(double)>& progress = {}) const;
   /// All events; those that are not of the form of an event are left out.
   std::vector<SessionEvent> events() const;
 
