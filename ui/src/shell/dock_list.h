@@ -8,6 +8,7 @@
 #include <Qt>
 #include <span>
 
+class QSettings;
 class QWidget;
 
 namespace pitchboard::ui {
@@ -27,6 +28,7 @@ struct StudioContext {
   FieldView* field = nullptr;
   LinkedTime* time = nullptr;             ///< visible range, cursor and marks of plots and timeline
   PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
+  QSettings* settings = nullptr;
 };
 
 struct DockInfo {

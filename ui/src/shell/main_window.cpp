@@ -79,7 +79,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_time, m_plots};
+  return {m_controller, m_source, m_selection, m_field, m_time, m_plots, m_settings};
 }
 
 void MainWindow::makeDocks() {
