@@ -2,19 +2,26 @@
 #include <QAbstractItemModelTester>
 #include <QClipboard>
 #include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
+#include <QSpinBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QtTest>
 #include <bit>
 
+#include "../robotlink/segment_keys.h"
+
 #include <plots/plot_target.h>
+#include <robotlink/system_v.h>
 #include <shell/source_switch.h>
 #include <telemetry/series_store.h>
 #include <ui/match_controller.h>
 #include <ui/theme.h>
+#include <variables/catalog_choice.h>
 #include <variables/in_place_message.h>
 #include <variables/variables_dock.h>
 #include <variables/variables_filter.h>
@@ -462,6 +469,131 @@ class TestVariablesDock : public QObject {
     QTest::keyClick(editor, Qt::Key_Return);
     QCOMPARE(edited.count(), 1);
     QCOMPARE(edited[0][1].toDouble(), value);
+  }
+
+  void aMatchIsSampledAndEdited() {
+    Bench bench;
+    bench.source.choose(&bench.controller);
+    link::Scenario scenario = link::loadScenario("match-3v3").value();
+    scenario.robots.resize(2);
+    scenario.robots[0].behaviour = "none";
+    bench.controller.open(scenario, false);
+    const QString team = QStringLiteral("B1/");
+    QTRY_VERIFY(bench.model->find(team + QStringLiteral("TRUE_X")).isValid());
+    QVERIFY(bench.model->find(QStringLiteral("match/BALL_X")).isValid());
+    bench.press("editValues");
+    const auto edit = [&bench](const QString& path, const QString& value) {
+      bench.choose(path);
+      bench.view->scrollTo(bench.at(path));
+      QTest::keyClick(bench.view, Qt::Key_F2);
+      auto* editor = bench.dock->findChild<QLineEdit*>(QStringLiteral("valueEdit"));
+      QVERIFY(editor);
+      editor->setText(value);
+      QTest::keyClick(editor, Qt::Key_Return);
+      QTRY_VERIFY(!bench.view->isEditing());
+    };
+    // Nobody decides for B1: the value stays. Somebody does for the other robot.
+    edit(team + QStringLiteral("DECISION_STATE"), QStringLiteral("77"));
+    QTRY_COMPARE(bench.text(team + QStringLiteral("DECISION_STATE"), VariablesModel::Value),
+                 QStringLiteral("77"));
+    // Vision writes the head's angle again on the next tick.
+    edit(team + QStringLiteral("VISION_PAN_DEG"), QStringLiteral("1234.5"));
+    QTRY_VERIFY2(bench.message().contains(QStringLiteral("after you wrote 1234.5")),
+                 qPrintable(bench.message()));
+    QCOMPARE(bench.text(team + QStringLiteral("DECISION_STATE"), VariablesModel::Value),
+             QStringLiteral("77"));
+  }
+
+  void everyNthTick() {
+    Bench bench;
+    bench.controller.setSampling(10);
+    bench.controller.open(link::loadScenario("match-3v3").value(), true);
+    QTRY_VERIFY(bench.controller.frame());
+    bench.controller.runTo(60);
+    QTRY_COMPARE(bench.controller.frame()->snapshot.tick, std::uint64_t(60));
+    const auto rows = [&bench] {
+      const auto store = bench.controller.series();
+      return store->view(*store->findGroup("B1"))->rows();
+    };
+    QCOMPARE(rows(), std::size_t(7));
+    bench.controller.setSampling(1);
+    bench.controller.runTo(120);
+    QTRY_COMPARE(bench.controller.frame()->snapshot.tick, std::uint64_t(120));
+    QCOMPARE(rows(), std::size_t(7 + 1 + 60));   // the present moment is shown to a new observer
+  }
+
+  void importedCatalogNamesTheNextMatch() {
+    QTemporaryDir folder;
+    const QString file = folder.filePath(QStringLiteral("blackboard.json"));
+    const auto save = [&file](const QByteArray& text) {
+      QFile out(file);
+      QVERIFY(out.open(QIODevice::WriteOnly));
+      out.write(text);
+    };
+    save("#define BROKEN");
+    Bench bench;
+    bench.source.choose(&bench.controller);
+    bench.controller.open(link::loadScenario("match-3v3").value(), true);
+    QTRY_VERIFY(bench.controller.frame());
+    auto* catalog = bench.dock->findChild<CatalogChoice*>();
+    catalog->importFile(file);
+    QVERIFY2(bench.message().contains(QStringLiteral("blackboard.json")),
+             qPrintable(bench.message()));
+    QVERIFY(catalog->isPublished());
+    link::VariableCatalog own =
+        link::VariableCatalog::fromJson(
+            QByteArray(R"({"int": {"OUR_STATE": 19}, "float": {"OUR_SPEED": 3}})").toStdString(),
+            "own").value();
+    save(QByteArray::fromStdString(own.toJson()));
+    catalog->importFile(file);
+    QVERIFY(bench.message().contains(QStringLiteral("2 variables")));
+    QVERIFY(!bench.model->find(QStringLiteral("B1/OUR_STATE")).isValid());
+    auto* restart = bench.dock->findChild<QPushButton*>(QStringLiteral("inPlaceButton"));
+    QVERIFY(restart->isVisible());
+    QTest::mouseClick(restart, Qt::LeftButton);
+    QTRY_VERIFY(bench.model->find(QStringLiteral("B1/OUR_STATE")).isValid());
+    QVERIFY(!bench.model->find(QStringLiteral("B1/VISION_LOST")).isValid());
+    QVERIFY(bench.settings.contains(QStringLiteral("variables/catalog")));
+    catalog->usePublished();
+    QTest::mouseClick(restart, Qt::LeftButton);
+    QTRY_VERIFY(bench.model->find(QStringLiteral("B1/VISION_LOST")).isValid());
+    QVERIFY(!bench.settings.contains(QStringLiteral("variables/catalog")));
+  }
+
+  void attachedBlackboardIsSampledAndItsEndIsSaid() {
+    const int key = testKeyBase() + 77;
+    removeSegment(key);
+    Bench bench;
+    bench.source.choose(&bench.controller);
+    bench.controller.open(link::loadScenario("match-3v3").value(), false);
+    QTRY_VERIFY(bench.controller.frame());
+    auto* form = bench.dock->findChild<QWidget*>(QStringLiteral("attachForm"));
+    form->show();
+    form->findChild<QSpinBox*>(QStringLiteral("attachKey"))->setValue(key);
+    auto* attach = form->findChild<QPushButton*>(QStringLiteral("attachButton"));
+    QTest::mouseClick(attach, Qt::LeftButton);
+    QVERIFY2(bench.message().startsWith(QStringLiteral("Not attached")),
+             qPrintable(bench.message()));
+    const QString group = QStringLiteral("key %1").arg(key);
+    {
+      auto board = link::SystemVSegments::open(key, link::AttachMode::AttachOrCreate);
+      QVERIFY(board);
+      board->write(*link::VariableCatalog::published().intVar("DECISION_STATE"), 42);
+      QTest::mouseClick(attach, Qt::LeftButton);
+      QVERIFY(!form->isVisible());
+      const QString state = group + QStringLiteral("/DECISION_STATE");
+      QTRY_VERIFY(bench.model->find(state).isValid());
+      bench.choose(state);
+      bench.view->scrollTo(bench.at(state));
+      QTRY_COMPARE(bench.text(state, VariablesModel::Value), QStringLiteral("42"));
+      QVERIFY(!bench.model->whyNotEditable(bench.model->find(state)).isEmpty());
+      QVERIFY(bench.text(group, VariablesModel::Value).toDouble() > 0);
+      bench.controller.restart();
+      QTRY_VERIFY(bench.model->find(state).isValid());
+    }
+    QTRY_VERIFY2(bench.text(group, VariablesModel::Name).contains(QStringLiteral("removed")),
+                 qPrintable(bench.text(group, VariablesModel::Name)));
+    QVERIFY(bench.message().contains(QStringLiteral("was removed")));
   }
 
   void refreshOfThousandsOfRows() {

@@ -23,7 +23,16 @@
 class QTimer;
 class QUndoStack;
 
+namespace pitchboard::link {
+class MatchSampler;
+}
+namespace pitchboard::telemetry {
+class RowSink;
+}
+
 namespace pitchboard::ui {
+
+class MatchRows;
 
 /// A robot and where it is to stand; for moving several at once.
 struct RobotPlacement {
@@ -94,6 +103,12 @@ class MatchController : public FrameSource {
   /// Writes DECISION_ACTION_A (and B when given) as the decision process would.
   void commandAction(RobotId id, int actionA, std::optional<int> actionB = {});
   void commandSearch(RobotId id, bool on);
+  /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
+  void setSampling(int everyNth);
+  int sampling() const { return m_everyNth; }
+  /// Where other blackboards of this computer are sampled to: their rows get the match's time. Another
+  /// one after `restarted`; null while there is no match.
+  std::shared_ptr<telemetry::RowSink> rowsBeside() const;
   /// Writes one word of the robot's blackboard between two ticks, as any process could; `value` is
   /// converted to the variable's type. `variableWritten` follows, or `errorOccurred`.
   void writeVariable(RobotId id, const QString& name, double value);
@@ -156,7 +171,9 @@ class MatchController : public FrameSource {
   std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
   std::shared_ptr<link::MatchRunner> m_runner;   // keeps its catalog
   FramePtr m_frame;
-  std::shared_ptr<telemetry::SeriesStore> m_series;
+  std::shared_ptr<MatchRows> m_rows;
+  std::shared_ptr<link::MatchSampler> m_sampler;
+  int m_everyNth = 1;
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;

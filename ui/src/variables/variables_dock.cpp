@@ -2,6 +2,7 @@
 #include "variables_dock.h"
 
 #include <QActionGroup>
+#include <QApplication>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -10,16 +11,21 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <set>
 
 #include <ui/match_controller.h>
 #include <ui/theme.h>
 
+#include "attach_form.h"
+#include "attached_boards.h"
 #include "catalog_choice.h"
 #include "in_place_message.h"
 #include "plots/plot_target.h"
 #include "shell/source_switch.h"
-#include "value_watch.h"
+#include "value_writer.h"
 #include "variables_filter.h"
+#include "variables_header.h"
 #include "variables_model.h"
 #include "variables_view.h"
 
@@ -28,6 +34,7 @@ namespace {
 
 const QString favouritesKey = QStringLiteral("variables/favourites");
 const QString headerKey = QStringLiteral("variables/header");
+const QString samplingKey = QStringLiteral("variables/everyNthTick");
 const QString changedKey = QStringLiteral("variables/changedWithin");
 
 class VariablesDock : public QWidget {
@@ -36,24 +43,28 @@ class VariablesDock : public QWidget {
       : QWidget(parent), m_context(context), m_model(new VariablesModel(this)),
         m_filter(new VariablesFilter(m_model, this)),
         m_view(new VariablesView(m_model, m_filter, this)), m_message(new InPlaceMessage(this)),
-        m_empty(new QLabel(this)), m_timer(new QTimer(this)) {
+        m_empty(new QLabel(this)), m_timer(new QTimer(this)),
+        m_writer(new ValueWriter(context.controller, m_model, m_message, this)),
+        m_boards(new AttachedBoards(context.controller, this)), m_attach(new AttachForm(this)) {
     m_model->setObjectName(QStringLiteral("variablesModel"));
     m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     column->addLayout(makeTools());
+    column->addWidget(m_attach);
     column->addWidget(m_message);
     column->addWidget(m_view, 1);
     column->addWidget(m_empty, 1);
     prepareEmpty();
-    prepareHeader();
+    connect(m_view->header(), &QHeaderView::sortIndicatorChanged, this, [this] {
+      if (m_filter->sortsByNumbers()) m_filter->update();
+    });
     connectView();
+    connectBoards();
     adoptSettings();
     connect(context.source, &FrameSource::restarted, this, [this] { adoptSource(); });
     connect(context.source, &SourceSwitch::changed, this, [this] { adoptSource(); });
-    connect(context.controller, &MatchController::variableWritten, this,
-            [this](RobotId, const QString& name, double time) { written(name, time); });
     connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
     constexpr int pollMilliseconds = 100;
     m_timer->start(pollMilliseconds);
@@ -149,17 +160,27 @@ class VariablesDock : public QWidget {
   QMenu* makeMenu(QWidget* parent) {
     auto* menu = new QMenu(parent);
     QMenu* columns = menu->addMenu(tr("Columns"));
-    connect(columns, &QMenu::aboutToShow, this, [this, columns] { fillColumns(columns); });
+    connect(columns, &QMenu::aboutToShow, this, [this, columns] {
+      m_view->columns()->fillColumns(columns);
+    });
+    QMenu* sampling = menu->addMenu(tr("Sampling"));
+    connect(sampling, &QMenu::aboutToShow, this, [this, sampling] { fillSampling(sampling); });
     menu->addSeparator();
     menu->addAction(tr("Import catalog…"), this, [this] { m_catalog->askAndImport(this); })
         ->setObjectName(QStringLiteral("importCatalog"));
     QAction* reset = menu->addAction(tr("Use the published catalog"), this,
                                      [this] { m_catalog->usePublished(); });
     reset->setObjectName(QStringLiteral("publishedCatalog"));
+    QAction* attach = menu->addAction(tr("Attach blackboard…"), this, [this] { m_attach->open(); });
+    attach->setObjectName(QStringLiteral("attachBlackboard"));
     menu->addSeparator();
     menu->addAction(tr("Open all"), this, [this] { m_view->expandAll(); });
     menu->addAction(tr("Close all"), this, [this] { m_view->collapseAll(); });
-    connect(menu, &QMenu::aboutToShow, this, [this, reset] {
+    connect(menu, &QMenu::aboutToShow, this, [this, reset, attach] {
+      const bool simulated = m_context.source->kind() == SourceKind::Simulate;
+      attach->setEnabled(simulated);
+      attach->setToolTip(simulated ? tr("Samples any System V key, read-only")
+                                   : tr("Blackboards of this computer are shown in Simulate"));
       reset->setEnabled(!m_catalog->isPublished());
       reset->setToolTip(m_catalog->name());
     });
@@ -167,51 +188,78 @@ class VariablesDock : public QWidget {
     return menu;
   }
 
-  void fillColumns(QMenu* menu) {
+  void fillSampling(QMenu* menu) {
     menu->clear();
-    for (int c = 1; c < VariablesModel::columns; ++c) {
-      QAction* action =
-          menu->addAction(m_model->headerData(c, Qt::Horizontal, Qt::DisplayRole).toString());
+    for (const int ticks : {1, 2, 5, 10, 30, 60}) {
+      QAction* action = menu->addAction(ticks == 1 ? tr("Each tick")
+                                                   : tr("Every %1 ticks").arg(ticks));
       action->setCheckable(true);
-      action->setChecked(!m_view->isColumnHidden(c));
-      connect(action, &QAction::toggled, this,
-              [this, c](bool shown) { m_view->setColumnHidden(c, !shown); });
+      action->setChecked(m_context.controller->sampling() == ticks);
+      connect(action, &QAction::triggered, this, [this, ticks] { setSampling(ticks); });
     }
   }
 
-  void prepareHeader() {
-    QHeaderView* header = m_view->header();
-    header->setFont(themeFont(TypeRole::Secondary));
-    header->setStretchLastSection(false);
-    header->setMinimumSectionSize(scaled(this, 24));
-    header->setHighlightSections(false);
-    header->setSectionsMovable(true);
-    header->setFirstSectionMovable(false);
-    header->setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
-    const std::pair<int, int> widths[] = {{VariablesModel::Value, 62}, {VariablesModel::Unit, 44},
-                                          {VariablesModel::Rate, 62}, {VariablesModel::Age, 52},
-                                          {VariablesModel::Spark, 72}};
-    for (const auto& [column, width] : widths) header->resizeSection(column, scaled(this, width));
-    m_view->setColumnHidden(VariablesModel::Rate, true);
-    m_view->setColumnHidden(VariablesModel::Age, true);
-    // In the order of the catalog at first, and again on a third click.
-    header->setSortIndicatorClearable(true);
-    header->setSortIndicator(-1, Qt::AscendingOrder);
-    connect(header, &QHeaderView::sortIndicatorChanged, this, [this](int column, Qt::SortOrder) {
-      if (column == VariablesModel::Spark) {
-        m_view->header()->setSortIndicator(-1, Qt::AscendingOrder);
-      } else if (m_filter->sortsByNumbers()) {
-        m_filter->update();
+  void setSampling(int ticks) {
+    m_context.controller->setSampling(ticks);
+    if (m_context.settings) m_context.settings->setValue(samplingKey, ticks);
+  }
+
+  void connectBoards() {
+    connect(m_attach, &AttachForm::attachRequested, this, [this](int key, double rate) {
+      if (const Result<void> done = m_boards->attach(key, rate); !done) {
+        m_message->say(InPlaceMessage::Tone::Error,
+                       tr("Not attached. %1").arg(QString::fromStdString(done.error().text())));
+        return;
       }
+      m_attach->hide();
+      m_message->clear();
     });
-    m_view->setSortingEnabled(true);
-    header->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(header, &QWidget::customContextMenuRequested, this, [this, header](QPoint at) {
-      auto* menu = new QMenu(this);
-      menu->setAttribute(Qt::WA_DeleteOnClose);
-      fillColumns(menu);
-      menu->popup(header->mapToGlobal(at));
-    });
+    m_view->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(m_view, &QWidget::customContextMenuRequested, this, [this](QPoint at) { showMenu(at); });
+  }
+
+  void showMenu(QPoint at) {
+    const QModelIndex index = m_filter->mapToSource(m_view->indexAt(at).siblingAtColumn(0));
+    if (!index.isValid()) return;
+    auto* menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const QStringList names = m_view->selectedVariables();
+    if (!names.isEmpty()) {
+      menu->addAction(tr("Plot"), this, [this, names] {
+        if (m_context.plots) m_context.plots->plotVariables(names);
+      });
+      menu->addAction(tr("Favourite"), m_view, &VariablesView::requestFavourites);
+      menu->addAction(tr("Copy"), m_view, &VariablesView::copySelection);
+      menu->addAction(tr("Edit value"), m_view, &VariablesView::editCurrent);
+    }
+    const auto group = m_model->groupOf(index);
+    const auto& attributes = group->info().attributes;
+    if (attributes.count("attached") != 0) {
+      const int key = QString::fromStdString(attributes.at("key")).toInt();
+      if (m_boards->contains(key)) {
+        menu->addAction(tr("Detach %1").arg(AttachedBoards::groupName(key)), this,
+                        [this, key] { detach(key); });
+      }
+    }
+    if (menu->isEmpty()) delete menu;
+    else menu->popup(m_view->viewport()->mapToGlobal(at));
+  }
+
+  void detach(int key) {
+    m_boards->detach(key);
+    m_model->setNote(AttachedBoards::groupName(key), tr("detached"));
+  }
+
+  void showBoards() {
+    for (const auto& [key, status] : m_boards->status()) {
+      const QString group = AttachedBoards::groupName(key);
+      m_model->setNote(group, status.attached ? QString() : tr("removed, waiting"));
+      if (!status.attached && m_removed.insert(key).second) {
+        m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
+      } else if (status.attached) {
+        m_removed.erase(key);
+      }
+    }
   }
 
   void prepareEmpty() {
@@ -236,8 +284,6 @@ class VariablesDock : public QWidget {
       else m_message->say(InPlaceMessage::Tone::Note, tr("Values are locked against accidents."),
                           tr("Edit values"), [this] { m_lock->setChecked(true); });
     });
-    connect(m_model, &VariablesModel::valueEdited, this,
-            [this](const QModelIndex& index, double value) { write(index, value); });
     connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
       if (m_context.settings) m_context.settings->setValue(favouritesKey, m_model->favourites());
       m_view->viewport()->update();
@@ -250,6 +296,7 @@ class VariablesDock : public QWidget {
     if (const QSettings* settings = m_context.settings) {
       m_model->setFavourites(settings->value(favouritesKey).toStringList());
       m_changedWithin = qBound(1, settings->value(changedKey, m_changedWithin).toInt(), 3600);
+      m_context.controller->setSampling(qBound(1, settings->value(samplingKey, 1).toInt(), 60));
       const QByteArray header = settings->value(headerKey).toByteArray();
       if (!header.isEmpty()) m_view->header()->restoreState(header);
       m_view->header()->setSortIndicator(-1, Qt::AscendingOrder);
@@ -258,8 +305,7 @@ class VariablesDock : public QWidget {
   }
 
   void adoptSource() {
-    m_watch.clear();
-    m_pending.clear();
+    m_writer->forget();
     m_store = m_context.source->series();
     m_model->setStore(m_store, m_context.source->kind());
     const bool simulated = m_context.source->kind() == SourceKind::Simulate;
@@ -303,8 +349,9 @@ class VariablesDock : public QWidget {
       adoptSource();
       return;
     }
-    if (m_store && !m_watch.empty()) sayWhatWasOverwritten();
+    m_writer->check();
     if (!isVisible()) return;
+    showBoards();
     m_model->updateGroups();
     constexpr int slowly = 5;
     const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
@@ -336,48 +383,6 @@ class VariablesDock : public QWidget {
     return tr("None of the favourites is in this match.");
   }
 
-  void write(const QModelIndex& index, double value) {
-    const auto group = m_model->groupOf(index);
-    const telemetry::ColumnInfo* column = m_model->columnOf(index);
-    const auto robot = group->info().attributes.find("robot");
-    if (robot == group->info().attributes.end()) return;
-    const QString name = QString::fromStdString(column->name);
-    const auto before = group->latest(static_cast<std::uint32_t>(columnNumber(*group, *column)));
-    m_message->clear();
-    m_pending.push_back({QString::fromStdString(group->info().name), name,
-                         before ? before->value : 0.0, value, 0.0});
-    m_context.controller->writeVariable(RobotId{std::stoi(robot->second)}, name, value);
-  }
-
-  static std::size_t columnNumber(const telemetry::GroupView& group,
-                                  const telemetry::ColumnInfo& column) {
-    const auto& columns = group.info().columns;
-    const auto found = std::find_if(columns.begin(), columns.end(), [&column](const auto& other) {
-      return other.name == column.name;
-    });
-    return static_cast<std::size_t>(found - columns.begin());
-  }
-
-  void written(const QString& name, double time) {
-    const auto pending = std::find_if(m_pending.begin(), m_pending.end(),
-                                      [&name](const auto& each) { return each.column == name; });
-    if (pending == m_pending.end()) return;
-    WrittenValue value = *pending;
-    m_pending.erase(pending);
-    value.time = time;
-    m_watch.add(value);
-  }
-
-  void sayWhatWasOverwritten() {
-    const auto found = m_watch.check(*m_store);
-    if (!found) return;
-    const QModelIndex index =
-        m_model->find(found->written.group + QLatin1Char('/') + found->written.column);
-    if (const telemetry::ColumnInfo* column = m_model->columnOf(index)) {
-      m_message->say(InPlaceMessage::Tone::Warning, overwrittenText(*found, *column));
-    }
-  }
-
   StudioContext m_context;
   VariablesModel* m_model;
   VariablesFilter* m_filter;
@@ -385,12 +390,14 @@ class VariablesDock : public QWidget {
   InPlaceMessage* m_message;
   QLabel* m_empty;
   QTimer* m_timer;
+  ValueWriter* m_writer;
+  AttachedBoards* m_boards;
+  AttachForm* m_attach;
+  std::set<int> m_removed;   // keys whose removal was said
   CatalogChoice* m_catalog = nullptr;
   QLineEdit* m_words = nullptr;
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
-  ValueWatch m_watch;
-  std::vector<WrittenValue> m_pending;   // on their way to the match
   int m_changedWithin = 5;
   unsigned m_polls = 0;
 };
