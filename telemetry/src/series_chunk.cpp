@@ -64,17 +64,16 @@ std::shared_ptr<const Chunk> Chunk::ofStaging(const Staging& full, const Layout&
   return chunk;
 }
 
-std::shared_ptr<const Chunk> Chunk::join(std::span<const std::shared_ptr<const Chunk>> blocks,
-                                         const Layout& layout) {
+std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Layout& layout) {
   auto chunk = std::make_shared<Chunk>();
   chunk->m_times.reserve(chunkRows);
   for (const auto& block : blocks) {
-    chunk->m_times.insert(chunk->m_times.end(), block->times(), block->times() + blockRows);
+    chunk->m_times.insert(chunk->m_times.end(), block.times, block.times + blockRows);
   }
   chunk->m_columns.reserve(layout.slots.size());
   std::array<const Column*, chunkBlocks> parts{};
   for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {
-    for (std::size_t b = 0; b < chunkBlocks; ++b) parts[b] = &blocks[b]->column(c);
+    for (std::size_t b = 0; b < chunkBlocks; ++b) parts[b] = &blocks[b].columns[c];
     withType(layout.slots[c].type, [&](auto zero) {
       chunk->m_columns.push_back(Column::join<decltype(zero)>(parts));
     });
