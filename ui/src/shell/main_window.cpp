@@ -24,12 +24,15 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/looking_back_sign.h"
+#include "timeline/timeline.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
 // Raised when docks come or go in a way that older layouts cannot describe.
-constexpr int layoutVersion = 1;
+constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
 const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
@@ -37,7 +40,9 @@ const QString layoutKey = QStringLiteral("window/layout");
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
     : QMainWindow(parent), m_controller(controller), m_settings(settings),
       m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)),
-      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)) {
+      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
+      m_timeline(new Timeline(m_source, this)),
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -64,6 +69,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
+    new LookingBackSign(m_timeline, canvas);
   }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
@@ -79,7 +85,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_time, m_plots};
+  return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
+          m_timelineActions};
 }
 
 void MainWindow::makeDocks() {
@@ -98,11 +105,12 @@ void MainWindow::makeDocks() {
   }
 }
 
-// A tab says the name already.
+// A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
-  for (QDockWidget* dock : m_docks) {
-    static_cast<DockTitle*>(dock->titleBarWidget())
-        ->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
   }
 }
 
@@ -144,7 +152,9 @@ void MainWindow::resetLayout() {
     QDockWidget* dock = m_docks[i];
     dock->setFloating(false);
     addDockWidget(infos[i].area, dock);
-    if (infos[i].area == Qt::BottomDockWidgetArea) {
+    if (infos[i].ownRow && bottom != nullptr) {
+      splitDockWidget(firstBottom, dock, Qt::Vertical);
+    } else if (infos[i].area == Qt::BottomDockWidgetArea) {
       if (bottom != nullptr) tabifyDockWidget(bottom, dock);
       else firstBottom = dock;
       bottom = dock;
