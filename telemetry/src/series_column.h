@@ -6,12 +6,17 @@
 // are kept for 64, 512 and 4096 rows. Private to the library; immutable once made.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <span>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "series_layout.h"
 
@@ -21,6 +26,37 @@ template <class T>
 struct Extremes {
   T min, max;   ///< NaN where there is no other value
 };
+
+/// The part of a search for minimum and maximum that is done several values at a time; what is left
+/// begins at `values`. The compiler may not do it by itself, because of NaN.
+template <class T>
+void scanLanes(const T*& values, std::size_t count, T& low, T& high) {
+#ifdef __SSE2__
+  const auto scan = [&](auto lows, const auto& load, const auto& min, const auto& max) {
+    constexpr std::size_t width = sizeof lows / sizeof(T);
+    auto highs = lows;
+    for (; count >= width; count -= width, values += width) {
+      const auto next = load(values);
+      lows = min(next, lows);   // gives the second where one is NaN
+      highs = max(next, highs);
+    }
+    std::array<T, width> l, h;
+    std::memcpy(l.data(), &lows, sizeof lows);
+    std::memcpy(h.data(), &highs, sizeof highs);
+    low = *std::ranges::min_element(l);
+    high = *std::ranges::max_element(h);
+  };
+  if constexpr (std::is_same_v<T, float>) {
+    scan(_mm_set1_ps(low), [](const float* v) { return _mm_loadu_ps(v); },
+         [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
+         [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
+  } else if constexpr (std::is_same_v<T, double>) {
+    scan(_mm_set1_pd(low), [](const double* v) { return _mm_loadu_pd(v); },
+         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
+         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+  }
+#endif
+}
 
 /// Running minimum and maximum that pass over NaN.
 template <class T>
@@ -38,30 +74,20 @@ struct MinMax {
     any = true;
   }
 
-  /// Comparisons with NaN are false, so NaN changes nothing. Four lanes, because one would wait
-  /// for its own last result.
+  /// Comparisons with NaN are false, so NaN changes nothing once there is a first value.
   void scan(const T* values, std::size_t count) {
-    std::size_t start = 0;
     if constexpr (std::is_floating_point_v<T>) {
-      while (start < count && std::isnan(values[start])) ++start;
+      for (; count > 0 && std::isnan(*values); --count) ++values;
     }
-    if (start == count) return;
-    const T seed = values[start];
-    T low[4] = {seed, seed, seed, seed}, high[4] = {seed, seed, seed, seed};
-    const T* value = values + start;
+    if (count == 0) return;
+    T low = *values, high = *values;
     const T* const end = values + count;
-    for (; end - value >= 4; value += 4) {
-      for (std::size_t lane = 0; lane < 4; ++lane) {
-        low[lane] = value[lane] < low[lane] ? value[lane] : low[lane];
-        high[lane] = value[lane] > high[lane] ? value[lane] : high[lane];
-      }
+    scanLanes(values, count, low, high);
+    for (; values != end; ++values) {
+      low = *values < low ? *values : low;
+      high = *values > high ? *values : high;
     }
-    for (; value != end; ++value) {
-      low[0] = *value < low[0] ? *value : low[0];
-      high[0] = *value > high[0] ? *value : high[0];
-    }
-    add(std::min(std::min(low[0], low[1]), std::min(low[2], low[3])),
-        std::max(std::max(high[0], high[1]), std::max(high[2], high[3])));
+    add(low, high);
   }
 };
 
@@ -113,20 +139,20 @@ class Column {
       if (blocks[b]->m_bytes) {
         range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
         values = std::copy_n(blocks[b]->array<T>() + 2, blockRows, values);
-        out.setSummary<T>(b, range);
+        out.setSummary<T>(ofBlocks(chunkBlocks) + b, range);
       } else {
         const T value = blocks[b]->constant<T>();
         range.add(value, value);
-        out.array<Extremes<T>>()[b] = {value, value};   // its bits, also where it is NaN
+        out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {value, value};   // its bits, also where it is NaN
       }
       if (range.any) super.add(range.min, range.max);
       if ((b + 1) % superBlocks == 0) {
-        out.setSummary<T>(chunkBlocks + b / superBlocks, super);
+        out.setSummary<T>(1 + b / superBlocks, super);
         if (super.any) all.add(super.min, super.max);
         super = {};
       }
     }
-    out.setSummary<T>(summaries(chunkBlocks) - 1, all);
+    out.setSummary<T>(0, all);
     return out;
   }
 
@@ -145,7 +171,7 @@ class Column {
   T at(std::uint32_t row, std::uint32_t blocks) const {
     if (!m_bytes) return constant<T>();
     const std::uint32_t block = row / blockRows;
-    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(block).min;
+    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(ofBlocks(blocks) + block).min;
   }
 
   template <class T>
@@ -165,13 +191,13 @@ class Column {
     while (row < end) {
       const std::uint32_t block = row / blockRows, left = end - row;
       if (row % chunkRows == 0 && left >= chunkRows) {
-        out.add(kept[summaries(blocks) - 1]);
+        out.add(kept[0]);
         row += chunkRows;
       } else if (row % (superBlocks * blockRows) == 0 && left >= superBlocks * blockRows) {
-        out.add(kept[blocks + block / superBlocks]);
+        out.add(kept[1 + block / superBlocks]);
         row += superBlocks * blockRows;
       } else if ((row % blockRows == 0 && left >= blockRows) || !isRaw(block)) {
-        out.add(kept[block]);
+        out.add(kept[ofBlocks(blocks) + block]);
         row = (block + 1) * blockRows;
       } else {
         const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
@@ -179,6 +205,22 @@ class Column {
         row = stop;
       }
     }
+  }
+
+  /// Prefetch what a bucket needs that covers the chunk, and around a row where one ends.
+  void want() const {
+    if (!m_bytes) return;
+    __builtin_prefetch(m_bytes.get());
+    __builtin_prefetch(m_bytes.get() + 64);
+  }
+  template <class T>
+  void want(std::uint32_t row, std::uint32_t blocks) const {
+    if (!m_bytes) return;
+    const std::uint32_t block = row / blockRows;
+    __builtin_prefetch(array<Extremes<T>>() + ofBlocks(blocks) + block);
+    if (!isRaw(block)) return;
+    const auto* line = reinterpret_cast<const char*>(raw<T>(block, blocks));
+    for (std::size_t i = 0; i < blockRows * sizeof(T); i += 64) __builtin_prefetch(line + i);
   }
 
   template <class T>
@@ -189,10 +231,12 @@ class Column {
   }
 
  private:
-  /// Of the blocks, of groups of 8 blocks, of the whole chunk; the raw blocks follow.
-  static constexpr std::uint32_t summaries(std::uint32_t blocks) {
-    return blocks == 1 ? 1 : blocks + blocks / superBlocks + 1;
+  /// Of the whole chunk, of each 8 blocks, of each block; a single block has its own only. The raw
+  /// blocks follow.
+  static constexpr std::uint32_t ofBlocks(std::uint32_t blocks) {
+    return blocks == 1 ? 0 : 1 + blocks / superBlocks;
   }
+  static constexpr std::uint32_t summaries(std::uint32_t blocks) { return ofBlocks(blocks) + blocks; }
   template <class T>
   void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
     m_bytes = std::make_unique_for_overwrite<std::byte[]>(

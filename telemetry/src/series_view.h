@@ -46,6 +46,7 @@ class View final : public GroupView {
     const Unit* unit = nullptr;
     std::uint32_t row = 0;
   };
+  struct Ahead;        // prefetches
   template <bool After>
   struct Search;       // walks forward through ascending times
 

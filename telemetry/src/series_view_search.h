@@ -66,7 +66,42 @@ struct View::Search {
  private:
   static bool before(double rowTime, double time) { return After ? rowTime <= time : rowTime < time; }
   const View& view;
-  std::size_t end, unit;
+  std::size_t end;
+
+ public:
+  std::size_t unit;
+};
+
+/// Asks the processor for the memory that a bucket's border will need, some buckets before it is
+/// looked at: of ten million rows nearly every border is a wait for memory.
+struct View::Ahead {
+  const View& view;
+  std::uint32_t column;
+  std::size_t number = 0;
+
+  /// About where the row of this time is; times ascend. Calls `pass` for every unit on the way.
+  template <class Pass>
+  Place guess(double time, const Pass& pass) {
+    const std::size_t end = view.units();
+    while (number + 1 < end && view.unit(number + 1).first < time) pass(view.unit(++number));
+    const Unit& in = view.unit(number);
+    const double share = (time - in.first) / (in.last - in.first);
+    if (!in.columns || !(share > 0.0)) return {&in, 0};
+    return {&in, static_cast<std::uint32_t>(std::min(share, 1.0) * (in.rows - 1))};
+  }
+  void wantTimes(double time) {
+    const Place at = guess(time, [&](const Unit& unit) {
+      if (unit.columns) __builtin_prefetch(unit.columns + column);
+    });
+    __builtin_prefetch(at.unit->times + at.row);
+  }
+  template <class T>
+  void wantValues(double time) {
+    const Place at = guess(time, [&](const Unit& unit) {
+      if (unit.columns) unit.columns[column].want();
+    });
+    if (at.unit->columns) at.unit->columns[column].want<T>(at.row, at.unit->blocks);
+  }
 };
 
 template <class T>

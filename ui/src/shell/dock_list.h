@@ -8,6 +8,7 @@
 #include <Qt>
 #include <span>
 
+class QSettings;
 class QWidget;
 
 namespace pitchboard::ui {
@@ -28,6 +29,7 @@ struct StudioContext {
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
   LinkedTime* time = nullptr;             ///< visible range, cursor and marks of plots and timeline
+  QSettings* settings = nullptr;          ///< the user's; may be null
   PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
   Timeline* timeline = nullptr;           ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;

@@ -85,7 +85,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_time, m_plots, m_timeline,
+  return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
           m_timelineActions};
 }
 
