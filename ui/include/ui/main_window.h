@@ -28,6 +28,8 @@ class ScenarioFiles;
 class SourceSwitch;
 class StudioStatusBar;
 struct StudioContext;
+class Timeline;
+class TimelineActions;
 class TransportBar;
 
 class MainWindow : public QMainWindow {
@@ -38,6 +40,7 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   FieldView* field() const { return m_field; }
+  Timeline* timeline() const { return m_timeline; }
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
 
@@ -63,6 +66,8 @@ class MainWindow : public QMainWindow {
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
+  Timeline* m_timeline;
+  TimelineActions* m_timelineActions;
   FieldView* m_field;
   NoticeBar* m_notices;
   TransportBar* m_bar;

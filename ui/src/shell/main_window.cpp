@@ -24,12 +24,15 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/looking_back_sign.h"
+#include "timeline/timeline.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
 // Raised when docks come or go in a way that older layouts cannot describe.
-constexpr int layoutVersion = 1;
+constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
 const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
@@ -37,7 +40,9 @@ const QString layoutKey = QStringLiteral("window/layout");
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
     : QMainWindow(parent), m_controller(controller), m_settings(settings),
       m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)),
-      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)) {
+      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
+      m_timeline(new Timeline(m_source, this)),
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -64,6 +69,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
+    new LookingBackSign(m_timeline, canvas);
   }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
@@ -79,7 +85,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_time, m_plots};
+  return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
+          m_timelineActions};
 }
 
 void MainWindow::makeDocks() {
@@ -98,11 +105,12 @@ void MainWindow::makeDocks() {
   }
 }
 
-// A tab says the name already.
+// A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
-  for (QDockWidget* dock : m_docks) {
-    static_cast<DockTitle*>(dock->titleBarWidget())
-        ->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
   }
 }
 
@@ -138,20 +146,30 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::resetLayout() {
   const auto infos = studioDocks();
-  QDockWidget* bottom = nullptr;
+  const auto isBottom = [&infos](std::size_t i) {
+    return infos[i].area == Qt::BottomDockWidgetArea;
+  };
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
   QDockWidget* firstBottom = nullptr;
   for (std::size_t i = 0; i < infos.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    addDockWidget(infos[i].area, m_docks[i]);
+    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].ownRow && firstBottom != nullptr) {
+      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+    }
+  }
+  QDockWidget* bottom = firstBottom;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
     QDockWidget* dock = m_docks[i];
-    dock->setFloating(false);
-    addDockWidget(infos[i].area, dock);
-    if (infos[i].area == Qt::BottomDockWidgetArea) {
-      if (bottom != nullptr) tabifyDockWidget(bottom, dock);
-      else firstBottom = dock;
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
+      tabifyDockWidget(bottom, dock);
       bottom = dock;
     }
     dock->setVisible(infos[i].shownAtFirst);
-    resizeDocks({dock}, {scaled(this, infos[i].extent)},
-                infos[i].area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)}, isBottom(i) ? Qt::Vertical : Qt::Horizontal);
   }
   if (firstBottom != nullptr) firstBottom->raise();
 }

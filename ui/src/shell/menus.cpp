@@ -18,6 +18,7 @@
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
@@ -36,6 +37,7 @@ void StudioMenus::make() {
   makeEdit();
   makeView();
   makeSimulation();
+  makeTimeline();
   makeHelp();
 }
 
@@ -151,6 +153,10 @@ void StudioMenus::makeSimulation() {
   });
   QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
   menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore);
+}
+
+void StudioMenus::makeTimeline() {
+  m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
 }
 
 void StudioMenus::makeHelp() {

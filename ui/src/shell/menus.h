@@ -19,6 +19,7 @@ class StudioMenus {
   void makeView();
   void makeThemes(QMenu* menu);
   void makeSimulation();
+  void makeTimeline();
   void makeHelp();
 
   MainWindow& m_window;
