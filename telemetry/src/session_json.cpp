@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
+#include <telemetry/base64.h>
+
 #include "session_format.h"
 
 namespace pitchboard::telemetry::session {
@@ -14,8 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> typeNames{"int32", "float32", "float64"};
 constexpr std::array<const char*, 3> kindNames{"number", "flag", "enumeration"};
-constexpr std::string_view base64Letters =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -60,39 +60,6 @@ std::optional<T> whole(std::string_view digits) {
   return value;
 }
 
-std::string toBase64(std::string_view bytes) {
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += k <= count ? base64Letters[(group >> (18 - 6 * k)) & 63] : '=';
-    }
-  }
-  return out;
-}
-
-std::optional<std::string> fromBase64(std::string_view letters) {
-  while (!letters.empty() && letters.back() == '=') letters.remove_suffix(1);
-  std::string out;
-  std::uint32_t bits = 0;
-  int held = 0;
-  for (const char letter : letters) {
-    const std::size_t value = base64Letters.find(letter);
-    if (value == std::string_view::npos) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    held += 6;
-    if (held >= 8) {
-      held -= 8;
-      out += static_cast<char>((bits >> held) & 0xff);
-    }
-  }
-  return out;
-}
-
 bool isUtf8(std::string_view bytes) {
   return Json::accept("\"" + [&] {
     std::string safe;
@@ -122,7 +89,7 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
     {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"state":{"type":"string","contentEncoding":"base64","description":"a moment of the match that can be entered again exactly"}},"required":["time","state"]})"},
+     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
 }};
 
 /// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all times.
@@ -295,16 +262,6 @@ std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
 std::optional<double> timeFromJson(std::string_view json) {
   const auto object = objectWithTime(json);
   return object ? number(*object, "time") : std::nullopt;
-}
-
-std::string checkpointToJson(double time, std::string_view state) {
-  return dump(Json{{"time", time}, {"state", toBase64(state)}});
-}
-
-std::optional<std::string> checkpointFromJson(std::string_view json) {
-  const auto object = objectWithTime(json);
-  if (!object || !object->contains("state")) return std::nullopt;
-  return fromBase64(text(*object, "state"));
 }
 
 }  // namespace pitchboard::telemetry::session
