@@ -182,7 +182,8 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
   const ProcessOptions& options = m_options.process;
   const sim::RobotIdentity& identity =
       m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
-  return {m_options.robotProgram,
+  std::vector<std::string> command{
+          m_options.robotProgram,
           std::string(process.name),
           "--robot",
           std::to_string(seat.id.value),
@@ -206,6 +207,10 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
           std::to_string(options.particles),
           "--field",
           fieldToText(m_scenario.settings.field)};
+  if (m_thoughts) {
+    command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
+  }
+  return command;
 }
 
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {

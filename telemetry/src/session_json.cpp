@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <zlib.h>
 
 #include <telemetry/base64.h>
 
@@ -91,6 +92,18 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
      R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
 }};
 
+/// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all times.
+std::string checkOf(const McapMap& metadata) {
+  unsigned long crc = 0;
+  for (const auto& [key, value] : metadata) {
+    if (key == checkKey) continue;
+    for (const std::string* text : {&key, &value}) {
+      crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text->c_str()), text->size() + 1);
+    }
+  }
+  return std::to_string(crc);
+}
+
 McapMap toMetadata(const SessionInfo& info) {
   McapMap out;
   for (const auto& [key, value] : info.more) out.insert_or_assign("more." + key, value);
@@ -101,10 +114,13 @@ McapMap toMetadata(const SessionInfo& info) {
   if (info.seed) out.insert_or_assign("seed", std::to_string(*info.seed));
   out.insert_or_assign("start_ns", std::to_string(info.start.time_since_epoch().count()));
   out.insert_or_assign("created_ns", std::to_string(info.created.time_since_epoch().count()));
+  out.insert_or_assign(std::string(checkKey), checkOf(out));
   return out;
 }
 
-SessionInfo infoFromMetadata(const McapMap& metadata, int& format) {
+std::optional<SessionInfo> infoFromMetadata(const McapMap& metadata, int& format) {
+  const auto check = metadata.find(checkKey);
+  if (check == metadata.end() || check->second != checkOf(metadata)) return std::nullopt;
   const auto value = [&](std::string_view key) {
     const auto found = metadata.find(key);
     return found == metadata.end() ? std::string() : found->second;
