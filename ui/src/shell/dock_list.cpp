@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dock_list.h"
 
+#include "live/bad_messages_dock.h"
 #include "log_dock.h"
 #include "noise_dock.h"
 #include "processes_dock.h"
@@ -13,6 +14,7 @@ std::span<const DockInfo> studioDocks() {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, makeRobotsDock},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 330, makeNoiseDock},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
+      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, makeBadMessagesDock},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, makeLogDock},
   };
   return docks;

@@ -8,11 +8,14 @@
 #include <Qt>
 #include <span>
 
+class QSettings;
 class QWidget;
 
 namespace pitchboard::ui {
 
 class FieldView;
+class LiveController;
+class LiveOverlay;
 class MatchController;
 class RobotSelection;
 class SourceSwitch;
@@ -23,6 +26,9 @@ struct StudioContext {
   SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
+  LiveController* live = nullptr;         ///< listens once it was asked to
+  QSettings* settings = nullptr;          ///< layout and preferences
+  LiveOverlay* overlay = nullptr;         ///< the other source drawn beside the shown one
 };
 
 struct DockInfo {
