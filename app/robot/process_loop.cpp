@@ -23,9 +23,24 @@ void holdEndSignals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board) {
+bool askedToEnd(std::chrono::nanoseconds wait) {
   using Clock = std::chrono::steady_clock;
   const sigset_t signals = endSignals();
+  const Clock::time_point end = Clock::now() + wait;
+  while (true) {
+    // Waiting for the signal itself: one that arrives just before the wait is not missed.
+    const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::max(end - Clock::now(), Clock::duration::zero()));
+    constexpr std::int64_t second = 1'000'000'000;
+    const timespec time{static_cast<time_t>(rest.count() / second),
+                        static_cast<long>(rest.count() % second)};
+    if (sigtimedwait(&signals, nullptr, &time) > 0) return true;
+    if (errno == EAGAIN) return false;
+  }
+}
+
+void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board) {
+  using Clock = std::chrono::steady_clock;
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
@@ -36,16 +51,7 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board) {
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;
 
-    // Waiting for the signal itself: one that arrives just before the wait is not missed.
-    while (true) {
-      const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(
-          std::max(next - Clock::now(), Clock::duration::zero()));
-      constexpr std::int64_t second = 1'000'000'000;
-      const timespec wait{static_cast<time_t>(rest.count() / second),
-                          static_cast<long>(rest.count() % second)};
-      if (sigtimedwait(&signals, nullptr, &wait) > 0) return;
-      if (errno == EAGAIN) break;
-    }
+    if (askedToEnd(next - Clock::now())) return;
   }
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
+
 #include <robotlink/cognitive_process.h>
 
 namespace pitchboard::robot {
 
-/// From now on SIGTERM, SIGINT and SIGHUP wait for runUntilAsked(). Call before anything else.
+/// From now on SIGTERM, SIGINT and SIGHUP wait for runUntilAsked() or askedToEnd(). Call before anything else.
 void holdEndSignals();
+
+/// Waits so long for one of these signals; true when one came, also before the call.
+bool askedToEnd(std::chrono::nanoseconds wait);
 
 /// Steps the process at its period, by absolute time, until one of these signals arrives: the
 /// rhythm does not drift, and a period that was missed (the computer slept) is left out. Returns

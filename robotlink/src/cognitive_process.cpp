@@ -62,7 +62,7 @@ constexpr std::array processes{
                 "pitchboard-robot team --robot 1 --team 0"},
     ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true, false,
                 "pitchboard-robot decision --robot 1 --behaviour striker"},
-    ProcessInfo{"communication", "sends telemetry and team messages by UDP", makeCommunication,
+    ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP", makeCommunication,
                 false, false, false,
                 "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
 };

@@ -6,6 +6,7 @@
 #include <robotlink/robot_variables.h>
 #include <telemetry/text_protocol.h>
 
+#include "referee_listener.h"
 #include "udp_sender.h"
 
 namespace pitchboard::link {
@@ -14,7 +15,9 @@ namespace {
 constexpr int teamPorts = 4;
 constexpr int distanceMessage = 2;  // the kind of team message, and the request in CONTROL_MESSAGES
 
-// Once a second, as published: says which robot this blackboard belongs to, sends a team message
+constexpr double cycle = 0.05;        // s: how soon a referee's word is on the blackboard
+
+// Obeys the referee in every cycle. Once a second (or as often as asked), as published: says which robot this blackboard belongs to, sends a team message
 // and the telemetry datagram, and clears the five *_WORKING flags, which their owners set again.
 //
 // Team message "2 n DIST", DIST in cm: robot n's distance to the ball. It is VISION_BALL_DIST while
@@ -23,21 +26,30 @@ constexpr int distanceMessage = 2;  // the kind of team message, and the request
 // whether or not the ball is in view, and the request is cleared.
 class Communication final : public CognitiveProcess {
  public:
-  Communication(const ProcessOptions& options, UdpSender sender)
-      : m_options(options), m_sender(std::move(sender)) {
+  Communication(const ProcessOptions& options, UdpSender sender,
+                std::unique_ptr<RefereeListener> referee)
+      : m_options(options), m_sender(std::move(sender)), m_referee(std::move(referee)) {
     const VariableCatalog& catalog = VariableCatalog::published();
     m_request = catalog.intVar("CONTROL_MESSAGES");
     m_ownDistance = catalog.floatVar("DECISION_RBT0" + std::to_string(options.robot.value) +
                                      "_DIST_BALL");
   }
 
-  void step(Blackboard& board, const Clock&) override {
+  void step(Blackboard& board, const Clock& clock) override {
+    if (m_referee) {
+      if (const auto word = m_referee->newWord()) board.write(m_variables.comReferee, *word);
+    }
+    constexpr double rounding = 1e-6;
+    if (clock.seconds < m_nextTelemetry - rounding) return;
+    // By absolute time, so that the rate does not drift; what was missed is left out.
+    m_nextTelemetry += m_options.telemetryPeriod;
+    if (m_nextTelemetry <= clock.seconds) m_nextTelemetry = clock.seconds + m_options.telemetryPeriod;
     board.write(m_variables.robotNumber, m_options.robot.value);
     tellTeam(board);
     sendTelemetry(board);
   }
 
-  double period() const override { return 1.0; }
+  double period() const override { return cycle; }
 
  private:
   void tellTeam(Blackboard& board) {
@@ -80,6 +92,8 @@ class Communication final : public CognitiveProcess {
 
   ProcessOptions m_options;
   UdpSender m_sender;
+  std::unique_ptr<RefereeListener> m_referee;   // when there is a team to listen for
+  double m_nextTelemetry = 0.0;
   RobotVariables m_variables;
   std::optional<IntVar> m_request;
   std::optional<FloatVar> m_ownDistance;  // the published map has one for robots 1 to 4
@@ -106,7 +120,17 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
   }
   Result<UdpSender> sender = UdpSender::to(options.udpAddress);
   if (!sender) return tl::unexpected<Error>(sender.error());
-  return std::make_unique<Communication>(options, std::move(*sender));
+  if (!(options.telemetryPeriod >= cycle && options.telemetryPeriod <= 60.0)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "telemetry can be sent every 0.05 to 60 seconds, not more often or seldom");
+  }
+  std::unique_ptr<RefereeListener> referee;
+  if (options.refereeTeam) {
+    auto started = RefereeListener::start(options);
+    if (!started) return tl::unexpected<Error>(started.error());
+    referee = std::move(*started);
+  }
+  return std::make_unique<Communication>(options, std::move(*sender), std::move(referee));
 }
 
 }  // namespace pitchboard::link

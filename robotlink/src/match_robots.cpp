@@ -127,7 +127,6 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
   const ProcessOptions& options = m_options.process;
   const sim::RobotIdentity& identity =
       m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
-  const sim::FieldSpec& field = m_scenario.settings.field;
   return {m_options.robotProgram,
           std::string(process.name),
           "--robot",
@@ -151,7 +150,7 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
           "--particles",
           std::to_string(options.particles),
           "--field",
-          sim::fieldByName(field.name) ? field.name : "published"};
+          fieldToText(m_scenario.settings.field)};
 }
 
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {

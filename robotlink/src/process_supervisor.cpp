@@ -134,6 +134,16 @@ void ProcessSupervisor::stopAll(std::chrono::milliseconds grace) {
   stopThose(handles, grace);
 }
 
+void ProcessSupervisor::stopChild(int handle, std::chrono::milliseconds grace) {
+  stopThose({handle}, grace);
+}
+
+void ProcessSupervisor::forget(int handle) {
+  std::erase_if(m_children, [this, handle](const ChildStatus& child) {
+    return child.handle == handle && !m_outputs.contains(handle);
+  });
+}
+
 bool ProcessSupervisor::anyRunning(const std::vector<int>& handles) const {
   return std::any_of(handles.begin(), handles.end(),
                      [this](int handle) { return m_outputs.contains(handle); });

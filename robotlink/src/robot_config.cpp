@@ -12,8 +12,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::string_view section = "Communication";
-constexpr std::string_view key = "no_player_robofei";
+constexpr std::string_view ourSections = "Pitchboard";
+constexpr std::size_t mostBytes = 1024 * 1024;
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r\f\v";
@@ -22,10 +22,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-bool sameName(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
 }
 
 // A comment behind a value starts with a blank and a semicolon.
@@ -37,20 +38,8 @@ std::string_view withoutComment(std::string_view value) {
   return value;
 }
 
-std::string place(std::string_view source, int line) {
+std::string placeOf(std::string_view source, int line) {
   return std::string(source) + ", line " + std::to_string(line);
-}
-
-Result<RobotId> parseNumber(std::string_view text, const std::string& where) {
-  long long number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    return failure(ErrorCode::ParseError,
-                   "'" + std::string(text.substr(0, 40)) + "' is not the number of a robot", where);
-  }
-  Result<RobotId> robot = robotFromNumber(number);
-  if (!robot) robot.error().context = where;
-  return robot;
 }
 
 }  // namespace
@@ -62,8 +51,18 @@ Result<RobotId> robotFromNumber(long long number) {
                      std::to_string(highestRobotNumber));
 }
 
-Result<RobotId> robotFromIni(std::string_view text, std::string_view source) {
-  bool inSection = false;
+const IniEntry* IniFile::find(std::string_view section, std::string_view name) const {
+  const auto found = std::find_if(entries.rbegin(), entries.rend(), [&](const IniEntry& entry) {
+    return entry.section == section && entry.name == name;
+  });
+  return found == entries.rend() ? nullptr : &*found;
+}
+
+std::string IniFile::place(const IniEntry& entry) const { return placeOf(source, entry.line); }
+
+Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
+  IniFile file{std::string(source), {}};
+  std::string section;
   int number = 0;
   while (!text.empty()) {
     ++number;
@@ -74,24 +73,25 @@ Result<RobotId> robotFromIni(std::string_view text, std::string_view source) {
     if (line.front() == '[') {
       const std::size_t end = line.find(']');
       if (end == std::string_view::npos) {
-        return failure(ErrorCode::ParseError, "a section's name has no ']'", place(source, number));
+        return failure(ErrorCode::ParseError, "a section's name has no ']'", placeOf(source, number));
       }
-      inSection = line.substr(1, end - 1) == section;
+      section = line.substr(1, end - 1);
       continue;
     }
     const std::size_t equals = line.find_first_of("=:");
-    if (!inSection || equals == std::string_view::npos) continue;
-    if (sameName(trimmed(line.substr(0, equals)), key)) {
-      return parseNumber(trimmed(withoutComment(line.substr(equals + 1))), place(source, number));
+    if (equals == std::string_view::npos || equals == 0) {
+      if (!section.starts_with(ourSections)) continue;
+      return failure(ErrorCode::ParseError,
+                     "'" + std::string(line.substr(0, 40)) + "' has not the form 'name = value'",
+                     placeOf(source, number));
     }
+    file.entries.push_back({section, lower(trimmed(line.substr(0, equals))),
+                            std::string(trimmed(withoutComment(line.substr(equals + 1)))), number});
   }
-  return failure(ErrorCode::NotFound,
-                 "gives no robot number; it needs the line 'no_player_robofei = 1' below "
-                 "'[Communication]'",
-                 std::string(source));
+  return file;
 }
 
-Result<RobotId> robotFromIniFile(const std::string& path) {
+Result<IniFile> readIniFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const int reason = errno;
   if (!file) return failure(ErrorCode::NotFound, "cannot be read: " + systemReason(reason), path);
@@ -99,11 +99,32 @@ Result<RobotId> robotFromIniFile(const std::string& path) {
   // Not by iterator: that throws when the path is a folder.
   for (char buffer[4096]; file.read(buffer, sizeof buffer) || file.gcount() > 0;) {
     text.append(buffer, static_cast<std::size_t>(file.gcount()));
+    if (text.size() > mostBytes) break;
   }
-  if (file.bad()) {
+  if (file.bad() || text.size() > mostBytes) {
     return failure(ErrorCode::SystemError, "cannot be read; is it a text file?", path);
   }
-  return robotFromIni(text, path);
+  return iniFromText(text, path);
+}
+
+Result<RobotId> robotFromIni(const IniFile& file) {
+  const IniEntry* entry = file.find("Communication", "no_player_robofei");
+  if (!entry) {
+    return failure(ErrorCode::NotFound,
+                   "gives no robot number; it needs the line 'no_player_robofei = 1' below "
+                   "'[Communication]'",
+                   file.source);
+  }
+  const std::string& text = entry->value;
+  long long number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    return failure(ErrorCode::ParseError,
+                   "'" + text.substr(0, 40) + "' is not the number of a robot", file.place(*entry));
+  }
+  Result<RobotId> robot = robotFromNumber(number);
+  if (!robot) robot.error().context = file.place(*entry);
+  return robot;
 }
 
 }  // namespace pitchboard::link

@@ -29,6 +29,33 @@ std::string resourcePath(std::string_view name) {
   return "scenarios/" + std::string(name) + ".json";
 }
 
+template <class T>
+std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
+                                       std::span<const NumberKey<T>> more) {
+  for (const auto& key : more) keys.push_back(key.key);
+  return keys;
+}
+
+std::vector<std::string_view> fieldNames() {
+  std::vector<std::string_view> names;
+  for (const sim::FieldSpec& field : sim::builtInFields()) names.push_back(field.name);
+  return names;
+}
+
+sim::FieldSpec readFieldObject(JsonReport& report, const JsonNode& node, const std::string& path) {
+  sim::FieldSpec field;
+  const JsonObject object(report, node, path, withKeys({"name", "base"}, fieldKeys()));
+  if (const auto base = object.choice("base", fieldNames(), "field")) {
+    field = sim::builtInFields()[*base];
+  }
+  field.name = object.text("name", "custom", 64);
+  for (const auto& key : fieldKeys()) {
+    field.*key.member = object.number(key.key, field.*key.member, key.range);
+  }
+  if (const auto valid = sim::validate(field); !valid) report.fail(node.line, path, valid.error().message);
+  return field;
+}
+
 class Reader {
  public:
   Reader(const JsonNode& root, JsonReport& report, const VariableCatalog& catalog)
@@ -91,8 +118,7 @@ class Reader {
   void readField() {
     const JsonNode* node = m_root.find("field");
     if (!node) return;
-    std::vector<std::string_view> known;
-    for (const sim::FieldSpec& field : sim::builtInFields()) known.push_back(field.name);
+    const std::vector<std::string_view> known = fieldNames();
     sim::FieldSpec& field = m_scenario.settings.field;
     if (node->kind == JsonNode::Kind::Text) {
       if (const auto built = m_root.choice("field", known, "field")) {
@@ -104,15 +130,7 @@ class Reader {
       m_root.fail("field", "must be the name of a field, in quotes, or an object in braces");
       return;
     }
-    const JsonObject object(m_report, *node, "field", withKeys({"name", "base"}, fieldKeys()));
-    if (const auto base = object.choice("base", known, "field")) {
-      field = sim::builtInFields()[*base];
-    }
-    field.name = object.text("name", "custom", 64);
-    for (const auto& key : fieldKeys()) {
-      field.*key.member = object.number(key.key, field.*key.member, key.range);
-    }
-    if (const auto valid = sim::validate(field); !valid) m_root.fail("field", valid.error().message);
+    field = readFieldObject(m_report, *node, "field");
   }
 
   void readNoise() {
@@ -286,13 +304,6 @@ class Reader {
     m_scenario.stop.ballOut = object.boolean("ball_out", false);
   }
 
-  template <class T>
-  static std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
-                                                std::span<const NumberKey<T>> more) {
-    for (const auto& key : more) keys.push_back(key.key);
-    return keys;
-  }
-
   JsonReport& m_report;
   const VariableCatalog& m_catalog;
   JsonObject m_root;
@@ -338,6 +349,21 @@ Result<Scenario> loadScenario(const std::string& nameOrPath, const VariableCatal
   }
   if (!text) return tl::unexpected(text.error());
   return scenarioFromJson(*text, nameOrPath, catalog);
+}
+
+Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source) {
+  if (nameOrJson.find('{') == std::string_view::npos) {
+    const std::vector<std::string_view> known = fieldNames();
+    const auto found = std::find(known.begin(), known.end(), nameOrJson);
+    if (found != known.end()) return sim::builtInFields()[static_cast<std::size_t>(found - known.begin())];
+    return failure(ErrorCode::NotFound, unknownName("field", nameOrJson, known), std::string(source));
+  }
+  JsonReport report(source);
+  const auto root = parseJson(nameOrJson, report);
+  sim::FieldSpec field;
+  if (root) field = readFieldObject(report, *root, "field");
+  if (report.failed()) return tl::unexpected(report.error());
+  return field;
 }
 
 Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source,

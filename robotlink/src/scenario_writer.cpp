@@ -109,6 +109,12 @@ Json robotToJson(const ScenarioRobot& robot, std::size_t index) {
 
 }  // namespace
 
+std::string fieldToText(const sim::FieldSpec& field) {
+  const Json json = fieldToJson(field);
+  return json.is_string() ? json.get<std::string>()
+                          : json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string scenarioToJson(const Scenario& scenario) {
   const sim::SimulationSettings& settings = scenario.settings;
   Json out{{"version", scenarioVersion},

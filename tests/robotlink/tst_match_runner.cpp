@@ -26,6 +26,23 @@ std::uint64_t hashOf(MatchRunner& runner) {
   return hash;
 }
 
+/// Writes down what it is shown; read when the match stands still.
+class Notes : public TickObserver {
+ public:
+  void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override {
+    ticks.push_back(match.simulation().state().tick);
+    if (tickTime.count() > 0) ++timed;
+    ball = match.simulation().snapshot().ball;
+  }
+  void happened(std::span<const sim::Event> events) override { happenings += events.size(); }
+  void logged(const LogLine& line) override { lines.push_back(line.text); }
+
+  std::vector<std::uint64_t> ticks;
+  std::size_t timed = 0, happenings = 0;
+  std::vector<std::string> lines;
+  Point ball;
+};
+
 }  // namespace
 
 class TestMatchRunner : public QObject {
@@ -104,6 +121,45 @@ class TestMatchRunner : public QObject {
     const auto events = runner->takeEvents();
     QVERIFY(std::any_of(events.begin(), events.end(),
                         [](const auto& event) { return event.kind == sim::EventKind::Kick; }));
+  }
+
+  void observersSeeEveryTickOnce() {
+    const auto first = std::make_shared<Notes>();
+    const auto late = std::make_shared<Notes>();
+    auto runner = std::move(*MatchRunner::start(builtIn("one-robot"), {}, true,
+                                                VariableCatalog::published(), {first}));
+    runner->runTo(600);
+    QVERIFY(runner->waitUntilStill(20s));
+    runner->observe(late);
+    runner->runTo(1200);
+    QVERIFY(runner->waitUntilStill(20s));
+    runner->stopObserving(late);
+    runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
+    runner->stepOnce();
+    QVERIFY(runner->waitUntilStill(20s));
+    runner->stopObserving(first);
+
+    std::vector<std::uint64_t> distinct = first->ticks;
+    QVERIFY(std::is_sorted(distinct.begin(), distinct.end()));
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    QCOMPARE(distinct.size(), std::size_t{1202});   // 0 to 1201
+    QCOMPARE(first->timed, std::size_t{1201});
+    QCOMPARE(late->ticks.front(), std::uint64_t{600});
+    QCOMPARE(late->ticks.back(), std::uint64_t{1200});
+    QCOMPARE(late->timed, std::size_t{600});
+    QCOMPARE(first->happenings, runner->takeEvents().size());
+    QVERIFY(first->happenings > 0);
+  }
+
+  void observersSeeWhatACommandDidToAMatchThatStandsStill() {
+    const auto notes = std::make_shared<Notes>();
+    auto runner = std::move(*MatchRunner::start(builtIn("one-robot"), {}, true,
+                                                VariableCatalog::published(), {notes}));
+    QVERIFY(runner->waitUntilStill(10s));
+    runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
+    runner->stopObserving(notes);
+    QCOMPARE(notes->ball, (Point{1, 1}));
+    QCOMPARE(notes->timed, std::size_t{0});
   }
 
   void standingStillCostsNothing() {

@@ -40,7 +40,12 @@ struct ProcessOptions {
   double distanceToKick = 25.0;        ///< cm; 25 in simulation, 40 on the published real robot
   std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
   int telemetryPortBase = 1240;        ///< telemetry goes to this + robot number
+  double telemetryPeriod = 1.0;        ///< s between two telemetry datagrams
   int teamPortBase = 1230;             ///< team messages go to this + 1..4
+  /// communication: our team's number in the GameController; absent = do not listen to one.
+  std::optional<int> refereeTeam;
+  std::optional<int> shirt;            ///< number in the GameController; absent = the robot's
+  int refereePort = 3838;
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are
   std::uint64_t seed = 1;              ///< localization: of its particles

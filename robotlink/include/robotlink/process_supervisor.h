@@ -74,6 +74,10 @@ class ProcessSupervisor {
   /// SIGTERM, then SIGKILL to what is left after the grace period. Returns when all are gone.
   void stop(RobotId robot, std::chrono::milliseconds grace = std::chrono::milliseconds(500));
   void stopAll(std::chrono::milliseconds grace = std::chrono::milliseconds(500));
+  /// The same for one child.
+  void stopChild(int handle, std::chrono::milliseconds grace = std::chrono::milliseconds(500));
+  /// Drops a child that has ended from children(), for those who start many one after another.
+  void forget(int handle);
 
  private:
   struct Output {                      // of a running child

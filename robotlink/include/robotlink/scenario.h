@@ -76,6 +76,12 @@ Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source
 /// other origin may come back one unit in the last place away, and then stays.
 std::string scenarioToJson(const Scenario& scenario);
 
+/// A field by its built-in name, or as the object that "field" has in a scenario file. Errors name
+/// `source`.
+Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source);
+/// The name of a built-in field, else an object on one line; reading it gives an equal field.
+std::string fieldToText(const sim::FieldSpec& field);
+
 /// Noise presets are data: none, published, paper, realistic.
 std::vector<std::string> noisePresets();
 Result<sim::NoiseParameters> noisePreset(std::string_view name);

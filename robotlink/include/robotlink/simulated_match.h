@@ -67,6 +67,10 @@ class SimulatedMatch {
   /// Empty when there is no such robot.
   std::string_view behaviour(RobotId id) const;
   const RobotVariables& variables() const { return m_variables; }
+  const VariableCatalog& catalog() const { return *m_catalog; }
+  /// What the bridge read before the last tick, in the order of the simulation's robots (a robot that
+  /// came since has the default). With it and the state before, that tick can be repeated.
+  std::span<const sim::RobotCommand> commands() const { return m_commands; }
   ProcessSupervisor& supervisor() { return *m_supervisor; }
   const ProcessSupervisor& supervisor() const { return *m_supervisor; }
 

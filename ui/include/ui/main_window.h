@@ -22,15 +22,19 @@ struct Scenario;
 namespace pitchboard::ui {
 
 class FieldView;
-class LiveOverlay;
+class LinkedTime;
 class LiveController;
+class LiveOverlay;
 class MatchController;
 class NoticeBar;
+class PlotTarget;
 class RobotSelection;
 class ScenarioFiles;
 class SourceSwitch;
 class StudioStatusBar;
 struct StudioContext;
+class Timeline;
+class TimelineActions;
 class TransportBar;
 
 class MainWindow : public QMainWindow {
@@ -41,6 +45,7 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   FieldView* field() const { return m_field; }
+  Timeline* timeline() const { return m_timeline; }
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
   LiveController* live() const { return m_live; }
@@ -71,6 +76,10 @@ class MainWindow : public QMainWindow {
   SourceSwitch* m_source;
   QUndoGroup* m_undo;                  // nothing to undo while another source is shown
   RobotSelection* m_selection;
+  LinkedTime* m_time;
+  PlotTarget* m_plots;
+  Timeline* m_timeline;
+  TimelineActions* m_timelineActions;
   FieldView* m_field;
   LiveOverlay* m_overlay;
   QAction* m_overlayAction = nullptr;   // of the View menu

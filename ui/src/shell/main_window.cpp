@@ -22,16 +22,21 @@
 #include "notice_bar.h"
 #include "opening_label.h"
 #include "orphan_notice.h"
+#include "plots/linked_time.h"
+#include "plots/plot_target.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/looking_back_sign.h"
+#include "timeline/timeline.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
 // Raised when docks come or go in a way that older layouts cannot describe.
-constexpr int layoutVersion = 1;
+constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
 const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
@@ -39,7 +44,10 @@ const QString layoutKey = QStringLiteral("window/layout");
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
     : QMainWindow(parent), m_controller(controller), m_live(new LiveController(this)),
       m_settings(settings), m_source(new SourceSwitch(controller, this)),
-      m_undo(new QUndoGroup(this)), m_selection(new RobotSelection(this)) {
+      m_undo(new QUndoGroup(this)), m_selection(new RobotSelection(this)),
+      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
+      m_timeline(new Timeline(m_source, this)),
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   m_source->add(m_live);
   m_undo->addStack(controller->undoStack());
   m_undo->setActiveStack(controller->undoStack());
@@ -70,6 +78,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
+    new LookingBackSign(m_timeline, canvas);
   }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
@@ -96,7 +105,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_live, m_settings, m_overlay};
+  return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
+          m_timelineActions, m_live, m_overlay};
 }
 
 void MainWindow::showSource(SourceKind kind) {
@@ -122,11 +132,12 @@ void MainWindow::makeDocks() {
   }
 }
 
-// A tab says the name already.
+// A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
-  for (QDockWidget* dock : m_docks) {
-    static_cast<DockTitle*>(dock->titleBarWidget())
-        ->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
   }
 }
 
@@ -168,7 +179,9 @@ void MainWindow::resetLayout() {
     QDockWidget* dock = m_docks[i];
     dock->setFloating(false);
     addDockWidget(infos[i].area, dock);
-    if (infos[i].area == Qt::BottomDockWidgetArea) {
+    if (infos[i].ownRow && bottom != nullptr) {
+      splitDockWidget(firstBottom, dock, Qt::Vertical);
+    } else if (infos[i].area == Qt::BottomDockWidgetArea) {
       if (bottom != nullptr) tabifyDockWidget(bottom, dock);
       else firstBottom = dock;
       bottom = dock;

@@ -20,6 +20,7 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
@@ -38,6 +39,7 @@ void StudioMenus::make() {
   makeEdit();
   makeView();
   makeSimulation();
+  makeTimeline();
   makeHelp();
 }
 
@@ -171,6 +173,10 @@ void StudioMenus::makeSimulation() {
   QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
   onlyWhenSimulating(
       menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore));
+}
+
+void StudioMenus::makeTimeline() {
+  m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
 }
 
 void StudioMenus::makeHelp() {

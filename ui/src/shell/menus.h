@@ -20,6 +20,7 @@ class StudioMenus {
   void makeView();
   void makeThemes(QMenu* menu);
   void makeSimulation();
+  void makeTimeline();
   void makeHelp();
   /// Greyed while another source than the simulation is shown.
   void onlyWhenSimulating(QAction* action);

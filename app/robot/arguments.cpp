@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arguments.h"
+
+#include <algorithm>
+
+#include <robotlink/scenario.h>
+#include <robotlink/system_v.h>
+#include <telemetry/datagram.h>
+
+namespace pitchboard::robot {
+namespace {
+
+constexpr std::string_view ourSection = "Pitchboard";
+
+std::string checkBehaviour(const std::string& name) {
+  if (link::findBehaviour(name) != nullptr) return {};
+  std::string known;
+  for (const link::BehaviourInfo& info : link::behaviours()) {
+    known += (known.empty() ? "" : ", ") + std::string(info.name);
+  }
+  return "there is no behaviour '" + name + "'; the behaviours are: " + known;
+}
+
+std::string checkAddress(const std::string& text) {
+  if (telemetry::parseAddress(text)) return {};
+  return "'" + text + "' is not an IPv4 address; write one like 127.0.0.1 (this computer) or "
+         "255.255.255.255 (everybody on the network)";
+}
+
+std::string checkField(const std::string& text) {
+  const auto field = link::fieldFromText(text, "field");
+  return field ? std::string() : field.error().text();
+}
+
+void addCommunicationOptions(CLI::App& command, Arguments& a) {
+  const CLI::Range port(1, 65535);
+  command.add_option("--udp-address", a.process.udpAddress,
+                     "Where communication and team send; 255.255.255.255 is everybody on the network")
+      ->type_name("ADDRESS")->capture_default_str()->check(checkAddress);
+  command.add_option("--telemetry-port-base", a.process.telemetryPortBase,
+                     "Telemetry goes to this + robot number")
+      ->type_name("PORT")->capture_default_str();
+  command.add_option("--telemetry-rate", a.telemetryRate, "Telemetry datagrams a second")
+      ->type_name("HZ")->capture_default_str()->check(CLI::Range(0.1, 20.0));
+  command.add_option("--team-port-base", a.process.teamPortBase,
+                     "Team messages go to this + 1, 2, 3 and 4")
+      ->type_name("PORT")->capture_default_str();
+  command.add_option("--team", a.process.team,
+                     "Robots with the same number hear each other, on UDP port 10000 + this")
+      ->type_name("N")->capture_default_str()->check(CLI::Range(0, 99));
+  command.add_option("--referee-team", a.process.refereeTeam,
+                     "Our team's number in the GameController; without it nobody listens to one")
+      ->type_name("N")->check(CLI::Range(0, 255));
+  command.add_option("--shirt", a.process.shirt,
+                     "Number in the GameController; the robot's number if not given")
+      ->type_name("N")->check(CLI::Range(1, 20));
+  command.add_option("--referee-port", a.process.refereePort, "UDP port of the GameController")
+      ->type_name("PORT")->capture_default_str()->check(port);
+  command.add_option("--thoughts-port", a.thoughtsPort,
+                     "Tell particles and path to a studio on this computer, on this UDP port")
+      ->type_name("PORT")->check(port);
+}
+
+CLI::Option* find(CLI::App& command, std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  for (const std::string_view mine : {"config", "robot", "help"}) {
+    if (name == mine) return nullptr;
+  }
+  return command.get_option_no_throw("--" + name);
+}
+
+Result<void> takeOver(CLI::App& command, const link::IniFile& file) {
+  for (const link::IniEntry& entry : file.entries) {
+    if (entry.section != ourSection) continue;
+    CLI::Option* option = find(command, entry.name);
+    if (option == nullptr) {
+      return failure(ErrorCode::ParseError,
+                     "there is no option '" + entry.name + "'; the options are those that "
+                     "pitchboard-robot " + command.get_name() + " --help lists",
+                     file.place(entry));
+    }
+    if (option->count() > 0) continue;
+    try {
+      option->add_result(entry.value);
+      option->run_callback();
+    } catch (const CLI::Error& error) {
+      return failure(ErrorCode::ParseError, error.what(), file.place(entry));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+int Arguments::blackboardKey() const {
+  return key.value_or(link::blackboardKey(process.robot, keyBase));
+}
+
+void addOptions(CLI::App& command, Arguments& a) {
+  command.add_option("--robot", a.robot, "Number of the robot, 1 to 64")->type_name("N");
+  command.add_option("--config", a.config,
+                     "INI file with the number, [Communication] no_player_robofei = N, and with "
+                     "any of these options below [Pitchboard]")
+      ->type_name("FILE.ini");
+  command.add_option("--key", a.key, "Key of the blackboard instead of 100 x robot number")
+      ->type_name("K");
+  command.add_option("--key-base", a.keyBase, "Added to 100 x robot number")
+      ->type_name("B")->capture_default_str();
+  command.add_option("--behaviour", a.process.behaviour, "What decision does")
+      ->type_name("NAME")->capture_default_str()->check(checkBehaviour);
+  command.add_option("--distance-to-kick", a.process.distanceToKick,
+                     "Decision kicks a ball nearer than this; 25 in simulation, 40 on a robot")
+      ->type_name("CM")->capture_default_str();
+  addCommunicationOptions(command, a);
+  command.add_option("--attack", a.attack,
+                     "Side of the opponents' goal; found out from landmarks and IMU if not given")
+      ->type_name("SIDE")->check(CLI::IsMember({"left", "right"}));
+  command.add_option("--field", a.field,
+                     "Sizes of the field: a built-in name, or an object as in scenario files")
+      ->type_name("NAME|{...}")->capture_default_str()->check(checkField);
+  command.add_option("--particles", a.process.particles, "Localization: at most this many")
+      ->type_name("N")->capture_default_str()->check(CLI::Range(1, 100000));
+  command.add_flag("--published-localization", a.process.publishedLocalization,
+                   "Localization with the published filter's parameters");
+}
+
+std::vector<std::string> givenOptions(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || option->get_lnames().empty()) continue;
+    const std::string& name = option->get_lnames().front();
+    if (name == "robot" || name == "config" || name == "key" || name == "key-base") continue;
+    words.push_back("--" + name);
+    if (option->get_items_expected_max() == 0) continue;
+    for (const std::string& value : option->results()) words.push_back(value);
+  }
+  return words;
+}
+
+Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
+  link::IniFile file;
+  if (!a.config.empty()) {
+    Result<link::IniFile> read = link::readIniFile(a.config);
+    if (!read) return read;
+    file = std::move(*read);
+    if (const Result<void> taken = takeOver(command, file); !taken) {
+      return tl::unexpected<Error>(taken.error());
+    }
+  }
+  Result<RobotId> robot =
+      a.robot ? link::robotFromNumber(*a.robot)
+      : !a.config.empty()
+          ? link::robotFromIni(file)
+          : failure(ErrorCode::InvalidArgument,
+                    "whose process is this? Give --robot N, or --config FILE.ini with the number");
+  if (!robot) return tl::unexpected<Error>(robot.error());
+  a.process.robot = *robot;
+  const Result<sim::FieldSpec> field = link::fieldFromText(a.field, "--field");
+  if (!field) return tl::unexpected<Error>(field.error());
+  a.process.field = *field;
+  a.process.telemetryPeriod = 1.0 / a.telemetryRate;
+  if (!a.attack.empty()) a.process.facesLeft = a.attack == "left";
+  return file;
+}
+
+}  // namespace pitchboard::robot

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One column of one chunk. A column that does not change costs 24 bytes; otherwise every block of
+// 64 rows that does not change costs its value only, the others are kept raw. Minimum and maximum
+// are kept for 64, 512 and 4096 rows. Private to the library; immutable once made.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <span>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "series_layout.h"
+
+namespace pitchboard::telemetry::series {
+
+template <class T>
+struct Extremes {
+  T min, max;   ///< NaN where there is no other value
+};
+
+/// The part of a search for minimum and maximum that is done several values at a time; what is left
+/// begins at `values`. The compiler may not do it by itself, because of NaN.
+template <class T>
+void scanLanes(const T*& values, std::size_t count, T& low, T& high) {
+#ifdef __SSE2__
+  const auto scan = [&](auto lows, const auto& load, const auto& min, const auto& max) {
+    constexpr std::size_t width = sizeof lows / sizeof(T);
+    auto highs = lows;
+    for (; count >= width; count -= width, values += width) {
+      const auto next = load(values);
+      lows = min(next, lows);   // gives the second where one is NaN
+      highs = max(next, highs);
+    }
+    std::array<T, width> l, h;
+    std::memcpy(l.data(), &lows, sizeof lows);
+    std::memcpy(h.data(), &highs, sizeof highs);
+    low = *std::ranges::min_element(l);
+    high = *std::ranges::max_element(h);
+  };
+  if constexpr (std::is_same_v<T, float>) {
+    scan(_mm_set1_ps(low), [](const float* v) { return _mm_loadu_ps(v); },
+         [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
+         [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
+  } else if constexpr (std::is_same_v<T, double>) {
+    scan(_mm_set1_pd(low), [](const double* v) { return _mm_loadu_pd(v); },
+         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
+         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+  }
+#endif
+}
+
+/// Running minimum and maximum that pass over NaN.
+template <class T>
+struct MinMax {
+  T min{}, max{};
+  bool any = false;
+
+  void add(const Extremes<T>& other) { add(other.min, other.max); }
+  void add(T low, T high) {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (std::isnan(low)) return;   // both are then
+    }
+    min = any ? std::min(min, low) : low;
+    max = any ? std::max(max, high) : high;
+    any = true;
+  }
+
+  /// Comparisons with NaN are false, so NaN changes nothing once there is a first value.
+  void scan(const T* values, std::size_t count) {
+    if constexpr (std::is_floating_point_v<T>) {
+      for (; count > 0 && std::isnan(*values); --count) ++values;
+    }
+    if (count == 0) return;
+    T low = *values, high = *values;
+    const T* const end = values + count;
+    scanLanes(values, count, low, high);
+    for (; values != end; ++values) {
+      low = *values < low ? *values : low;
+      high = *values > high ? *values : high;
+    }
+    add(low, high);
+  }
+};
+
+class Column {
+ public:
+  /// From `count` (1 to 64) values of one block.
+  template <class T>
+  static Column ofBlock(const T* values, std::uint32_t count) {
+    Column out;
+    const auto first = bitsOf(values[0]);
+    bool same = true;
+    for (std::uint32_t i = 1; i < count; ++i) same = same && bitsOf(values[i]) == first;
+    if (same) {
+      std::memcpy(&out.m_constant, &first, sizeof first);
+      return out;
+    }
+    out.allocate<T>(1, 1);
+    out.m_raw = 1;
+    MinMax<T> range;
+    range.scan(values, count);
+    out.setSummary<T>(0, range);
+    T* raw = out.array<T>() + 2;
+    std::copy_n(values, count, raw);
+    std::fill(raw + count, raw + blockRows, T{});
+    return out;
+  }
+
+  /// Joins 64 columns of one block each.
+  template <class T>
+  static Column join(std::span<const Column* const> blocks) {
+    Column out;
+    std::uint64_t raw = 0;
+    bool same = true;
+    const auto first = bitsOf(blocks[0]->at<T>(0, 1));
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (blocks[b]->m_bytes) raw |= std::uint64_t{1} << b;
+      same = same && !blocks[b]->m_bytes && bitsOf(blocks[b]->constant<T>()) == first;
+    }
+    if (same) {
+      std::memcpy(&out.m_constant, &first, sizeof first);
+      return out;
+    }
+    out.m_raw = raw;
+    out.allocate<T>(chunkBlocks, static_cast<std::uint32_t>(std::popcount(raw)));
+    T* values = out.array<T>() + 2 * std::size_t{summaries(chunkBlocks)};
+    MinMax<T> all, super;
+    for (std::uint32_t b = 0; b < chunkBlocks; ++b) {
+      MinMax<T> range;
+      if (blocks[b]->m_bytes) {
+        range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
+        values = std::copy_n(blocks[b]->array<T>() + 2, blockRows, values);
+        out.setSummary<T>(ofBlocks(chunkBlocks) + b, range);
+      } else {
+        const T value = blocks[b]->constant<T>();
+        range.add(value, value);
+        out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {value, value};   // its bits, also where it is NaN
+      }
+      if (range.any) super.add(range.min, range.max);
+      if ((b + 1) % superBlocks == 0) {
+        out.setSummary<T>(1 + b / superBlocks, super);
+        if (super.any) all.add(super.min, super.max);
+        super = {};
+      }
+    }
+    out.setSummary<T>(0, all);
+    return out;
+  }
+
+  bool isConstant() const { return !m_bytes; }
+  bool isRaw(std::uint32_t block) const { return (m_raw >> block & 1) != 0; }
+
+  template <class T>
+  T constant() const {
+    T value;
+    std::memcpy(&value, &m_constant, sizeof value);
+    return value;
+  }
+
+  /// `blocks`: of the chunk, 1 or 64.
+  template <class T>
+  T at(std::uint32_t row, std::uint32_t blocks) const {
+    if (!m_bytes) return constant<T>();
+    const std::uint32_t block = row / blockRows;
+    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(ofBlocks(blocks) + block).min;
+  }
+
+  template <class T>
+  const T* raw(std::uint32_t block, std::uint32_t blocks) const {
+    const std::uint64_t before = m_raw & ((std::uint64_t{1} << block) - 1);
+    return array<T>() + 2 * std::size_t{summaries(blocks)} +
+           static_cast<std::size_t>(std::popcount(before)) * blockRows;
+  }
+
+  /// Minimum and maximum of the rows [begin, end).
+  template <class T>
+  void range(std::uint32_t begin, std::uint32_t end, std::uint32_t blocks, MinMax<T>& out) const {
+    if (begin >= end) return;
+    if (!m_bytes) return out.add(constant<T>(), constant<T>());
+    const Extremes<T>* kept = array<Extremes<T>>();
+    std::uint32_t row = begin;
+    while (row < end) {
+      const std::uint32_t block = row / blockRows, left = end - row;
+      if (row % chunkRows == 0 && left >= chunkRows) {
+        out.add(kept[0]);
+        row += chunkRows;
+      } else if (row % (superBlocks * blockRows) == 0 && left >= superBlocks * blockRows) {
+        out.add(kept[1 + block / superBlocks]);
+        row += superBlocks * blockRows;
+      } else if ((row % blockRows == 0 && left >= blockRows) || !isRaw(block)) {
+        out.add(kept[ofBlocks(blocks) + block]);
+        row = (block + 1) * blockRows;
+      } else {
+        const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
+        out.scan(raw<T>(block, blocks) + row % blockRows, stop - row);
+        row = stop;
+      }
+    }
+  }
+
+  /// Prefetch what a bucket needs that covers the chunk, and around a row where one ends.
+  void want() const {
+    if (!m_bytes) return;
+    __builtin_prefetch(m_bytes.get());
+    __builtin_prefetch(m_bytes.get() + 64);
+  }
+  template <class T>
+  void want(std::uint32_t row, std::uint32_t blocks) const {
+    if (!m_bytes) return;
+    const std::uint32_t block = row / blockRows;
+    __builtin_prefetch(array<Extremes<T>>() + ofBlocks(blocks) + block);
+    if (!isRaw(block)) return;
+    const auto* line = reinterpret_cast<const char*>(raw<T>(block, blocks));
+    for (std::size_t i = 0; i < blockRows * sizeof(T); i += 64) __builtin_prefetch(line + i);
+  }
+
+  template <class T>
+  std::size_t heapBytes(std::uint32_t blocks) const {
+    if (!m_bytes) return 0;
+    return sizeof(T) * (2 * std::size_t{summaries(blocks)} +
+                        static_cast<std::size_t>(std::popcount(m_raw)) * blockRows);
+  }
+
+ private:
+  /// Of the whole chunk, of each 8 blocks, of each block; a single block has its own only. The raw
+  /// blocks follow.
+  static constexpr std::uint32_t ofBlocks(std::uint32_t blocks) {
+    return blocks == 1 ? 0 : 1 + blocks / superBlocks;
+  }
+  static constexpr std::uint32_t summaries(std::uint32_t blocks) { return ofBlocks(blocks) + blocks; }
+  template <class T>
+  void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
+    m_bytes = std::make_unique_for_overwrite<std::byte[]>(
+        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * blockRows));
+  }
+  template <class T>
+  void setSummary(std::uint32_t at, const MinMax<T>& range) {
+    T none{};
+    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
+    array<Extremes<T>>()[at] = {range.any ? range.min : none, range.any ? range.max : none};
+  }
+  template <class T>
+  T* array() const {
+    return reinterpret_cast<T*>(m_bytes.get());
+  }
+  template <class T>
+  const Extremes<T>& summary(std::uint32_t at) const {
+    return array<Extremes<T>>()[at];
+  }
+
+  std::uint64_t m_raw = 0;        // bit b: block b is kept raw
+  std::uint64_t m_constant = 0;   // bits of the value, without m_bytes
+  std::unique_ptr<std::byte[]> m_bytes;
+};
+
+}  // namespace pitchboard::telemetry::series

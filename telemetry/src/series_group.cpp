@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "series_group.h"
+
+namespace pitchboard::telemetry::series {
+
+Group::Group(std::shared_ptr<const Layout> layout) {
+  m_next.layout = std::move(layout);
+  empty();
+}
+
+Group::Put Group::put(const RowView& row) {
+  const std::lock_guard lock(m_write);
+  const Layout& layout = *m_next.layout;
+  if (!std::isfinite(row.time) || row.words.size() != layout.words ||
+      row.values.size() != layout.values) {
+    return Put::Refused;
+  }
+  if (m_any && row.time < m_lastTime) return Put::GoesBack;
+  m_lastTime = row.time;
+  m_any = true;
+  return m_staging->put(row, layout) ? Put::Done : Put::BlockFull;
+}
+
+void Group::newStaging() {
+  m_staging = std::make_shared<Staging>(*m_next.layout);
+  m_next.staging = m_staging;
+}
+
+void Group::addBlock() {
+  m_next.blocks.emplace_back(Chunk::ofStaging(*m_staging, *m_next.layout));
+  m_bytes += m_next.blocks.back().chunk->bytes();
+  newStaging();
+  if (m_next.blocks.size() < chunkBlocks) return;
+  auto full = std::make_shared<Units>();
+  full->reserve(m_next.full->size() + 1);
+  *full = *m_next.full;
+  full->emplace_back(Chunk::join(m_next.blocks, *m_next.layout));
+  for (const Unit& block : m_next.blocks) m_bytes -= block.chunk->bytes();
+  m_bytes += full->back().chunk->bytes();
+  m_next.full = std::move(full);
+  m_next.blocks.clear();
+}
+
+void Group::countBytes() {
+  m_bytes = m_staging->bytes;
+  for (const Unit& unit : *m_next.full) m_bytes += unit.chunk->bytes();
+  for (const Unit& unit : m_next.blocks) m_bytes += unit.chunk->bytes();
+}
+
+void Group::publish() {
+  auto state = std::make_shared<const State>(m_next);
+  {
+    const std::lock_guard lock(m_mutex);
+    m_state.swap(state);
+  }   // the former state ends here, without the lock
+}
+
+void Group::closeBlock() {
+  const std::lock_guard lock(m_write);
+  if (m_staging->rows.load(std::memory_order_relaxed) < blockRows) return;   // cleared meanwhile
+  addBlock();
+  publish();
+}
+
+void Group::truncate(double time) {
+  const std::lock_guard lock(m_write);
+  const auto now = view();
+  const std::size_t keep = now->rowsBefore(time);
+  const std::size_t fullRows = m_next.full->size() * chunkRows;
+  const std::size_t wholeRows = keep < fullRows ? keep / chunkRows * chunkRows
+                                                : fullRows + (keep - fullRows) / blockRows * blockRows;
+  if (wholeRows < fullRows) {
+    auto full = std::make_shared<Units>(*m_next.full);
+    full->resize(wholeRows / chunkRows);
+    m_next.full = std::move(full);
+    m_next.blocks.clear();
+  } else {
+    m_next.blocks.resize((wholeRows - fullRows) / blockRows);
+  }
+  newStaging();
+  countBytes();
+  m_any = keep > 0;
+  // The rows of the chunk that was cut are put in again; readers see the result at once.
+  std::vector<std::uint32_t> words;
+  std::vector<double> values;
+  for (std::size_t row = wholeRows; row < keep; ++row) {
+    m_lastTime = now->row(row, words, values);
+    if (!m_staging->put({m_lastTime, words, values}, *m_next.layout)) addBlock();
+  }
+  if (keep > 0 && wholeRows == keep) m_lastTime = now->row(keep - 1, words, values);
+  publish();
+}
+
+void Group::clear() {
+  const std::lock_guard lock(m_write);
+  empty();
+}
+
+void Group::empty() {
+  m_next.full = std::make_shared<Units>();
+  m_next.blocks.clear();
+  newStaging();
+  countBytes();
+  m_any = false;
+  publish();
+}
+
+void Group::setLayout(std::shared_ptr<const Layout> layout) {
+  const std::lock_guard lock(m_write);
+  m_next.layout = std::move(layout);
+  publish();
+}
+
+std::optional<double> Group::oldestTime() const {
+  if (!m_next.full->empty()) return m_next.full->front().first;
+  if (!m_next.blocks.empty()) return m_next.blocks.front().first;
+  return std::nullopt;
+}
+
+void Group::dropOldest() {
+  if (m_next.full->empty()) {
+    m_bytes -= m_next.blocks.front().chunk->bytes();
+    m_next.blocks.erase(m_next.blocks.begin());
+  } else {
+    m_bytes -= m_next.full->front().chunk->bytes();
+    m_next.full = std::make_shared<Units>(m_next.full->begin() + 1, m_next.full->end());
+  }
+  publish();
+}
+
+std::shared_ptr<const View> Group::view() const {
+  std::shared_ptr<const State> state;
+  {
+    const std::lock_guard lock(m_mutex);
+    state = m_state;
+  }
+  return std::make_shared<const View>(std::move(state));
+}
+
+}  // namespace pitchboard::telemetry::series

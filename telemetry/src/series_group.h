@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The writing side of one group. Rows go to the staging block under a lock of the group, which only
+// who clears or replaces the group could hold otherwise; every 64 rows the block becomes columns and
+// a new state is published under a lock that is held for a pointer's exchange. Private to the
+// library.
+
+#include <mutex>
+
+#include "series_view.h"
+
+namespace pitchboard::telemetry::series {
+
+class Group {
+ public:
+  explicit Group(std::shared_ptr<const Layout> layout);
+
+  // The group's writer thread.
+  enum class Put { Done, BlockFull, GoesBack, Refused };
+  /// BlockFull: the row is in, closeBlock() is due. GoesBack: truncate() first, then again.
+  Put put(const RowView& row);
+
+  // Under the store's structure lock.
+  void closeBlock();
+  void truncate(double time);
+  void clear();
+  /// The same columns with other attributes.
+  void setLayout(std::shared_ptr<const Layout> layout);
+  /// Time of the oldest row that can leave; nothing when only the staging block is left.
+  std::optional<double> oldestTime() const;
+  /// Lets the oldest chunk go.
+  void dropOldest();
+  std::size_t bytes() const { return m_bytes; }
+
+  // Any thread.
+  std::shared_ptr<const View> view() const;
+
+ private:
+  void addBlock();
+  void empty();
+  void publish();
+  void countBytes();
+  void newStaging();
+
+  std::mutex m_write;           // of m_staging, m_lastTime, m_any; after the structure lock
+  std::shared_ptr<Staging> m_staging;
+  State m_next;                 // what is published next; layout and staging under m_write too
+  std::size_t m_bytes = 0;
+  double m_lastTime = 0.0;
+  bool m_any = false;
+
+  mutable std::mutex m_mutex;   // of m_state only
+  std::shared_ptr<const State> m_state;
+};
+
+}  // namespace pitchboard::telemetry::series

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recorded GameController packets of every version, sent over UDP, reach COM_REFEREE; penalised
+// robots stand.
+#include <robotlink/cognitive_process.h>
+#include <robotlink/robot_variables.h>
+#include <robotlink/system_v.h>
+
+#include <QElapsedTimer>
+#include <QProcess>
+#include <QtTest>
+#include <arpa/inet.h>
+#include <csignal>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "../robotlink/segment_keys.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+const QString recordings = QString(PITCHBOARD_TEST_DATA) + "/gamecontroller/";
+
+QByteArray packet(const QString& name) {
+  QFile file(recordings + name + ".bin");
+  if (!file.open(QIODevice::ReadOnly)) qFatal("no recorded packet %s", qPrintable(name));
+  return file.readAll();
+}
+
+QJsonObject expected(const QString& name) {
+  QFile file(recordings + name + ".json");
+  if (!file.open(QIODevice::ReadOnly)) qFatal("no description of %s", qPrintable(name));
+  return QJsonDocument::fromJson(file.readAll())["expected"].toObject();
+}
+
+class Controller {
+ public:
+  Controller() : m_socket(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    const int yes = 1;
+    ::setsockopt(m_socket, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
+  }
+  ~Controller() { ::close(m_socket); }
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+
+  void send(const QByteArray& datagram, int port, std::uint32_t address = INADDR_LOOPBACK) const {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(address);
+    ::sendto(m_socket, datagram.constData(), static_cast<std::size_t>(datagram.size()), 0,
+             reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  }
+
+ private:
+  int m_socket;
+};
+
+int freePort() {
+  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in name{};
+  name.sin_family = AF_INET;
+  name.sin_addr.s_addr = htonl(INADDR_ANY);
+  socklen_t size = sizeof name;
+  ::bind(fd, reinterpret_cast<sockaddr*>(&name), sizeof name);
+  ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size);
+  ::close(fd);
+  return ntohs(name.sin_port);
+}
+
+// What the rules say of a robot without a penalty, from the recording's description.
+int wordOf(const QJsonObject& state) {
+  if (state["secState"].toInt() == 3 || state["gamePhase"].toInt() == 3) return 1;  // timeout
+  if (state["stopped"].toInt() != 0) return 1;
+  switch (state["state"].toInt()) {
+    case 1: return 11;
+    case 2: return 12;
+    case 3: return 2;
+    default: return 1;
+  }
+}
+
+}  // namespace
+
+class TestRefereeObeyed : public QObject {
+  Q_OBJECT
+
+  const int m_base = testKeyBase();
+  const RobotVariables m_variables;
+  const Controller m_controller;
+
+  /// Sends until the process has written `word`.
+  void hears(const QByteArray& datagram, int team, int shirt, int word) {
+    ProcessOptions options;
+    options.telemetryPortBase = 60000;
+    options.refereePort = freePort();
+    options.refereeTeam = team;
+    options.shirt = shirt;
+    auto process = findProcess("communication")->make(options);
+    QVERIFY2(process, process ? "" : process.error().text().c_str());
+    Blackboard board = Blackboard::onHeap();
+    board.write(m_variables.comReferee, 77);
+    const auto cycle = [&] {
+      m_controller.send(datagram, options.refereePort);
+      (*process)->step(board, {0.0});
+      return board.read(m_variables.comReferee);
+    };
+    QTRY_VERIFY(cycle() != 77);
+    QCOMPARE(board.read(m_variables.comReferee), word);
+  }
+
+ private slots:
+  void cleanup() {
+    for (const int n : {1, 2}) removeSegment(m_base + 100 * n);
+  }
+
+  void everyVersion_data() {
+    QTest::addColumn<QString>("name");
+    const QStringList files = QDir(recordings).entryList({"*.bin"}, QDir::Files, QDir::Name);
+    QVERIFY(files.size() > 100);
+    for (const QString& file : files) {
+      const QString name = file.chopped(4);
+      if (expected(name)["header"].toString() == "RGTD") continue;  // not for robots
+      QTest::newRow(qPrintable(name)) << name;
+    }
+  }
+  void everyVersion() {
+    QFETCH(QString, name);
+    const QJsonObject state = expected(name);
+    int free = 0, penalised = 0;
+    for (const QJsonValue& team : state["teams"].toArray()) {
+      for (const QJsonValue& player : team["players"].toArray()) {
+        const bool stands = player["penalty"].toInt() != 0;
+        int& done = stands ? penalised : free;
+        if (done++ > 0) continue;  // one of each kind is enough
+        hears(packet(name), team["number"].toInt(), player["n"].toInt(), stands ? 1 : wordOf(state));
+      }
+    }
+    QVERIFY(free + penalised > 0);
+  }
+
+  void aPenalisedRobotStandsSoonerThanTelemetrySpeaks() {
+    const QString playing = "v11hl592_PLAYING", penalised = "v11hl592_PENALISED";
+    int team = 0, shirt = 0;
+    for (const QJsonValue& t : expected(penalised)["teams"].toArray()) {
+      for (const QJsonValue& p : t["players"].toArray()) {
+        const int penalty = p["penalty"].toInt();
+        if (shirt == 0 && penalty != 0 && penalty != 14) {
+          team = t["number"].toInt();
+          shirt = p["n"].toInt();
+        }
+      }
+    }
+    QVERIFY(shirt > 0);
+    const int port = freePort();
+    QFile config;
+    QTemporaryDir folder;
+    config.setFileName(folder.filePath("robot.ini"));
+    QVERIFY(config.open(QIODevice::WriteOnly));
+    config.write("[Communication]\nno_player_robofei = 1\n[Pitchboard]\nreferee_team = " +
+                 QByteArray::number(team) + "\nshirt = " + QByteArray::number(shirt) +
+                 "\nreferee_port = " + QByteArray::number(port) + "\ntelemetry_rate = 0.1\n");
+    config.close();
+    QProcess communication, decision;
+    const QStringList common{"--config", config.fileName(), "--key-base", QString::number(m_base),
+                             "--telemetry-port-base", "60000", "--team-port-base", "60100"};
+    communication.start(PITCHBOARD_BIN "/pitchboard-robot", QStringList{"communication"} + common);
+    decision.start(PITCHBOARD_BIN "/pitchboard-robot",
+                   QStringList{"decision", "--behaviour", "naive"} + common);
+    QTRY_VERIFY(communication.canReadLine() && decision.canReadLine());
+    auto board = SystemVSegments::open(m_base + 100, AttachMode::AttachOnly);
+    QVERIFY(board);
+    board->write(m_variables.visionLost, 1);
+    const auto sees = [&](const QString& name, int word) {
+      m_controller.send(packet(name), port);
+      return board->read(m_variables.comReferee) == word;
+    };
+    QTRY_VERIFY(sees(playing, 2));
+    QTRY_COMPARE(board->read(m_variables.decisionActionA), 3);  // it plays: turns to find the ball
+    QElapsedTimer timer;
+    timer.start();
+    m_controller.send(packet(penalised), port);
+    QTRY_COMPARE(board->read(m_variables.comReferee), 1);
+    const qint64 heard = timer.elapsed();
+    qInfo("the referee's word was on the blackboard after %lld ms", heard);
+    QVERIFY(heard < 500);
+    QTRY_COMPARE(board->read(m_variables.decisionActionA), 0);
+    communication.kill();
+    decision.kill();
+    QVERIFY(communication.waitForFinished() && decision.waitForFinished());
+  }
+
+  void robotsOfOneComputerShareThePort() {
+    const int port = freePort();
+    const int team = expected("v12hl688_READY")["teams"][0]["number"].toInt();
+    std::vector<std::unique_ptr<QProcess>> processes;
+    std::vector<Blackboard> boards;
+    for (const int n : {1, 2}) {
+      auto& process = processes.emplace_back(std::make_unique<QProcess>());
+      process->start(PITCHBOARD_BIN "/pitchboard-robot",
+                     {"communication", "--robot", QString::number(n), "--key-base",
+                      QString::number(m_base), "--telemetry-port-base", "60000",
+                      "--team-port-base", "60100", "--referee-team", QString::number(team),
+                      "--referee-port", QString::number(port)});
+      QTRY_VERIFY(process->canReadLine());
+      auto board = SystemVSegments::open(m_base + 100 * n, AttachMode::AttachOnly);
+      QVERIFY(board);
+      boards.push_back(std::move(*board));
+    }
+    constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
+    const auto bothReady = [&] {
+      m_controller.send(packet("v12hl688_READY"), port, loopbackBroadcast);
+      return boards[0].read(m_variables.comReferee) == 11 &&
+             boards[1].read(m_variables.comReferee) == 11;
+    };
+    QTRY_VERIFY(bothReady());
+    for (auto& process : processes) {
+      process->kill();
+      QVERIFY(process->waitForFinished());
+    }
+  }
+
+  void refusals_data() {
+    QTest::addColumn<int>("team");
+    QTest::addColumn<int>("robot");
+    QTest::addColumn<int>("port");
+    QTest::addColumn<QString>("reason");
+    QTest::newRow("team") << 300 << 1 << 3838 << "0 to 255";
+    QTest::newRow("shirt") << 5 << 21 << 3838 << "1 to 20, not 21; give --shirt";
+    QTest::newRow("port") << 5 << 1 << 70000 << "70000";
+  }
+  void refusals() {
+    QFETCH(int, team);
+    QFETCH(int, robot);
+    QFETCH(int, port);
+    QFETCH(QString, reason);
+    ProcessOptions options;
+    options.robot = {robot};
+    options.refereeTeam = team;
+    options.refereePort = port;
+    const auto process = findProcess("communication")->make(options);
+    QVERIFY(!process);
+    QVERIFY2(QString::fromStdString(process.error().text()).contains(reason), process.error().text().c_str());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRefereeObeyed)
+#include "tst_referee_obeyed.moc"
