@@ -110,10 +110,7 @@ void MatchRecorder::logged(const LogLine& line) {
 }
 
 void MatchRecorder::keep(std::optional<StateSegment> ended) {
-  if (!ended) return;
-  m_writer->appendJson(telemetry::SessionStream::Checkpoints,
-                       static_cast<double>(ended->firstTick()) / ended->tickRate(),
-                       checkpointToJson(*ended));
+  if (ended) appendCheckpoint(*m_writer, *ended);
 }
 
 void MatchRecorder::noteProcesses(const SimulatedMatch& match, double time) {
@@ -167,9 +164,7 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
     if (const auto ticks = past.archive->range()) {
       const auto first = static_cast<std::uint64_t>(std::max(0.0, begin * ticks->tickRate));
       for (const auto& segment : past.archive->segments(first, ticks->last)) {
-        (*writer)->appendJson(telemetry::SessionStream::Checkpoints,
-                              static_cast<double>(segment->firstTick()) / segment->tickRate(),
-                              checkpointToJson(*segment));
+        appendCheckpoint(**writer, *segment);
       }
     }
   }

@@ -89,7 +89,7 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
     {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
+     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"state":{"type":"string","contentEncoding":"base64","description":"a moment of the match that can be entered again exactly"}},"required":["time","state"]})"},
 }};
 
 /// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all times.
@@ -262,6 +262,16 @@ std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
 std::optional<double> timeFromJson(std::string_view json) {
   const auto object = objectWithTime(json);
   return object ? number(*object, "time") : std::nullopt;
+}
+
+std::string checkpointToJson(double time, std::string_view state) {
+  return dump(Json{{"time", time}, {"state", toBase64(state)}});
+}
+
+std::optional<std::string> checkpointFromJson(std::string_view json) {
+  const auto object = objectWithTime(json);
+  if (!object || !object->contains("state")) return std::nullopt;
+  return fromBase64(text(*object, "state"));
 }
 
 }  // namespace pitchboard::telemetry::session

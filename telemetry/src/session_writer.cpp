@@ -266,6 +266,10 @@ void SessionWriter::append(SessionStream stream, const SessionDatagram& datagram
   appendJson(stream, datagram.time, session::toJson(datagram));
 }
 
+void SessionWriter::appendCheckpoint(double time, std::string_view state) {
+  appendJson(SessionStream::Checkpoints, time, session::checkpointToJson(time, state));
+}
+
 void SessionWriter::appendJson(SessionStream stream, double time, std::string_view json) {
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);

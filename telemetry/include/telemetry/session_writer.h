@@ -56,6 +56,8 @@ class SessionWriter {
   void append(const SessionLogLine& line);
   /// `stream`: Telemetry or RefereeRaw.
   void append(SessionStream stream, const SessionDatagram& datagram);
+  /// The state of a simulated match, any bytes, as the robotlink library encodes it.
+  void appendCheckpoint(double time, std::string_view state);
   /// `json`: an object with the source's seconds as "time".
   void appendJson(SessionStream stream, double time, std::string_view json);
   /// A file beside the rows: the scenario, the catalog, the profile.
