@@ -173,22 +173,30 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::resetLayout() {
   const auto infos = studioDocks();
-  QDockWidget* bottom = nullptr;
+  const auto isBottom = [&infos](std::size_t i) {
+    return infos[i].area == Qt::BottomDockWidgetArea;
+  };
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
   QDockWidget* firstBottom = nullptr;
   for (std::size_t i = 0; i < infos.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    addDockWidget(infos[i].area, m_docks[i]);
+    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].ownRow && firstBottom != nullptr) {
+      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+    }
+  }
+  QDockWidget* bottom = firstBottom;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
     QDockWidget* dock = m_docks[i];
-    dock->setFloating(false);
-    addDockWidget(infos[i].area, dock);
-    if (infos[i].ownRow && bottom != nullptr) {
-      splitDockWidget(firstBottom, dock, Qt::Vertical);
-    } else if (infos[i].area == Qt::BottomDockWidgetArea) {
-      if (bottom != nullptr) tabifyDockWidget(bottom, dock);
-      else firstBottom = dock;
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
+      tabifyDockWidget(bottom, dock);
       bottom = dock;
     }
     dock->setVisible(infos[i].shownAtFirst);
-    resizeDocks({dock}, {scaled(this, infos[i].extent)},
-                infos[i].area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)}, isBottom(i) ? Qt::Vertical : Qt::Horizontal);
   }
   if (firstBottom != nullptr) firstBottom->raise();
 }
