@@ -8,11 +8,14 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "report_command.h"
 
 namespace pitchboard::cli {
 namespace {
 
 using namespace telemetry;
+
+constexpr const char* reportFormat = "report";
 
 struct Options {
   std::string file, format = "csv-wide", output;
@@ -23,7 +26,8 @@ struct Options {
 };
 
 int run(const Options& options) {
-  const auto format = exportFormat(options.format);
+  const bool asReport = options.format == reportFormat;
+  const auto format = asReport ? ExportFormat::CsvWide : exportFormat(options.format);
   if (!format) return reportError(format.error());
   if (*format == ExportFormat::Mcap && options.output.empty()) {
     return reportError({ErrorCode::InvalidArgument, "A session needs a file; add -o FILE.", {}});
@@ -34,6 +38,13 @@ int run(const Options& options) {
   reading.progress = [](double) { return !interrupted; };
   const auto session = SessionReader::open(options.file, reading);
   if (!session) return reportError(session.error());
+  if (asReport) {
+    const SessionRange all{-1e300, 1e300};
+    const auto done = exportReport(*session, {options.from.value_or(all.begin),
+                                              options.to.value_or(all.end)}, options.output);
+    for (const std::string& note : session->notes()) std::fprintf(stderr, "warning: %s\n", note.c_str());
+    return done ? 0 : reportError(done.error());
+  }
   ExportSelection selection;
   selection.range.begin = options.from.value_or(selection.range.begin);
   selection.range.end = options.to.value_or(selection.range.end);
@@ -71,7 +82,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command->add_option("--to", options->format,
-                      "csv-wide: a line per time; csv-long: a line per value; jsonl; mcap")
+                      "csv-wide: a line per time; csv-long: a line per value; jsonl; mcap; report: "
+                      "an HTML page with score, statistics and events")
       ->type_name("FORMAT")->capture_default_str();
   command->add_option("--from", options->from, "First second")->type_name("T");
   command->add_option("--until", options->to, "Last second")->type_name("T");
