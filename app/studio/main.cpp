@@ -39,6 +39,7 @@ link::MatchOptions matchOptions(const Arguments& arguments) {
   link::MatchOptions options;
   options.cognition = cognitionOf(arguments);
   options.keyBase = arguments.keyBase;
+  options.thoughts = true;
   options.robotProgram =
       QDir(QApplication::applicationDirPath()).filePath(QStringLiteral("pitchboard-robot"))
           .toStdString();

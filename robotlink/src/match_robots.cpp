@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <robotlink/moment.h>
 #include <robotlink/simulated_match.h>
 
 #include "lined_json.h"
@@ -84,6 +85,59 @@ Result<void> SimulatedMatch::removeRobot(RobotId id) {
   return {};
 }
 
+Result<void> SimulatedMatch::reenter(const Moment& moment) {
+  const sim::WorldState before = m_simulation.state();
+  if (moment.state.settings.tickRate != m_scenario.settings.tickRate) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this moment was played at another tick rate than this match; start a match of "
+                   "its own scenario");
+  }
+  // Everything that can fail comes before anything of the present match is given up.
+  std::vector<std::unique_ptr<Seat>> added;
+  const auto addedSeat = [&](RobotId id) -> Seat* {
+    for (const auto& one : added) {
+      if (one->id == id) return one.get();
+    }
+    return nullptr;
+  };
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    if (seat(identity.id)) continue;
+    const MomentRobot* known = moment.robot(identity.id);
+    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour)});
+    if (!made) return tl::unexpected(made.error());
+    added.push_back(std::move(*made));
+  }
+  if (auto put = m_simulation.restore(moment.state); !put) return put;
+  for (const auto& one : added) {
+    if (auto started = startProcesses(*one); !started) {
+      for (const auto& other : added) m_supervisor->stop(other->id);
+      (void)m_simulation.restore(before);
+      return started;
+    }
+  }
+  for (const auto& old : m_seats) {
+    if (!m_simulation.indexOf(old->id)) m_supervisor->stop(old->id);
+  }
+  std::vector<std::unique_ptr<Seat>> seats;
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    auto& from = addedSeat(identity.id) ? added : m_seats;
+    const auto found = std::find_if(from.begin(), from.end(), [&](const auto& one) {
+      return one && one->id == identity.id;
+    });
+    seats.push_back(std::move(*found));
+  }
+  m_seats = std::move(seats);
+  m_commands.assign(m_seats.size(), {});
+  m_percepts.resize(m_seats.size());
+  for (const auto& one : m_seats) {
+    if (const MomentRobot* known = moment.robot(one->id)) known->writeTo(one->board);
+  }
+  m_scenario.settings = moment.state.settings;
+  followJump();
+  m_expectedTick = moment.state.tick;
+  return {};
+}
+
 Result<void> SimulatedMatch::startProcesses(Seat& seat) {
   for (const ProcessInfo& process : cognitiveProcesses()) {
     if (auto started = startProcess(seat, process); !started) return started;
@@ -127,7 +181,8 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
   const ProcessOptions& options = m_options.process;
   const sim::RobotIdentity& identity =
       m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
-  return {m_options.robotProgram,
+  std::vector<std::string> command{
+          m_options.robotProgram,
           std::string(process.name),
           "--robot",
           std::to_string(seat.id.value),
@@ -151,6 +206,10 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
           std::to_string(options.particles),
           "--field",
           fieldToText(m_scenario.settings.field)};
+  if (m_thoughts) {
+    command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
+  }
+  return command;
 }
 
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {
@@ -202,6 +261,8 @@ Scenario SimulatedMatch::toScenario() const {
   moment.ball = inside(now.ball);
   moment.ballVelocity = now.ballVelocity;
   moment.clockRunning = state.clockRunning;
+  moment.clock = now.clock;
+  moment.score = now.score;
   moment.robots.clear();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];

@@ -5,18 +5,20 @@ namespace pitchboard::telemetry::series {
 
 Group::Group(std::shared_ptr<const Layout> layout) {
   m_next.layout = std::move(layout);
-  clear();
+  empty();
 }
 
-bool Group::fits(const RowView& row) const {
-  return std::isfinite(row.time) && row.words.size() == m_next.layout->words &&
-         row.values.size() == m_next.layout->values;
-}
-
-bool Group::put(const RowView& row) {
+Group::Put Group::put(const RowView& row) {
+  const std::lock_guard lock(m_write);
+  const Layout& layout = *m_next.layout;
+  if (!std::isfinite(row.time) || row.words.size() != layout.words ||
+      row.values.size() != layout.values) {
+    return Put::Refused;
+  }
+  if (m_any && row.time < m_lastTime) return Put::GoesBack;
   m_lastTime = row.time;
   m_any = true;
-  return m_staging->put(row, *m_next.layout);
+  return m_staging->put(row, layout) ? Put::Done : Put::BlockFull;
 }
 
 void Group::newStaging() {
@@ -54,11 +56,14 @@ void Group::publish() {
 }
 
 void Group::closeBlock() {
+  const std::lock_guard lock(m_write);
+  if (m_staging->rows.load(std::memory_order_relaxed) < blockRows) return;   // cleared meanwhile
   addBlock();
   publish();
 }
 
 void Group::truncate(double time) {
+  const std::lock_guard lock(m_write);
   const auto now = view();
   const std::size_t keep = now->rowsBefore(time);
   const std::size_t fullRows = m_next.full->size() * chunkRows;
@@ -87,6 +92,11 @@ void Group::truncate(double time) {
 }
 
 void Group::clear() {
+  const std::lock_guard lock(m_write);
+  empty();
+}
+
+void Group::empty() {
   m_next.full = std::make_shared<Units>();
   m_next.blocks.clear();
   newStaging();
@@ -96,6 +106,7 @@ void Group::clear() {
 }
 
 void Group::setLayout(std::shared_ptr<const Layout> layout) {
+  const std::lock_guard lock(m_write);
   m_next.layout = std::move(layout);
   publish();
 }

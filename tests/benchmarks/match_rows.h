@@ -18,8 +18,8 @@ class MatchRows {
     const auto& catalog = VariableCatalog::published();
     for (const sim::RobotSnapshot& robot : match.simulation().snapshot().robots) {
       telemetry::GroupInfo group;
-      group.name = "R" + std::to_string(robot.id.value);
-      group.attributes["robot"] = std::to_string(robot.id.value);
+      group.name = "R" + std::to_string(robot.identity.id.value);
+      group.attributes["robot"] = std::to_string(robot.identity.id.value);
       for (const Variable& variable : catalog.variables()) {
         group.columns.push_back({variable.name,
                                  variable.type == VariableType::Int
@@ -48,15 +48,15 @@ class MatchRows {
     for (std::size_t i = 0; i < m_snapshot.robots.size(); ++i) {
       const auto& robot = m_snapshot.robots[i];
       std::array<std::uint32_t, Blackboard::words> board;
-      m_match.blackboard(robot.id)->copyWords(board);
+      m_match.blackboard(robot.identity.id)->copyWords(board);
       m_words.clear();
       for (const Variable& variable : catalog.variables()) {
         const int offset = variable.type == VariableType::Int ? 0 : Blackboard::floatOffset;
         m_words.push_back(board[static_cast<std::size_t>(offset + variable.index)]);
       }
       const std::array<double, 5> values{robot.pose.position.x, robot.pose.position.y,
-                                         robot.pose.yaw, m_snapshot.ball.position.x,
-                                         m_snapshot.ball.position.y};
+                                         robot.pose.yaw, m_snapshot.ball.x,
+                                         m_snapshot.ball.y};
       visit(static_cast<telemetry::GroupId>(i), telemetry::RowView{time, m_words, values});
     }
   }

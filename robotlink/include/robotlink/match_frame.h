@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <robotlink/process_supervisor.h>
+#include <robotlink/robot_thoughts.h>
 #include <simcore/field.h>
 #include <simcore/noise.h>
 #include <simcore/snapshot.h>
@@ -45,6 +46,8 @@ struct MatchFrame {
   sim::Snapshot snapshot;
   std::vector<RobotBoardView> boards;
   std::vector<ChildStatus> children;
+  /// What robots have in mind, of those that tell it (MatchOptions::thoughts); by robot number.
+  std::vector<RobotThoughts> thoughts;
   double speed = 0.0;                ///< simulated seconds per second, measured over the last second
   double ticksPerSecond = 0.0;       ///< measured
   double tickMicroseconds = 0.0;     ///< mean time of a tick, measured

@@ -78,6 +78,7 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
     plan(world, goal);
   }
   if (m_path.points.empty()) return acts::stop;
+  m_stepped = world.now();
   while (m_path.points.size() > 2 && distance(m_path.next(), pose.position) < 0.08) {
     m_path.points.erase(m_path.points.begin());
   }

@@ -72,6 +72,11 @@ class WorldModel {
   /// Opponents seen within the last seconds.
   std::vector<Point> opponents() const;
 
+  /// To the studio's frame, whichever side this team attacks, and back.
+  Point toStudio(const Point& turned) const {
+    return m_attacksLeft ? Point{-turned.x, -turned.y} : turned;
+  }
+
   Point toLocal(const Point& onField) const;
   Point toField(const Point& local) const;
 

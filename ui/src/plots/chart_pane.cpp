@@ -16,13 +16,13 @@ namespace pitchboard::ui {
 namespace {
 constexpr int pixelsPerValueStep = 24;   // px of the mock
 constexpr int pixelsPerTimeStep = 64;
-constexpr int minimumHeight = 40;
+constexpr int lowestChart = 40;
 }  // namespace
 
 ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
   setSurface(m_chart);
-  m_chart->setMinimumHeight(scaled(this, minimumHeight));
+  m_chart->setMinimumHeight(scaled(this, lowestChart));
   m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
   connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {

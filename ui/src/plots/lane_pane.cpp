@@ -108,6 +108,7 @@ LanePane::LanePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_gestures->setHasValues(false);
 }
 
+QWidget* LanePane::surface() const { return m_lanes; }
 void LanePane::setBoxTool(bool on) { m_gestures->setBoxTool(on); }
 
 int LanePane::laneAt(double y) const {

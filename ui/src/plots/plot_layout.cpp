@@ -4,6 +4,7 @@
 #include <QJsonArray>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace pitchboard::ui {
 namespace {
@@ -17,19 +18,22 @@ constexpr std::array<const char*, 3> paneKinds{"chart", "lane", "xy"};
 constexpr int formatVersion = 1;
 constexpr int mostOfAnything = 200;   // pages, plots, curves: a file with more is not one of ours
 
-template <std::size_t N, class Enum>
-bool readWord(const std::array<const char*, N>& words, const QJsonValue& value, Enum& out) {
-  for (std::size_t i = 0; i < N; ++i) {
-    if (value.toString(QLatin1String(words[0])) == QLatin1String(words[i])) {
-      out = static_cast<Enum>(i);
-      return true;
-    }
+using Words = std::span<const char* const>;
+
+/// A missing word is the first one.
+template <class Enum>
+bool readWord(Words words, const QJsonValue& value, Enum& out) {
+  const QString found = value.toString(QLatin1String(words.front()));
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (found != QLatin1String(words[i])) continue;
+    out = static_cast<Enum>(i);
+    return true;
   }
   return false;
 }
 
-template <std::size_t N, class Enum>
-QString word(const std::array<const char*, N>& words, Enum value) {
+template <class Enum>
+QString word(Words words, Enum value) {
   return QLatin1String(words[static_cast<std::size_t>(value)]);
 }
 

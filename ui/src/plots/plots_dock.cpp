@@ -271,10 +271,10 @@ void PlotsDock::showEvent(QShowEvent*) {
 void PlotsDock::hideEvent(QHideEvent*) { m_feed->setRunning(false); }
 
 void PlotsDock::takeRows() {
-  const auto data = m_context.time->data();
+  const auto known = m_context.time->data();
   const bool pending = currentPage() != nullptr && currentPage()->isWorking();
-  if (data == m_drawnData && m_drawnGeneration == m_feed->generation() && !pending) return;
-  m_drawnData = data;
+  if (known == m_drawnData && m_drawnGeneration == m_feed->generation() && !pending) return;
+  m_drawnData = known;
   m_drawnGeneration = m_feed->generation();
   drawNow();
 }

@@ -6,6 +6,9 @@
 
 #include <QTimer>
 #include <QWidget>
+#include <optional>
+
+#include <telemetry/series_store.h>
 
 #include "plot_layout.h"
 #include "shell/dock_list.h"

@@ -160,6 +160,14 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
   emit favouritesChanged();
 }
 
+void VariablesModel::setNote(const QString& group, const QString& sentence) {
+  if (m_notes.value(group) == sentence) return;
+  if (sentence.isEmpty()) m_notes.remove(group);
+  else m_notes.insert(group, sentence);
+  const QModelIndex row = find(group);
+  if (row.isValid()) emit dataChanged(row, row.siblingAtColumn(columns - 1));
+}
+
 VariablesModel::Kind VariablesModel::kindOf(const QModelIndex& index) const {
   return index.isValid() ? node(index)->kind : Kind::Group;
 }

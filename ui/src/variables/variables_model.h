@@ -6,6 +6,7 @@
 // while nobody sees them. UI thread only.
 
 #include <QAbstractItemModel>
+#include <QHash>
 #include <QList>
 #include <QSet>
 #include <QStringList>
@@ -49,6 +50,9 @@ class VariablesModel : public QAbstractItemModel {
   void refreshAll();
   /// Looks only when each variable changed last; for a filter.
   void refreshChanges();
+
+  /// A sentence that is shown with a group's row, marked as trouble; empty takes it away.
+  void setNote(const QString& group, const QString& sentence);
 
   /// Seconds that a sparkline covers.
   double sparkSeconds() const { return m_kind == SourceKind::Live ? 60.0 : 15.0; }
@@ -116,6 +120,7 @@ class VariablesModel : public QAbstractItemModel {
   std::uint64_t m_revision = 0;
   std::vector<std::unique_ptr<VariableNode>> m_groups;
   QSet<QString> m_favourites;
+  QHash<QString, QString> m_notes;   // by group
   double m_now = 0.0;
   std::uint64_t m_round = 0;
   bool m_editingAllowed = false;

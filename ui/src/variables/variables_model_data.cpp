@@ -145,7 +145,10 @@ void VariablesModel::refreshChanges() {
 }
 
 QVariant VariablesModel::display(const VariableNode& row, int column) const {
-  if (column == Name) return row.name;
+  if (column == Name) {
+    const QString note = row.kind == Kind::Group ? m_notes.value(row.name) : QString();
+    return note.isEmpty() ? row.name : row.name + QStringLiteral(" · ") + note;
+  }
   if (row.kind == Kind::Group) {
     if (column == Value && row.rowsPerSecond > 0) {
       return QString::number(row.rowsPerSecond, 'f', row.rowsPerSecond < 10 ? 1 : 0);
@@ -198,6 +201,7 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
   if (row.kind == Kind::Heading) return {};
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
+    if (m_notes.contains(row.name)) lines << m_notes.value(row.name);
     for (const auto& [key, value] : row.view->info().attributes) {
       lines << QString::fromStdString(key) + QStringLiteral(": ") + QString::fromStdString(value);
     }
@@ -250,6 +254,7 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
     case Qt::ForegroundRole: {
       // Nothing has come for a while: what stands there is history.
       constexpr double silence = 10.0;
+      if (row.kind == Kind::Group && m_notes.contains(row.name)) return theme().warningText;
       if (m_now - row.owner()->newest > silence) return theme().disabledText;
       if (index.column() == Unit || index.column() == Age || index.column() == Rate ||
           (row.kind == Kind::Group && index.column() != Name)) {
