@@ -8,6 +8,7 @@
 
 #include "lined_json.h"
 #include "match_seat.h"
+#include "moment_writes.h"
 
 namespace pitchboard::link {
 namespace {
@@ -271,18 +272,8 @@ Scenario SimulatedMatch::toScenario() const {
                              m_seats[i]->behaviour});
   }
 
-  moment.writes.clear();
-  for (BlackboardWrite write : m_scenario.writes) {
-    if (write.robot.value != 0 && !seat(write.robot)) continue;
-    write.time = std::max(0.0, write.time - now.time);
-    if (write.time == 0.0) {
-      std::erase_if(moment.writes, [&](const BlackboardWrite& earlier) {
-        return earlier.time == 0.0 && earlier.robot == write.robot &&
-               earlier.variable == write.variable;
-      });
-    }
-    moment.writes.push_back(std::move(write));
-  }
+  moment.writes = writesFrom(m_scenario.writes, now.time,
+                             [this](RobotId id) { return seat(id) != nullptr; });
   return moment;
 }
 

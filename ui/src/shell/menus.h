@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+class QAction;
 class QMenu;
 
 namespace pitchboard::ui {
@@ -21,6 +22,8 @@ class StudioMenus {
   void makeSimulation();
   void makeTimeline();
   void makeHelp();
+  /// Greyed while another source than the simulation is shown.
+  void onlyWhenSimulating(QAction* action);
 
   MainWindow& m_window;
 };

@@ -4,8 +4,15 @@
 namespace pitchboard::ui {
 
 SourceSwitch::SourceSwitch(FrameSource* first, QObject* parent)
-    : FrameSource(parent), m_current(first) {
+    : FrameSource(parent), m_current(first), m_sources{first} {
   follow();
+}
+
+FrameSource* SourceSwitch::find(SourceKind kind) const {
+  for (FrameSource* source : m_sources) {
+    if (source->kind() == kind) return source;
+  }
+  return nullptr;
 }
 
 void SourceSwitch::choose(FrameSource* source) {
