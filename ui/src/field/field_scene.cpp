@@ -12,6 +12,7 @@
 #include "overlay_items.h"
 #include "robot_item.h"
 #include "sector_items.h"
+#include "thought_items.h"
 #include "trail_item.h"
 #include "view_wedge_item.h"
 
@@ -19,8 +20,8 @@ namespace pitchboard::ui {
 namespace {
 
 // From the ground up.
-enum Height { wedgeHeight, sectorHeight, trailHeight, beliefHeight, ballHeight, robotHeight,
-              toolHeight };
+enum Height { wedgeHeight, sectorHeight, trailHeight, particleHeight, beliefHeight, pathHeight,
+              ballHeight, robotHeight, toolHeight };
 
 constexpr double hitMargin_px = 3.0;
 
@@ -57,10 +58,10 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
 struct FieldScene::Robot {
   Robot(FieldScene* scene, RobotId id)
       : body(&scene->m_style, id), belief(&scene->m_style), trail(&scene->m_style),
-        wedge(&scene->m_style) {
+        wedge(&scene->m_style), particles(&scene->m_style), path(&scene->m_style) {
     const std::pair<QGraphicsItem*, Height> items[] = {
         {&body, robotHeight}, {&belief, beliefHeight}, {&trail, trailHeight},
-        {&wedge, wedgeHeight}};
+        {&wedge, wedgeHeight}, {&particles, particleHeight}, {&path, pathHeight}};
     for (const auto& [item, height] : items) {
       item->setZValue(height);
       scene->addItem(item);
@@ -71,6 +72,8 @@ struct FieldScene::Robot {
   BeliefItem belief;
   TrailItem trail;
   ViewWedgeItem wedge;
+  ParticlesItem particles;
+  PlannedPathItem path;
 };
 
 FieldScene::FieldScene(QObject* parent)
@@ -102,6 +105,8 @@ void FieldScene::styleChanged() {
     robot->belief.styleChanges();
     robot->trail.styleChanges();
     robot->wedge.styleChanges();
+    robot->particles.styleChanges();
+    robot->path.styleChanges();
   }
   m_ball->styleChanges();
   m_eopra->styleChanges();
@@ -133,7 +138,25 @@ void FieldScene::showFrame(const FramePtr& frame) {
     showRobot(*m_robots.at(snapshot.robots[i].identity.id), snapshot.robots[i],
               known ? &frame->boards[i] : nullptr, snapshot.time);
   }
+  showThoughts();
   showSelected();
+}
+
+// Of the selected robots, or of all while none is selected: six clouds at once hide each other.
+void FieldScene::showThoughts() {
+  if (!m_frame) return;
+  for (auto& [id, robot] : m_robots) {
+    const bool chosen = m_selection.empty() ||
+        std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+    const auto told = std::find_if(m_frame->thoughts.begin(), m_frame->thoughts.end(),
+                                   [&](const auto& one) { return one.robot == id; });
+    const bool any = chosen && told != m_frame->thoughts.end();
+    const TeamColor team = robot->body.look().team;
+    robot->particles.setVisible(any && m_style.shows(FieldLayer::Particles));
+    robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
+    if (robot->particles.isVisible()) robot->particles.setCloud(told->cloud, team);
+    if (robot->path.isVisible()) robot->path.setPath(told->path, team);
+  }
 }
 
 void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
@@ -216,6 +239,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
                             (look.selected || m_style.wedgeForAll));
     robot->wedge.styleChanges();
   }
+  showThoughts();
   showSelected();
   emit selectionChangedTo(m_selection);
 }

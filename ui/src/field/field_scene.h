@@ -76,6 +76,7 @@ class FieldScene : public QGraphicsScene {
   void matchRobots(const sim::Snapshot& snapshot);
   void showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
                  const link::RobotBoardView* board, double time);
+  void showThoughts();
   void showSelected();
   void setSelection(std::vector<RobotId> ids);
 

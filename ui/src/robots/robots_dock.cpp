@@ -14,6 +14,7 @@
 
 #include "blackboard_window.h"
 #include "robot_card.h"
+#include "shell/robot_menus.h"
 #include "shell/robot_selection.h"
 #include "shell/source_switch.h"
 
@@ -109,20 +110,10 @@ void RobotsDock::setAllCollapsed(bool collapsed) {
 void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   const RobotId id = card->state().id;
   MatchController* controller = m_context.controller;
-  const link::ScenarioRobot* robot = controller->robot(id);
-  if (robot == nullptr) return;
+  if (controller->robot(id) == nullptr) return;
   QMenu menu(this);
-  QMenu* behaviour = menu.addMenu(tr("Behaviour"));
-  const auto offer = [&](std::string_view name, const QString& text) {
-    const QString key = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-    QAction* action = behaviour->addAction(text.isEmpty() ? key : text);
-    action->setCheckable(true);
-    action->setChecked(robot->behaviour == name);
-    connect(action, &QAction::triggered, controller,
-            [controller, id, key] { controller->setBehaviour(id, key); });
-  };
-  for (const link::BehaviourInfo& known : link::behaviours()) offer(known.name, {});
-  offer(link::noBehaviour, tr("none (your own process)"));
+  addBehaviourMenu(&menu, controller, {id});
+  addTeamMenu(&menu, controller, {id});
   QAction* follow = menu.addAction(tr("Follow"));
   follow->setCheckable(true);
   follow->setChecked(m_context.field->followed() == id);
