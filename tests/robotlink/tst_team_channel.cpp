@@ -84,7 +84,8 @@ class TestTeamChannel : public QObject {
     QCOMPARE(value(first, "COM_POS_BALL_ROBOT2"), 450 * 10000 + 200);
     QCOMPARE(value(first, "COM_POS_ROBOT3"), 550 * 10000 + 300);
     QCOMPARE(value(first, "COM_ACTION_ROBOT3"), 3);
-    robots[0].step(60.0);  // all fell silent
+    robots[0].step(60.0);   // hears what still waited
+    robots[0].step(120.0);  // all fell silent
     QCOMPARE(first.read(*catalog.floatVar("LOCALIZATION_RBT11_X")), -1.0F);
     QCOMPARE(value(first, "COM_STATE_ROBOT1"), 0);
   }
