@@ -17,6 +17,8 @@
 #include "help_windows.h"
 #include "live/live_overlay.h"
 #include "live/live_settings_dialog.h"
+#include "plots/plot_menus.h"
+#include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "source_switch.h"
@@ -41,6 +43,7 @@ void StudioMenus::make() {
   makeView();
   makeSimulation();
   makeTimeline();
+  makePlots();
   makeHelp();
 }
 
@@ -181,6 +184,12 @@ void StudioMenus::makeSimulation() {
 
 void StudioMenus::makeTimeline() {
   m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
+}
+
+void StudioMenus::makePlots() {
+  if (auto* plots = m_window.findChild<PlotsDock*>()) {
+    m_window.menuBar()->addMenu(makePlotsMenu(plots));
+  }
 }
 
 void StudioMenus::makeHelp() {
