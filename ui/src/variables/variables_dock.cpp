@@ -247,13 +247,17 @@ class VariablesDock : public QWidget {
 
   void detach(int key) {
     m_boards->detach(key);
-    m_model->setNote(AttachedBoards::groupName(key), tr("detached"));
+    m_model->setNote(AttachedBoards::groupName(key), {tr("detached"), {}, 0.0});
   }
 
   void showBoards() {
     for (const auto& [key, status] : m_boards->status()) {
       const QString group = AttachedBoards::groupName(key);
-      m_model->setNote(group, status.attached ? QString() : tr("removed, waiting"));
+      m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
+                               status.missed == 0 ? QString()
+                                                  : tr("%1 samples were left out, because the "
+                                                       "computer was busy.").arg(status.missed),
+                               status.attached ? status.rate : 0.0});
       if (!status.attached && m_removed.insert(key).second) {
         m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
       } else if (status.attached) {

@@ -160,10 +160,10 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
   emit favouritesChanged();
 }
 
-void VariablesModel::setNote(const QString& group, const QString& sentence) {
-  if (m_notes.value(group) == sentence) return;
-  if (sentence.isEmpty()) m_notes.remove(group);
-  else m_notes.insert(group, sentence);
+void VariablesModel::setNote(const QString& group, const GroupNote& note) {
+  if (m_notes.value(group) == note) return;
+  if (note == GroupNote{}) m_notes.remove(group);
+  else m_notes.insert(group, note);
   const QModelIndex row = find(group);
   if (row.isValid()) emit dataChanged(row, row.siblingAtColumn(columns - 1));
 }
