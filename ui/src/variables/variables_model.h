@@ -115,7 +115,8 @@ class VariablesModel : public QAbstractItemModel {
  private:
   static VariableNode* node(const QModelIndex& index);
   QModelIndex indexOf(const VariableNode* node, int column) const;
-  std::unique_ptr<VariableNode> makeGroup(telemetry::GroupId id) const;
+  std::unique_ptr<VariableNode> makeGroup(
+      telemetry::GroupId id, std::shared_ptr<const telemetry::GroupView> view) const;
   void renumber();
   bool read(VariableNode& variable, int sparkPixels) const;
   void lookAt(VariableNode& group);

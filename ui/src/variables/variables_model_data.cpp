@@ -44,7 +44,8 @@ QString shownAge(double seconds) {
 void VariablesModel::lookAt(VariableNode& group) {
   if (group.round == m_round) return;
   group.round = m_round;
-  group.view = m_store->view(group.group);
+  // Null once the group was replaced: its last rows stand until updateGroups().
+  if (auto view = m_store->view(group.group)) group.view = std::move(view);
   group.rowsPerSecond = group.view->rate();
   if (const auto range = group.view->range()) group.newest = range->end;
 }

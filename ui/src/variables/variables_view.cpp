@@ -85,6 +85,26 @@ void VariablesView::followFilter() {
   restore();
 }
 
+// QTreeView's own expandAll() does not say what it opened.
+void VariablesView::openAll() {
+  m_closedWhileFiltering.clear();
+  for (int g = 0; g < m_model->rowCount(); ++g) {
+    const QModelIndex group = m_model->index(g, 0);
+    m_open.insert(group.data(VariablesModel::PathRole).toString());
+    for (int h = 0; h < m_model->rowCount(group); ++h) {
+      m_open.insert(m_model->index(h, 0, group).data(VariablesModel::PathRole).toString());
+    }
+  }
+  m_openedAtFirst = true;
+  restore();
+}
+
+void VariablesView::closeAll() {
+  m_open.clear();
+  m_openedAtFirst = true;
+  restore();
+}
+
 void VariablesView::restoreSoon() { m_restoreTimer->start(); }
 
 // What a newcomer wants to see is in sight without a click.
