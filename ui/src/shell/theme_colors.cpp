@@ -129,6 +129,10 @@ QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
 QToolButton:pressed, QToolButton:checked { background: @row; border-color: @accent; }
+QToolButton#changedOnly, QToolButton#favouritesOnly {
+  border-color: @line; background: @button; }
+QToolButton#changedOnly:checked, QToolButton#favouritesOnly:checked {
+  background: @row; border-color: @accent; }
 QToolButton#mode { border-color: @line; background: @button; padding: @4 @12; }
 QToolButton#mode:checked { background: @fill; border-color: @fill; color: white; }
 QToolButton::menu-indicator { image: none; }

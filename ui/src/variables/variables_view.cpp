@@ -35,7 +35,8 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   setEditTriggers(NoEditTriggers);
   setDragEnabled(true);
   setDragDropMode(DragOnly);
-  setIndentation(scaled(this, 12));
+  setIndentation(scaled(this, 10));
+  setTextElideMode(Qt::ElideMiddle);   // names differ at both ends
   setAnimated(false);
   setExpandsOnDoubleClick(true);
   setItemDelegate(new VariablesDelegate(this));
