@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include <ui/field_view.h>
+#include <ui/live_controller.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
 #include <ui/scenario_files.h>
@@ -89,7 +90,12 @@ int showWindow(QApplication& application, const Arguments& arguments,
   if (size) window.resize(size->width, size->height);
   window.offerToRemoveOrphans();
   controller.setSpeed(speed);
-  controller.open(scenario, arguments.paused);
+  const auto live = liveOptionsOf(arguments, window.live()->options());
+  if (!live) return report(live.error());
+  window.live()->setOptions(*live);
+  if (!arguments.live || arguments.scenarioGiven) controller.open(scenario, arguments.paused);
+  if (arguments.live) window.showSource(ui::SourceKind::Live);
+  if (arguments.overlay) window.overlayLive(true);
   if (arguments.playTo) controller.runTo(*arguments.playTo);
   window.files()->showCurrent(QString::fromStdString(arguments.scenario));
   window.show();

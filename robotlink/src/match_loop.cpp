@@ -84,10 +84,15 @@ bool MatchLoop::carryOutCommands() {
     const std::lock_guard lock(m_shared.mutex);
     commands.swap(m_shared.commands);
   }
+  if (commands.empty()) return false;
+  const std::uint64_t before = m_match.simulation().hash();
   for (const auto& command : commands) command(m_match);
+  if (m_match.simulation().hash() != before) {
+    for (const auto& observer : m_observers) observer->worldChanged(m_match);
+  }
   // Otherwise the next tick shows what they did.
-  if (!commands.empty() && m_still) showObservers({});
-  return !commands.empty();
+  if (m_still) showObservers({});
+  return true;
 }
 
 MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <robotlink/moment.h>
 #include <robotlink/simulated_match.h>
 
 #include "lined_json.h"
 #include "match_seat.h"
+#include "moment_writes.h"
 
 namespace pitchboard::link {
 namespace {
@@ -86,6 +88,59 @@ Result<void> SimulatedMatch::removeRobot(RobotId id) {
   m_seats.erase(m_seats.begin() + static_cast<std::ptrdiff_t>(*index));
   m_commands.resize(m_seats.size());
   m_percepts.resize(m_seats.size());
+  return {};
+}
+
+Result<void> SimulatedMatch::reenter(const Moment& moment) {
+  const sim::WorldState before = m_simulation.state();
+  if (moment.state.settings.tickRate != m_scenario.settings.tickRate) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this moment was played at another tick rate than this match; start a match of "
+                   "its own scenario");
+  }
+  // Everything that can fail comes before anything of the present match is given up.
+  std::vector<std::unique_ptr<Seat>> added;
+  const auto addedSeat = [&](RobotId id) -> Seat* {
+    for (const auto& one : added) {
+      if (one->id == id) return one.get();
+    }
+    return nullptr;
+  };
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    if (seat(identity.id)) continue;
+    const MomentRobot* known = moment.robot(identity.id);
+    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour)});
+    if (!made) return tl::unexpected(made.error());
+    added.push_back(std::move(*made));
+  }
+  if (auto put = m_simulation.restore(moment.state); !put) return put;
+  for (const auto& one : added) {
+    if (auto started = startProcesses(*one); !started) {
+      for (const auto& other : added) m_supervisor->stop(other->id);
+      (void)m_simulation.restore(before);
+      return started;
+    }
+  }
+  for (const auto& old : m_seats) {
+    if (!m_simulation.indexOf(old->id)) m_supervisor->stop(old->id);
+  }
+  std::vector<std::unique_ptr<Seat>> seats;
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    auto& from = addedSeat(identity.id) ? added : m_seats;
+    const auto found = std::find_if(from.begin(), from.end(), [&](const auto& one) {
+      return one && one->id == identity.id;
+    });
+    seats.push_back(std::move(*found));
+  }
+  m_seats = std::move(seats);
+  m_commands.assign(m_seats.size(), {});
+  m_percepts.resize(m_seats.size());
+  for (const auto& one : m_seats) {
+    if (const MomentRobot* known = moment.robot(one->id)) known->writeTo(one->board);
+  }
+  m_scenario.settings = moment.state.settings;
+  followJump();
+  m_expectedTick = moment.state.tick;
   return {};
 }
 
@@ -229,6 +284,8 @@ Scenario SimulatedMatch::toScenario() const {
   moment.ball = inside(now.ball);
   moment.ballVelocity = now.ballVelocity;
   moment.clockRunning = state.clockRunning;
+  moment.clock = now.clock;
+  moment.score = now.score;
   moment.robots.clear();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];
@@ -237,18 +294,8 @@ Scenario SimulatedMatch::toScenario() const {
                              m_seats[i]->behaviour});
   }
 
-  moment.writes.clear();
-  for (BlackboardWrite write : m_scenario.writes) {
-    if (write.robot.value != 0 && !seat(write.robot)) continue;
-    write.time = std::max(0.0, write.time - now.time);
-    if (write.time == 0.0) {
-      std::erase_if(moment.writes, [&](const BlackboardWrite& earlier) {
-        return earlier.time == 0.0 && earlier.robot == write.robot &&
-               earlier.variable == write.variable;
-      });
-    }
-    moment.writes.push_back(std::move(write));
-  }
+  moment.writes = writesFrom(m_scenario.writes, now.time,
+                             [this](RobotId id) { return seat(id) != nullptr; });
   return moment;
 }
 

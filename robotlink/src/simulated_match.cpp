@@ -75,6 +75,9 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
     if (!receiver) return tl::unexpected(receiver.error());
     match.m_thoughts = std::move(*receiver);
   }
+  match.m_simulation.setScore(scenario.score);
+  match.m_simulation.editState().clockTicks =
+      firstTickAtOrAfter(scenario.clock, scenario.settings.tickRate);
   if (auto resolved = match.resolveWrites(); !resolved) return tl::unexpected(resolved.error());
   for (const ScenarioRobot& robot : scenario.robots) {
     if (auto added = match.addRobot(robot); !added) return tl::unexpected(added.error());

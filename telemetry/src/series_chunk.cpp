@@ -50,31 +50,30 @@ std::shared_ptr<const Chunk> Chunk::ofStaging(const Staging& full, const Layout&
               const std::uint32_t c = layout.wordColumns[index];
               if (layout.slots[c].type == ColumnType::Int32) {
                 const auto typed = std::bit_cast<std::array<std::int32_t, blockRows>>(words);
-                chunk->m_columns[c] = Column::ofBlock(typed.data(), blockRows);
+                chunk->m_columns[c] = Column::ofBlock(typed.data());
               } else {
                 const auto typed = std::bit_cast<std::array<float, blockRows>>(words);
-                chunk->m_columns[c] = Column::ofBlock(typed.data(), blockRows);
+                chunk->m_columns[c] = Column::ofBlock(typed.data());
               }
             });
   transpose(full.values.get(), layout.values,
             [&](std::uint32_t index, const std::array<double, blockRows>& values) {
-              chunk->m_columns[layout.valueColumns[index]] = Column::ofBlock(values.data(), blockRows);
+              chunk->m_columns[layout.valueColumns[index]] = Column::ofBlock(values.data());
             });
   chunk->count(layout);
   return chunk;
 }
 
-std::shared_ptr<const Chunk> Chunk::join(std::span<const std::shared_ptr<const Chunk>> blocks,
-                                         const Layout& layout) {
+std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Layout& layout) {
   auto chunk = std::make_shared<Chunk>();
   chunk->m_times.reserve(chunkRows);
   for (const auto& block : blocks) {
-    chunk->m_times.insert(chunk->m_times.end(), block->times(), block->times() + blockRows);
+    chunk->m_times.insert(chunk->m_times.end(), block.times, block.times + blockRows);
   }
   chunk->m_columns.reserve(layout.slots.size());
   std::array<const Column*, chunkBlocks> parts{};
   for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {
-    for (std::size_t b = 0; b < chunkBlocks; ++b) parts[b] = &blocks[b]->column(c);
+    for (std::size_t b = 0; b < chunkBlocks; ++b) parts[b] = &blocks[b].columns[c];
     withType(layout.slots[c].type, [&](auto zero) {
       chunk->m_columns.push_back(Column::join<decltype(zero)>(parts));
     });

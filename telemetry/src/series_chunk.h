@@ -27,17 +27,18 @@ struct Staging {
   std::size_t bytes = 0;
 };
 
+struct Unit;
+
 /// 64 rows (one block) or 4096 rows (64 blocks); immutable.
 class Chunk {
  public:
   static std::shared_ptr<const Chunk> ofStaging(const Staging& full, const Layout& layout);
-  static std::shared_ptr<const Chunk> join(std::span<const std::shared_ptr<const Chunk>> blocks,
-                                           const Layout& layout);
+  static std::shared_ptr<const Chunk> join(std::span<const Unit> blocks, const Layout& layout);
 
   std::uint32_t blocks() const { return static_cast<std::uint32_t>(m_times.size()) / blockRows; }
   std::uint32_t rows() const { return static_cast<std::uint32_t>(m_times.size()); }
   const double* times() const { return m_times.data(); }
-  const Column& column(std::uint32_t index) const { return m_columns[index]; }
+  const Column* columns() const { return m_columns.data(); }
   std::size_t bytes() const { return m_bytes; }
 
  private:
@@ -46,5 +47,20 @@ class Chunk {
   std::vector<Column> m_columns;   // in the order of the group's columns
   std::size_t m_bytes = 0;
 };
+
+/// A chunk, or the published part of the staging block, with what a query needs of it in one cache
+/// line: a query over millions of rows waits for memory and for nothing else.
+struct Unit {
+  Unit() = default;
+  explicit Unit(std::shared_ptr<const Chunk> of)
+      : times(of->times()), columns(of->columns()), first(times[0]), last(times[of->rows() - 1]),
+        rows(of->rows()), blocks(of->blocks()), chunk(std::move(of)) {}
+  const double* times = nullptr;
+  const Column* columns = nullptr;   ///< null: the staging block
+  double first = 0.0, last = 0.0;    ///< times
+  std::uint32_t rows = 0, blocks = 0;
+  std::shared_ptr<const Chunk> chunk;
+};
+using Units = std::vector<Unit>;
 
 }  // namespace pitchboard::telemetry::series

@@ -3,9 +3,10 @@
 
 // One column of one chunk. A column that does not change costs 24 bytes; otherwise every block of
 // 64 rows that does not change costs its value only, the others are kept raw. Minimum and maximum
-// are kept for 64, 512 and 4096 rows. Private to the library; immutable once made.
+// are kept for 16 (of raw blocks), 64, 512 and 4096 rows. Private to the library; immutable once made.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -13,9 +14,49 @@
 #include <memory>
 #include <span>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "series_layout.h"
 
 namespace pitchboard::telemetry::series {
+
+template <class T>
+struct Extremes {
+  T min, max;   ///< NaN where there is no other value
+};
+
+/// The part of a search for minimum and maximum that is done several values at a time; what is left
+/// begins at `values`. The compiler may not do it by itself, because of NaN.
+template <class T>
+void scanLanes(const T*& values, std::size_t count, T& low, T& high) {
+#ifdef __SSE2__
+  const auto scan = [&](auto lows, const auto& load, const auto& min, const auto& max) {
+    constexpr std::size_t width = sizeof lows / sizeof(T);
+    auto highs = lows;
+    for (; count >= width; count -= width, values += width) {
+      const auto next = load(values);
+      lows = min(next, lows);   // gives the second where one is NaN
+      highs = max(next, highs);
+    }
+    std::array<T, width> l, h;
+    std::memcpy(l.data(), &lows, sizeof lows);
+    std::memcpy(h.data(), &highs, sizeof highs);
+    low = *std::ranges::min_element(l);
+    high = *std::ranges::max_element(h);
+  };
+  if constexpr (std::is_same_v<T, float>) {
+    scan(_mm_set1_ps(low), [](const float* v) { return _mm_loadu_ps(v); },
+         [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
+         [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
+  } else if constexpr (std::is_same_v<T, double>) {
+    scan(_mm_set1_pd(low), [](const double* v) { return _mm_loadu_pd(v); },
+         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
+         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+  }
+#endif
+}
 
 /// Running minimum and maximum that pass over NaN.
 template <class T>
@@ -23,6 +64,12 @@ struct MinMax {
   T min{}, max{};
   bool any = false;
 
+  Extremes<T> extremes() const {
+    T none{};
+    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
+    return {any ? min : none, any ? max : none};
+  }
+  void add(const Extremes<T>& other) { add(other.min, other.max); }
   void add(T low, T high) {
     if constexpr (std::is_floating_point_v<T>) {
       if (std::isnan(low)) return;   // both are then
@@ -32,54 +79,48 @@ struct MinMax {
     any = true;
   }
 
-  /// Comparisons with NaN are false, so NaN changes nothing. Four lanes, because one would wait
-  /// for its own last result.
+  /// Comparisons with NaN are false, so NaN changes nothing once there is a first value.
   void scan(const T* values, std::size_t count) {
-    std::size_t start = 0;
     if constexpr (std::is_floating_point_v<T>) {
-      while (start < count && std::isnan(values[start])) ++start;
+      for (; count > 0 && std::isnan(*values); --count) ++values;
     }
-    if (start == count) return;
-    const T seed = values[start];
-    T low[4] = {seed, seed, seed, seed}, high[4] = {seed, seed, seed, seed};
-    const T* value = values + start;
+    if (count == 0) return;
+    T low = *values, high = *values;
     const T* const end = values + count;
-    for (; end - value >= 4; value += 4) {
-      for (std::size_t lane = 0; lane < 4; ++lane) {
-        low[lane] = value[lane] < low[lane] ? value[lane] : low[lane];
-        high[lane] = value[lane] > high[lane] ? value[lane] : high[lane];
-      }
+    scanLanes(values, count, low, high);
+    for (; values != end; ++values) {
+      low = *values < low ? *values : low;
+      high = *values > high ? *values : high;
     }
-    for (; value != end; ++value) {
-      low[0] = *value < low[0] ? *value : low[0];
-      high[0] = *value > high[0] ? *value : high[0];
-    }
-    add(std::min(std::min(low[0], low[1]), std::min(low[2], low[3])),
-        std::max(std::max(high[0], high[1]), std::max(high[2], high[3])));
+    add(low, high);
   }
 };
 
 class Column {
  public:
-  /// From `count` (1 to 64) values of one block.
+  /// From the 64 values of one block.
   template <class T>
-  static Column ofBlock(const T* values, std::uint32_t count) {
+  static Column ofBlock(const T* values) {
     Column out;
     const auto first = bitsOf(values[0]);
     bool same = true;
-    for (std::uint32_t i = 1; i < count; ++i) same = same && bitsOf(values[i]) == first;
+    for (std::uint32_t i = 1; i < blockRows; ++i) same = same && bitsOf(values[i]) == first;
     if (same) {
       std::memcpy(&out.m_constant, &first, sizeof first);
       return out;
     }
     out.allocate<T>(1, 1);
     out.m_raw = 1;
-    MinMax<T> range;
-    range.scan(values, count);
-    out.setSummary<T>(1, 0, range);
     T* raw = out.array<T>() + 2;
-    std::copy_n(values, count, raw);
-    std::fill(raw + count, raw + blockRows, T{});
+    std::copy_n(values, blockRows, raw);
+    MinMax<T> all;
+    for (std::uint32_t sub = 0; sub < blockRows / subRows; ++sub) {
+      MinMax<T> part;
+      part.scan(values + sub * subRows, subRows);
+      reinterpret_cast<Extremes<T>*>(raw + blockRows)[sub] = part.extremes();
+      if (part.any) all.add(part.min, part.max);
+    }
+    out.setSummary<T>(0, all);
     return out;
   }
 
@@ -105,23 +146,22 @@ class Column {
     for (std::uint32_t b = 0; b < chunkBlocks; ++b) {
       MinMax<T> range;
       if (blocks[b]->m_bytes) {
-        range.add(blocks[b]->minima<T>()[0], blocks[b]->maxima<T>(1)[0]);
-        values = std::copy_n(blocks[b]->array<T>() + 2, blockRows, values);
-        out.setSummary<T>(chunkBlocks, b, range);
+        range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
+        values = std::copy_n(blocks[b]->array<T>() + 2, rawValues, values);
+        out.setSummary<T>(ofBlocks(chunkBlocks) + b, range);
       } else {
         const T value = blocks[b]->constant<T>();
         range.add(value, value);
-        out.array<T>()[b] = value;   // its bits, also where it is NaN
-        out.array<T>()[summaries(chunkBlocks) + b] = value;
+        out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {value, value};   // its bits, also where it is NaN
       }
       if (range.any) super.add(range.min, range.max);
       if ((b + 1) % superBlocks == 0) {
-        out.setSummary<T>(chunkBlocks, chunkBlocks + b / superBlocks, super);
+        out.setSummary<T>(1 + b / superBlocks, super);
         if (super.any) all.add(super.min, super.max);
         super = {};
       }
     }
-    out.setSummary<T>(chunkBlocks, summaries(chunkBlocks) - 1, all);
+    out.setSummary<T>(0, all);
     return out;
   }
 
@@ -140,14 +180,14 @@ class Column {
   T at(std::uint32_t row, std::uint32_t blocks) const {
     if (!m_bytes) return constant<T>();
     const std::uint32_t block = row / blockRows;
-    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : minima<T>()[block];
+    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(ofBlocks(blocks) + block).min;
   }
 
   template <class T>
   const T* raw(std::uint32_t block, std::uint32_t blocks) const {
     const std::uint64_t before = m_raw & ((std::uint64_t{1} << block) - 1);
     return array<T>() + 2 * std::size_t{summaries(blocks)} +
-           static_cast<std::size_t>(std::popcount(before)) * blockRows;
+           static_cast<std::size_t>(std::popcount(before)) * rawValues;
   }
 
   /// Minimum and maximum of the rows [begin, end).
@@ -155,64 +195,91 @@ class Column {
   void range(std::uint32_t begin, std::uint32_t end, std::uint32_t blocks, MinMax<T>& out) const {
     if (begin >= end) return;
     if (!m_bytes) return out.add(constant<T>(), constant<T>());
-    const T* low = minima<T>();
-    const T* high = maxima<T>(blocks);
+    const Extremes<T>* kept = array<Extremes<T>>();
     std::uint32_t row = begin;
     while (row < end) {
       const std::uint32_t block = row / blockRows, left = end - row;
       if (row % chunkRows == 0 && left >= chunkRows) {
-        const std::uint32_t top = summaries(blocks) - 1;
-        out.add(low[top], high[top]);
+        out.add(kept[0]);
         row += chunkRows;
       } else if (row % (superBlocks * blockRows) == 0 && left >= superBlocks * blockRows) {
-        out.add(low[blocks + block / superBlocks], high[blocks + block / superBlocks]);
+        out.add(kept[1 + block / superBlocks]);
         row += superBlocks * blockRows;
       } else if ((row % blockRows == 0 && left >= blockRows) || !isRaw(block)) {
-        out.add(low[block], high[block]);
+        out.add(kept[ofBlocks(blocks) + block]);
         row = (block + 1) * blockRows;
       } else {
         const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
-        out.scan(raw<T>(block, blocks) + row % blockRows, stop - row);
+        rangeOfRaw(raw<T>(block, blocks), row % blockRows, stop - block * blockRows, out);
         row = stop;
       }
     }
+  }
+
+  /// Prefetch what a bucket needs that covers the chunk, and around a row where one ends.
+  void want() const {
+    if (!m_bytes) return;
+    __builtin_prefetch(m_bytes.get());
+    __builtin_prefetch(m_bytes.get() + 64);
+  }
+  template <class T>
+  void want(std::uint32_t row, std::uint32_t blocks) const {
+    if (!m_bytes) return;
+    const std::uint32_t block = row / blockRows;
+    __builtin_prefetch(array<Extremes<T>>() + ofBlocks(blocks) + block);
+    if (!isRaw(block)) return;
+    const T* values = raw<T>(block, blocks);
+    __builtin_prefetch(values + blockRows);
+    const T* part = values + row % blockRows / subRows * subRows;
+    for (std::uint32_t i = 0; i < subRows; i += 64 / sizeof(T)) __builtin_prefetch(part + i);
+    __builtin_prefetch(part + subRows - 1);   // the memory may not begin with a cache line
   }
 
   template <class T>
   std::size_t heapBytes(std::uint32_t blocks) const {
     if (!m_bytes) return 0;
     return sizeof(T) * (2 * std::size_t{summaries(blocks)} +
-                        static_cast<std::size_t>(std::popcount(m_raw)) * blockRows);
+                        static_cast<std::size_t>(std::popcount(m_raw)) * rawValues);
   }
 
  private:
-  /// Minima (as many maxima follow): of the blocks, of groups of 8 blocks, of the whole chunk.
-  static constexpr std::uint32_t summaries(std::uint32_t blocks) {
-    return blocks == 1 ? 1 : blocks + blocks / superBlocks + 1;
+  /// A raw block: its values, then minimum and maximum of each 16 of them.
+  static constexpr std::uint32_t rawValues = blockRows + 2 * (blockRows / subRows);
+
+  /// Of the values [begin, end) of a raw block.
+  template <class T>
+  static void rangeOfRaw(const T* values, std::uint32_t begin, std::uint32_t end, MinMax<T>& out) {
+    const auto* subs = reinterpret_cast<const Extremes<T>*>(values + blockRows);
+    while (begin < end) {
+      const std::uint32_t stop = std::min(end, (begin / subRows + 1) * subRows);
+      if (stop - begin == subRows) out.add(subs[begin / subRows]);
+      else out.scan(values + begin, stop - begin);
+      begin = stop;
+    }
   }
+
+  /// Of the whole chunk, of each 8 blocks, of each block; a single block has its own only. The raw
+  /// blocks follow.
+  static constexpr std::uint32_t ofBlocks(std::uint32_t blocks) {
+    return blocks == 1 ? 0 : 1 + blocks / superBlocks;
+  }
+  static constexpr std::uint32_t summaries(std::uint32_t blocks) { return ofBlocks(blocks) + blocks; }
   template <class T>
   void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
     m_bytes = std::make_unique_for_overwrite<std::byte[]>(
-        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * blockRows));
+        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * rawValues));
   }
   template <class T>
-  void setSummary(std::uint32_t blocks, std::uint32_t at, const MinMax<T>& range) {
-    T none{};
-    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
-    array<T>()[at] = range.any ? range.min : none;
-    array<T>()[summaries(blocks) + at] = range.any ? range.max : none;
+  void setSummary(std::uint32_t at, const MinMax<T>& range) {
+    array<Extremes<T>>()[at] = range.extremes();
   }
   template <class T>
   T* array() const {
     return reinterpret_cast<T*>(m_bytes.get());
   }
   template <class T>
-  const T* minima() const {
-    return array<T>();
-  }
-  template <class T>
-  const T* maxima(std::uint32_t blocks) const {
-    return array<T>() + summaries(blocks);
+  const Extremes<T>& summary(std::uint32_t at) const {
+    return array<Extremes<T>>()[at];
   }
 
   std::uint64_t m_raw = 0;        // bit b: block b is kept raw

@@ -5,18 +5,20 @@ namespace pitchboard::telemetry::series {
 
 Group::Group(std::shared_ptr<const Layout> layout) {
   m_next.layout = std::move(layout);
-  clear();
+  empty();
 }
 
-bool Group::fits(const RowView& row) const {
-  return std::isfinite(row.time) && row.words.size() == m_next.layout->words &&
-         row.values.size() == m_next.layout->values;
-}
-
-bool Group::put(const RowView& row) {
+Group::Put Group::put(const RowView& row) {
+  const std::lock_guard lock(m_write);
+  const Layout& layout = *m_next.layout;
+  if (!std::isfinite(row.time) || row.words.size() != layout.words ||
+      row.values.size() != layout.values) {
+    return Put::Refused;
+  }
+  if (m_any && row.time < m_lastTime) return Put::GoesBack;
   m_lastTime = row.time;
   m_any = true;
-  return m_staging->put(row, *m_next.layout);
+  return m_staging->put(row, layout) ? Put::Done : Put::BlockFull;
 }
 
 void Group::newStaging() {
@@ -25,27 +27,24 @@ void Group::newStaging() {
 }
 
 void Group::addBlock() {
-  m_next.blocks.push_back(Chunk::ofStaging(*m_staging, *m_next.layout));
-  m_bytes += m_next.blocks.back()->bytes();
+  m_next.blocks.emplace_back(Chunk::ofStaging(*m_staging, *m_next.layout));
+  m_bytes += m_next.blocks.back().chunk->bytes();
   newStaging();
   if (m_next.blocks.size() < chunkBlocks) return;
-  auto full = std::make_shared<ChunkList>();
-  full->chunks.reserve(m_next.full->chunks.size() + 1);
-  full->firstTimes.reserve(m_next.full->chunks.size() + 1);
-  full->chunks = m_next.full->chunks;
-  full->firstTimes = m_next.full->firstTimes;
-  full->chunks.push_back(Chunk::join(m_next.blocks, *m_next.layout));
-  full->firstTimes.push_back(full->chunks.back()->times()[0]);
-  for (const auto& block : m_next.blocks) m_bytes -= block->bytes();
-  m_bytes += full->chunks.back()->bytes();
+  auto full = std::make_shared<Units>();
+  full->reserve(m_next.full->size() + 1);
+  *full = *m_next.full;
+  full->emplace_back(Chunk::join(m_next.blocks, *m_next.layout));
+  for (const Unit& block : m_next.blocks) m_bytes -= block.chunk->bytes();
+  m_bytes += full->back().chunk->bytes();
   m_next.full = std::move(full);
   m_next.blocks.clear();
 }
 
 void Group::countBytes() {
   m_bytes = m_staging->bytes;
-  for (const auto& chunk : m_next.full->chunks) m_bytes += chunk->bytes();
-  for (const auto& chunk : m_next.blocks) m_bytes += chunk->bytes();
+  for (const Unit& unit : *m_next.full) m_bytes += unit.chunk->bytes();
+  for (const Unit& unit : m_next.blocks) m_bytes += unit.chunk->bytes();
 }
 
 void Group::publish() {
@@ -57,20 +56,22 @@ void Group::publish() {
 }
 
 void Group::closeBlock() {
+  const std::lock_guard lock(m_write);
+  if (m_staging->rows.load(std::memory_order_relaxed) < blockRows) return;   // cleared meanwhile
   addBlock();
   publish();
 }
 
 void Group::truncate(double time) {
+  const std::lock_guard lock(m_write);
   const auto now = view();
   const std::size_t keep = now->rowsBefore(time);
-  const std::size_t fullRows = m_next.full->chunks.size() * chunkRows;
+  const std::size_t fullRows = m_next.full->size() * chunkRows;
   const std::size_t wholeRows = keep < fullRows ? keep / chunkRows * chunkRows
                                                 : fullRows + (keep - fullRows) / blockRows * blockRows;
   if (wholeRows < fullRows) {
-    auto full = std::make_shared<ChunkList>(*m_next.full);
-    full->chunks.resize(wholeRows / chunkRows);
-    full->firstTimes.resize(wholeRows / chunkRows);
+    auto full = std::make_shared<Units>(*m_next.full);
+    full->resize(wholeRows / chunkRows);
     m_next.full = std::move(full);
     m_next.blocks.clear();
   } else {
@@ -91,7 +92,12 @@ void Group::truncate(double time) {
 }
 
 void Group::clear() {
-  m_next.full = std::make_shared<ChunkList>();
+  const std::lock_guard lock(m_write);
+  empty();
+}
+
+void Group::empty() {
+  m_next.full = std::make_shared<Units>();
   m_next.blocks.clear();
   newStaging();
   countBytes();
@@ -100,26 +106,24 @@ void Group::clear() {
 }
 
 void Group::setLayout(std::shared_ptr<const Layout> layout) {
+  const std::lock_guard lock(m_write);
   m_next.layout = std::move(layout);
   publish();
 }
 
 std::optional<double> Group::oldestTime() const {
-  if (!m_next.full->chunks.empty()) return m_next.full->firstTimes.front();
-  if (!m_next.blocks.empty()) return m_next.blocks.front()->times()[0];
+  if (!m_next.full->empty()) return m_next.full->front().first;
+  if (!m_next.blocks.empty()) return m_next.blocks.front().first;
   return std::nullopt;
 }
 
 void Group::dropOldest() {
-  if (m_next.full->chunks.empty()) {
-    m_bytes -= m_next.blocks.front()->bytes();
+  if (m_next.full->empty()) {
+    m_bytes -= m_next.blocks.front().chunk->bytes();
     m_next.blocks.erase(m_next.blocks.begin());
   } else {
-    m_bytes -= m_next.full->chunks.front()->bytes();
-    auto full = std::make_shared<ChunkList>();
-    full->chunks.assign(m_next.full->chunks.begin() + 1, m_next.full->chunks.end());
-    full->firstTimes.assign(m_next.full->firstTimes.begin() + 1, m_next.full->firstTimes.end());
-    m_next.full = std::move(full);
+    m_bytes -= m_next.full->front().chunk->bytes();
+    m_next.full = std::make_shared<Units>(m_next.full->begin() + 1, m_next.full->end());
   }
   publish();
 }

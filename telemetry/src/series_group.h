@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The writer's side of one group. Rows go to the staging block without a lock; every 64 rows the
-// block becomes columns and a new state is published under a lock that is held for a pointer's
-// exchange. Private to the library.
+// The writing side of one group. Rows go to the staging block under a lock of the group, which only
+// who clears or replaces the group could hold otherwise; every 64 rows the block becomes columns and
+// a new state is published under a lock that is held for a pointer's exchange. Private to the
+// library.
 
 #include <mutex>
 
@@ -15,13 +16,12 @@ class Group {
  public:
   explicit Group(std::shared_ptr<const Layout> layout);
 
-  // Writer thread.
-  bool fits(const RowView& row) const;
-  bool goesBack(double time) const { return m_any && time < m_lastTime; }
-  /// False when the staging block is full: closeBlock() is due.
-  bool put(const RowView& row);
+  // The group's writer thread.
+  enum class Put { Done, BlockFull, GoesBack, Refused };
+  /// BlockFull: the row is in, closeBlock() is due. GoesBack: truncate() first, then again.
+  Put put(const RowView& row);
 
-  // Under the store's structure lock (the writer, or who changes the budget).
+  // Under the store's structure lock.
   void closeBlock();
   void truncate(double time);
   void clear();
@@ -38,12 +38,14 @@ class Group {
 
  private:
   void addBlock();
+  void empty();
   void publish();
   void countBytes();
   void newStaging();
 
+  std::mutex m_write;           // of m_staging, m_lastTime, m_any; after the structure lock
   std::shared_ptr<Staging> m_staging;
-  State m_next;                 // what is published next
+  State m_next;                 // what is published next; layout and staging under m_write too
   std::size_t m_bytes = 0;
   double m_lastTime = 0.0;
   bool m_any = false;

@@ -10,9 +10,9 @@
 namespace pitchboard::telemetry {
 
 struct SeriesStore::Impl {
-  // Taken by the writer every 64 rows, and by whoever changes the budget: chunks come and go.
+  // Taken by a writer every 64 rows, and by whoever changes groups or budget: chunks come and go.
   std::mutex structure;
-  // Of the list below, which only grows. The writer alone changes it, so it reads without.
+  // Of the list below, which only grows, and only under `structure`.
   mutable std::shared_mutex listMutex;
   std::vector<std::unique_ptr<series::Group>> groups;
   std::vector<bool> replaced;   // by a group of the same name with other columns
@@ -44,6 +44,12 @@ struct SeriesStore::Impl {
     }
   }
 
+  series::Group* writable(GroupId id) const {
+    const std::shared_lock lock(listMutex);
+    return id < groups.size() && !replaced[id] ? groups[id].get() : nullptr;
+  }
+
+  /// Under one of the locks.
   std::optional<GroupId> find(std::string_view name) const {
     for (GroupId id = 0; id < groups.size(); ++id) {
       if (!replaced[id] && groups[id]->view()->info().name == name) return id;
@@ -60,9 +66,9 @@ SeriesStore::~SeriesStore() = default;
 
 GroupId SeriesStore::addGroup(const GroupInfo& info) {
   Impl& d = *m_impl;
-  const auto known = d.find(info.name);
   auto layout = std::make_shared<const series::Layout>(info);
   const std::lock_guard structure(d.structure);
+  const auto known = d.find(info.name);
   if (known) {
     series::Group& group = *d.groups[*known];
     const auto view = group.view();
@@ -87,21 +93,20 @@ GroupId SeriesStore::addGroup(const GroupInfo& info) {
 
 void SeriesStore::append(GroupId id, const RowView& row) {
   Impl& d = *m_impl;
-  if (id >= d.groups.size() || d.replaced[id] || !d.groups[id]->fits(row)) {
-    d.refused.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  series::Group& group = *d.groups[id];
-  if (group.goesBack(row.time)) {
+  series::Group* const group = d.writable(id);
+  auto done = group ? group->put(row) : series::Group::Put::Refused;
+  if (done == series::Group::Put::GoesBack) {
     const std::lock_guard lock(d.structure);
-    group.truncate(row.time);
+    group->truncate(row.time);
     d.account();
+    done = group->put(row);
   }
-  if (!group.put(row)) {
+  if (done == series::Group::Put::BlockFull) {
     const std::lock_guard lock(d.structure);
-    group.closeBlock();
+    group->closeBlock();
     d.keepBudget();
   }
+  if (done == series::Group::Put::Refused) d.refused.fetch_add(1, std::memory_order_relaxed);
 }
 
 void SeriesStore::clear() {
@@ -119,7 +124,7 @@ std::size_t SeriesStore::groups() const {
 
 std::shared_ptr<const GroupView> SeriesStore::view(GroupId id) const {
   const std::shared_lock lock(m_impl->listMutex);
-  if (id >= m_impl->groups.size() || m_impl->replaced[id]) return nullptr;
+  if (id >= m_impl->groups.size()) return nullptr;
   return m_impl->groups[id]->view();
 }
 

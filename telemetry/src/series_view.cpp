@@ -6,29 +6,21 @@
 namespace pitchboard::telemetry::series {
 
 View::View(std::shared_ptr<const State> state)
-    : m_state(std::move(state)),
-      m_fullUnits(m_state->full->chunks.size()),
-      m_tail(m_state->staging->rows.load(std::memory_order_acquire)),
-      m_rows(m_fullUnits * chunkRows + m_state->blocks.size() * blockRows + m_tail) {}
-
-const Chunk* View::chunk(std::size_t unit) const {
-  if (unit < m_fullUnits) return m_state->full->chunks[unit].get();
-  unit -= m_fullUnits;
-  return unit < m_state->blocks.size() ? m_state->blocks[unit].get() : nullptr;
+    : m_state(std::move(state)), m_fullUnits(m_state->full->size()) {
+  m_tail.rows = m_state->staging->rows.load(std::memory_order_acquire);
+  m_tail.times = m_state->staging->times.get();
+  m_tail.blocks = 1;
+  if (m_tail.rows > 0) {
+    m_tail.first = m_tail.times[0];
+    m_tail.last = m_tail.times[m_tail.rows - 1];
+  }
+  m_rows = m_fullUnits * chunkRows + m_state->blocks.size() * blockRows + m_tail.rows;
 }
 
-const double* View::times(std::size_t unit) const {
-  const Chunk* found = chunk(unit);
-  return found ? found->times() : m_state->staging->times.get();
-}
-
-std::uint32_t View::unitRows(std::size_t unit) const {
-  if (unit < m_fullUnits) return chunkRows;
-  return unit < m_fullUnits + m_state->blocks.size() ? blockRows : m_tail;
-}
-
-double View::firstTime(std::size_t unit) const {
-  return unit < m_fullUnits ? m_state->full->firstTimes[unit] : times(unit)[0];
+const Unit& View::unit(std::size_t number) const {
+  if (number < m_fullUnits) return (*m_state->full)[number];
+  number -= m_fullUnits;
+  return number < m_state->blocks.size() ? m_state->blocks[number] : m_tail;
 }
 
 std::size_t View::firstRow(std::size_t unit) const {
@@ -38,15 +30,15 @@ std::size_t View::firstRow(std::size_t unit) const {
 
 View::Place View::place(std::size_t row) const {
   if (row < m_fullUnits * chunkRows) {
-    return {row / chunkRows, static_cast<std::uint32_t>(row % chunkRows)};
+    return {&(*m_state->full)[row / chunkRows], static_cast<std::uint32_t>(row % chunkRows)};
   }
   row -= m_fullUnits * chunkRows;
-  return {m_fullUnits + row / blockRows, static_cast<std::uint32_t>(row % blockRows)};
+  return {&unit(m_fullUnits + row / blockRows), static_cast<std::uint32_t>(row % blockRows)};
 }
 
 double View::timeOf(std::size_t row) const {
   const Place at = place(row);
-  return times(at.unit)[at.row];
+  return at.unit->times[at.row];
 }
 
 std::optional<TimeRange> View::range() const {
@@ -96,8 +88,7 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
   const Place at = place(number);
   words.resize(layout.words);
   values.resize(layout.values);
-  const Chunk* found = chunk(at.unit);
-  if (!found) {
+  if (!at.unit->columns) {
     const Staging& staging = *m_state->staging;
     std::copy_n(staging.words.get() + std::size_t{at.row} * layout.words, layout.words, words.begin());
     std::copy_n(staging.values.get() + std::size_t{at.row} * layout.values, layout.values,
@@ -105,15 +96,15 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
     return staging.times[at.row];
   }
   for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {
-    const Column& column = found->column(c);
+    const Column& column = at.unit->columns[c];
     const Slot slot = layout.slots[c];
     if (slot.type == ColumnType::Float64) {
-      values[slot.index] = column.at<double>(at.row, found->blocks());
+      values[slot.index] = column.at<double>(at.row, at.unit->blocks);
     } else {   // bit patterns: the type of the words does not matter
-      words[slot.index] = column.at<std::uint32_t>(at.row, found->blocks());
+      words[slot.index] = column.at<std::uint32_t>(at.row, at.unit->blocks);
     }
   }
-  return found->times()[at.row];
+  return at.unit->times[at.row];
 }
 
 std::optional<double> View::lastChange(std::uint32_t column) const {

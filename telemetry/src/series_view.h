@@ -10,17 +10,11 @@
 
 namespace pitchboard::telemetry::series {
 
-/// Chunks of 4096 rows, with their first times side by side for the search.
-struct ChunkList {
-  std::vector<std::shared_ptr<const Chunk>> chunks;
-  std::vector<double> firstTimes;
-};
-
 struct State {
   std::shared_ptr<const Layout> layout;
-  std::shared_ptr<const ChunkList> full;                // never null
-  std::vector<std::shared_ptr<const Chunk>> blocks;     // at most 63
-  std::shared_ptr<const Staging> staging;               // never null
+  std::shared_ptr<const Units> full;          // 4096 rows each; never null
+  Units blocks;                               // 64 rows each, at most 63
+  std::shared_ptr<const Staging> staging;     // never null
 };
 
 class View final : public GroupView {
@@ -48,20 +42,17 @@ class View final : public GroupView {
              std::vector<double>& values) const;
 
  private:
-  // A unit is a chunk, a block or the published part of the staging block; they are numbered in
-  // order of time.
   struct Place {
-    std::size_t unit = 0;
+    const Unit* unit = nullptr;
     std::uint32_t row = 0;
   };
+  struct Ahead;        // prefetches
   template <bool After>
   struct Search;       // walks forward through ascending times
 
-  std::size_t units() const { return m_fullUnits + m_state->blocks.size() + (m_tail > 0 ? 1 : 0); }
-  const Chunk* chunk(std::size_t unit) const;   // null: the staging block
-  const double* times(std::size_t unit) const;
-  std::uint32_t unitRows(std::size_t unit) const;
-  double firstTime(std::size_t unit) const;
+  // Units are numbered in order of time: chunks, blocks, the staging block.
+  std::size_t units() const { return m_fullUnits + m_state->blocks.size() + (m_tail.rows > 0 ? 1 : 0); }
+  const Unit& unit(std::size_t number) const;
   std::size_t firstRow(std::size_t unit) const;
   Place place(std::size_t row) const;
   double timeOf(std::size_t row) const;
@@ -81,7 +72,7 @@ class View final : public GroupView {
 
   std::shared_ptr<const State> m_state;
   std::size_t m_fullUnits = 0;
-  std::uint32_t m_tail = 0;     // published rows of the staging block
+  Unit m_tail;                  // the staging block
   std::size_t m_rows = 0;
 };
 

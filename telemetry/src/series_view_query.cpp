@@ -19,12 +19,17 @@ void View::buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket
   }
   withType(m_state->layout->slots[column].type, [&](auto zero) {
     using T = decltype(zero);
-    const auto parts = static_cast<double>(out.size());
+    const auto border = [&, parts = static_cast<double>(out.size())](std::size_t i) {
+      return std::lerp(range.begin, range.end, static_cast<double>(i) / parts);
+    };
+    const std::size_t start = Search<false>(*this, range.begin).unit;
+    Ahead far{*this, column, start}, near{*this, column, start};
     Search<false> search(*this, range.begin);
     std::size_t begin = search(range.begin);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const double share = static_cast<double>(i + 1) / parts;
-      const std::size_t end = search(std::lerp(range.begin, range.end, share));
+      far.wantTimes(border(i + 16));
+      near.wantValues<T>(border(i + 8));
+      const std::size_t end = search(border(i + 1));
       if (end == begin) continue;
       SeriesBucket& bucket = out[i];
       bucket.samples = static_cast<std::uint32_t>(

@@ -19,7 +19,7 @@ struct View::Search {
     std::size_t low = 0, high = end;
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      if (before(view.firstTime(middle), start)) low = middle + 1;
+      if (before(view.unit(middle).first, start)) low = middle + 1;
       else high = middle;
     }
     unit = low == 0 ? 0 : low - 1;
@@ -27,14 +27,14 @@ struct View::Search {
 
   std::size_t operator()(double time) {
     if (end == 0) return 0;
-    while (unit + 1 < end && before(view.firstTime(unit + 1), time)) ++unit;
-    const double* times = view.times(unit);
-    const std::uint32_t rows = view.unitRows(unit);
-    if (!before(times[0], time)) return view.firstRow(unit);
-    if (before(times[rows - 1], time)) return view.firstRow(unit) + rows;
+    while (unit + 1 < end && before(view.unit(unit + 1).first, time)) ++unit;
+    const Unit& in = view.unit(unit);
+    const double* times = in.times;
+    if (!before(in.first, time)) return view.firstRow(unit);
+    if (before(in.last, time)) return view.firstRow(unit) + in.rows;
     // times[low] is before, times[high] is not.
-    std::uint32_t low = 0, high = rows - 1;
-    const double share = (time - times[0]) / (times[high] - times[0]);
+    std::uint32_t low = 0, high = in.rows - 1;
+    const double share = (time - in.first) / (in.last - in.first);
     auto guess = static_cast<std::uint32_t>(share * high);   // 0 to 1: time lies between
     guess = std::clamp(guess, low, high);
     if (before(times[guess], time)) {
@@ -66,7 +66,42 @@ struct View::Search {
  private:
   static bool before(double rowTime, double time) { return After ? rowTime <= time : rowTime < time; }
   const View& view;
-  std::size_t end, unit;
+  std::size_t end;
+
+ public:
+  std::size_t unit;
+};
+
+/// Asks the processor for the memory that a bucket's border will need, some buckets before it is
+/// looked at: of ten million rows nearly every border is a wait for memory.
+struct View::Ahead {
+  const View& view;
+  std::uint32_t column;
+  std::size_t number = 0;
+
+  /// About where the row of this time is; times ascend. Calls `pass` for every unit on the way.
+  template <class Pass>
+  Place guess(double time, const Pass& pass) {
+    const std::size_t end = view.units();
+    while (number + 1 < end && view.unit(number + 1).first < time) pass(view.unit(++number));
+    const Unit& in = view.unit(number);
+    const double share = (time - in.first) / (in.last - in.first);
+    if (!in.columns || !(share > 0.0)) return {&in, 0};
+    return {&in, static_cast<std::uint32_t>(std::min(share, 1.0) * (in.rows - 1))};
+  }
+  void wantTimes(double time) {
+    const Place at = guess(time, [&](const Unit& unit) {
+      if (unit.columns) __builtin_prefetch(unit.columns + column);
+    });
+    __builtin_prefetch(at.unit->times + at.row);
+  }
+  template <class T>
+  void wantValues(double time) {
+    const Place at = guess(time, [&](const Unit& unit) {
+      if (unit.columns) unit.columns[column].want();
+    });
+    if (at.unit->columns) at.unit->columns[column].want<T>(at.row, at.unit->blocks);
+  }
 };
 
 template <class T>
@@ -83,26 +118,25 @@ T View::stagedValue(std::uint32_t column, std::uint32_t row) const {
 template <class T>
 T View::value(std::uint32_t column, std::size_t row) const {
   const Place at = place(row);
-  const Chunk* found = chunk(at.unit);
-  return found ? found->column(column).at<T>(at.row, found->blocks())
-               : stagedValue<T>(column, at.row);
+  return at.unit->columns ? at.unit->columns[column].at<T>(at.row, at.unit->blocks)
+                          : stagedValue<T>(column, at.row);
 }
 
 template <class T>
 void View::minMax(std::uint32_t column, std::size_t begin, std::size_t end, MinMax<T>& out) const {
   while (begin < end) {
-    const Place at = place(begin);
-    const auto stop = static_cast<std::uint32_t>(
-        std::min<std::size_t>(unitRows(at.unit), at.row + (end - begin)));
-    if (const Chunk* found = chunk(at.unit)) {
-      found->column(column).range<T>(at.row, stop, found->blocks(), out);
+    const auto [unit, first] = place(begin);
+    const auto stop =
+        static_cast<std::uint32_t>(std::min<std::size_t>(unit->rows, first + (end - begin)));
+    if (unit->columns) {
+      unit->columns[column].range<T>(first, stop, unit->blocks, out);
     } else {
-      for (std::uint32_t row = at.row; row < stop; ++row) {
+      for (std::uint32_t row = first; row < stop; ++row) {
         const T v = stagedValue<T>(column, row);
         out.add(v, v);
       }
     }
-    begin += stop - at.row;
+    begin += stop - first;
   }
 }
 
@@ -114,21 +148,20 @@ void View::runs(std::uint32_t column, std::size_t begin, std::size_t end, const 
     const Place at = place(begin);
     const std::uint32_t inBlock = at.row % blockRows;
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(
-        end - begin, std::min(unitRows(at.unit) - at.row, blockRows - inBlock)));
-    const double* times = this->times(at.unit) + at.row;
-    const Chunk* found = chunk(at.unit);
+        end - begin, std::min(at.unit->rows - at.row, blockRows - inBlock)));
+    const double* times = at.unit->times + at.row;
     bool more = true;
-    if (!found) {
+    if (!at.unit->columns) {
       std::array<T, blockRows> staged;
       for (std::uint32_t i = 0; i < count; ++i) staged[i] = stagedValue<T>(column, at.row + i);
       more = work(times, staged.data(), T{}, count);
     } else {
-      const Column& data = found->column(column);
+      const Column& data = at.unit->columns[column];
       const std::uint32_t block = at.row / blockRows;
       if (!data.isConstant() && data.isRaw(block)) {
-        more = work(times, data.raw<T>(block, found->blocks()) + inBlock, T{}, count);
+        more = work(times, data.raw<T>(block, at.unit->blocks) + inBlock, T{}, count);
       } else {
-        more = work(times, static_cast<const T*>(nullptr), data.at<T>(at.row, found->blocks()),
+        more = work(times, static_cast<const T*>(nullptr), data.at<T>(at.row, at.unit->blocks),
                     count);
       }
     }
@@ -147,11 +180,10 @@ std::size_t View::lastChangedRow(std::uint32_t column) const {
   std::size_t row = m_rows - 1;   // has the last value, and so have all after it
   while (row > 0) {
     const Place before = place(row - 1);
-    const Chunk* found = chunk(before.unit);
+    const Column* kept = before.unit->columns ? before.unit->columns + column : nullptr;
     std::uint32_t begin = before.row;   // rows [begin, before.row] of the unit have one value
-    if (found && found->column(column).isConstant()) begin = 0;
-    else if (found && !found->column(column).isRaw(before.row / blockRows))
-      begin = before.row / blockRows * blockRows;
+    if (kept && kept->isConstant()) begin = 0;
+    else if (kept && !kept->isRaw(before.row / blockRows)) begin = before.row / blockRows * blockRows;
     if (!same(value<T>(column, row - 1), last)) return row;
     row -= before.row - begin + 1;
   }

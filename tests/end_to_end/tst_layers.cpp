@@ -25,7 +25,7 @@ const QList<Layer>& layers() {
       {"simcore/base", {"base/"}, {"Random123/", "tl/"}},
       {"simcore", {"base/", "simcore/"}, {"Eigen/", "box2d/", "tl/", "Random123/"}},
       // Profiles of the text protocol are JSON files, and the published one is a resource.
-      {"telemetry", {"base/", "telemetry/", "resources/"}, {"nlohmann/", "tl/", "zstd.h"}},
+      {"telemetry", {"base/", "telemetry/", "resources/"}, {"nlohmann/", "tl/", "zlib.h", "zstd.h"}},
       {"resources", {"resources/"}, {}},
       {"robotlink",
        {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},

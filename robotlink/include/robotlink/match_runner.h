@@ -30,6 +30,9 @@ class TickObserver {
   virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
   /// Before ticked() of the tick in which they happened.
   virtual void happened(std::span<const sim::Event> /*events*/) {}
+  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on from
+  /// here and not from what ticked() has shown. Before the ticked() of a match that stands still.
+  virtual void worldChanged(const SimulatedMatch& /*match*/) {}
   virtual void logged(const LogLine& /*line*/) {}
 };
 

@@ -40,6 +40,8 @@ struct MatchOptions {
   bool thoughts = false;             ///< hear particles and paths, for display
 };
 
+struct Moment;
+
 class SimulatedMatch {
  public:
   /// Fails with the reason, and leaves no segment and no process behind. `catalog` must outlive the
@@ -71,6 +73,10 @@ class SimulatedMatch {
   /// processes, or takes what separate ones have sent.
   std::vector<RobotThoughts> thoughts();
   const RobotVariables& variables() const { return m_variables; }
+  const VariableCatalog& catalog() const { return *m_catalog; }
+  /// What the bridge read before the last tick, in the order of the simulation's robots (a robot that
+  /// came since has the default). With it and the state before, that tick can be repeated.
+  std::span<const sim::RobotCommand> commands() const { return m_commands; }
   ProcessSupervisor& supervisor() { return *m_supervisor; }
   const ProcessSupervisor& supervisor() const { return *m_supervisor; }
 
@@ -88,6 +94,12 @@ class SimulatedMatch {
   Result<void> setIdentity(const sim::RobotIdentity& identity);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
+
+  /// Puts a recorded moment back exactly: robots come and go until they are those of the moment, and
+  /// what is known of their blackboards is written. Stepping on repeats what followed as long as the
+  /// robots are told the same; what their processes remember is not part of a moment. Errors leave
+  /// the match as it was.
+  Result<void> reenter(const Moment& moment);
 
   /// The present moment as a scenario that starts from it. Scripted writes of the past are kept at
   /// time 0, each variable's last; what processes remember is not part of it.

@@ -3,8 +3,8 @@
 
 // The recent past of a source in memory: rows of every group, columnar in chunks, with min/max
 // summaries so that drawing costs what it shows and not what there is. Memory has a budget; the
-// oldest chunks leave first. One writer thread; any number of readers on other threads, which work on
-// immutable views and never make the writer wait for a query.
+// oldest chunks leave first. One writer thread for each group; any number of readers on other threads,
+// which work on immutable views and never make a writer wait for a query.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include <telemetry/row_sink.h>
 #include <telemetry/series_types.h>
 
 namespace pitchboard::telemetry {
@@ -82,21 +83,21 @@ class GroupView {
   virtual SeriesStatistics statistics(std::uint32_t column, TimeRange range) const = 0;
 };
 
-class SeriesStore {
+class SeriesStore : public RowSink {
  public:
   explicit SeriesStore(SeriesOptions options = {});
-  ~SeriesStore();
+  ~SeriesStore() override;
   SeriesStore(const SeriesStore&) = delete;
   SeriesStore& operator=(const SeriesStore&) = delete;
 
-  // Writer thread only.
+  // Any thread, but the rows of one group come from one thread at a time.
   /// A group of this name with the same columns is taken up again (its rows stay); with other
   /// columns it starts empty under a new id.
-  GroupId addGroup(const GroupInfo& info);
+  GroupId addGroup(const GroupInfo& info) override;
   /// Rows of one group in order of time; equal times are kept in order. A time before the last one
   /// means that the source was put back: the rows at and after the new time are dropped first.
   /// A row of an unknown group, of another width, or whose time is not finite is refused and counted.
-  void append(GroupId group, const RowView& row);
+  void append(GroupId group, const RowView& row) override;
   /// Forgets every row; the groups stay.
   void clear();
 
@@ -104,7 +105,8 @@ class SeriesStore {
   /// Grows whenever groups came (lists are then to be read anew).
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;
-  /// Null for an id that is unknown, or whose group was replaced by one with other columns.
+  /// Null for an id that was never given. A group that was replaced by one with other columns stays,
+  /// empty; findGroup() gives the other one.
   std::shared_ptr<const GroupView> view(GroupId group) const;
   std::optional<GroupId> findGroup(std::string_view name) const;
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;

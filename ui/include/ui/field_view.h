@@ -33,6 +33,8 @@ class FieldView : public QWidget {
   ~FieldView() override;
 
   void showFrame(const FramePtr& frame);
+  /// Another source's view of the same robots, drawn beside them with the difference; null: none.
+  void showOther(const FramePtr& frame);
 
   std::vector<RobotId> selection() const;
   void select(const std::vector<RobotId>& ids);

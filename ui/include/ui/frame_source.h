@@ -4,9 +4,11 @@
 // Where frames and rows come from: a simulated match, live robots, a recorded session. Field, cards,
 // inspector, plots and timeline take them from here and do not know which kind it is. UI thread only.
 
+#include <QDateTime>
 #include <QObject>
 #include <QString>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <robotlink/match_frame.h>
@@ -17,6 +19,8 @@ class SeriesStore;
 }
 
 namespace pitchboard::ui {
+
+class Playback;
 
 using FramePtr = std::shared_ptr<const link::MatchFrame>;
 
@@ -35,6 +39,12 @@ class FrameSource : public QObject {
   virtual std::shared_ptr<const telemetry::SeriesStore> series() const = 0;
   /// What to say in place of robots while there are none: a sentence or two.
   virtual QString emptyText() const = 0;
+  /// The moment at or before this time (s), from what the source remembers; null when it does not.
+  virtual FramePtr frameAt(double /*time*/) const { return nullptr; }
+  /// Time of day at second 0, where the source has one.
+  virtual std::optional<QDateTime> clock() const { return {}; }
+  /// What moves in a recording; null for a source that goes on by itself.
+  virtual Playback* playback() const { return nullptr; }
 
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);

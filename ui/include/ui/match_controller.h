@@ -23,7 +23,16 @@
 class QTimer;
 class QUndoStack;
 
+namespace pitchboard::link {
+class MatchSampler;
+}
+namespace pitchboard::telemetry {
+class RowSink;
+}
+
 namespace pitchboard::ui {
+
+class MatchRows;
 
 /// A robot and where it is to stand; for moving several at once.
 struct RobotPlacement {
@@ -60,6 +69,11 @@ class MatchController : public FrameSource {
   link::Cognition cognition() const { return m_cognition; }
   /// What the next match is made with.
   const link::MatchOptions& options() const { return m_options; }
+  /// Names of the blackboards' words, for the next match on; the published ones at first.
+  void setCatalog(std::shared_ptr<const link::VariableCatalog> catalog);
+  const link::VariableCatalog& nextCatalog() const { return *m_nextCatalog; }
+  /// Those of the match that is open or being opened.
+  const link::VariableCatalog& catalog() const { return *m_catalog; }
 
   // Transport.
   void setPaused(bool paused);
@@ -91,6 +105,15 @@ class MatchController : public FrameSource {
   /// Writes DECISION_ACTION_A (and B when given) as the decision process would.
   void commandAction(RobotId id, int actionA, std::optional<int> actionB = {});
   void commandSearch(RobotId id, bool on);
+  /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
+  void setSampling(int everyNth);
+  int sampling() const { return m_everyNth; }
+  /// Where other blackboards of this computer are sampled to: their rows get the match's time. Another
+  /// one after `restarted`; null while there is no match.
+  std::shared_ptr<telemetry::RowSink> rowsBeside() const;
+  /// Writes one word of the robot's blackboard between two ticks, as any process could; `value` is
+  /// converted to the variable's type. `variableWritten` follows, or `errorOccurred`.
+  void writeVariable(RobotId id, const QString& name, double value);
   void setNoise(const sim::NoiseParameters& noise);
   void setRigidBody(const sim::RigidBodySettings& settings);
   /// The model of motion and collisions: starts the present moment anew with it.
@@ -116,6 +139,8 @@ class MatchController : public FrameSource {
   void opened();             ///< it is there, or failed
   void transportChanged();   ///< paused, speed, or whether there is a match
   void errorOccurred(const QString& sentence);
+  /// `time`: of the tick after which it was written, simulated s.
+  void variableWritten(pitchboard::RobotId id, const QString& name, double time);
 
  private:
   friend class AddRobotCommand;
@@ -147,9 +172,12 @@ class MatchController : public FrameSource {
   link::Cognition m_cognition = link::Cognition::Inline;
   link::Scenario m_scenario;
   std::map<RobotId, link::ScenarioRobot> m_robots;   // present, or about to be
-  std::unique_ptr<link::MatchRunner> m_runner;
+  std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
+  std::shared_ptr<link::MatchRunner> m_runner;   // keeps its catalog
   FramePtr m_frame;
-  std::shared_ptr<telemetry::SeriesStore> m_series;
+  std::shared_ptr<MatchRows> m_rows;
+  std::shared_ptr<link::MatchSampler> m_sampler;
+  int m_everyNth = 1;
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;

@@ -8,16 +8,21 @@
 #include <Qt>
 #include <span>
 
+class QSettings;
 class QWidget;
 
 namespace pitchboard::ui {
 
 class FieldView;
 class LinkedTime;
+class LiveController;
+class LiveOverlay;
 class MatchController;
 class PlotTarget;
 class RobotSelection;
 class SourceSwitch;
+class Timeline;
+class TimelineActions;
 
 /// What a dock may use; everything outlives it.
 struct StudioContext {
@@ -26,7 +31,12 @@ struct StudioContext {
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
   LinkedTime* time = nullptr;             ///< visible range, cursor and marks of plots and timeline
+  QSettings* settings = nullptr;          ///< the user's; may be null
   PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
+  Timeline* timeline = nullptr;           ///< the moment shown, events, looking back
+  TimelineActions* timelineActions = nullptr;
+  LiveController* live = nullptr;         ///< listens once it was asked to
+  LiveOverlay* overlay = nullptr;         ///< the other source drawn beside the shown one
 };
 
 struct DockInfo {
@@ -36,6 +46,7 @@ struct DockInfo {
   bool shownAtFirst;
   int extent;                  ///< width (left, right) or height (bottom) at first, mock pixels
   QWidget* (*make)(const StudioContext& context, QWidget* parent);
+  bool ownRow = false;         ///< bottom: below the tabs, without a title while docked
 };
 
 std::span<const DockInfo> studioDocks();

@@ -6,13 +6,17 @@
 #include <QDockWidget>
 #include <QScreen>
 #include <QSettings>
+#include <QUndoGroup>
 #include <QVBoxLayout>
 
 #include <ui/field_view.h>
+#include <ui/live_controller.h>
 #include <ui/match_controller.h>
 #include <ui/scenario_files.h>
 
 #include "dock_list.h"
+#include "live/live_overlay.h"
+#include "live/live_settings.h"
 #include "dock_title.h"
 #include "menus.h"
 #include "notice_bar.h"
@@ -24,20 +28,29 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/looking_back_sign.h"
+#include "timeline/timeline.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
 // Raised when docks come or go in a way that older layouts cannot describe.
-constexpr int layoutVersion = 1;
+constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
 const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
 
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
-    : QMainWindow(parent), m_controller(controller), m_settings(settings),
-      m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)),
-      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)) {
+    : QMainWindow(parent), m_controller(controller), m_live(new LiveController(this)),
+      m_settings(settings), m_source(new SourceSwitch(controller, this)),
+      m_undo(new QUndoGroup(this)), m_selection(new RobotSelection(this)),
+      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
+      m_timeline(new Timeline(m_source, this)),
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
+  m_source->add(m_live);
+  m_undo->addStack(controller->undoStack());
+  m_undo->setActiveStack(controller->undoStack());
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -49,6 +62,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->setSpacing(0);
   m_notices = new NoticeBar(centre);
   m_field = new FieldView(m_source, controller, centre);
+  m_overlay = new LiveOverlay(controller, m_live, m_source, m_field, this);
   column->addWidget(m_notices);
   column->addWidget(m_field, 1);
   setCentralWidget(centre);
@@ -64,14 +78,26 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
+    new LookingBackSign(m_timeline, canvas);
   }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_live, &LiveController::errorOccurred, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_source, &SourceSwitch::changed, this, [this] {
+    const bool editable = m_source->kind() == SourceKind::Simulate;
+    m_undo->setActiveStack(editable ? m_controller->undoStack() : nullptr);
+    m_selection->set({});
+  });
   connect(m_files, &ScenarioFiles::failed, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files,
           &ScenarioFiles::askAndOpen);
+  const LiveSettings live = loadLiveSettings(*settings);
+  m_live->setOptions(live.options);
+  if (!live.problem.isEmpty()) m_notices->show(tr("Live: %1").arg(live.problem));
   restoreLayout();
   m_field->setFocus();
 }
@@ -79,7 +105,15 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_time, m_plots};
+  return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
+          m_timelineActions, m_live, m_overlay};
+}
+
+void MainWindow::showSource(SourceKind kind) {
+  FrameSource* source = m_source->find(kind);
+  if (source == nullptr) return;
+  if (kind == SourceKind::Live) m_live->start();
+  m_source->choose(source);
 }
 
 void MainWindow::makeDocks() {
@@ -98,11 +132,12 @@ void MainWindow::makeDocks() {
   }
 }
 
-// A tab says the name already.
+// A tab says the name already, and the timeline its times.
 void MainWindow::showTitles() {
-  for (QDockWidget* dock : m_docks) {
-    static_cast<DockTitle*>(dock->titleBarWidget())
-        ->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
   }
 }
 
@@ -138,20 +173,30 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::resetLayout() {
   const auto infos = studioDocks();
-  QDockWidget* bottom = nullptr;
+  const auto isBottom = [&infos](std::size_t i) {
+    return infos[i].area == Qt::BottomDockWidgetArea;
+  };
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
   QDockWidget* firstBottom = nullptr;
   for (std::size_t i = 0; i < infos.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    addDockWidget(infos[i].area, m_docks[i]);
+    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].ownRow && firstBottom != nullptr) {
+      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+    }
+  }
+  QDockWidget* bottom = firstBottom;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
     QDockWidget* dock = m_docks[i];
-    dock->setFloating(false);
-    addDockWidget(infos[i].area, dock);
-    if (infos[i].area == Qt::BottomDockWidgetArea) {
-      if (bottom != nullptr) tabifyDockWidget(bottom, dock);
-      else firstBottom = dock;
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
+      tabifyDockWidget(bottom, dock);
       bottom = dock;
     }
     dock->setVisible(infos[i].shownAtFirst);
-    resizeDocks({dock}, {scaled(this, infos[i].extent)},
-                infos[i].area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)}, isBottom(i) ? Qt::Vertical : Qt::Horizontal);
   }
   if (firstBottom != nullptr) firstBottom->raise();
 }

@@ -158,6 +158,34 @@ void MatchController::commandSearch(RobotId id, bool on) {
   });
 }
 
+void MatchController::writeVariable(RobotId id, const QString& name, double value) {
+  const link::Variable* variable = m_catalog->find(name.toStdString());
+  const QString failed = tr("%1 is not written").arg(name);
+  if (variable == nullptr) {
+    emit errorOccurred(tr("%1: this match's catalog has no such variable.").arg(failed));
+    return;
+  }
+  postChecked(failed, [this, id, name, value, type = variable->type, index = variable->index,
+                       generation = m_generation.load()](
+                          link::SimulatedMatch& match) -> Result<void> {
+    link::Blackboard* board = match.blackboard(id);
+    if (board == nullptr) {
+      return failure(ErrorCode::NotFound, "the robot is not on the field any more");
+    }
+    if (type == link::VariableType::Int) {
+      board->write(link::IntVar{index}, static_cast<int>(value));
+    } else {
+      board->write(link::FloatVar{index}, static_cast<float>(value));
+    }
+    const sim::WorldState& state = match.simulation().state();
+    const double time = static_cast<double>(state.tick) / state.settings.tickRate;
+    QMetaObject::invokeMethod(this, [this, id, name, time, generation] {
+      if (generation == m_generation) emit variableWritten(id, name, time);
+    }, Qt::QueuedConnection);
+    return {};
+  });
+}
+
 void MatchController::setNoise(const sim::NoiseParameters& noise) {
   postChecked(tr("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
     return match.simulation().setNoise(noise);

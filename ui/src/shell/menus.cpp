@@ -7,7 +7,7 @@
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QSettings>
-#include <QUndoStack>
+#include <QUndoGroup>
 
 #include <ui/field_view.h>
 #include <ui/main_window.h>
@@ -15,9 +15,12 @@
 #include <ui/scenario_files.h>
 
 #include "help_windows.h"
+#include "live/live_overlay.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
+#include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
@@ -36,7 +39,15 @@ void StudioMenus::make() {
   makeEdit();
   makeView();
   makeSimulation();
+  makeTimeline();
   makeHelp();
+}
+
+void StudioMenus::onlyWhenSimulating(QAction* action) {
+  SourceSwitch* source = m_window.m_source;
+  QObject::connect(source, &SourceSwitch::changed, action, [action, source] {
+    action->setEnabled(source->kind() == SourceKind::Simulate);
+  });
 }
 
 void StudioMenus::makeFile() {
@@ -55,9 +66,10 @@ void StudioMenus::makeFile() {
     recent->setToolTipsVisible(true);
     recent->setEnabled(!recent->isEmpty());
   });
-  withIcon(menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
-                           &ScenarioFiles::askAndSave),
-           "document-save", QKeySequence::Save);
+  QAction* save = menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
+                                  &ScenarioFiles::askAndSave);
+  withIcon(save, "document-save", QKeySequence::Save);
+  onlyWhenSimulating(save);
   withIcon(menu->addAction(QObject::tr("Export &picture…"), files,
                            &ScenarioFiles::askAndExportPicture),
            "document-export");
@@ -70,15 +82,16 @@ void StudioMenus::makeEdit() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Edit"));
   MatchController* controller = m_window.m_controller;
   RobotSelection* selection = m_window.m_selection;
-  QAction* undo = controller->undoStack()->createUndoAction(&m_window, QObject::tr("Undo"));
-  QAction* redo = controller->undoStack()->createRedoAction(&m_window, QObject::tr("Redo"));
+  SourceSwitch* source = m_window.m_source;
+  QAction* undo = m_window.m_undo->createUndoAction(&m_window, QObject::tr("Undo"));
+  QAction* redo = m_window.m_undo->createRedoAction(&m_window, QObject::tr("Redo"));
   menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
   menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
   menu->addSeparator();
   withIcon(menu->addAction(QObject::tr("Select &all robots"), selection,
-                           [controller, selection] {
+                           [source, selection] {
                              std::vector<RobotId> all;
-                             if (const FramePtr frame = controller->frame()) {
+                             if (const FramePtr frame = source->frame()) {
                                for (const auto& robot : frame->snapshot.robots) {
                                  all.push_back(robot.identity.id);
                                }
@@ -93,8 +106,9 @@ void StudioMenus::makeEdit() {
       [controller, selection] { controller->removeRobots(selection->ids()); });
   withIcon(remove, "edit-delete");
   remove->setEnabled(false);
-  QObject::connect(selection, &RobotSelection::changed, remove,
-                   [remove](const auto& ids) { remove->setEnabled(!ids.empty()); });
+  QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
+    remove->setEnabled(!ids.empty() && source->kind() == SourceKind::Simulate);
+  });
 }
 
 void StudioMenus::makeThemes(QMenu* menu) {
@@ -126,6 +140,12 @@ void StudioMenus::makeView() {
   layers->addSeparator();
   for (QAction* action : m_window.m_field->layerOptionActions()) layers->addAction(action);
   for (QAction* action : m_window.m_field->viewActions()) menu->addAction(action);
+  QAction* overlay = menu->addAction(QObject::tr("Overlay what is &heard live"));
+  overlay->setObjectName(QStringLiteral("liveOverlay"));
+  overlay->setCheckable(true);
+  m_window.m_overlayAction = overlay;
+  overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
+  QObject::connect(overlay, &QAction::toggled, m_window.m_overlay, &LiveOverlay::setOn);
   menu->addSeparator();
   makeThemes(menu->addMenu(QObject::tr("&Theme")));
   menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
@@ -144,13 +164,19 @@ void StudioMenus::makeSimulation() {
   menu->addSeparator();
   QAction* clock = menu->addAction(QObject::tr("Game &clock runs"));
   clock->setCheckable(true);
-  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller] {
+  QObject::connect(menu, &QMenu::aboutToShow, clock,
+                   [clock, controller, source = m_window.m_source] {
     const FramePtr frame = controller->frame();
-    clock->setEnabled(frame != nullptr);
+    clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
     clock->setChecked(frame && frame->snapshot.clockRunning);
   });
   QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
-  menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore);
+  onlyWhenSimulating(
+      menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore));
+}
+
+void StudioMenus::makeTimeline() {
+  m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
 }
 
 void StudioMenus::makeHelp() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+class QAction;
 class QMenu;
 
 namespace pitchboard::ui {
@@ -19,7 +20,10 @@ class StudioMenus {
   void makeView();
   void makeThemes(QMenu* menu);
   void makeSimulation();
+  void makeTimeline();
   void makeHelp();
+  /// Greyed while another source than the simulation is shown.
+  void onlyWhenSimulating(QAction* action);
 
   MainWindow& m_window;
 };

@@ -129,8 +129,8 @@ QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
 QToolButton:pressed, QToolButton:checked { background: @row; border-color: @accent; }
-QToolButton#mode { border-color: @line; background: @button; padding: @4 @12; }
-QToolButton#mode:checked { background: @fill; border-color: @fill; color: white; }
+QToolButton#mode, QToolButton#live { border-color: @line; background: @button; padding: @4 @12; }
+QToolButton#mode:checked, QToolButton#live:checked { background: @fill; border-color: @fill; color: white; }
 QToolButton::menu-indicator { image: none; }
 QStatusBar { border-top: 1px solid @edge; }
 QStatusBar::item { border: none; }

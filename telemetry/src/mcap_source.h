@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The bytes of a file, or bytes in memory, read piece by piece. Plain reads and no memory map: a
+// file that another program cuts while we read it must not end the process. One thread.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <base/result.h>
+
+namespace pitchboard::telemetry {
+
+class McapSource {
+ public:
+  static Result<McapSource> file(const std::string& path);
+  static McapSource memory(std::string bytes);
+  McapSource(McapSource&& other) noexcept;
+  McapSource& operator=(McapSource&&) = delete;
+  ~McapSource();
+
+  std::uint64_t size() const { return m_size; }
+  const std::string& name() const { return m_name; }
+  /// Exactly `count` bytes from `offset`, into `out`. False: they are not there.
+  bool read(std::uint64_t offset, std::size_t count, std::string& out) const;
+  /// At most `count` bytes (fewer at the end); small ones come from a window that is kept. Valid
+  /// until the next call.
+  std::string_view look(std::uint64_t offset, std::size_t count) const;
+
+ private:
+  McapSource() = default;
+  std::size_t readSome(std::uint64_t offset, char* to, std::size_t count) const;
+
+  std::string m_name;
+  std::string m_bytes;
+  int m_descriptor = -1;
+  std::uint64_t m_size = 0;
+  mutable std::string m_window;
+  mutable std::uint64_t m_windowOffset = 0;
+};
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A file that did not exist before, written front to back. Every failure is a sentence that says
+// what to do. One thread.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <base/result.h>
+
+namespace pitchboard::telemetry {
+
+class NewFile {
+ public:
+  /// Error Conflict when the file exists, SystemError when it cannot be made.
+  static Result<NewFile> create(const std::string& path);
+  NewFile(NewFile&& other) noexcept;
+  NewFile& operator=(NewFile&& other) noexcept;
+  ~NewFile();
+
+  /// All or an error; after an error part of the bytes may be in the file.
+  Result<void> write(std::string_view bytes);
+  /// Waits until the disk has everything.
+  Result<void> sync();
+  /// Cuts what was written behind `size`, and gives room that was kept back.
+  void cutAt(std::uint64_t size);
+  /// Asks for room behind the end, so that the last words fit on a disk that becomes full. False: the
+  /// disk has no such room. File systems that cannot keep room say true.
+  bool keepRoom(std::uint64_t bytes);
+  /// Error when the file is no longer in its folder (removed while it was written).
+  Result<void> stillThere() const;
+  Result<void> close();
+
+  std::uint64_t size() const { return m_size; }
+  const std::string& path() const { return m_path; }
+
+ private:
+  NewFile(std::string path, int descriptor) : m_path(std::move(path)), m_descriptor(descriptor) {}
+  tl::unexpected<Error> failed(int reason) const;
+
+  std::string m_path;
+  int m_descriptor = -1;
+  std::uint64_t m_size = 0;
+};
+
+}  // namespace pitchboard::telemetry

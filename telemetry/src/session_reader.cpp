@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/session_reader.h>
+
+#include <algorithm>
+#include <limits>
+#include <list>
+#include <set>
+
+#include "session_format.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+constexpr std::size_t keptChunks = 4;
+constexpr std::size_t mostNotes = 200;
+constexpr int noGroup = -1;
+
+}  // namespace
+
+struct SessionReader::Impl {
+  McapReader file;
+  SessionInfo info;
+  bool described = false;  ///< by metadata of ours that are whole
+  std::vector<SessionGroup> groups;
+  std::vector<session::RowLayout> layouts;
+  struct Use {
+    int group = noGroup;
+    SessionStream stream = SessionStream::Events;
+  };
+  std::vector<Use> useOfChannel;  ///< by channel id
+  std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
+  /// Chunks by their start, and the latest end among the first n.
+  std::vector<std::size_t> byStart;
+  std::vector<std::uint64_t> latestEnd;
+
+  mutable std::vector<std::string> notes;
+  mutable std::set<std::size_t> damaged;
+  struct Kept {
+    std::size_t chunk;
+    std::string body;
+  };
+  mutable std::list<Kept> kept;  ///< newest first
+
+  explicit Impl(McapReader f) : file(std::move(f)) {}
+
+  void note(std::string sentence) const {
+    if (notes.size() < mostNotes) notes.push_back(std::move(sentence));
+  }
+  void takeMetadata();
+  void takeChannels();
+  void takeChunks();
+  void findStart();
+  std::string_view body(std::size_t chunk) const;
+  /// `wanted` in order. False: the visitor or the progress said so.
+  template <class Visit>
+  bool walk(std::uint64_t begin, std::uint64_t end, const std::vector<std::uint16_t>& wanted,
+            const Visit& visit, const std::function<bool(double)>& progress) const;
+  static bool mayHold(const McapChunkInfo& chunk, std::uint16_t channel) {
+    return chunk.channels.empty() ||
+           std::binary_search(chunk.channels.begin(), chunk.channels.end(), channel);
+  }
+  /// The session's time of a row or message that says `source` of itself.
+  static double time(double source, const McapMessage& message) {
+    if (message.logTime == message.publishTime) return source;
+    return source + static_cast<double>(static_cast<std::int64_t>(message.logTime -
+                                                                   message.publishTime)) / 1e9;
+  }
+};
+
+SessionReader::SessionReader(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+SessionReader::SessionReader(SessionReader&&) noexcept = default;
+SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
+SessionReader::~SessionReader() = default;
+
+Result<SessionReader> SessionReader::open(const std::string& path,
+                                          const McapReaderOptions& options) {
+  auto file = McapReader::open(path, options);
+  if (!file) return tl::unexpected(file.error());
+  auto impl = std::make_unique<Impl>(std::move(*file));
+  impl->takeMetadata();
+  impl->takeChannels();
+  impl->takeChunks();
+  impl->findStart();
+  return SessionReader(std::move(impl));
+}
+
+Result<SessionReader> SessionReader::openBytes(std::string bytes,
+                                               const McapReaderOptions& options) {
+  auto file = McapReader::openBytes(std::move(bytes), options);
+  if (!file) return tl::unexpected(file.error());
+  auto impl = std::make_unique<Impl>(std::move(*file));
+  impl->takeMetadata();
+  impl->takeChannels();
+  impl->takeChunks();
+  impl->findStart();
+  return SessionReader(std::move(impl));
+}
+
+void SessionReader::Impl::takeMetadata() {
+  notes = file.problems();
+  int format = 0;
+  for (const McapMetadataInfo& entry : file.metadata()) {
+    if (entry.name != session::metadataName || described) continue;
+    const auto values = file.readMetadata(entry);
+    const auto found = values ? session::infoFromMetadata(*values, format) : std::nullopt;
+    if (!found) {
+      note("At byte " + std::to_string(entry.offset) +
+           ": the description of the session is damaged; it is not used.");
+      continue;
+    }
+    info = *found;
+    described = true;
+  }
+  if (described && format > sessionFormat) {
+    note("This file is of a newer version (format " + std::to_string(format) +
+         "; this program knows " + std::to_string(sessionFormat) +
+         "): what is known is shown.");
+  }
+}
+
+/// Without its description: the first row says when its source began; else times begin at the
+/// first message.
+void SessionReader::Impl::findStart() {
+  if (described) return;
+  if (groups.empty()) {
+    note("This file was not recorded by Pitchboard (it says \"" + file.library().substr(0, 60) +
+         "\"); only what follows Pitchboard's format is shown.");
+  }
+  const auto fits = [](std::uint64_t time) {
+    return static_cast<std::int64_t>(
+        std::min<std::uint64_t>(time, std::numeric_limits<std::int64_t>::max()));
+  };
+  info.start = WallTime(Duration(fits(file.statistics().start)));
+  for (std::size_t i = 0; i < file.chunks().size() && !groups.empty(); ++i) {
+    McapCursor cursor(body(i));
+    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+      if (kind != McapCursor::Kind::Message) continue;
+      const int group = useOfChannel[cursor.message().channel].group;
+      SessionRow row;
+      if (group == noGroup || !layouts[static_cast<std::size_t>(group)].read(
+                                  cursor.message().data, row.time, row.words, row.values)) {
+        continue;
+      }
+      const WallTime moment{Duration(fits(cursor.message().publishTime))};
+      info.start = WallTime(Duration(fits(session::nanoseconds(moment, -row.time))));
+      return;
+    }
+  }
+}
+
+void SessionReader::Impl::takeChannels() {
+  useOfChannel.assign(std::size_t{1} << 16, Use{});
+  for (const auto& [id, channel] : file.channels()) {
+    const auto counted = file.statistics().perChannel.find(id);
+    const std::uint64_t count =
+        counted == file.statistics().perChannel.end() ? 0 : counted->second;
+    if (const auto found = channel.metadata.find(session::groupKey);
+        found != channel.metadata.end() && channel.messageEncoding == "cdr") {
+      if (auto group = session::groupFromJson(found->second)) {
+        useOfChannel[id].group = static_cast<int>(groups.size());
+        layouts.emplace_back(*group);
+        groups.push_back({std::move(*group), count, id});
+        continue;
+      }
+    }
+    const auto stream = std::find_if(
+        session::streams.begin(), session::streams.end(),
+        [&](const session::StreamInfo& known) { return known.topic == channel.topic; });
+    if (stream != session::streams.end() && channel.messageEncoding == "json") {
+      const auto place = static_cast<std::size_t>(stream - session::streams.begin());
+      channelsOfStream[place].push_back(id);
+      useOfChannel[id].stream = static_cast<SessionStream>(place);
+      continue;
+    }
+    const auto schema = file.schemas().find(channel.schema);
+    note("The channel \"" + channel.topic.substr(0, 80) + "\" (" +
+         channel.messageEncoding.substr(0, 20) +
+         (schema == file.schemas().end() ? "" : ", " + schema->second.name.substr(0, 80)) +
+         ") is not known here; its " + std::to_string(count) + " messages are left out.");
+  }
+}
+
+void SessionReader::Impl::takeChunks() {
+  const auto& chunks = file.chunks();
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    if (chunks[i].end != 0 || chunks[i].loose) byStart.push_back(i);
+  }
+  std::stable_sort(byStart.begin(), byStart.end(), [&](std::size_t a, std::size_t b) {
+    return chunks[a].start < chunks[b].start;
+  });
+  std::uint64_t latest = 0;
+  for (const std::size_t chunk : byStart) {
+    latest = std::max(latest, chunks[chunk].end);
+    latestEnd.push_back(latest);
+  }
+}
+
+/// Empty when it is damaged, which is then noted once. Valid until the next call.
+std::string_view SessionReader::Impl::body(std::size_t chunk) const {
+  const auto found = std::find_if(kept.begin(), kept.end(),
+                                  [&](const Kept& one) { return one.chunk == chunk; });
+  if (found != kept.end()) {
+    kept.splice(kept.begin(), kept, found);
+    return kept.front().body;
+  }
+  if (damaged.contains(chunk)) return {};
+  if (kept.size() < keptChunks) {
+    kept.emplace_front();
+  } else {
+    kept.splice(kept.begin(), kept, std::prev(kept.end()));
+  }
+  kept.front().chunk = chunk;
+  if (auto read = file.readChunk(file.chunks()[chunk], kept.front().body); !read) {
+    note(read.error().text());
+    damaged.insert(chunk);
+    kept.pop_front();
+    return {};
+  }
+  return kept.front().body;
+}
+
+const SessionInfo& SessionReader::info() const { return m_impl->info; }
+bool SessionReader::ours() const { return m_impl->described || !m_impl->groups.empty(); }
+bool SessionReader::complete() const { return m_impl->file.indexed(); }
+const std::vector<std::string>& SessionReader::notes() const { return m_impl->notes; }
+std::span<const SessionGroup> SessionReader::groups() const { return m_impl->groups; }
+const McapReader& SessionReader::file() const { return m_impl->file; }
+
+std::optional<SessionRange> SessionReader::range() const {
+  const McapStatistics& statistics = m_impl->file.statistics();
+  if (statistics.messages == 0) return std::nullopt;
+  return SessionRange{seconds(statistics.start), seconds(statistics.end)};
+}
+
+std::uint64_t SessionReader::count(SessionStream stream) const {
+  std::uint64_t sum = 0;
+  const auto& counts = m_impl->file.statistics().perChannel;
+  for (const std::uint16_t id : m_impl->channelsOfStream[static_cast<std::size_t>(stream)]) {
+    if (const auto found = counts.find(id); found != counts.end()) sum += found->second;
+  }
+  return sum;
+}
+
+double SessionReader::seconds(std::uint64_t logTime) const {
+  const auto start = static_cast<std::uint64_t>(m_impl->info.start.time_since_epoch().count());
+  return static_cast<double>(static_cast<std::int64_t>(logTime - start)) / 1e9;
+}
+
+std::uint64_t SessionReader::logTime(double time) const {
+  return session::nanoseconds(m_impl->info.start, time);
+}
+
+void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
+  const Impl& impl = *m_impl;
+  out.resize(impl.groups.size());
+  for (SessionRow& row : out) row.present = false;
+  const std::uint64_t until = logTime(time);
+  std::vector<std::uint64_t> best(impl.groups.size(), 0);
+  std::vector<std::string_view> found(impl.groups.size());
+  const auto& chunks = impl.file.chunks();
+  auto at = static_cast<std::size_t>(
+      std::upper_bound(impl.byStart.begin(), impl.byStart.end(), until,
+                       [&](std::uint64_t value, std::size_t chunk) {
+                         return value < chunks[chunk].start;
+                       }) -
+      impl.byStart.begin());
+  while (at-- > 0) {
+    const McapChunkInfo& chunk = chunks[impl.byStart[at]];
+    bool needed = false, settled = true;
+    for (std::size_t g = 0; g < impl.groups.size(); ++g) {
+      const bool done = out[g].present && best[g] > impl.latestEnd[at];
+      if (done) continue;
+      settled = false;
+      needed = needed || (Impl::mayHold(chunk, impl.groups[g].channel) &&
+                          (!out[g].present || best[g] <= chunk.end));
+    }
+    if (settled) break;
+    if (!needed) continue;
+    std::fill(found.begin(), found.end(), std::string_view());
+    McapCursor cursor(impl.body(impl.byStart[at]));
+    std::vector<McapMessage> last(impl.groups.size());
+    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+      if (kind != McapCursor::Kind::Message || cursor.message().logTime > until) continue;
+      const int group = impl.useOfChannel[cursor.message().channel].group;
+      if (group == noGroup) continue;
+      const auto g = static_cast<std::size_t>(group);
+      if (cursor.message().logTime < best[g] ||
+          (out[g].present && found[g].empty() && cursor.message().logTime == best[g])) {
+        continue;
+      }
+      best[g] = cursor.message().logTime;
+      found[g] = cursor.message().data;
+      last[g] = cursor.message();
+    }
+    for (std::size_t g = 0; g < impl.groups.size(); ++g) {
+      if (found[g].empty() ||
+          !impl.layouts[g].read(found[g], out[g].time, out[g].words, out[g].values)) {
+        continue;
+      }
+      out[g].time = Impl::time(out[g].time, last[g]);
+      out[g].present = true;
+    }
+  }
+}
+
+template <class Visit>
+bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
+                               const std::vector<std::uint16_t>& wanted, const Visit& visit,
+                               const std::function<bool(double)>& progress) const {
+  const auto& chunks = file.chunks();
+  SessionItem item;
+  SessionRow row;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    const McapChunkInfo& chunk = chunks[i];
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
+      return false;
+    }
+    if (chunk.end < begin || chunk.start > end ||
+        std::none_of(wanted.begin(), wanted.end(),
+                     [&](std::uint16_t channel) { return mayHold(chunk, channel); })) {
+      continue;
+    }
+    McapCursor cursor(body(i));
+    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+      if (kind != McapCursor::Kind::Message) continue;
+      const McapMessage& message = cursor.message();
+      if (message.logTime < begin || message.logTime > end ||
+          !std::binary_search(wanted.begin(), wanted.end(), message.channel)) {
+        continue;
+      }
+      const Use use = useOfChannel[message.channel];
+      item.message = &message;
+      item.isRow = use.group != noGroup;
+      if (item.isRow) {
+        const auto g = static_cast<std::size_t>(use.group);
+        if (!layouts[g].read(message.data, row.time, row.words, row.values)) continue;
+        row.time = item.time = time(row.time, message);
+        item.group = static_cast<GroupId>(g);
+        item.row = row.view();
+      } else {
+        const auto source = session::timeFromJson(message.data);
+        if (!source) continue;
+        item.time = time(*source, message);
+        item.stream = use.stream;
+      }
+      if (!visit(item)) return false;
+    }
+  }
+  return true;
+}
+
+bool SessionReader::walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+                         const std::function<bool(double)>& progress) const {
+  std::vector<std::uint16_t> wanted;
+  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  for (const auto& channels : m_impl->channelsOfStream) {
+    wanted.insert(wanted.end(), channels.begin(), channels.end());
+  }
+  std::sort(wanted.begin(), wanted.end());
+  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+}
+
+bool SessionReader::walkRows(SessionRange range,
+                             const std::function<bool(const SessionItem&)>& visit,
+                             const std::function<bool(double)>& progress) const {
+  std::vector<std::uint16_t> wanted;
+  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  std::sort(wanted.begin(), wanted.end());
+  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+}
+
+void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
+                         const std::function<bool(GroupId, const RowView&)>& visit) const {
+  std::vector<std::uint16_t> wanted;
+  for (std::size_t g = 0; g < m_impl->groups.size(); ++g) {
+    if (groups.empty() || std::find(groups.begin(), groups.end(), g) != groups.end()) {
+      wanted.push_back(m_impl->groups[g].channel);
+    }
+  }
+  std::sort(wanted.begin(), wanted.end());
+  m_impl->walk(logTime(range.begin), logTime(range.end), wanted,
+               [&](const SessionItem& item) { return visit(item.group, item.row); }, {});
+}
+
+void SessionReader::messages(
+    SessionStream stream, SessionRange range,
+    const std::function<bool(double, std::string_view)>& visit) const {
+  m_impl->walk(logTime(range.begin), logTime(range.end),
+               m_impl->channelsOfStream[static_cast<std::size_t>(stream)],
+               [&](const SessionItem& item) { return visit(item.time, item.message->data); }, {});
+}
+
+std::vector<SessionEvent> SessionReader::events() const {
+  std::vector<SessionEvent> out;
+  const auto all = range();
+  if (!all) return out;
+  messages(SessionStream::Events, *all, [&](double time, std::string_view json) {
+    if (auto event = session::eventFromJson(json)) {
+      event->time = time;
+      out.push_back(std::move(*event));
+    }
+    return true;
+  });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  return out;
+}
+
+const std::vector<McapAttachmentInfo>& SessionReader::attachments() const {
+  return m_impl->file.attachments();
+}
+
+Result<std::string> SessionReader::attachment(std::string_view name) const {
+  for (const McapAttachmentInfo& one : m_impl->file.attachments()) {
+    if (one.name == name) return m_impl->file.readAttachment(one);
+  }
+  return failure(ErrorCode::NotFound, "The session has no such attachment.", std::string(name));
+}
+
+std::optional<SessionLogLine> sessionLogLine(std::string_view json) {
+  return session::logLineFromJson(json);
+}
+
+std::optional<SessionDatagram> sessionDatagram(std::string_view json) {
+  return session::datagramFromJson(json);
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QtTest>
+
+#include <map>
+#include <random>
+
+#include <robotlink/state_archive.h>
+#include <robotlink/state_codec.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Hash of the state that the match went on from, by tick.
+class HashLog : public TickObserver {
+ public:
+  void ticked(const SimulatedMatch& match, std::chrono::nanoseconds) override { note(match); }
+  void worldChanged(const SimulatedMatch& match) override { note(match); }
+  std::map<std::uint64_t, std::uint64_t> hashes;
+
+ private:
+  void note(const SimulatedMatch& match) {
+    const auto& simulation = match.simulation();
+    hashes.erase(hashes.lower_bound(simulation.state().tick), hashes.end());
+    hashes[simulation.state().tick] = simulation.hash();
+  }
+};
+
+Scenario scenarioOf(const QString& name, const QString& physics) {
+  Scenario scenario = loadScenario(name.toStdString()).value();
+  scenario.settings.physics = physics.toStdString();
+  scenario.settings.noise = noisePreset("realistic").value();
+  scenario.settings.rigidBody.falls = true;
+  scenario.stop = {};
+  return scenario;
+}
+
+SimulatedMatch played(const Scenario& scenario, int ticks) {
+  auto match = SimulatedMatch::create(scenario, {}).value();
+  for (int i = 0; i < ticks; ++i) match.tick();
+  return match;
+}
+
+Result<sim::WorldState> decode(std::string_view bytes) { return decodeState(bytes); }
+
+}  // namespace
+
+class TestStateArchive : public QObject {
+  Q_OBJECT
+
+  void physicsRows() {
+    QTest::addColumn<QString>("physics");
+    QTest::newRow("rigid-body") << "rigid-body";
+    QTest::newRow("published") << "published";
+  }
+
+ private slots:
+  void aStateComesBackAsItWas_data() { physicsRows(); }
+  void aStateComesBackAsItWas() {
+    QFETCH(QString, physics);
+    for (const int ticks : {0, 1, 500, 3000}) {
+      const SimulatedMatch match = played(scenarioOf("match-3v3", physics), ticks);
+      const sim::WorldState& state = match.simulation().state();
+      std::string bytes = encodeState(state);
+      QVERIFY2(bytes.size() < 2000, qPrintable(QString::number(bytes.size())));
+      bytes += "next";
+      std::string_view rest = bytes;
+      const auto back = decodeState(rest);
+      QVERIFY2(back, back ? "" : back.error().text().c_str());
+      QVERIFY(*back == state);
+      QCOMPARE(sim::stateHash(*back), match.simulation().hash());
+      QCOMPARE(rest, std::string_view("next"));
+    }
+  }
+
+  void everyValueIsSaved() {
+    // One byte of the state changed anywhere gives other bytes: nothing that the hash sees is left
+    // out, and what both would leave out, == would tell.
+    SimulatedMatch match = played(scenarioOf("match-3v3", "rigid-body"), 100);
+    sim::WorldState state = match.simulation().state();
+    const std::string before = encodeState(state);
+    auto& robot = std::get<sim::RigidBodyState>(state.physics).robots[3];
+    robot.imuDrift = std::nextafter(robot.imuDrift, 1.0);
+    QVERIFY(encodeState(state) != before);
+    robot.posture = sim::Posture::OnBack;
+    state.statistics[2].lastUnknownAction = -7;
+    state.settings.seed = ~std::uint64_t{0};
+    state.score = {-3, 200};
+    QVERIFY(decode(encodeState(state)).value() == state);
+  }
+
+  void damagedBytesAreRefused_data() { physicsRows(); }
+  void damagedBytesAreRefused() {
+    QFETCH(QString, physics);
+    const SimulatedMatch match = played(scenarioOf("match-3v3", physics), 300);
+    const std::string bytes = encodeState(match.simulation().state());
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      const auto cut = decode(std::string_view(bytes).substr(0, size));
+      QVERIFY(!cut);
+      QVERIFY(!cut.error().message.empty());
+    }
+    std::mt19937 random(7);
+    for (int i = 0; i < 3000; ++i) {
+      std::string hostile = bytes;
+      for (int flips = 0; flips < 3; ++flips) {
+        hostile[random() % hostile.size()] = static_cast<char>(random());
+      }
+      const auto state = decode(hostile);
+      if (!state) {
+        QVERIFY(!state.error().message.empty());
+        continue;
+      }
+      // What is let through can be played.
+      auto simulation = sim::Simulation::create({}).value();
+      QVERIFY(simulation.restore(*state));
+      const std::vector<sim::RobotCommand> commands(state->robots.size());
+      std::vector<sim::Percepts> percepts(state->robots.size());
+      for (int tick = 0; tick < 3; ++tick) simulation.step(commands, percepts);
+    }
+  }
+
+  void aLaterFormIsNamed() {
+    std::string bytes = encodeState(played(scenarioOf("one-robot", "published"), 1).simulation().state());
+    bytes[4] = 9;
+    QCOMPARE(decode(bytes).error().code, ErrorCode::Unsupported);
+    QVERIFY(decode(bytes).error().message.find("later version") != std::string::npos);
+    bytes[0] = 'X';
+    QCOMPARE(decode(bytes).error().code, ErrorCode::ParseError);
+  }
+
+  void everyMomentCanBeEnteredAgain_data() { physicsRows(); }
+  void everyMomentCanBeEnteredAgain() {
+    QFETCH(QString, physics);
+    auto archive = std::make_shared<StateArchive>();
+    auto log = std::make_shared<HashLog>();
+    auto runner = MatchRunner::start(scenarioOf("match-3v3", physics), {}, true,
+                                     VariableCatalog::published(), {archive, log}).value();
+    const auto play = [&](std::uint64_t tick) {
+      runner->runTo(tick);
+      return runner->waitUntilStill(60s);
+    };
+    QVERIFY(play(200));
+    runner->execute([](SimulatedMatch& m) { (void)m.simulation().placeBall({0.5, -1}, {1, 0.3}); });
+    QVERIFY(play(333));
+    runner->execute([](SimulatedMatch& m) {
+      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker"});
+      (void)m.removeRobot(RobotId{2});
+      (void)m.simulation().placeRobot(RobotId{1}, {{1, 1}, 3.0});
+    });
+    QVERIFY(play(900));
+    // Changed while it plays: nothing is shown between the change and the next tick.
+    runner->setSpeed(MatchRunner::unlimitedSpeed);
+    runner->setPaused(false);
+    for (int i = 0; i < 20; ++i) {
+      runner->execute([i](SimulatedMatch& m) {
+        if (i % 3 == 0) (void)m.simulation().placeBall({0.1 * i, 0.2}, {0, -1});
+        if (i % 3 == 1) m.simulation().setScore({i, 1});
+        if (i == 10) m.blackboard(RobotId{9})->write(m.variables().decisionActionA, 1);
+        if (i == 11) (void)m.setBehaviour(RobotId{9}, std::string(noBehaviour));
+      });
+      QTest::qWait(3);
+    }
+    runner->setPaused(true);
+    QVERIFY(runner->waitUntilStill(10s));
+
+    const auto range = archive->range();
+    QVERIFY(range);
+    QCOMPARE(range->first, std::uint64_t{0});
+    QCOMPARE(range->last, log->hashes.rbegin()->first);
+    QVERIFY(range->last > 1000);
+    std::mt19937 random(1);
+    std::vector<std::uint64_t> ticks{0, 199, 200, 201, 333, 334, range->last};
+    for (int i = 0; i < 150; ++i) ticks.push_back(random() % (range->last + 1));
+    for (const std::uint64_t tick : ticks) {
+      const auto state = archive->reenter(tick);
+      QVERIFY2(state, state ? "" : state.error().text().c_str());
+      QVERIFY2(sim::stateHash(*state) == log->hashes.at(tick), qPrintable(QString::number(tick)));
+    }
+    QCOMPARE(archive->reenter(range->last + 1).error().code, ErrorCode::NotFound);
+  }
+
+  void aMatchPutBackForgetsWhatCameAfter() {
+    auto archive = std::make_shared<StateArchive>();
+    auto log = std::make_shared<HashLog>();
+    auto runner = MatchRunner::start(scenarioOf("match-3v3", "rigid-body"), {}, true,
+                                     VariableCatalog::published(), {archive, log}).value();
+    runner->runTo(700);
+    QVERIFY(runner->waitUntilStill(60s));
+    const auto moment = archive->reenter(250).value();
+    runner->execute([&](SimulatedMatch& m) { QVERIFY(m.simulation().restore(moment)); });
+    QTRY_COMPARE(archive->range()->last, std::uint64_t{250});
+    runner->execute([](SimulatedMatch& m) { (void)m.simulation().placeBall({1, 1}); });
+    runner->runTo(400);
+    QVERIFY(runner->waitUntilStill(60s));
+    QCOMPARE(archive->range()->last, std::uint64_t{400});
+    for (const std::uint64_t tick : {0, 249, 250, 251, 399, 400}) {
+      QCOMPARE(sim::stateHash(archive->reenter(tick).value()), log->hashes.at(tick));
+    }
+  }
+
+  void memoryHasABudget() {
+    ArchiveOptions options;
+    options.memoryBudget = 20'000;
+    StateArchive archive(options);
+    auto match = SimulatedMatch::create(scenarioOf("match-3v3", "rigid-body"), {}).value();
+    archive.ticked(match, {});
+    for (int i = 0; i < 6000; ++i) {
+      match.tick();
+      archive.ticked(match, {});
+      QVERIFY(archive.memoryBytes() < 25'000);
+    }
+    QVERIFY(archive.range()->first > 4800);
+    QCOMPARE(archive.reenter(10).error().code, ErrorCode::NotFound);
+    QCOMPARE(sim::stateHash(archive.reenter(6000).value()), match.simulation().hash());
+  }
+
+  void segmentsSurviveAFile() {
+    StateArchive archive;
+    HashLog log;
+    auto match = SimulatedMatch::create(scenarioOf("match-3v3", "rigid-body"), {}).value();
+    archive.ticked(match, {});
+    log.ticked(match, {});
+    for (int i = 0; i < 330; ++i) {
+      match.tick();
+      archive.ticked(match, {});
+      log.ticked(match, {});
+    }
+    QCOMPARE(archive.segments(70, 200).size(), std::size_t{3});
+    const auto all = archive.segments(0, 330);
+    QCOMPARE(all.size(), std::size_t{6});
+    std::mt19937 random(3);
+    for (const auto& segment : all) {
+      const std::string bytes = segment->encode();
+      const auto back = StateSegment::decode(bytes);
+      QVERIFY2(back, back ? "" : back.error().text().c_str());
+      QCOMPARE(back->firstTick(), segment->firstTick());
+      QCOMPARE(back->lastTick(), segment->lastTick());
+      for (const std::uint64_t tick : {back->firstTick(), back->lastTick()}) {
+        QCOMPARE(sim::stateHash(back->at(tick).value()), log.hashes.at(tick));
+      }
+      for (int i = 0; i < 300; ++i) {
+        std::string hostile = bytes.substr(0, 1 + random() % bytes.size());
+        for (int n = 0; n < 2; ++n) hostile[random() % hostile.size()] = static_cast<char>(random());
+        const auto segment2 = StateSegment::decode(hostile);
+        if (segment2 && segment2->lastTick() - segment2->firstTick() < 1000) {
+          const auto state = segment2->at(segment2->lastTick());
+          QVERIFY(state || !state.error().message.empty());
+        }
+      }
+    }
+  }
+
+  void enteringAMomentIsQuick() {
+    auto match = played(scenarioOf("match-3v3", "rigid-body"), 1);
+    StateArchive archive;
+    archive.ticked(match, {});
+    for (int i = 0; i < 119; ++i) {
+      match.tick();
+      archive.ticked(match, {});
+    }
+    QElapsedTimer timer;
+    timer.start();
+    for (int i = 0; i < 20; ++i) QVERIFY(archive.reenter(60));
+    QVERIFY2(timer.elapsed() < 20 * 50, qPrintable(QString::number(timer.elapsed())));
+    qInfo("entering the last tick of a second: %.2f ms", static_cast<double>(timer.nsecsElapsed()) / 20e6);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestStateArchive)
+#include "tst_state_archive.moc"

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "chart_pane.h"
+
+#include <QMenu>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/theme.h>
+
+#include "linked_time.h"
+#include "time_gestures.h"
+#include "value_chart.h"
+
+namespace pitchboard::ui {
+namespace {
+constexpr int pixelsPerValueStep = 24;   // px of the mock
+constexpr int pixelsPerTimeStep = 64;
+constexpr int lowestChart = 40;
+}  // namespace
+
+ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
+    : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
+  setSurface(m_chart);
+  m_chart->setMinimumHeight(scaled(this, lowestChart));
+  m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
+  m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
+  connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {
+    const ValueScale scale = valueScale();
+    const double anchor = scale.toValue(y);
+    setValues({anchor + (scale.limits.low - anchor) * factor,
+               anchor + (scale.limits.high - anchor) * factor});
+  });
+  connect(m_gestures, &TimeGestures::valuePanned, this, [this](double pixels) {
+    // Automatic limits follow the curves; only limits set by hand are moved by hand.
+    if (m_spec.autoValues) return;
+    const ValueScale scale = valueScale();
+    const double by = pixels / (scale.bottom - scale.top) * (scale.limits.high - scale.limits.low);
+    setValues({scale.limits.low + by, scale.limits.high + by});
+  });
+  connect(m_gestures, &TimeGestures::boxDrawn, this, [this](const QRectF& box) {
+    const ValueScale scale = valueScale();
+    setValues({scale.toValue(std::min(box.bottom(), scale.bottom)),
+               scale.toValue(std::max(box.top(), scale.top))});
+  });
+  connect(m_gestures, &TimeGestures::fitRequested, this, [this] {
+    PaneSpec options = m_spec;
+    options.autoValues = true;
+    setOptions(options);
+  });
+}
+
+QWidget* ChartPane::surface() const { return m_chart->viewport(); }
+int ChartPane::wantedLeft() const { return m_chart->wantedLeft(); }
+void ChartPane::setBoxTool(bool on) { m_gestures->setBoxTool(on); }
+void ChartPane::restyle() { m_chart->applyTheme(); }
+
+ValueScale ChartPane::valueScale() const {
+  const QRectF area = m_chart->plotArea();
+  return {m_chart->yLimits(), area.top(), area.bottom()};
+}
+
+void ChartPane::setValues(ValueLimits limits) {
+  const double span = limits.high - limits.low;
+  const double size = std::max(std::abs(limits.low), std::abs(limits.high));
+  // Beyond the digits of a double nothing could be told apart.
+  if (!std::isfinite(span) || !(span > size * 1e-12) || span > 1e300) return;
+  PaneSpec options = m_spec;
+  options.autoValues = false;
+  options.values = limits;
+  setOptions(options);
+}
+
+void ChartPane::draw() {
+  const int room = scaled(this, 5);   // half a label above and below
+  m_chart->setMargins(left(), room, scaled(this, rightMargin), room);
+  const QRectF area = m_chart->plotArea();
+  if (area.isEmpty()) return;
+  const telemetry::TimeRange range = m_feed->time()->range();
+  const int columns = std::max(1, static_cast<int>(area.width() * devicePixelRatioF()));
+  m_traces.clear();
+  bool any = false;
+  double low = 0.0, high = 0.0;
+  for (const Curve& curve : m_curves) {
+    m_traces.push_back(traceOf(curve.view(), range, columns));
+    const CurveTrace& trace = m_traces.back();
+    if (!trace.any) continue;
+    low = any ? std::min(low, trace.low) : trace.low;
+    high = any ? std::max(high, trace.high) : trace.high;
+    any = true;
+  }
+  const int steps = std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep),
+                               1, 12);
+  ValueLimits limits = m_spec.values;
+  if (m_spec.autoValues) limits = any ? niceLimits(low, high, steps) : ValueLimits{};
+  const double span = range.end - range.begin;
+  const int times = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerTimeStep));
+  const int before = wantedLeft();
+  m_chart->setAxes({range.begin, range.end}, niceTimeStep(span, times), limits,
+                   niceStep(limits.high - limits.low, steps));
+  m_chart->setTitles({}, m_spec.valueTitle);
+  m_chart->redraw();
+  if (wantedLeft() != before) emit leftChanged();
+}
+
+void ChartPane::paintCurves(QPainter& painter) {
+  const TimeScale time = timeScale();
+  const ValueScale values = valueScale();
+  for (std::size_t i = 0; i < m_traces.size() && i < m_curves.size(); ++i) {
+    const CurveSpec& spec = m_curves[i].spec();
+    paintTrace(painter, m_traces[i], time, values,
+               {m_curves[i].color(), spec.style, spec.width * scaled(this, 100) / 100.0});
+  }
+}
+
+void ChartPane::extendMenu(QMenu* menu) {
+  QAction* automatic = menu->addAction(tr("Values follow the curves"));
+  automatic->setCheckable(true);
+  automatic->setChecked(m_spec.autoValues);
+  connect(automatic, &QAction::triggered, this, [this](bool on) {
+    PaneSpec options = m_spec;
+    options.autoValues = on;
+    options.values = m_chart->yLimits();
+    setOptions(options);
+  });
+}
+
+}  // namespace pitchboard::ui

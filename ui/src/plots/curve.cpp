@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve.h"
+
+#include <QCoreApplication>
+#include <cmath>
+
+#include "derived_series.h"
+
+namespace pitchboard::ui {
+
+Curve::Curve(CurveSpec spec) { setSpec(spec); }
+Curve::~Curve() = default;
+Curve::Curve(Curve&&) noexcept = default;
+Curve& Curve::operator=(Curve&&) noexcept = default;
+
+void Curve::setSpec(const CurveSpec& spec) {
+  const bool sameData = spec.kind == m_spec.kind && spec.inputs == m_spec.inputs &&
+                        spec.expression == m_spec.expression &&
+                        spec.parameter == m_spec.parameter && spec.offset == m_spec.offset &&
+                        spec.unit == m_spec.unit;
+  m_spec = spec;
+  if (sameData && (m_derived || spec.kind == CurveKind::Variable)) return;
+  m_view = m_ordinate = {};
+  m_derived.reset();
+  if (spec.kind != CurveKind::Variable) m_derived = std::make_unique<DerivedSeries>(spec);
+}
+
+void Curve::update(PlotFeed& feed) {
+  m_note.clear();
+  m_faulty = false;
+  if (m_derived) {
+    m_derived->update(feed);
+    m_view = m_derived->view();
+    m_note = m_derived->note();
+    m_faulty = m_derived->isFaulty();
+    return;
+  }
+  m_view = feed.find(m_spec.inputs.value(0));
+  const bool two = m_spec.inputs.size() > 1;
+  m_ordinate = two ? feed.find(m_spec.inputs[1]) : ColumnView{};
+  if (two && !m_ordinate) m_view = {};
+  if (!m_view) {
+    m_note = QCoreApplication::translate("Curve", "waiting for %1")
+                 .arg(m_spec.inputs.join(QStringLiteral(", ")));
+  }
+}
+
+bool Curve::isWorking() const { return m_derived && m_derived->isWorking(); }
+
+QString Curve::unit() const {
+  if (!m_spec.unit.isEmpty()) return m_spec.unit;
+  return m_view ? QString::fromStdString(m_view.info().unit) : QString();
+}
+
+QColor Curve::color() const {
+  return m_spec.color.isValid() ? m_spec.color : curveColor(m_spec.colorNumber);
+}
+
+std::optional<double> Curve::valueAt(std::optional<double> time) const {
+  if (!m_view) return {};
+  const auto sample = time ? m_view.group->at(m_view.column, *time)
+                           : m_view.group->latest(m_view.column);
+  if (!sample) return {};
+  return sample->value;
+}
+
+QString Curve::codeText(double value) const {
+  if (!std::isfinite(value)) return QStringLiteral("–");
+  const auto code = static_cast<std::int32_t>(std::lround(std::clamp(value, -2e9, 2e9)));
+  if (m_view) {
+    const auto& labels = m_view.info().labels;
+    if (const auto word = labels.find(code); word != labels.end()) {
+      return QString::fromStdString(word->second);
+    }
+    if (m_view.info().kind == telemetry::ColumnKind::Flag) {
+      return code != 0 ? QStringLiteral("on") : QStringLiteral("off");
+    }
+  }
+  return QString::number(code);
+}
+
+QString Curve::valueTextAt(std::optional<double> time) const {
+  const auto value = valueAt(time);
+  if (!value) return QStringLiteral("–");
+  return m_view.isCoded() ? codeText(*value) : valueText(*value);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve_trace.h"
+
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::Sample;
+using telemetry::SeriesBucket;
+using telemetry::TimeRange;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// As many samples as this for a pixel column are drawn one by one.
+constexpr std::size_t samplesPerColumn = 2;
+// Single samples get a dot only where dots do not run into each other.
+constexpr double dotDistance = 6.0;   // px
+// Far outside of the picture Qt's line clipping loses precision.
+constexpr double farAway = 1e5;       // px
+
+void note(CurveTrace& trace, double value) {
+  if (!std::isfinite(value)) return;
+  trace.low = trace.any ? std::min(trace.low, value) : value;
+  trace.high = trace.any ? std::max(trace.high, value) : value;
+  trace.any = true;
+}
+
+void takeSamples(CurveTrace& trace, const ColumnView& view, TimeRange range) {
+  if (const auto before = view.group->at(view.column, range.begin);
+      before && before->time < range.begin) {
+    trace.samples.push_back(*before);
+  }
+  std::vector<Sample> inside;
+  view.group->samples(view.column, range, inside);
+  trace.samples.insert(trace.samples.end(), inside.begin(), inside.end());
+  std::vector<Sample> after;
+  const double next = std::nextafter(range.end, std::numeric_limits<double>::infinity());
+  view.group->samples(view.column, {next, std::numeric_limits<double>::max()}, after, 1);
+  if (!after.empty()) trace.samples.push_back(after.front());
+  for (const Sample& sample : inside) note(trace, sample.value);
+  if (!trace.any) {
+    // A value that holds through the whole range has no sample inside it.
+    for (const Sample& sample : trace.samples) note(trace, sample.value);
+  }
+}
+
+}  // namespace
+
+CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
+  CurveTrace trace;
+  if (!view || columns < 1) return trace;
+  // Columns stand on whole multiples of their width: what scrolls does not shimmer.
+  const double width = (range.end - range.begin) / columns;
+  const double begin = (std::floor(range.begin / width) - 1.0) * width;
+  const auto count = static_cast<std::size_t>(columns) + 3;
+  std::vector<SeriesBucket> buckets(count);
+  view.group->buckets(view.column, {begin, begin + static_cast<double>(count) * width}, buckets);
+  std::size_t samples = 0;
+  for (const SeriesBucket& bucket : buckets) samples += bucket.samples;
+  if (samples <= samplesPerColumn * count) {
+    takeSamples(trace, view, range);
+    return trace;
+  }
+  trace.exact = false;
+  trace.columns.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const SeriesBucket& bucket = buckets[i];
+    if (bucket.samples == 0) continue;
+    const double time = begin + (static_cast<double>(i) + 0.5) * width;
+    const bool empty = std::isnan(bucket.first) && std::isnan(bucket.last) &&
+                       !(bucket.min < bucket.max);
+    if (empty || !std::isfinite(bucket.min)) {
+      trace.columns.push_back({time, nan, nan, nan, nan});
+      continue;
+    }
+    trace.columns.push_back({time, bucket.first, bucket.min, bucket.max, bucket.last});
+    note(trace, bucket.min);
+    note(trace, bucket.max);
+  }
+  return trace;
+}
+
+std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
+                                 const ValueScale& values, bool steps) {
+  std::vector<QPolygonF> lines;
+  QPolygonF line;
+  const auto end = [&] {
+    if (!line.isEmpty()) lines.push_back(std::move(line));
+    line = {};
+  };
+  const auto point = [&](double x, double value) {
+    const double y = std::clamp(values.toY(value), -farAway, farAway);
+    line << QPointF(std::clamp(x, -farAway, farAway), y);
+  };
+  double previous = nan;
+  if (trace.exact) {
+    for (const Sample& sample : trace.samples) {
+      if (!std::isfinite(sample.value) || sample.time - previous > longestBridge) end();
+      previous = sample.time;
+      if (!std::isfinite(sample.value)) continue;
+      const double x = time.toX(sample.time);
+      if (steps && !line.isEmpty()) line << QPointF(x, line.last().y());
+      point(x, sample.value);
+    }
+    end();
+    return lines;
+  }
+  const double pixel = (time.range.end - time.range.begin) / std::max(time.right - time.left, 1.0);
+  for (const CurveTrace::Column& column : trace.columns) {
+    if (!std::isfinite(column.min) || column.time - previous > std::max(longestBridge, 3 * pixel)) {
+      end();
+    }
+    previous = column.time;
+    if (!std::isfinite(column.min)) continue;
+    if (std::isnan(column.first)) end();
+    const double x = time.toX(column.time);
+    if (std::abs(values.toY(column.min) - values.toY(column.max)) < 1.0) {
+      // Within a pixel a single point draws the same line.
+      point(x, (column.min + column.max) / 2);
+    } else {
+      const bool rising = std::isnan(column.first) || std::isnan(column.last) ||
+                          column.first <= column.last;
+      point(x, rising ? column.min : column.max);
+      point(x, rising ? column.max : column.min);
+    }
+    if (std::isnan(column.last)) end();
+  }
+  end();
+  return lines;
+}
+
+void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& time,
+                const ValueScale& values, const TraceLook& look) {
+  const bool steps = look.style == CurveStyle::Steps;
+  const std::vector<QPolygonF> lines = polylines(trace, time, values, steps);
+  const bool dots = look.style == CurveStyle::Points || look.style == CurveStyle::LineAndPoints;
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.setBrush(Qt::NoBrush);
+  if (look.style != CurveStyle::Points || !trace.exact) {
+    // Qt strokes a wide line of thousands of corners twenty times slower than a thin one.
+    QPen pen(look.color, trace.exact ? look.width : 0.0, Qt::SolidLine, Qt::FlatCap,
+             Qt::BevelJoin);
+    pen.setCosmetic(!trace.exact);
+    painter.setPen(pen);
+    for (const QPolygonF& line : lines) {
+      if (line.size() > 1) painter.drawPolyline(line);
+    }
+  }
+  const double distance = trace.samples.empty()
+                              ? 0.0
+                              : (time.right - time.left) / double(trace.samples.size());
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(look.color);
+  const double radius = std::max(1.8, look.width * 1.2);
+  for (const QPolygonF& line : lines) {
+    const bool lonely = line.size() == 1;
+    if (!lonely && !(dots && trace.exact)) continue;
+    if (!lonely && look.style == CurveStyle::LineAndPoints && distance < dotDistance) continue;
+    for (const QPointF& at : line) painter.drawEllipse(at, radius, radius);
+  }
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What plots read: one consistent look at a source's rows, renewed on a timer while somebody
+// watches, and the events of the source by time. UI thread only.
+
+#include <QObject>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <telemetry/series_store.h>
+#include <ui/frame_source.h>
+
+class QTimer;
+
+namespace pitchboard::ui {
+
+class LinkedTime;
+
+/// A column as it was at the last refresh. Cheap to copy; any thread may read it.
+struct ColumnView {
+  std::shared_ptr<const telemetry::GroupView> group;
+  std::uint32_t column = 0;
+
+  explicit operator bool() const { return group != nullptr; }
+  const telemetry::ColumnInfo& info() const { return group->info().columns[column]; }
+  bool isCoded() const { return info().kind != telemetry::ColumnKind::Number; }
+};
+
+/// An event of the source, in words.
+struct PlotEvent {
+  double time = 0.0;   ///< s
+  QString text;        ///< "Kick", "Goal for blue"
+};
+
+class PlotFeed : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int refreshMilliseconds = 33;
+
+  /// Both outlive the feed.
+  PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent = nullptr);
+
+  FrameSource* source() const { return m_source; }
+  LinkedTime* time() const { return m_time; }
+  /// `GROUP/COLUMN`; nothing when there is no such variable now.
+  ColumnView find(const QString& name);
+  /// Every variable there is, `GROUP/COLUMN`.
+  QStringList names() const;
+  /// Grows when variables came or went: what find() said before is void.
+  quint64 generation() const { return m_generation; }
+  /// In order of time, oldest first.
+  const std::deque<PlotEvent>& events() const { return m_events; }
+
+  /// Refreshes by itself while on; plots that cannot be seen cost nothing.
+  void setRunning(bool on);
+  /// Takes a new look now.
+  void refresh();
+
+ signals:
+  /// There may be something new to draw.
+  void refreshed();
+
+ private:
+  void noteEvents(const std::vector<sim::Event>& events);
+  void forget();
+
+  FrameSource* m_source;
+  LinkedTime* m_time;
+  QTimer* m_timer;
+  std::shared_ptr<const telemetry::SeriesStore> m_store;
+  quint64 m_storeRevision = 0;
+  quint64 m_generation = 1;
+  std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
+  std::map<QString, telemetry::SeriesId> m_found;
+  std::deque<PlotEvent> m_events;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A tab of the plots: plots stacked over one time axis, marks across all of them, and the table of
+// what lies between the marks. Takes drops for all its plots. UI thread only.
+
+#include <QList>
+#include <QWidget>
+
+#include "plot_pane.h"
+
+class QLabel;
+class QSplitter;
+
+namespace pitchboard::ui {
+
+class LinkedTime;
+class MarkHeads;
+class MarksPanel;
+class TimeLines;
+class TimeRuler;
+struct DropHint;
+
+class PlotPage : public QWidget {
+  Q_OBJECT
+ public:
+  PlotPage(PlotFeed* feed, const PageSpec& spec, QWidget* parent = nullptr);
+
+  PageSpec spec() const;
+  void setName(const QString& name);
+  QString name() const { return m_name; }
+
+  QList<PlotPane*> panes() const;
+  PlotPane* insertPane(int index, const PaneSpec& spec);
+  void removePane(PlotPane* pane);
+  /// A pane in place of another, of another kind.
+  void replacePane(PlotPane* pane, const PaneSpec& spec);
+
+  /// Where variables go when nobody said where: the first plot that can take them, lanes for codes.
+  void addVariables(const QStringList& names);
+  /// What a drop there does. `position` in the page.
+  void drop(const QStringList& names, const QPoint& position);
+  void addCurve(const CurveSpec& curve);
+
+  MarksPanel* marksPanel() const { return m_marks; }
+  /// What a picture of the page shows: the plots with their marks, without the table.
+  QWidget* picture() const { return m_stack; }
+  void setBoxTool(bool on);
+  /// A curve is still being computed.
+  bool isWorking() const;
+  /// Draws what is new.
+  void refresh();
+
+ signals:
+  void changed();
+  void menuRequested(pitchboard::ui::PlotPane* pane, int curve, const QPoint& globalPosition);
+  void editRequested(pitchboard::ui::PlotPane* pane, int curve);
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dragMoveEvent(QDragMoveEvent* event) override;
+  void dragLeaveEvent(QDragLeaveEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  enum class Place { OnPane, NewPane, NewXy };
+  struct Target {
+    Place place = Place::NewPane;
+    PlotPane* pane = nullptr;
+    int index = 0;
+    QRect area;   // in m_stack
+  };
+  Target targetAt(const QPoint& position, qsizetype count) const;
+  bool isCoded(const QString& name) const;
+  void align();
+  void placeLines();
+  TimeScale timeScale() const;
+
+  PlotFeed* m_feed;
+  QString m_name;
+  QWidget* m_stack;
+  QSplitter* m_panes;
+  QLabel* m_empty;
+  MarkHeads* m_heads;
+  TimeRuler* m_ruler;
+  TimeLines* m_lines;
+  MarksPanel* m_marks;
+  int m_left = 0;
+  bool m_boxTool = false;
+  bool m_aligning = false;
+};
+
+/// The names in a drag of variables; empty for any other drag.
+QStringList draggedVariables(const QMimeData* data);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plots: tabs of plots over one linked time, their tool row, and what is kept of them between
+// runs. UI thread only.
+
+#include <QTimer>
+#include <QWidget>
+#include <optional>
+
+#include <telemetry/series_store.h>
+
+#include "plot_layout.h"
+#include "shell/dock_list.h"
+
+class QAction;
+class QComboBox;
+class QMenu;
+class QTabWidget;
+
+namespace pitchboard::ui {
+
+class LinkedTime;
+class PlotFeed;
+class PlotPage;
+class PlotPane;
+
+class PlotsDock : public QWidget {
+  Q_OBJECT
+ public:
+  /// The layout of the last time comes from `context.settings`, when there are any.
+  PlotsDock(const StudioContext& context, QWidget* parent);
+  ~PlotsDock() override;
+
+  PlotFeed* feed() const { return m_feed; }
+  LinkedTime* time() const { return m_context.time; }
+  PlotPage* currentPage() const;
+  QList<PlotPage*> pages() const;
+  PlotPage* addPage(const PageSpec& spec);
+  void closePage(int index);
+
+  PlotLayout layoutSpec() const;
+  void setLayoutSpec(const PlotLayout& layout);
+
+  /// Adds to the page in front, and brings it there.
+  void plotVariables(const QStringList& names);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+  QSize sizeHint() const override;
+
+ private:
+  void makeTools();
+  void scheduleDraw();
+  void drawNow();
+  void takeRows();
+  void save();
+  void renamePage(int index);
+  void showWindow();
+
+  StudioContext m_context;
+  PlotFeed* m_feed;
+  QTabWidget* m_tabs;
+  QComboBox* m_window;
+  QAction* m_follow;
+  QAction* m_marks;
+  QAction* m_box;
+  QTimer m_draw, m_saveSoon;
+  bool m_restoring = false;
+  quint64 m_drawnGeneration = 0;
+  std::optional<telemetry::TimeRange> m_drawnData;
+};
+
+QWidget* makePlotsDock(const StudioContext& context, QWidget* parent);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What can be done in time: actions for the menu and for the timeline's context menu, with the keys
+// that work in the whole window. (On the field N and M are orders for robots.)
+
+#include <QObject>
+#include <QPoint>
+
+class QAction;
+class QMenu;
+
+namespace pitchboard::ui {
+
+class LinkedTime;
+class Timeline;
+
+class TimelineActions : public QObject {
+  Q_OBJECT
+ public:
+  /// `plots` may be null.
+  TimelineActions(Timeline* timeline, LinkedTime* plots, QObject* parent);
+  void fill(QMenu* menu) const;
+
+  QAction* next() const { return m_next; }
+  QAction* previous() const { return m_previous; }
+  QAction* bookmark() const { return m_bookmark; }
+  QAction* loop() const { return m_loop; }
+
+ signals:
+  /// A bookmark was set: its note can be written.
+  void bookmarkAdded(int row);
+
+ private:
+  void refresh();
+
+  Timeline* m_timeline;
+  LinkedTime* m_plots;
+  QAction* m_live;
+  QAction* m_play;
+  QAction* m_next;
+  QAction* m_previous;
+  QAction* m_bookmark;
+  QAction* m_back;
+  QAction* m_on;
+  QAction* m_selectVisible;
+  QAction* m_clearRange;
+  QAction* m_loop;
+};
+
+}  // namespace pitchboard::ui

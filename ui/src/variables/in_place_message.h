@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One sentence inside a panel, about what was just done there: the newest replaces the one before.
+// May have a button for what to do next. UI thread only.
+
+#include <QFrame>
+#include <functional>
+
+class QLabel;
+class QPushButton;
+
+namespace pitchboard::ui {
+
+class InPlaceMessage : public QFrame {
+  Q_OBJECT
+ public:
+  enum class Tone { Note, Warning, Error };
+  explicit InPlaceMessage(QWidget* parent = nullptr);
+
+  void say(Tone tone, const QString& sentence, const QString& button = {},
+           std::function<void()> action = {});
+  void clear();
+  QString text() const;
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void colour();
+
+  Tone m_tone = Tone::Note;
+  QLabel* m_text;
+  QPushButton* m_button;
+  std::function<void()> m_action;
+};
+
+}  // namespace pitchboard::ui

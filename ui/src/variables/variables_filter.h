@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Which variables are listed, and in which order: those with all the words (in robot, heading, name
+// or unit), favourites only, recently changed only. A robot or heading is listed when one of its
+// variables is. Nothing moves by itself: update() and the setters do it.
+
+#include <QSortFilterProxyModel>
+#include <QStringList>
+#include <optional>
+
+#include "variables_model.h"
+
+namespace pitchboard::ui {
+
+class VariablesFilter : public QSortFilterProxyModel {
+  Q_OBJECT
+ public:
+  explicit VariablesFilter(VariablesModel* model, QObject* parent = nullptr);
+
+  void setWords(const QString& text);
+  void setFavouritesOnly(bool only);
+  /// Only what changed within the last `seconds` of the source's time; nothing: all.
+  void setChangedWithin(std::optional<double> seconds);
+  bool isFiltering() const;
+  bool sortsByNumbers() const;
+  /// Looks again: at changes when only those are shown, at values when they give the order.
+  void update();
+  int variableCount() const;   ///< listed now
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+  bool lessThan(const QModelIndex& left, const QModelIndex& right) const override;
+
+ private:
+  bool accepts(const QModelIndex& variable) const;
+
+  VariablesModel* m_model;
+  QStringList m_words;
+  std::optional<double> m_changedWithin;
+  bool m_favouritesOnly = false;
+};
+
+}  // namespace pitchboard::ui
