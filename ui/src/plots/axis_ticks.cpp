@@ -2,7 +2,6 @@
 #include "axis_ticks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "shell/robot_words.h"
@@ -21,17 +20,6 @@ double niceStep(double span, int most) {
     if (raw <= factor * power * (1.0 + 1e-9)) return factor * power;
   }
   return 10.0 * power;
-}
-
-double niceTimeStep(double seconds, int most) {
-  static constexpr std::array<double, 17> steps{1,   2,   5,    10,   15,   30,   60,    120,  300,
-                                                600, 900, 1800, 3600, 7200, 14400, 43200, 86400};
-  const double raw = seconds / std::max(most, 1);
-  if (raw <= 0.5) return niceStep(seconds, most);
-  for (const double step : steps) {
-    if (raw <= step * (1.0 + 1e-9)) return step;
-  }
-  return niceStep(seconds / steps.back(), most) * steps.back();
 }
 
 ValueLimits niceLimits(double low, double high, int mostSteps) {
@@ -55,25 +43,6 @@ int decimalsOf(double step) {
     ++decimals;
   }
   return decimals;
-}
-
-QString momentText(double seconds, int decimals) {
-  const double unit = std::pow(10.0, decimals);
-  // Rounded first, so that 59.9996 does not become "00:60.000".
-  const double whole = std::round(std::abs(seconds) * unit) / unit;
-  const bool negative = seconds < 0.0 && whole > 0.0;
-  const auto minutesAll = static_cast<qlonglong>(std::floor(whole / 60.0));
-  const double rest = whole - 60.0 * static_cast<double>(minutesAll);
-  QString text = negative ? QStringLiteral("\u2212") : QString();
-  if (minutesAll >= 60) {
-    text += QStringLiteral("%1:%2").arg(minutesAll / 60).arg(minutesAll % 60, 2, 10,
-                                                             QLatin1Char('0'));
-  } else {
-    text += QStringLiteral("%1").arg(minutesAll, 2, 10, QLatin1Char('0'));
-  }
-  const int width = decimals > 0 ? 3 + decimals : 2;
-  return text + QLatin1Char(':') +
-         QStringLiteral("%1").arg(rest, width, 'f', decimals, QLatin1Char('0'));
 }
 
 QString valueText(double value) {

@@ -10,12 +10,12 @@
 
 #include "linked_time.h"
 #include "time_gestures.h"
+#include "time_ruler.h"
 #include "value_chart.h"
 
 namespace pitchboard::ui {
 namespace {
 constexpr int pixelsPerValueStep = 24;   // px of the mock
-constexpr int pixelsPerTimeStep = 64;
 constexpr int lowestChart = 40;
 }  // namespace
 
@@ -25,6 +25,7 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_chart->setMinimumHeight(scaled(this, lowestChart));
   m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
+  connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
   connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {
     const ValueScale scale = valueScale();
     const double anchor = scale.toValue(y);
@@ -93,11 +94,12 @@ void ChartPane::draw() {
                                1, 12);
   ValueLimits limits = m_spec.values;
   if (m_spec.autoValues) limits = any ? niceLimits(low, high, steps) : ValueLimits{};
-  const double span = range.end - range.begin;
-  const int times = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerTimeStep));
+  const std::vector<AxisTick> ticks = ticksOf(timeScale(), *m_feed, this);
+  const bool divided = ticks.size() > 1;
   const int before = wantedLeft();
-  m_chart->setAxes({range.begin, range.end}, niceTimeStep(span, times), limits,
-                   niceStep(limits.high - limits.low, steps));
+  m_chart->setAxes({range.begin, range.end}, divided ? ticks[1].time - ticks[0].time : range.end - range.begin,
+                   limits, niceStep(limits.high - limits.low, steps),
+                   ticks.empty() ? range.begin : ticks[0].time);
   m_chart->setTitles({}, m_spec.valueTitle);
   m_chart->redraw();
   if (wantedLeft() != before) emit leftChanged();

@@ -93,6 +93,7 @@ class LanePane::Lanes : public QWidget {
     QPainter painter(this);
     m_pane->paintLanes(painter);
   }
+  void resizeEvent(QResizeEvent*) override { m_pane->draw(); }
   void contextMenuEvent(QContextMenuEvent* event) override {
     emit m_pane->menuRequested(m_pane->laneAt(event->pos().y()), event->globalPos());
   }
@@ -130,7 +131,6 @@ void LanePane::draw() {
   m_lanes->update();
 }
 
-QWidget* LanePane::surface() const { return m_lanes; }
 
 void LanePane::paintLanes(QPainter& painter) const {
   const ThemeColors& colors = theme();

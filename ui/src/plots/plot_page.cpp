@@ -34,15 +34,15 @@ QStringList draggedVariables(const QMimeData* data) {
   return names;
 }
 
-PlotPage::PlotPage(PlotFeed* feed, const PageSpec& spec, QWidget* parent)
+PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent)
     : QWidget(parent), m_feed(feed), m_name(spec.name), m_stack(new QWidget(this)),
       m_panes(new QSplitter(Qt::Vertical, m_stack)), m_empty(new QLabel(m_stack)),
-      m_marks(new MarksPanel(feed, this)) {
+      m_marks(new MarksPanel(feed, timeline, this)) {
   setObjectName(QStringLiteral("plotPage"));
   setAcceptDrops(true);
   const auto scale = [this] { return timeScale(); };
   m_heads = new MarkHeads(feed->time(), scale, m_stack);
-  m_ruler = new TimeRuler(feed->time(), scale, m_stack);
+  m_ruler = new TimeRuler(feed, scale, m_stack);
   m_lines = new TimeLines(feed->time(), scale, m_stack);
   m_stack->setBackgroundRole(QPalette::Base);
   m_stack->setAutoFillBackground(true);

@@ -20,7 +20,9 @@
 #include "plot_menus.h"
 #include "plot_page.h"
 #include "plot_target.h"
+#include "shell/notice_bar.h"
 #include "shell/source_switch.h"
+#include "timeline/timeline.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -50,13 +52,15 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 }  // namespace
 
 PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
-    : QWidget(parent), m_context(context),
+    : QWidget(parent), m_context(context), m_time(context.time),
       m_feed(new PlotFeed(context.source, context.time, this)), m_tabs(new QTabWidget(this)),
-      m_window(new QComboBox(this)) {
+      m_notices(new NoticeBar(this)), m_window(new QComboBox(this)) {
   setObjectName(QStringLiteral("plots"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(m_tabs);
+  column->setSpacing(0);
+  column->addWidget(m_notices);
+  column->addWidget(m_tabs, 1);
   m_tabs->setDocumentMode(true);
   m_tabs->setTabsClosable(true);
   m_tabs->setMovable(true);
@@ -79,6 +83,9 @@ PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
   }
   if (context.plots != nullptr) {
     connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
+  }
+  if (context.timeline != nullptr) {
+    connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
   }
   PlotLayout layout;
   if (context.settings != nullptr) {
@@ -189,7 +196,7 @@ QList<PlotPage*> PlotsDock::pages() const {
 }
 
 PlotPage* PlotsDock::addPage(const PageSpec& spec) {
-  auto* page = new PlotPage(m_feed, spec, m_tabs);
+  auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_tabs);
   page->setBoxTool(m_box->isChecked());
   m_tabs->addTab(page, spec.name);
   connect(page, &PlotPage::changed, this, [this, page] {
@@ -251,8 +258,10 @@ void PlotsDock::save() {
   if (m_context.settings == nullptr) return;
   m_context.settings->setValue(
       layoutKey, QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
-  m_context.settings->setValue(windowKey, m_context.time->window());
+  if (m_time) m_context.settings->setValue(windowKey, m_time->window());
 }
+
+void PlotsDock::showNotice(const QString& sentence) { m_notices->show(sentence); }
 
 void PlotsDock::plotVariables(const QStringList& names) {
   m_feed->refresh();
@@ -285,6 +294,7 @@ void PlotsDock::scheduleDraw() {
 
 void PlotsDock::drawNow() {
   m_draw.stop();
+  if (m_context.timeline != nullptr) m_feed->setClock(m_context.timeline->clock());
   if (PlotPage* page = currentPage(); page != nullptr && isVisible()) page->refresh();
 }
 

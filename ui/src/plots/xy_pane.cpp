@@ -66,6 +66,7 @@ XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_chart->setLabelsX(true);
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
   m_chart->viewport()->installEventFilter(this);
+  connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
 }
 
 QWidget* XyPane::surface() const { return m_chart->viewport(); }

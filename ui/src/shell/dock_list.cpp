@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, makeRobotsDock},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 330, makeVariablesDock},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, makeVariablesDock},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 330, makeNoiseDock},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, makePlotsDock},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
