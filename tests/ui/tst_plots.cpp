@@ -15,6 +15,7 @@
 #include <plots/plots_dock.h>
 #include <plots/time_ruler.h>
 #include <plots/xy_pane.h>
+#include <ui/theme.h>
 
 #include "plot_source.h"
 
@@ -331,7 +332,7 @@ class TestPlots : public QObject {
     auto* xy = qobject_cast<XyPane*>(s.pane());
     QVERIFY(xy);
     s.time.setRange({0.0, 2.0});
-    QTRY_COMPARE(xy->points().value(0).size(), std::size_t(121));
+    QTRY_COMPARE(xy->points().at(0).size(), std::size_t(121));
     for (int i = 0; i <= 120; ++i) {
       QCOMPARE(xy->points()[0][std::size_t(i)],
                QPointF(PlotSource::distanceAt(i / 60.0), 90.0 * (i / 60.0)));
@@ -384,6 +385,74 @@ class TestPlots : public QObject {
     bench.settings.setValue("plots/layout", "{\"pitchboardPlots\": 99");
     PlotsDock fresh(bench.context(), nullptr);
     QCOMPARE(fresh.pages().size(), 1);
+  }
+
+  void aFilledDockIsDrawnInBothThemes_data() {
+    QTest::addColumn<bool>("dark");
+    QTest::addColumn<QSize>("size");
+    QTest::addColumn<double>("ratio");
+    QTest::newRow("dark-1280") << true << QSize(1280, 260) << 1.0;
+    QTest::newRow("light-1280") << false << QSize(1280, 260) << 1.0;
+    QTest::newRow("dark-1920") << true << QSize(1920, 360) << 1.0;
+    QTest::newRow("light-200") << false << QSize(1280, 260) << 2.0;
+  }
+  /// With PITCHBOARD_PICTURES=FOLDER the pictures are kept, to be looked at.
+  void aFilledDockIsDrawnInBothThemes() {
+    QFETCH(bool, dark);
+    QFETCH(QSize, size);
+    QFETCH(double, ratio);
+    setTheme(*qApp, dark ? ThemeChoice::Dark : ThemeChoice::Light);
+    const auto back = qScopeGuard([] { setTheme(*qApp, ThemeChoice::Dark); });
+    Shown s(30.0);
+    const telemetry::GroupId second = s.source.addRobot("B2");
+    for (int i = 0; i <= 30 * 60; ++i) {
+      const double time = i / 60.0;
+      const bool lost = time > 20.2 && time < 22.3;
+      s.source.append(second, time, 0, lost ? std::nan("") : 210 + 30 * std::tanh((time - 23) / 2) +
+                                                2 * std::sin(i * 1.3),
+                      85.0 * time + 6 * std::sin(time * 3));
+    }
+    s.dock->resize(size);
+    PageSpec page{"approach", {}};
+    PaneSpec chart, heading, lane;
+    chart.curves << variableCurve("B1/DIST") << variableCurve("B2/DIST");
+    heading.curves << variableCurve("B1/ANGLE") << variableCurve("B2/ANGLE")
+                   << variableCurve("R7/NOT_THERE_YET");
+    for (PaneSpec* pane : {&chart, &heading}) {
+      for (int i = 0; i < pane->curves.size(); ++i) {
+        pane->curves[i].colorNumber = i + (pane == &heading ? 2 : 0);
+      }
+    }
+    heading.curves[0].title = "heading true B1";
+    heading.curves[1].title = "heading believed B1";
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve("B1/ACTION");
+    page.panes << chart << heading << lane;
+    s.dock->setLayoutSpec({{page, {"localization", {}}}, 0});
+    s.time.setMark(TimeMark::A, 21.0);
+    s.time.setMark(TimeMark::B, 27.0);
+    QTest::qWait(150);
+    QPixmap picture(size * ratio);
+    picture.setDevicePixelRatio(ratio);
+    s.dock->render(&picture);
+    const QImage image = picture.toImage().convertToFormat(QImage::Format_RGB32);
+    // A pixel of each curve's colour somewhere, over the right ground.
+    for (const int number : {0, 1, 2, 3}) {
+      const QColor wanted = curveColor(number);
+      bool found = false;
+      for (int y = 0; y < image.height() && !found; ++y) {
+        for (int x = 0; x < image.width() * 7 / 10 && !found; ++x) {
+          const QColor is = image.pixelColor(x, y);
+          found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
+                      std::abs(is.blue() - wanted.blue()) < 24;
+        }
+      }
+      QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));
+    }
+    const QString folder = qEnvironmentVariable("PITCHBOARD_PICTURES");
+    if (!folder.isEmpty()) {
+      QVERIFY(image.save(QStringLiteral("%1/plots-%2.png").arg(folder, QTest::currentDataTag())));
+    }
   }
 
   void theMarksModelIsAModel() {

@@ -22,8 +22,10 @@ double niceStep(double span, int most) {
   return 10.0 * power;
 }
 
-ValueLimits niceLimits(double low, double high, int mostSteps) {
-  if (!std::isfinite(low) || !std::isfinite(high) || low > high) return {0.0, 1.0};
+NiceLimits niceLimits(double low, double high, int mostSteps) {
+  if (!std::isfinite(low) || !std::isfinite(high) || low > high) {
+    return {{0.0, 1.0}, niceStep(1.0, mostSteps)};
+  }
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low <= size * 1e-9) {
     const double room = size > 0.0 ? size * 0.1 : 1.0;
@@ -31,7 +33,7 @@ ValueLimits niceLimits(double low, double high, int mostSteps) {
     high += room;
   }
   const double step = niceStep(high - low, mostSteps);
-  return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step};
+  return {{std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step}, step};
 }
 
 int decimalsOf(double step) {
@@ -52,7 +54,7 @@ QString valueText(double value) {
   if (size != 0.0 && (size >= 1e7 || size < 1e-4)) {
     return QString::number(value, 'e', 3).replace(QLatin1Char('-'), QStringLiteral("\u2212"));
   }
-  const int decimals = size >= 1000.0 ? 1 : size >= 10.0 ? 2 : size >= 0.1 || size == 0.0 ? 3 : 5;
+  const int decimals = size >= 100.0 ? 1 : size >= 10.0 ? 2 : size >= 0.1 || size == 0.0 ? 3 : 5;
   return numberText(value, decimals);
 }
 

@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,6 +53,11 @@ Result<Expression> Expression::parse(const QString& text) {
   if (text.trimmed().isEmpty()) return wrong(tr("the expression is empty"));
   if (text.size() > longest) {
     return wrong(tr("the expression is longer than %1 characters").arg(longest));
+  }
+  static const QRegularExpression assignment(QStringLiteral("(?<![=<>!])=(?!=)"));
+  if (const auto found = assignment.match(text); found.hasMatch()) {
+    return wrong(tr("the '=' at character %1 would assign; '==' compares")
+                     .arg(found.capturedStart() + 1));
   }
   // `{B1/odd name}` becomes an identifier that the parser can read.
   QString plain;

@@ -57,7 +57,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
   m_table->setColumnWidth(MarksModel::Name, scaled(this, 130));
   for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
-    m_table->setColumnWidth(c, scaled(this, 58));
+    m_table->setColumnWidth(c, scaled(this, 60));
   }
   m_times->setTextFormat(Qt::RichText);
   m_difference->setFont(themeFont(TypeRole::Secondary, true));

@@ -10,6 +10,7 @@
 #include "plot_pane.h"
 
 class QLabel;
+class QMimeData;
 class QSplitter;
 
 namespace pitchboard::ui {
@@ -77,6 +78,7 @@ class PlotPage : public QWidget {
   bool isCoded(const QString& name) const;
   void align();
   void placeLines();
+  void giveLanesTheirHeight();
   TimeScale timeScale() const;
 
   PlotFeed* m_feed;

@@ -62,7 +62,6 @@ PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
   column->addWidget(m_notices);
   column->addWidget(m_tabs, 1);
   m_tabs->setDocumentMode(true);
-  m_tabs->setTabsClosable(true);
   m_tabs->setMovable(true);
   m_tabs->tabBar()->setFont(themeFont(TypeRole::Secondary));
   m_tabs->tabBar()->setExpanding(false);
@@ -74,7 +73,6 @@ PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
   m_saveSoon.setInterval(saveMilliseconds);
   connect(&m_draw, &QTimer::timeout, this, &PlotsDock::drawNow);
   connect(&m_saveSoon, &QTimer::timeout, this, &PlotsDock::save);
-  connect(m_tabs, &QTabWidget::tabCloseRequested, this, &PlotsDock::closePage);
   connect(m_tabs, &QTabWidget::tabBarDoubleClicked, this, &PlotsDock::renamePage);
   connect(m_tabs, &QTabWidget::currentChanged, this, &PlotsDock::scheduleDraw);
   connect(m_feed, &PlotFeed::refreshed, this, &PlotsDock::takeRows);
@@ -138,7 +136,7 @@ void PlotsDock::makeTools() {
   connect(time, &LinkedTime::marksChanged, m_marks,
           [this, time] { m_marks->setChecked(time->hasMarks()); });
 
-  m_box = new QAction(themedIcon(QStringLiteral("zoom-select")), tr("Zoom into a box"), this);
+  m_box = new QAction(themedIcon(QStringLiteral("select-rectangular")), tr("Zoom into a box"), this);
   m_box->setToolTip(tr("Drag a box to zoom into it (also Shift-drag)"));
   m_box->setCheckable(true);
   connect(m_box, &QAction::toggled, this, [this](bool on) {
@@ -198,7 +196,16 @@ QList<PlotPage*> PlotsDock::pages() const {
 PlotPage* PlotsDock::addPage(const PageSpec& spec) {
   auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_tabs);
   page->setBoxTool(m_box->isChecked());
-  m_tabs->addTab(page, spec.name);
+  const int index = m_tabs->addTab(page, spec.name);
+  auto* close = new QToolButton(m_tabs->tabBar());
+  close->setIcon(themedIcon(QStringLiteral("window-close")));
+  close->setIconSize(QSize(scaled(this, 10), scaled(this, 10)));
+  close->setFixedSize(scaled(this, 16), scaled(this, 16));
+  close->setAutoRaise(true);
+  close->setFocusPolicy(Qt::NoFocus);
+  close->setToolTip(tr("Close this tab"));
+  connect(close, &QToolButton::clicked, this, [this, page] { closePage(m_tabs->indexOf(page)); });
+  m_tabs->tabBar()->setTabButton(index, QTabBar::RightSide, close);
   connect(page, &PlotPage::changed, this, [this, page] {
     m_tabs->setTabText(m_tabs->indexOf(page), page->name());
     if (!m_restoring) m_saveSoon.start();

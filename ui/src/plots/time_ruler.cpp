@@ -7,7 +7,6 @@
 
 #include <ui/theme.h>
 
-#include "linked_time.h"
 
 namespace pitchboard::ui {
 namespace {

@@ -9,11 +9,11 @@
 #include <optional>
 
 #include "curve_trace.h"
+#include "linked_time.h"
 #include "timeline/time_axis.h"
 
 namespace pitchboard::ui {
 
-class LinkedTime;
 class TimeGestures;
 
 /// Numbers of the linked time axis; below the lowest plot.

@@ -182,6 +182,8 @@ void ValueChart::redraw() {
 
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
   if (m_area.isEmpty() || !(m_stepY > 0.0)) return;
+  painter->setPen(theme().innerLine);
+  painter->drawRect(m_area);
   painter->setFont(themeFont(TypeRole::Small));
   painter->setPen(theme().secondaryText);
   const QFontMetricsF metrics(painter->font());
