@@ -23,13 +23,16 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION);
 
   int exitCode = 0;
-  constexpr std::array<AddCommand, 6> commands{
+  constexpr std::array<AddCommand, 9> commands{
       &addSimulateCommand,
       &addConformanceCommand,
       &addBlackboardCommands,
       &addCatalogCommands,
       &addListenCommand,
-      &addDecodeCommand};
+      &addDecodeCommand,
+      &addInspectCommand,
+      &addRepairCommand,
+      &addExportCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   try {

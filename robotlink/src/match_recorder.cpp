@@ -8,6 +8,8 @@
 #include <robotlink/session_checkpoint.h>
 #include <telemetry/action_words.h>
 
+#include "session_sink.h"
+
 namespace pitchboard::link {
 namespace {
 
@@ -68,21 +70,6 @@ telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldSt
   return out;
 }
 
-/// Rows straight into the file.
-class MatchRecorder::Sink : public telemetry::RowSink {
- public:
-  explicit Sink(telemetry::SessionWriter& writer) : m_writer(writer) {}
-  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
-    return m_writer.addGroup(info);
-  }
-  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
-    m_writer.append(group, row);
-  }
-
- private:
-  telemetry::SessionWriter& m_writer;
-};
-
 Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& path,
                                                              const Scenario& scenario,
                                                              const VariableCatalog& catalog,
@@ -97,7 +84,7 @@ Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& 
 
 MatchRecorder::MatchRecorder(std::unique_ptr<telemetry::SessionWriter> writer, int everyNth)
     : m_writer(std::move(writer)),
-      m_sampler(std::make_shared<Sink>(*m_writer), {everyNth}) {}
+      m_sampler(std::make_shared<SessionSink>(*m_writer), {everyNth}) {}
 
 MatchRecorder::~MatchRecorder() { (void)finish(); }
 
@@ -123,10 +110,7 @@ void MatchRecorder::logged(const LogLine& line) {
 }
 
 void MatchRecorder::keep(std::optional<StateSegment> ended) {
-  if (!ended) return;
-  m_writer->appendJson(telemetry::SessionStream::Checkpoints,
-                       static_cast<double>(ended->firstTick()) / ended->tickRate(),
-                       checkpointToJson(*ended));
+  if (ended) appendCheckpoint(*m_writer, *ended);
 }
 
 void MatchRecorder::noteProcesses(const SimulatedMatch& match, double time) {
@@ -180,9 +164,7 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
     if (const auto ticks = past.archive->range()) {
       const auto first = static_cast<std::uint64_t>(std::max(0.0, begin * ticks->tickRate));
       for (const auto& segment : past.archive->segments(first, ticks->last)) {
-        (*writer)->appendJson(telemetry::SessionStream::Checkpoints,
-                              static_cast<double>(segment->firstTick()) / segment->tickRate(),
-                              checkpointToJson(*segment));
+        appendCheckpoint(**writer, *segment);
       }
     }
   }

@@ -10,6 +10,7 @@
 #include <robotlink/cognitive_process.h>
 #include <robotlink/robot_config.h>
 
+#include "live_frame.h"
 #include "moment_writes.h"
 #include "referee_word.h"
 
@@ -18,8 +19,8 @@ namespace {
 
 constexpr double gap = 0.01;              // m between robots that were pushed apart
 constexpr int mostPushes = 400;           // rounds; a crowd that needs more stays as it is
-constexpr double farthestAgreement = 0.75;  // m
 constexpr int highestShirt = 99;
+constexpr double halfSeconds = 600.0;    // Humanoid League, rules of every year since 2013
 constexpr double fastestBall = 50.0;      // m/s, of a scenario
 
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -112,6 +113,11 @@ class Maker {
     const RobotBoardView* view = board(robot.identity.id);
     ScenarioRobot out{robot.identity, robot.pose, m_options.behaviour};
     const std::string name = nameOf(robot.identity);
+    for (const RobotHealth& health : m_frame.health) {
+      if (health.id != robot.identity.id || health.poseKnown) continue;
+      note(name + " never said where it is; it is left out.");
+      return;
+    }
     if (m_frame.truthKnown && believed()) {
       const auto belief = view ? believedPose(m_frame.field, *view) : std::nullopt;
       if (belief) {
@@ -258,7 +264,7 @@ class Maker {
     if (scenario.ball != ball) note("The ball was outside the walls and was moved inside.");
   }
 
-  /// The place that most sightings lie near; their mean.
+  /// Where most robots agree that it is.
   void perceiveBall(Point& ball) {
     const std::vector<Sighting> seen = sightings();
     if (seen.empty()) {
@@ -266,43 +272,48 @@ class Maker {
                              : "No robot sees the ball; it lies on the centre mark.");
       return;
     }
-    const auto near = [&](const Sighting& centre) {
-      std::vector<const Sighting*> out;
-      for (const Sighting& other : seen) {
-        if (distance(centre.ball, other.ball) <= farthestAgreement) out.push_back(&other);
-      }
-      return out;
-    };
-    std::vector<const Sighting*> best;
-    double nearest = 0.0;
-    for (const Sighting& one : seen) {
-      auto agree = near(one);
-      // Of equal numbers, those who are near it: far balls are seen less well.
-      if (agree.size() > best.size() || (agree.size() == best.size() && one.range < nearest)) {
-        best = std::move(agree);
-        nearest = one.range;
-      }
-    }
-    ball = {};
-    for (const Sighting* one : best) {
-      ball.x += one->ball.x / static_cast<double>(best.size());
-      ball.y += one->ball.y / static_cast<double>(best.size());
-    }
-    if (best.size() == seen.size() && seen.size() > 1) return;
-    if (seen.size() == 1) {
-      note("Only " + seen.front().by + " sees the ball.");
-    } else {
-      note("The robots do not agree where the ball is: " + std::to_string(best.size()) + " of the " +
+    std::vector<Point> balls;
+    for (const Sighting& one : seen) balls.push_back(one.ball);
+    if (const auto agreed = agreedBall(balls)) {
+      ball = agreed->position;
+      if (static_cast<std::size_t>(agreed->agree) == seen.size()) return;
+      note("The robots do not agree where the ball is: " + std::to_string(agreed->agree) + " of the " +
            std::to_string(seen.size()) + " that see it are believed.");
+      return;
     }
+    // Far balls are seen less well.
+    const auto nearest = std::min_element(
+        seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
+    ball = nearest->ball;
+    note(seen.size() == 1 ? "Only " + nearest->by + " sees the ball."
+                          : "No two robots agree where the ball is; " + nearest->by +
+                                ", which is nearest to its own, is believed.");
   }
 
   void takeGame() {
     Scenario& scenario = m_out.scenario;
     const sim::Snapshot& snapshot = m_frame.snapshot;
     scenario.score = {std::max(0, snapshot.score.left), std::max(0, snapshot.score.right)};
-    scenario.clock = std::isfinite(snapshot.clock) ? std::clamp(snapshot.clock, 0.0, 1e6) : 0.0;
-    scenario.clockRunning = snapshot.clockRunning || m_frame.origin == FrameOrigin::Live;
+    double clock = snapshot.clock;
+    bool running = snapshot.clockRunning;
+    int word = refereePlay;
+    if (m_frame.referee) {
+      const RefereeView& referee = *m_frame.referee;
+      // The referee counts down, this clock up.
+      clock = halfSeconds - referee.secondsLeft;
+      running = referee.state == "PLAYING" && !referee.stopped;
+      word = running                      ? refereePlay
+             : referee.state == "READY"   ? refereeReady
+             : referee.state == "SET"     ? refereeSet
+                                          : refereeStop;
+      note("The referee said " + referee.state + " with " + std::to_string(referee.secondsLeft) +
+           " s left; the clock here counts from the beginning of a half of 10 minutes.");
+    } else if (!m_frame.truthKnown) {
+      clock = 0.0;
+      running = true;
+    }
+    scenario.clock = std::isfinite(clock) ? std::clamp(clock, 0.0, 1e6) : 0.0;
+    scenario.clockRunning = running;
     scenario.writes = writesFrom(scenario.writes, snapshot.time, [&](RobotId id) {
       return std::any_of(scenario.robots.begin(), scenario.robots.end(),
                          [id](const auto& robot) { return robot.identity.id == id; });
@@ -311,7 +322,11 @@ class Maker {
       return w.variable == refereeVariable;
     });
     // Without a word of the referee robots stand still for ever.
-    if (!told) scenario.writes.insert(scenario.writes.begin(), {{}, refereeVariable, refereePlay, 0.0});
+    if (!told || m_frame.referee) {
+      std::erase_if(scenario.writes, [](const auto& w) { return w.variable == refereeVariable; });
+      scenario.writes.insert(scenario.writes.begin(),
+                             {{}, refereeVariable, static_cast<double>(word), 0.0});
+    }
   }
 
   static constexpr const char* refereeVariable = "COM_REFEREE";

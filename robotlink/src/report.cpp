@@ -142,10 +142,9 @@ std::string robots(const SessionStatistics& s) {
 
 std::string charts(const SessionStatistics& s) {
   std::string errors, ball;
+  // A robot that has just begun to look for itself is anywhere: the scale is that of ordinary play.
   double most = 0.0;
-  for (const RobotSummary& r : s.robots) {
-    for (const double value : r.errorCurve) most = std::isfinite(value) ? std::max(most, value) : most;
-  }
+  for (const RobotSummary& r : s.robots) most = std::max(most, 2.0 * r.error90.value_or(0.0));
   for (const RobotSummary& r : s.robots) {
     if (r.errorCurve.empty()) continue;
     errors += "<figure class=\"" + teamClass(r.team) + "\"><h3><span>" + escaped(r.name) +
@@ -167,7 +166,7 @@ std::string charts(const SessionStatistics& s) {
   }
   if (!errors.empty()) {
     out += "<h2>Belief error</h2>\n<p class=\"quiet\">Distance between where a robot believed to be and "
-           "where it was; means.</p>\n<div class=\"charts\">\n" + errors + "</div>\n";
+           "where it was; means. What is larger than the scale is cut off.</p>\n<div class=\"charts\">\n" + errors + "</div>\n";
   }
   return out;
 }

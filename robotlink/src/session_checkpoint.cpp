@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/session_checkpoint.h>
 
-#include <nlohmann/json.hpp>
-#include <telemetry/base64.h>
+#include <algorithm>
 
 namespace pitchboard::link {
 namespace {
@@ -13,26 +12,9 @@ constexpr double timeTolerance = 1e-6;  // s; file times are whole nanoseconds
 
 }  // namespace
 
-std::string checkpointToJson(const StateSegment& segment) {
-  return nlohmann::ordered_json{
-      {"time", static_cast<double>(segment.firstTick()) / segment.tickRate()},
-      {"tick", segment.firstTick()},
-      {"last_tick", segment.lastTick()},
-      {"segment", telemetry::toBase64(segment.encode())}}
-      .dump();
-}
-
-Result<StateSegment> checkpointFromJson(std::string_view json) {
-  const auto object = nlohmann::json::parse(json, nullptr, false);
-  if (object.is_object()) {
-    const auto found = object.find("segment");
-    if (found != object.end() && found->is_string()) {
-      const auto bytes = telemetry::fromBase64(found->get_ref<const std::string&>());
-      if (bytes) return StateSegment::decode(*bytes);
-    }
-  }
-  return failure(ErrorCode::ParseError, "a recorded piece of the match cannot be read",
-                 "/checkpoints");
+void appendCheckpoint(telemetry::SessionWriter& session, const StateSegment& segment) {
+  session.appendCheckpoint(static_cast<double>(segment.firstTick()) / segment.tickRate(),
+                           segment.encode());
 }
 
 Result<SessionCheckpoint> checkpointAt(const telemetry::SessionReader& session, double seconds) {
@@ -56,7 +38,11 @@ Result<SessionCheckpoint> checkpointAt(const telemetry::SessionReader& session, 
                    "this session has no state of a simulated match at that time; only what was "
                    "recorded from a simulation can be entered again exactly");
   }
-  auto segment = checkpointFromJson(json);
+  const auto bytes = telemetry::sessionCheckpoint(json);
+  if (!bytes) {
+    return failure(ErrorCode::ParseError, "the state of the match at that time is damaged");
+  }
+  auto segment = StateSegment::decode(*bytes);
   if (!segment) return tl::unexpected(segment.error());
   return SessionCheckpoint{*time, std::move(*segment)};
 }

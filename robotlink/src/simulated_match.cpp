@@ -70,14 +70,14 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
     return tl::unexpected(placed.error());
   }
   match.m_simulation.setClockRunning(scenario.clockRunning);
-  match.m_simulation.setScore(scenario.score);
-  match.m_simulation.editState().clockTicks =
-      firstTickAtOrAfter(scenario.clock, scenario.settings.tickRate);
   if (options.thoughts && options.cognition == Cognition::External) {
     auto receiver = ThoughtsReceiver::listen();
     if (!receiver) return tl::unexpected(receiver.error());
     match.m_thoughts = std::move(*receiver);
   }
+  match.m_simulation.setScore(scenario.score);
+  match.m_simulation.editState().clockTicks =
+      firstTickAtOrAfter(scenario.clock, scenario.settings.tickRate);
   if (auto resolved = match.resolveWrites(); !resolved) return tl::unexpected(resolved.error());
   for (const ScenarioRobot& robot : scenario.robots) {
     if (auto added = match.addRobot(robot); !added) return tl::unexpected(added.error());

@@ -42,7 +42,7 @@ class TestSession : public QObject {
     (*writer)->append(SessionStream::Telemetry, text);
     (*writer)->append(SessionStream::Telemetry, utf8);
     (*writer)->append(SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""});
-    (*writer)->appendJson(SessionStream::Checkpoints, 0.1, R"({"time":0.1,"scenario":{}})");
+    (*writer)->appendJson(SessionStream::Checkpoints, 0.1, R"({"time":0.1})");
     QVERIFY((*writer)->finish());
     const SessionStatus status = (*writer)->status();
     QCOMPARE(status.rows, rows.size());
@@ -78,6 +78,15 @@ class TestSession : public QObject {
       return true;
     });
     QCOMPARE(seen, 2);
+    reader->messages(SessionStream::Checkpoints, everything, [&](double time, std::string_view json) {
+      seen += time == 0.1 && json == R"({"time":0.1})";
+      return true;
+    });
+    reader->messages(SessionStream::Log, everything, [&](double, std::string_view json) {
+      seen += sessionLogLine(json) == SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""};
+      return true;
+    });
+    QCOMPARE(seen, 4);
   }
 
   void momentsAndRanges() {

@@ -61,7 +61,6 @@ class MatchRecorder : public TickObserver {
   Result<void> finish();
 
  private:
-  class Sink;
   explicit MatchRecorder(std::unique_ptr<telemetry::SessionWriter> writer, int everyNth);
   void keep(std::optional<StateSegment> ended);
   void noteProcesses(const SimulatedMatch& match, double time);

@@ -9,9 +9,11 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <robotlink/match_frame.h>
+#include <telemetry/profile.h>
 #include <telemetry/series_store.h>
 #include <telemetry/session_reader.h>
 
@@ -24,9 +26,10 @@ struct FrameBackdrop {
   std::string physics;
   std::uint64_t seed = 0;
   double tickRate = 60.0;
+  std::optional<telemetry::Profile> profile;  ///< what live robots' fields mean
 };
 
-/// From the scenario that the session holds; the published field where there is none.
+/// From the scenario and the profile that the session holds; the published field where there is none.
 FrameBackdrop backdropOf(const telemetry::SessionReader& session);
 
 class RecordedFrames {
@@ -45,6 +48,11 @@ class RecordedFrames {
   template <class LookBack>
   MatchFrame build(double time, LookBack&& lookBack);
   const Layout& layoutOf(std::size_t group);
+  void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);
+  void fillMatch(std::size_t group, MatchFrame& frame);
+  void addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame);
+  void addHealth(std::size_t group, double time, const RobotBoardView& board,
+                 const sim::RobotSnapshot& robot, MatchFrame& frame);
 
   FrameBackdrop m_backdrop;
   std::uint64_t m_serial = 0;
