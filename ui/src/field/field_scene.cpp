@@ -290,7 +290,7 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
   double least = robotReach;
   for (const auto& [id, robot] : m_robots) {
     const double away = distance(toScene(robot->body.look().pose.position), metres);
-    if (away > least) continue;
+    if (away > least || !robot->body.isVisible()) continue;
     least = away;
     nearest = {FieldHit::Kind::Robot, id};
   }
@@ -307,7 +307,10 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
 std::vector<RobotId> FieldScene::robotsIn(const QRectF& metres) const {
   std::vector<RobotId> inside;
   for (const auto& [id, robot] : m_robots) {
-    if (metres.contains(toScene(robot->body.look().pose.position))) inside.push_back(id);
+    const RobotItem& body = robot->body;
+    if (body.isVisible() && metres.contains(toScene(body.look().pose.position))) {
+      inside.push_back(id);
+    }
   }
   return inside;
 }

@@ -16,6 +16,7 @@
 
 #include "help_windows.h"
 #include "live/live_overlay.h"
+#include "live/live_settings_dialog.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "source_switch.h"
@@ -146,6 +147,9 @@ void StudioMenus::makeView() {
   m_window.m_overlayAction = overlay;
   overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_window.m_overlay, &LiveOverlay::setOn);
+  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [this_ = &m_window] {
+    showLiveSettings(this_->m_live, this_->m_settings, this_);
+  });
   menu->addSeparator();
   makeThemes(menu->addMenu(QObject::tr("&Theme")));
   menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
