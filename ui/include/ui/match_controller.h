@@ -18,6 +18,8 @@
 #include <vector>
 
 #include <robotlink/match_runner.h>
+#include <robotlink/recorded_frame.h>
+#include <robotlink/state_archive.h>
 #include <ui/frame_source.h>
 
 class QTimer;
@@ -64,6 +66,7 @@ class MatchController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
+  FramePtr frameAt(double time) const override;
   QUndoStack* undoStack() const { return m_undoStack; }
   /// Where the robots' processes run: as asked for, or Inline when that was not possible.
   link::Cognition cognition() const { return m_cognition; }
@@ -131,10 +134,21 @@ class MatchController : public FrameSource {
   /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
   std::uint64_t stateHash();
 
+  /// The exact states of the recent past; another one after `restarted`, null while there is no match.
+  std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
+  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and what
+  /// could be undone. `errorOccurred` when memory does not hold it any more.
+  void continueFrom(double time);
+  /// Sees every tick from now on, until stopObserving() or `ending`. False: there is no match.
+  bool observe(std::shared_ptr<link::TickObserver> observer);
+  /// Waits for the tick in progress.
+  void stopObserving(const std::shared_ptr<link::TickObserver>& observer);
+
   /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
   const link::ScenarioRobot* robot(RobotId id) const;
 
  signals:
+  void ending();             ///< the match goes now: its observers see it for the last time
   void scenarioChanged();    ///< another match is being opened, or none; `restarted` follows
   void opened();             ///< it is there, or failed
   void transportChanged();   ///< paused, speed, or whether there is a match
@@ -177,6 +191,8 @@ class MatchController : public FrameSource {
   FramePtr m_frame;
   std::shared_ptr<MatchRows> m_rows;
   std::shared_ptr<link::MatchSampler> m_sampler;
+  std::shared_ptr<link::StateArchive> m_archive;
+  mutable std::unique_ptr<link::RecordedFrames> m_past;   // rebuilds frames; made when asked for
   int m_everyNth = 1;
   double m_speed = 1.0;
   bool m_paused = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <session/session_events.h>
 #include <shell/robot_words.h>
 #include <shell/scoreboard.h>
 
@@ -37,6 +38,17 @@ EventCollector::EventCollector(FrameSource* source)
     : QObject(source), m_source(source), m_list(new EventList(this)) {
   connect(source, &FrameSource::frameReceived, this, &EventCollector::take);
   connect(source, &FrameSource::eventsReceived, this, &EventCollector::takeEvents);
+  connect(source, &FrameSource::eventsRecorded, this,
+          [this](const std::vector<telemetry::SessionEvent>& events) {
+            std::vector<TimelineEvent> taken;
+            for (const telemetry::SessionEvent& event : events) {
+              // As in a match: getting up follows every fall.
+              if (event.kind != "got-up" && event.kind != "unknown-action") {
+                taken.push_back(timelineEventOf(event));
+              }
+            }
+            m_list->add(std::move(taken));
+          });
   connect(source, &FrameSource::restarted, this, &EventCollector::forget);
   if (const FramePtr frame = source->frame()) take(frame);
 }
