@@ -83,7 +83,7 @@ class Clip {
     for (const auto& [id, channel] : file.channels()) {
       const bool known = std::any_of(
           session::streams.begin(), session::streams.end(),
-          [&](const session::StreamInfo& stream) { return stream.topic == channel.topic; });
+          [&topic = channel.topic](const session::StreamInfo& stream) { return stream.topic == topic; });
       if (known && channel.messageEncoding == "json") m_chunk.add(channel);
     }
   }

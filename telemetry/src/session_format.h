@@ -63,8 +63,6 @@ std::string toJson(const SessionDatagram& datagram);
 std::optional<SessionEvent> eventFromJson(std::string_view json);
 std::optional<SessionLogLine> logLineFromJson(std::string_view json);
 std::optional<SessionDatagram> datagramFromJson(std::string_view json);
-std::string checkpointToJson(double time, std::string_view state);
-std::optional<std::string> checkpointFromJson(std::string_view json);
 /// The "time" of any message.
 std::optional<double> timeFromJson(std::string_view json);
 

@@ -264,14 +264,4 @@ std::optional<double> timeFromJson(std::string_view json) {
   return object ? number(*object, "time") : std::nullopt;
 }
 
-std::string checkpointToJson(double time, std::string_view state) {
-  return dump(Json{{"time", time}, {"state", toBase64(state)}});
-}
-
-std::optional<std::string> checkpointFromJson(std::string_view json) {
-  const auto object = objectWithTime(json);
-  if (!object || !object->contains("state")) return std::nullopt;
-  return fromBase64(text(*object, "state"));
-}
-
 }  // namespace pitchboard::telemetry::session

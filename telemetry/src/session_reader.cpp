@@ -425,8 +425,4 @@ std::optional<SessionDatagram> sessionDatagram(std::string_view json) {
   return session::datagramFromJson(json);
 }
 
-std::optional<std::string> sessionCheckpoint(std::string_view json) {
-  return session::checkpointFromJson(json);
-}
-
 }  // namespace pitchboard::telemetry

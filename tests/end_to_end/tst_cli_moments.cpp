@@ -33,9 +33,9 @@ class TestCliMoments : public QObject {
  private slots:
   void initTestCase() {
     m_session = m_folder.filePath("match.mcap");
-    const Run run = cli({"simulate", "--duration", "12", "--noise", "paper", "--record", m_session});
+    const Run run = cli({"record", "--duration", "12", "--noise", "paper", "-o", m_session});
     QVERIFY2(run.exitCode == 0, qPrintable(run.err));
-    const Run again = cli({"simulate", "--duration", "1", "--record", m_session});
+    const Run again = cli({"record", "--duration", "1", "-o", m_session});
     QCOMPARE(again.exitCode, 2);
   }
 

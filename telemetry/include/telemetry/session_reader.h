@@ -107,7 +107,5 @@ class SessionReader {
 /// A message of the streams Log, and Telemetry or RefereeRaw. Nothing when it is not of that form.
 std::optional<SessionLogLine> sessionLogLine(std::string_view json);
 std::optional<SessionDatagram> sessionDatagram(std::string_view json);
-/// The bytes of a message of the stream Checkpoints.
-std::optional<std::string> sessionCheckpoint(std::string_view json);
 
 }  // namespace pitchboard::telemetry
