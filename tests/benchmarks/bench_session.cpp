@@ -98,7 +98,7 @@ const std::string& hourFile() {
       recorder.happened(match.simulation().events());
       recorder.ticked(match, {});
     }
-    recorder.finish();
+    (void)recorder.finish();
     (void)writer->finish();
     return file;
   }();
