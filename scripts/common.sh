@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # For ./run and ./test: install_packages LIST..., build TARGET. Run from the top folder.
+# A line of a list is a package, or a package and a command: it is needed only where the command is
+# missing, because another packaging of the same program would be in conflict with it.
 
 install_packages() {
-  local missing=() package
-  while read -r package; do
+  local missing=() package command
+  while read -r package command; do
     [ -n "$package" ] || continue
+    [ -z "$command" ] || ! command -v "$command" >/dev/null || continue
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
       missing+=("$package")
   done < <(cat "$@")

@@ -19,6 +19,10 @@ void addBlackboardCommands(CLI::App& parent, int& exitCode);
 void addCatalogCommands(CLI::App& parent, int& exitCode);
 void addListenCommand(CLI::App& parent, int& exitCode);
 void addDecodeCommand(CLI::App& parent, int& exitCode);
+void addInspectCommand(CLI::App& parent, int& exitCode);
+void addRepairCommand(CLI::App& parent, int& exitCode);
+void addRecordCommand(CLI::App& parent, int& exitCode);
+void addExportCommand(CLI::App& parent, int& exitCode);
 
 /// Prints "error: ..." on stderr and returns 2.
 int reportError(const Error& error);

@@ -3,13 +3,13 @@
 #include <telemetry/team_monitor.h>
 #include <telemetry/udp_receiver.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <map>
 #include <memory>
 
 #include "commands.h"
+#include "interrupt.h"
+#include "listen_options.h"
 #include "live_json.h"
 
 namespace pitchboard::cli {
@@ -18,39 +18,10 @@ namespace {
 using namespace telemetry;
 
 struct Options {
+  ListenOptions network;
   std::optional<double> duration;
-  std::string bind = "0.0.0.0";
-  int portBase = 1240;
-  int robots = 16;
-  int refereePort = 3838;
-  std::string profile;
-  std::vector<std::string> senders;
   std::string monitor;
   bool json = false;
-};
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
-
-/// Ends the loop on SIGINT and SIGTERM, and puts back what was there before.
-class SignalGuard {
- public:
-  SignalGuard() {
-    interrupted = false;
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = true; };
-    sigaction(SIGINT, &action, &m_int);
-    sigaction(SIGTERM, &action, &m_term);
-  }
-  ~SignalGuard() {
-    sigaction(SIGINT, &m_int, nullptr);
-    sigaction(SIGTERM, &m_term, nullptr);
-  }
-  SignalGuard(const SignalGuard&) = delete;
-  SignalGuard& operator=(const SignalGuard&) = delete;
-
- private:
-  struct sigaction m_int {}, m_term {};
 };
 
 /// Prints what arrives.
@@ -122,22 +93,6 @@ class Printer {
   std::uint64_t m_unknownReferee = 0;
 };
 
-/// Says on stderr which ports are not received, once for each change.
-void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string>& told) {
-  for (std::size_t i = 0; i < status.ports.size(); ++i) {
-    const PortStatus& port = status.ports[i];
-    std::string& last = told[i];
-    if (port.problem == last) continue;
-    if (port.bound) {
-      std::fprintf(stderr, "port %d is received now\n", port.port);
-    } else {
-      std::fprintf(stderr, "warning: %s It is tried again; the other ports work.\n",
-                   port.problem.c_str());
-    }
-    last = port.problem;
-  }
-}
-
 void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint64_t unknown) {
   std::fprintf(stderr, "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu",
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
@@ -158,29 +113,11 @@ void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint6
   std::fputc('\n', stderr);
 }
 
-WallTime wallNow() {
-  return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-}
-
 int run(const Options& options) {
   using Clock = std::chrono::steady_clock;
-  ReceiverOptions receiver;
-  const auto bind = parseAddress(options.bind);
-  if (!bind) return reportError(bind.error());
-  receiver.bind = *bind;
-  auto ports = livePorts(options.portBase, options.robots, options.refereePort);
-  if (!ports) return reportError(ports.error());
-  receiver.ports = std::move(*ports);
-  Profile profile = publishedProfile();
-  if (!options.profile.empty()) {
-    auto loaded = loadProfile(options.profile);
-    if (!loaded) return reportError(loaded.error());
-    profile = std::move(*loaded);
-  }
-  MonitorOptions monitor;
-  for (const std::string& sender : options.senders) {
-    if (const auto added = monitor.senders.add(sender); !added) return reportError(added.error());
-  }
+  auto setup = listenSetup(options.network);
+  if (!setup) return reportError(setup.error());
+  ReceiverOptions& receiver = setup->receiver;
   std::optional<Address> referee;
   if (!options.monitor.empty()) {
     const auto address = parseAddress(options.monitor);
@@ -189,14 +126,13 @@ int run(const Options& options) {
     receiver.ports.push_back(robotStatesPort);
   }
 
-  const SignalGuard signals;
+  const InterruptGuard signals;
   auto network = UdpReceiver::start(std::move(receiver));
   if (!network) return reportError(network.error());
-  Printer printer(TeamMonitor(std::move(profile), std::move(monitor)),
-                  static_cast<std::uint16_t>(options.refereePort), options.json);
+  Printer printer(TeamMonitor(std::move(setup->profile), std::move(setup->monitor)),
+                  static_cast<std::uint16_t>(options.network.refereePort), options.json);
   std::map<std::size_t, std::string> told;
-  std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", options.bind.c_str(),
-               options.portBase + 1, options.portBase + options.robots, options.refereePort);
+  sayListening(options.network);
   DatagramBatch batch;
   const auto begin = Clock::now();
   auto nextRequest = begin;
@@ -233,19 +169,7 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24");
   command->add_option("--duration", options->duration, "Seconds; without it until Ctrl+C")
       ->check(CLI::Range(0.0, 1e9));
-  command->add_option("--bind", options->bind,
-                      "Address to receive at; 0.0.0.0 is every interface, with broadcasts")
-      ->capture_default_str();
-  command->add_option("--port-base", options->portBase, "Robot n sends to port base + n")
-      ->capture_default_str();
-  command->add_option("--robots", options->robots, "How many ports after the base")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command->add_option("--gamecontroller-port", options->refereePort, "Port of the referee's packets")
-      ->capture_default_str();
-  command->add_option("--profile", options->profile, "Order of the fields as JSON (docs/LIVE.md)");
-  command->add_option("--from", options->senders,
-                      "Only these senders: address or network, may be repeated");
+  addListenOptions(*command, options->network);
   command->add_option("--monitor", options->monitor,
                       "Ask the referee at this address for monitor mode (controllers of 2026).\n"
                       "This is the only thing that listen can send, and only to that address");

@@ -23,13 +23,17 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION);
 
   int exitCode = 0;
-  constexpr std::array<AddCommand, 6> commands{
+  constexpr std::array<AddCommand, 10> commands{
       &addSimulateCommand,
       &addConformanceCommand,
       &addBlackboardCommands,
       &addCatalogCommands,
       &addListenCommand,
-      &addDecodeCommand};
+      &addDecodeCommand,
+      &addRecordCommand,
+      &addInspectCommand,
+      &addRepairCommand,
+      &addExportCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   try {

@@ -11,6 +11,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include <robotlink/match_recorder.h>
+#include <robotlink/moment.h>
 #include <robotlink/pacer.h>
 #include <robotlink/simulated_match.h>
 
@@ -42,6 +44,8 @@ void handleSignals() {
 
 struct Arguments {
   std::string scenario = "match-3v3";
+  std::string session;
+  double at = 0.0;
   std::optional<std::uint64_t> seed;
   std::optional<double> duration;
   std::string speed;
@@ -85,8 +89,38 @@ std::string besideThisProgram(const char* name) {
   return error ? std::string(name) : (self.parent_path() / name).string();
 }
 
-Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition) {
-  auto scenario = link::loadScenario(arguments.scenario);
+/// A recorded match, and the moment from which it is to go on.
+struct Recorded {
+  link::Scenario scenario;
+  link::Moment moment;
+  double seconds() const {
+    return static_cast<double>(moment.state.tick) / moment.state.settings.tickRate;
+  }
+};
+
+Result<Recorded> recordedMoment(const Arguments& arguments) {
+  const auto session = telemetry::SessionReader::open(arguments.session);
+  if (!session) return tl::unexpected(session.error());
+  auto moment = link::momentFromSession(*session, arguments.at, link::VariableCatalog::published());
+  if (!moment) {
+    Error error = moment.error();
+    error.context = error.context.empty() ? arguments.session : arguments.session + ": " + error.context;
+    return tl::unexpected(error);
+  }
+  const auto text = session->attachment(link::scenarioAttachment);
+  if (!text) {
+    return failure(ErrorCode::NotFound, "this session has no scenario, so that nobody knows the match",
+                   arguments.session);
+  }
+  auto scenario = link::scenarioFromJson(*text, arguments.session + ": scenario.json");
+  if (!scenario) return tl::unexpected(scenario.error());
+  return Recorded{std::move(*scenario), std::move(*moment)};
+}
+
+Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
+                                    const std::optional<Recorded>& recorded) {
+  auto scenario = recorded ? Result<link::Scenario>(recorded->scenario)
+                           : link::loadScenario(arguments.scenario);
   if (!scenario) return scenario;
   if (arguments.seed) scenario->settings.seed = *arguments.seed;
   if (!arguments.physics.empty()) scenario->settings.physics = arguments.physics;
@@ -102,6 +136,16 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
     scenario->stop.duration = arguments.duration;
   } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None) {
     scenario->stop.duration = defaultDuration;
+  }
+  if (recorded) {
+    // Seconds from here on; a match that was over by then goes on all the same.
+    auto& duration = scenario->stop.duration;
+    const double now = recorded->seconds();
+    if (arguments.duration) {
+      duration = now + *arguments.duration;
+    } else if (duration && *duration <= now + defaultDuration / 60.0) {
+      duration = now + defaultDuration;
+    }
   }
   return scenario;
 }
@@ -208,7 +252,13 @@ Result<void> simulate(const Arguments& arguments) {
   }
   const auto speed = speedFrom(arguments, cognition->cognition);
   if (!speed) return tl::unexpected(speed.error());
-  const auto scenario = scenarioFrom(arguments, cognition->cognition);
+  std::optional<Recorded> recorded;
+  if (!arguments.session.empty()) {
+    auto read = recordedMoment(arguments);
+    if (!read) return tl::unexpected(read.error());
+    recorded = std::move(*read);
+  }
+  const auto scenario = scenarioFrom(arguments, cognition->cognition, recorded);
   if (!scenario) return tl::unexpected(scenario.error());
 
   link::MatchOptions options;
@@ -219,6 +269,9 @@ Result<void> simulate(const Arguments& arguments) {
   handleSignals();
   auto match = link::SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());
+  if (recorded) {
+    if (auto entered = match->reenter(recorded->moment); !entered) return entered;
+  }
 
   std::optional<TraceWriter> trace;
   if (!arguments.trace.empty()) {
@@ -258,6 +311,13 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1");
   command->add_option("--scenario", a.scenario, "Built-in name (see --list) or a JSON file")
       ->type_name("NAME|FILE")->capture_default_str();
+  CLI::Option* from =
+      command->add_option("--from", a.session,
+                          "Go on from a recorded moment, exactly; the robots' processes start anew")
+          ->type_name("FILE.mcap");
+  CLI::Option* at = command->add_option("--at", a.at, "The moment, in seconds of the session")
+                        ->type_name("S")->needs(from);
+  from->needs(at);
   command->add_option("--seed", a.seed, "Seed of all noise; default: the scenario's")
       ->type_name("N");
   command->add_option("--duration", a.duration,
@@ -286,6 +346,9 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                       "Program of the external processes; default: pitchboard-robot beside this one")
       ->type_name("FILE");
   command->add_flag("--list", a.list, "Print the built-in scenarios");
+  for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
+    from->excludes(command->get_option(other));
+  }
   command->callback([arguments, &exitCode] {
     if (arguments->list) return listScenarios();
     if (const auto done = simulate(*arguments); !done) exitCode = reportError(done.error());

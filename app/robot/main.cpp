@@ -32,13 +32,20 @@ int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) 
   Result<link::Blackboard> board = joinBlackboard(key);
   if (!board) return report(board.error());
 
+  std::optional<link::ThoughtsSender> display;
+  if (arguments.thoughtsPort) {
+    Result<link::ThoughtsSender> sender = link::ThoughtsSender::to(*arguments.thoughtsPort);
+    if (!sender) return report(sender.error());
+    display.emplace(std::move(*sender));
+  }
+
   std::string line = std::string(info.name) + " of robot " +
                      std::to_string(arguments.process.robot.value) + " on key " +
                      std::to_string(key);
   if (info.hasBehaviour) line += ", behaviour " + arguments.process.behaviour;
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
-  runUntilAsked(**process, *board);
+  runUntilAsked(**process, *board, arguments.process.robot, display ? &*display : nullptr);
   return 0;
 }
 

@@ -39,14 +39,23 @@ bool askedToEnd(std::chrono::nanoseconds wait) {
   }
 }
 
-void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board) {
+void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
+                   link::ThoughtsSender* display) {
+  constexpr std::chrono::milliseconds displayPeriod{200};
   using Clock = std::chrono::steady_clock;
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
-  Clock::time_point next = start;
+  Clock::time_point next = start, nextDisplay = start;
   while (true) {
     process.step(board, {std::chrono::duration<double>(Clock::now() - start).count()});
+    if (display != nullptr && Clock::now() >= nextDisplay) {
+      link::RobotThoughts thoughts;
+      thoughts.robot = robot;
+      process.tellThoughts(thoughts);
+      display->send(thoughts);
+      nextDisplay = Clock::now() + displayPeriod;
+    }
     next += period;
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;

@@ -15,7 +15,9 @@ bool askedToEnd(std::chrono::nanoseconds wait);
 
 /// Steps the process at its period, by absolute time, until one of these signals arrives: the
 /// rhythm does not drift, and a period that was missed (the computer slept) is left out. Returns
-/// within a cycle's work of the signal. One thread only.
-void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board);
+/// within a cycle's work of the signal. One thread only. With `display` it is told what the process has in mind, five times a
+/// second.
+void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
+                   link::ThoughtsSender* display);
 
 }  // namespace pitchboard::robot

@@ -40,6 +40,18 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--size", a.size, "Size of the window or the picture")->type_name("WxH");
   app.add_option("--settings", a.settings,
                  "File for layout and preferences instead of the user's own")->type_name("FILE");
+  app.add_flag("--live", a.live,
+               "Start with what robots and referee send; no match is simulated unless --scenario is given");
+  app.add_flag("--overlay", a.overlay, "Show simulated and heard robots side by side");
+  app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
+  app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
+  app.add_option("--robots", a.robots, "Live: how many ports after the base")
+      ->type_name("N")->check(CLI::Range(1, 64));
+  app.add_option("--gamecontroller-port", a.refereePort, "Live: port of the referee's packets")
+      ->type_name("P");
+  app.add_option("--our-team", a.ourTeam, "Live: the referee's number of our team")
+      ->type_name("N")->check(CLI::Range(0, 65535));
+  app.add_option("--profile", a.profile, "Live: order of the fields as JSON")->type_name("FILE");
   CLI::Option* shot = app.add_option("--screenshot-to", a.screenshotFile,
                                      "Save a picture of the window, then exit")
                           ->type_name("FILE.png");
@@ -62,7 +74,8 @@ int report(const Error& error) {
 std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
       "Pitchboard: simulate humanoid soccer robots and watch what they believe.\n"
-      "Example: pitchboard --scenario match-3v3 --noise realistic --speed 2"};
+      "Examples: pitchboard --scenario match-3v3 --noise realistic --speed 2\n"
+      "          pitchboard --live --our-team 12"};
   app.name("pitchboard");
   app.set_version_flag("--version", PITCHBOARD_VERSION);
   addOptions(app, arguments);
@@ -74,6 +87,7 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
                  error.what());
     return 2;
   }
+  arguments.scenarioGiven = app.count("--scenario") > 0;
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
     return report({ErrorCode::InvalidArgument,
                    "--render-scenario needs --picture FILE.png to write to", {}});
@@ -123,6 +137,25 @@ Result<link::Scenario> scenarioOf(const Arguments& arguments) {
     return tl::unexpected<Error>(trial.error());
   }
   return scenario;
+}
+
+Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOptions saved) {
+  if (!arguments.bind.empty()) {
+    const auto address = telemetry::parseAddress(arguments.bind);
+    if (!address) return tl::unexpected<Error>(address.error());
+    saved.bind = *address;
+  }
+  saved.portBase = arguments.portBase.value_or(saved.portBase);
+  saved.robots = arguments.robots.value_or(saved.robots);
+  saved.refereePort = arguments.refereePort.value_or(saved.refereePort);
+  saved.ourTeam = arguments.ourTeam.value_or(saved.ourTeam);
+  if (!arguments.profile.empty()) {
+    auto profile = telemetry::loadProfile(arguments.profile);
+    if (!profile) return tl::unexpected<Error>(profile.error());
+    saved.profile = std::move(*profile);
+  }
+  if (const auto good = link::validate(saved); !good) return tl::unexpected<Error>(good.error());
+  return saved;
 }
 
 link::Cognition cognitionOf(const Arguments& arguments) {

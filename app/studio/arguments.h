@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <robotlink/live_watch.h>
 #include <robotlink/simulated_match.h>
 
 namespace pitchboard::studio {
@@ -32,6 +33,13 @@ struct Arguments {
   std::string renderScenario;
   std::string picture;
   std::string settings;
+  bool live = false;
+  bool overlay = false;
+  bool scenarioGiven = false;        ///< else Live starts without a simulated match
+  // Of Live, instead of the saved settings; empty: as saved.
+  std::string bind;
+  std::optional<int> portBase, robots, refereePort, ourTeam;
+  std::string profile;
 };
 
 /// Fills `arguments`; returns an exit code when the program is to end here (help, bad usage).
@@ -43,6 +51,9 @@ Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments);
 /// The scenario with seed, noise and physics of the command line in it.
 Result<link::Scenario> scenarioOf(const Arguments& arguments);
 link::Cognition cognitionOf(const Arguments& arguments);
+
+/// The saved options of Live with those of the command line in them.
+Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOptions saved);
 
 /// "error: ..." on stderr; the exit code.
 int report(const Error& error);

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include <ui/field_view.h>
+#include <ui/live_controller.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
 #include <ui/scenario_files.h>
@@ -39,6 +40,7 @@ link::MatchOptions matchOptions(const Arguments& arguments) {
   link::MatchOptions options;
   options.cognition = cognitionOf(arguments);
   options.keyBase = arguments.keyBase;
+  options.thoughts = true;
   options.robotProgram =
       QDir(QApplication::applicationDirPath()).filePath(QStringLiteral("pitchboard-robot"))
           .toStdString();
@@ -88,9 +90,16 @@ int showWindow(QApplication& application, const Arguments& arguments,
   if (size) window.resize(size->width, size->height);
   window.offerToRemoveOrphans();
   controller.setSpeed(speed);
-  controller.open(scenario, arguments.paused);
+  const auto live = liveOptionsOf(arguments, window.live()->options());
+  if (!live) return report(live.error());
+  window.live()->setOptions(*live);
+  if (!arguments.live || arguments.scenarioGiven) {
+    controller.open(scenario, arguments.paused);
+    window.files()->showCurrent(QString::fromStdString(arguments.scenario));
+  }
+  if (arguments.live) window.showSource(ui::SourceKind::Live);
+  if (arguments.overlay) window.overlayLive(true);
   if (arguments.playTo) controller.runTo(*arguments.playTo);
-  window.files()->showCurrent(QString::fromStdString(arguments.scenario));
   window.show();
   int exitCode = 0;
   if (!arguments.screenshotFile.empty()) {

@@ -9,6 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto flagMemory = 1s;
+constexpr auto thoughtsInterval = 100ms;
 constexpr auto speedWindow = 1s;
 
 template <class V>
@@ -28,7 +29,7 @@ void FrameBuilder::resetSpeed(Time now, std::uint64_t tick) {
   m_samples.push_back({now, tick, m_ticksDone, m_busy});
 }
 
-void FrameBuilder::fill(const SimulatedMatch& match, Time now, bool still, MatchFrame& out) {
+void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame& out) {
   const sim::Simulation& simulation = match.simulation();
   simulation.snapshot(out.snapshot);
   const sim::WorldState& state = simulation.state();
@@ -37,6 +38,11 @@ void FrameBuilder::fill(const SimulatedMatch& match, Time now, bool still, Match
     fillBoard(match, state.robots[i], now, still, out.boards[i]);
   }
   std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
+  if (still || now - m_thoughtsTime >= thoughtsInterval) {
+    m_thoughts = match.thoughts();
+    m_thoughtsTime = now;
+  }
+  out.thoughts = m_thoughts;
   out.children = match.supervisor().children();
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();

@@ -22,7 +22,7 @@ class FrameBuilder {
   /// Standing still or playing at another speed: measure anew.
   void resetSpeed(Time now, std::uint64_t tick);
   /// Everything but serial and dropped counts. `still`: flags of simulated processes do not age.
-  void fill(const SimulatedMatch& match, Time now, bool still, MatchFrame& out);
+  void fill(SimulatedMatch& match, Time now, bool still, MatchFrame& out);
 
  private:
   struct Sample {
@@ -42,6 +42,8 @@ class FrameBuilder {
   std::uint64_t m_ticksDone = 0;
   double m_busy = 0.0;
   std::map<RobotId, LastSeen> m_lastSeen;
+  std::vector<RobotThoughts> m_thoughts;   // change seldom, and cost more than the rest of a frame
+  Time m_thoughtsTime{};
 };
 
 }  // namespace pitchboard::link

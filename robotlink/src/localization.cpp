@@ -46,6 +46,27 @@ class Localization final : public CognitiveProcess {
 
   double period() const override { return cycle; }
 
+  void tellThoughts(RobotThoughts& thoughts) const override {
+    auto cloud = std::make_shared<ParticleCloud>();
+    const int count = m_filter.size();
+    const int shown = std::min(count, static_cast<int>(ParticleCloud::most));
+    cloud->particles.reserve(static_cast<std::size_t>(shown));
+    double sum = 0.0;
+    for (int i = 0; i < shown; ++i) {
+      // Evenly over the whole set: neighbours in it are copies of one another.
+      const auto index = static_cast<int>(static_cast<long long>(i) * count / shown);
+      const Pose pose = m_filter.particle(index);
+      cloud->particles.push_back({pose.position, pose.yaw, m_filter.weight(index)});
+      sum += cloud->particles.back().weight;
+    }
+    for (Particle& particle : cloud->particles) particle.weight = sum > 0.0 ? particle.weight / sum : 0.0;
+    const Belief& belief = m_filter.belief();
+    cloud->count = count;
+    cloud->pose = belief.pose;
+    cloud->sigma = belief.sigma;
+    thoughts.cloud = std::move(cloud);
+  }
+
  private:
   void takeLandmarks(Blackboard& board, LocalizationInput& input) {
     for (std::size_t i = 0; i < input.corners.size(); ++i) {

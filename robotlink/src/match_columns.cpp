@@ -7,8 +7,7 @@
 
 #include <base/angles.h>
 #include <simcore/published_frame.h>
-
-#include "variable_meanings.h"
+#include <telemetry/action_words.h>
 
 namespace pitchboard::link {
 namespace {
@@ -136,7 +135,7 @@ std::vector<ColumnInfo> truthColumns() {
   std::vector<ColumnInfo> out;
   for (const RobotColumn& column : robotColumns) {
     out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {}});
-    if (column.kind == ColumnKind::Enumeration) out.back().labels = actionLabels();
+    if (column.kind == ColumnKind::Enumeration) out.back().labels = telemetry::actionLabels();
   }
   return out;
 }

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <robotlink/moment.h>
 #include <robotlink/simulated_match.h>
 
 #include "lined_json.h"
 #include "match_seat.h"
+#include "moment_writes.h"
 
 namespace pitchboard::link {
 namespace {
 
-std::string nameOf(const ScenarioRobot& robot) {
-  return std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
+std::string nameOf(const sim::RobotIdentity& robot) {
+  return std::string(info(robot.team).letter) + std::to_string(robot.number);
 }
 
 }  // namespace
@@ -47,13 +49,18 @@ Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(
   return seat;
 }
 
-Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
+Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) const {
   for (const sim::RobotIdentity& other : m_simulation.state().robots) {
-    if (other.team == robot.identity.team && other.number == robot.identity.number) {
-      return failure(ErrorCode::Conflict, "there is already a robot " + nameOf(robot) +
+    if (other.id != identity.id && other.team == identity.team && other.number == identity.number) {
+      return failure(ErrorCode::Conflict, "there is already a robot " + nameOf(identity) +
                                               "; choose another number");
     }
   }
+  return {};
+}
+
+Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
+  if (auto free = checkShirt(robot.identity); !free) return free;
   if (auto added = m_simulation.addRobot(robot.identity, robot.pose); !added) return added;
   const RobotId id = robot.identity.id;
   const auto giveUp = [&](const Error& error) {
@@ -81,6 +88,59 @@ Result<void> SimulatedMatch::removeRobot(RobotId id) {
   m_seats.erase(m_seats.begin() + static_cast<std::ptrdiff_t>(*index));
   m_commands.resize(m_seats.size());
   m_percepts.resize(m_seats.size());
+  return {};
+}
+
+Result<void> SimulatedMatch::reenter(const Moment& moment) {
+  const sim::WorldState before = m_simulation.state();
+  if (moment.state.settings.tickRate != m_scenario.settings.tickRate) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this moment was played at another tick rate than this match; start a match of "
+                   "its own scenario");
+  }
+  // Everything that can fail comes before anything of the present match is given up.
+  std::vector<std::unique_ptr<Seat>> added;
+  const auto addedSeat = [&](RobotId id) -> Seat* {
+    for (const auto& one : added) {
+      if (one->id == id) return one.get();
+    }
+    return nullptr;
+  };
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    if (seat(identity.id)) continue;
+    const MomentRobot* known = moment.robot(identity.id);
+    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour)});
+    if (!made) return tl::unexpected(made.error());
+    added.push_back(std::move(*made));
+  }
+  if (auto put = m_simulation.restore(moment.state); !put) return put;
+  for (const auto& one : added) {
+    if (auto started = startProcesses(*one); !started) {
+      for (const auto& other : added) m_supervisor->stop(other->id);
+      (void)m_simulation.restore(before);
+      return started;
+    }
+  }
+  for (const auto& old : m_seats) {
+    if (!m_simulation.indexOf(old->id)) m_supervisor->stop(old->id);
+  }
+  std::vector<std::unique_ptr<Seat>> seats;
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    auto& from = addedSeat(identity.id) ? added : m_seats;
+    const auto found = std::find_if(from.begin(), from.end(), [&](const auto& one) {
+      return one && one->id == identity.id;
+    });
+    seats.push_back(std::move(*found));
+  }
+  m_seats = std::move(seats);
+  m_commands.assign(m_seats.size(), {});
+  m_percepts.resize(m_seats.size());
+  for (const auto& one : m_seats) {
+    if (const MomentRobot* known = moment.robot(one->id)) known->writeTo(one->board);
+  }
+  m_scenario.settings = moment.state.settings;
+  followJump();
+  m_expectedTick = moment.state.tick;
   return {};
 }
 
@@ -127,7 +187,8 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
   const ProcessOptions& options = m_options.process;
   const sim::RobotIdentity& identity =
       m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
-  return {m_options.robotProgram,
+  std::vector<std::string> command{
+          m_options.robotProgram,
           std::string(process.name),
           "--robot",
           std::to_string(seat.id.value),
@@ -151,6 +212,10 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
           std::to_string(options.particles),
           "--field",
           fieldToText(m_scenario.settings.field)};
+  if (m_thoughts) {
+    command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
+  }
+  return command;
 }
 
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {
@@ -168,17 +233,34 @@ Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behavio
     names.push_back(noBehaviour);
     return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
   }
-  const std::string before = changed->behaviour;
-  std::vector<InlineProcess> running = std::move(changed->processes);
-  changed->processes.clear();
-  changed->behaviour = behaviour;
-  m_supervisor->stop(id);
-  if (auto started = startProcesses(*changed); !started) {
-    changed->behaviour = before;
-    changed->processes = std::move(running);
-    return started;
+  const std::string before = std::exchange(changed->behaviour, behaviour);
+  auto started = restartProcesses(*changed);
+  if (!started) changed->behaviour = before;
+  return started;
+}
+
+/// On failure inline processes go on as before.
+Result<void> SimulatedMatch::restartProcesses(Seat& seat) {
+  std::vector<InlineProcess> running = std::exchange(seat.processes, {});
+  m_supervisor->stop(seat.id);
+  auto started = startProcesses(seat);
+  if (!started) seat.processes = std::move(running);
+  return started;
+}
+
+Result<void> SimulatedMatch::setIdentity(const sim::RobotIdentity& identity) {
+  Seat* changed = seat(identity.id);
+  const auto index = m_simulation.indexOf(identity.id);
+  if (!changed || !index) {
+    return failure(ErrorCode::NotFound,
+                   "there is no robot " + std::to_string(identity.id.value) + " on the field");
   }
-  return {};
+  if (auto free = checkShirt(identity); !free) return free;
+  sim::RobotIdentity& robot = m_simulation.editState().robots[*index];
+  const sim::RobotIdentity before = std::exchange(robot, identity);
+  auto started = restartProcesses(*changed);
+  if (!started) robot = before;
+  return started;
 }
 
 Scenario SimulatedMatch::toScenario() const {
@@ -202,6 +284,8 @@ Scenario SimulatedMatch::toScenario() const {
   moment.ball = inside(now.ball);
   moment.ballVelocity = now.ballVelocity;
   moment.clockRunning = state.clockRunning;
+  moment.clock = now.clock;
+  moment.score = now.score;
   moment.robots.clear();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];
@@ -210,18 +294,8 @@ Scenario SimulatedMatch::toScenario() const {
                              m_seats[i]->behaviour});
   }
 
-  moment.writes.clear();
-  for (BlackboardWrite write : m_scenario.writes) {
-    if (write.robot.value != 0 && !seat(write.robot)) continue;
-    write.time = std::max(0.0, write.time - now.time);
-    if (write.time == 0.0) {
-      std::erase_if(moment.writes, [&](const BlackboardWrite& earlier) {
-        return earlier.time == 0.0 && earlier.robot == write.robot &&
-               earlier.variable == write.variable;
-      });
-    }
-    moment.writes.push_back(std::move(write));
-  }
+  moment.writes = writesFrom(m_scenario.writes, now.time,
+                             [this](RobotId id) { return seat(id) != nullptr; });
   return moment;
 }
 

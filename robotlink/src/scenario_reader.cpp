@@ -16,6 +16,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr double longestTime = 1e6;      // s
+constexpr double longestClock = 1e6;   // s
+constexpr int mostGoals = 1'000'000;
 constexpr double fastestBall = 50.0;     // m/s
 constexpr int highestShirtNumber = 99;
 constexpr std::size_t mostWrites = 100000;
@@ -63,7 +65,7 @@ class Reader {
         m_catalog(catalog),
         m_root(report, root, "",
                {"version", "name", "title", "description", "physics", "tick_rate", "seed",
-                "after_goal", "clock_running", "field", "noise", "rigid_body", "ball", "robots",
+                "after_goal", "clock_running", "clock", "score", "field", "noise", "rigid_body", "ball", "robots",
                 "writes", "stop"}) {}
 
   Scenario read() {
@@ -82,6 +84,8 @@ class Reader {
     readRigidBody();
     readBall();
     m_scenario.clockRunning = m_root.boolean("clock_running", true);
+    m_scenario.clock = m_root.number("clock", 0.0, {0, longestClock, "seconds"});
+    readScore();
     readRobots();
     readWrites();
     readStop();
@@ -175,6 +179,14 @@ class Reader {
     m_scenario.ball = readPlace(ball);
     const NumberRange speed{-fastestBall, fastestBall, "metres per second"};
     m_scenario.ballVelocity = {ball.number("vx", 0.0, speed), ball.number("vy", 0.0, speed)};
+  }
+
+  void readScore() {
+    const JsonNode* node = m_root.find("score");
+    if (!node) return;
+    const JsonObject score(m_report, *node, "score", {"left", "right"});
+    m_scenario.score = {score.integer("left", 0, 0, mostGoals),
+                        score.integer("right", 0, 0, mostGoals)};
   }
 
   /// Inside the walls.

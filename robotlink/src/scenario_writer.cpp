@@ -125,9 +125,13 @@ std::string scenarioToJson(const Scenario& scenario) {
            {"tick_rate", number(settings.tickRate)},
            {"seed", settings.seed},
            {"after_goal", afterGoalNames[static_cast<std::size_t>(settings.afterGoal)]},
-           {"clock_running", scenario.clockRunning},
-           {"field", fieldToJson(settings.field)},
-           {"noise", noiseToJson(settings.noise)}};
+           {"clock_running", scenario.clockRunning}};
+  if (scenario.clock != 0.0) out["clock"] = number(scenario.clock);
+  if (scenario.score != sim::Score{}) {
+    out["score"] = {{"left", scenario.score.left}, {"right", scenario.score.right}};
+  }
+  out["field"] = fieldToJson(settings.field);
+  out["noise"] = noiseToJson(settings.noise);
   if (Json body = rigidBodyToJson(settings.rigidBody); !body.empty()) {
     out["rigid_body"] = std::move(body);
   }

@@ -49,6 +49,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_goalSeen = other.m_goalSeen;
   m_outSeen = other.m_outSeen;
   m_teamChannels = std::move(other.m_teamChannels);
+  m_thoughts = std::move(other.m_thoughts);
   m_supervisor = std::move(other.m_supervisor);
   return *this;
 }
@@ -69,6 +70,14 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
     return tl::unexpected(placed.error());
   }
   match.m_simulation.setClockRunning(scenario.clockRunning);
+  if (options.thoughts && options.cognition == Cognition::External) {
+    auto receiver = ThoughtsReceiver::listen();
+    if (!receiver) return tl::unexpected(receiver.error());
+    match.m_thoughts = std::move(*receiver);
+  }
+  match.m_simulation.setScore(scenario.score);
+  match.m_simulation.editState().clockTicks =
+      firstTickAtOrAfter(scenario.clock, scenario.settings.tickRate);
   if (auto resolved = match.resolveWrites(); !resolved) return tl::unexpected(resolved.error());
   for (const ScenarioRobot& robot : scenario.robots) {
     if (auto added = match.addRobot(robot); !added) return tl::unexpected(added.error());
@@ -175,6 +184,24 @@ std::string_view SimulatedMatch::finishedBy() const {
     return "duration";
   }
   return {};
+}
+
+std::vector<RobotThoughts> SimulatedMatch::thoughts() {
+  if (m_thoughts) {
+    const auto now = std::chrono::steady_clock::now();
+    m_thoughts->poll(now);
+    return m_thoughts->thoughts(now);
+  }
+  std::vector<RobotThoughts> all;
+  if (!m_options.thoughts) return all;
+  for (const auto& seat : m_seats) {
+    RobotThoughts one;
+    one.robot = seat->id;
+    for (const InlineProcess& process : seat->processes) process.process->tellThoughts(one);
+    if (one.cloud || one.path) all.push_back(std::move(one));
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.robot < b.robot; });
+  return all;
 }
 
 SimulatedMatch::Seat* SimulatedMatch::seat(RobotId id) const {

@@ -40,7 +40,7 @@ bool fits(std::string_view pattern, std::string_view name) {
 std::map<std::int32_t, std::string> readLabels(const JsonObject& rule) {
   const JsonNode* labels = rule.find("labels");
   if (!labels) return {};
-  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions") return actionLabels();
+  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions") return telemetry::actionLabels();
   std::map<std::int32_t, std::string> out;
   if (labels->kind != JsonNode::Kind::Object) {
     rule.fail("labels", R"(must be "actions" or an object of code and text)");
@@ -59,16 +59,6 @@ std::map<std::int32_t, std::string> readLabels(const JsonObject& rule) {
 }
 
 }  // namespace
-
-std::map<std::int32_t, std::string> actionLabels() {
-  std::map<std::int32_t, std::string> out;
-  // The words themselves say where the table ends.
-  for (std::int32_t code = 0;; ++code) {
-    std::string words = telemetry::actionWords(code);
-    if (words == "action " + std::to_string(code)) return out;
-    out.emplace(code, std::move(words));
-  }
-}
 
 Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::string_view source) {
   JsonReport report(source);

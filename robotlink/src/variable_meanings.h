@@ -35,7 +35,4 @@ class VariableMeanings {
   std::vector<Rule> m_rules;
 };
 
-/// DECISION_ACTION_A and its relatives in words: the whole table of codes.
-std::map<std::int32_t, std::string> actionLabels();
-
 }  // namespace pitchboard::link

@@ -46,7 +46,7 @@ RefereeTeam readTeam(const RefereeLayout& layout, Bytes bytes) {
   readFields(layout.team, bytes, team);
   team.slotCount = layout.slots;
   for (std::size_t i = 0; i < layout.slots; ++i) {
-    RefereePlayer& player = team.slots[i];
+    RefereePlayer& player = team.allSlots[i];
     player.number = static_cast<int>(i) + 1;
     readFields(layout.player, bytes.subspan(layout.slotsAt + i * layout.slotBytes, layout.slotBytes),
                player);
@@ -81,7 +81,7 @@ void readExtra2013(Bytes bytes, RefereeState& state) {
       {intAt(bytes, 110, 2, false), intAt(bytes, 112, 2, false)},
       intAt(bytes, 114, 2, false)};
   for (std::size_t slot = 8; slot < 11; ++slot) {
-    RefereePlayer& player = state.teams[1].slots[slot];
+    RefereePlayer& player = state.teams[1].allSlots[slot];
     player.penalty = substitute2013;
     player.secondsLeft = 0;
     player.unreliable = true;

@@ -16,6 +16,7 @@
 namespace pitchboard::telemetry::session {
 
 inline constexpr std::string_view metadataName = "pitchboard";
+inline constexpr std::string_view checkKey = "check";  ///< CRC-32 of the other metadata
 inline constexpr std::string_view groupKey = "pitchboard.group";  ///< of a row channel's metadata
 
 struct StreamInfo {
@@ -25,8 +26,10 @@ struct StreamInfo {
 extern const std::array<StreamInfo, sessionStreamCount> streams;
 
 McapMap toMetadata(const SessionInfo& info);
+std::string checkOf(const McapMap& metadata);
 /// The version of the format is left in `format`; fields that are missing keep their defaults.
-SessionInfo infoFromMetadata(const McapMap& metadata, int& format);
+/// Nothing when the check fails.
+std::optional<SessionInfo> infoFromMetadata(const McapMap& metadata, int& format);
 
 std::string groupToJson(const GroupInfo& group);
 /// Nothing when it is not of its form or its 32-bit columns do not stand first.

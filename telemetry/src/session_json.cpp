@@ -3,6 +3,9 @@
 
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include <telemetry/base64.h>
 
 #include "session_format.h"
 
@@ -13,8 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> typeNames{"int32", "float32", "float64"};
 constexpr std::array<const char*, 3> kindNames{"number", "flag", "enumeration"};
-constexpr std::string_view base64Letters =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -59,39 +60,6 @@ std::optional<T> whole(std::string_view digits) {
   return value;
 }
 
-std::string toBase64(std::string_view bytes) {
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += k <= count ? base64Letters[(group >> (18 - 6 * k)) & 63] : '=';
-    }
-  }
-  return out;
-}
-
-std::optional<std::string> fromBase64(std::string_view letters) {
-  while (!letters.empty() && letters.back() == '=') letters.remove_suffix(1);
-  std::string out;
-  std::uint32_t bits = 0;
-  int held = 0;
-  for (const char letter : letters) {
-    const std::size_t value = base64Letters.find(letter);
-    if (value == std::string_view::npos) return std::nullopt;
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    held += 6;
-    if (held >= 8) {
-      held -= 8;
-      out += static_cast<char>((bits >> held) & 0xff);
-    }
-  }
-  return out;
-}
-
 bool isUtf8(std::string_view bytes) {
   return Json::accept("\"" + [&] {
     std::string safe;
@@ -121,8 +89,20 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
     {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"scenario":{"type":"object","description":"the state, as a scenario file"}},"required":["time"]})"},
+     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
 }};
+
+/// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all times.
+std::string checkOf(const McapMap& metadata) {
+  unsigned long crc = 0;
+  for (const auto& [key, value] : metadata) {
+    if (key == checkKey) continue;
+    for (const std::string* text : {&key, &value}) {
+      crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text->c_str()), text->size() + 1);
+    }
+  }
+  return std::to_string(crc);
+}
 
 McapMap toMetadata(const SessionInfo& info) {
   McapMap out;
@@ -134,10 +114,13 @@ McapMap toMetadata(const SessionInfo& info) {
   if (info.seed) out.insert_or_assign("seed", std::to_string(*info.seed));
   out.insert_or_assign("start_ns", std::to_string(info.start.time_since_epoch().count()));
   out.insert_or_assign("created_ns", std::to_string(info.created.time_since_epoch().count()));
+  out.insert_or_assign(std::string(checkKey), checkOf(out));
   return out;
 }
 
-SessionInfo infoFromMetadata(const McapMap& metadata, int& format) {
+std::optional<SessionInfo> infoFromMetadata(const McapMap& metadata, int& format) {
+  const auto check = metadata.find(checkKey);
+  if (check == metadata.end() || check->second != checkOf(metadata)) return std::nullopt;
   const auto value = [&](std::string_view key) {
     const auto found = metadata.find(key);
     return found == metadata.end() ? std::string() : found->second;

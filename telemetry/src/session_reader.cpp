@@ -20,10 +20,14 @@ constexpr int noGroup = -1;
 struct SessionReader::Impl {
   McapReader file;
   SessionInfo info;
-  bool ours = false;
+  bool described = false;  ///< by metadata of ours that are whole
   std::vector<SessionGroup> groups;
   std::vector<session::RowLayout> layouts;
-  std::vector<int> groupOfChannel;  ///< by channel id; noGroup
+  struct Use {
+    int group = noGroup;
+    SessionStream stream = SessionStream::Events;
+  };
+  std::vector<Use> useOfChannel;  ///< by channel id
   std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
   /// Chunks by their start, and the latest end among the first n.
   std::vector<std::size_t> byStart;
@@ -45,7 +49,12 @@ struct SessionReader::Impl {
   void takeMetadata();
   void takeChannels();
   void takeChunks();
+  void findStart();
   std::string_view body(std::size_t chunk) const;
+  /// `wanted` in order. False: the visitor or the progress said so.
+  template <class Visit>
+  bool walk(std::uint64_t begin, std::uint64_t end, const std::vector<std::uint16_t>& wanted,
+            const Visit& visit, const std::function<bool(double)>& progress) const;
   static bool mayHold(const McapChunkInfo& chunk, std::uint16_t channel) {
     return chunk.channels.empty() ||
            std::binary_search(chunk.channels.begin(), chunk.channels.end(), channel);
@@ -71,6 +80,7 @@ Result<SessionReader> SessionReader::open(const std::string& path,
   impl->takeMetadata();
   impl->takeChannels();
   impl->takeChunks();
+  impl->findStart();
   return SessionReader(std::move(impl));
 }
 
@@ -82,6 +92,7 @@ Result<SessionReader> SessionReader::openBytes(std::string bytes,
   impl->takeMetadata();
   impl->takeChannels();
   impl->takeChunks();
+  impl->findStart();
   return SessionReader(std::move(impl));
 }
 
@@ -89,30 +100,56 @@ void SessionReader::Impl::takeMetadata() {
   notes = file.problems();
   int format = 0;
   for (const McapMetadataInfo& entry : file.metadata()) {
-    if (entry.name != session::metadataName || ours) continue;
+    if (entry.name != session::metadataName || described) continue;
     const auto values = file.readMetadata(entry);
-    if (!values) {
-      note(values.error().text());
+    const auto found = values ? session::infoFromMetadata(*values, format) : std::nullopt;
+    if (!found) {
+      note("At byte " + std::to_string(entry.offset) +
+           ": the description of the session is damaged; it is not used.");
       continue;
     }
-    info = session::infoFromMetadata(*values, format);
-    ours = true;
+    info = *found;
+    described = true;
   }
-  if (!ours) {
-    // Its times begin at its first message, because nothing says when its source began.
-    info.start = WallTime(Duration(static_cast<std::int64_t>(
-        std::min<std::uint64_t>(file.statistics().start, std::numeric_limits<std::int64_t>::max()))));
-    note("This file was not recorded by Pitchboard (it says \"" + file.library().substr(0, 60) +
-         "\"), or its beginning is lost; only what follows Pitchboard's format is shown.");
-  } else if (format > sessionFormat) {
+  if (described && format > sessionFormat) {
     note("This file is of a newer version (format " + std::to_string(format) +
          "; this program knows " + std::to_string(sessionFormat) +
          "): what is known is shown.");
   }
 }
 
+/// Without its description: the first row says when its source began; else times begin at the
+/// first message.
+void SessionReader::Impl::findStart() {
+  if (described) return;
+  if (groups.empty()) {
+    note("This file was not recorded by Pitchboard (it says \"" + file.library().substr(0, 60) +
+         "\"); only what follows Pitchboard's format is shown.");
+  }
+  const auto fits = [](std::uint64_t time) {
+    return static_cast<std::int64_t>(
+        std::min<std::uint64_t>(time, std::numeric_limits<std::int64_t>::max()));
+  };
+  info.start = WallTime(Duration(fits(file.statistics().start)));
+  for (std::size_t i = 0; i < file.chunks().size() && !groups.empty(); ++i) {
+    McapCursor cursor(body(i));
+    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+      if (kind != McapCursor::Kind::Message) continue;
+      const int group = useOfChannel[cursor.message().channel].group;
+      SessionRow row;
+      if (group == noGroup || !layouts[static_cast<std::size_t>(group)].read(
+                                  cursor.message().data, row.time, row.words, row.values)) {
+        continue;
+      }
+      const WallTime moment{Duration(fits(cursor.message().publishTime))};
+      info.start = WallTime(Duration(fits(session::nanoseconds(moment, -row.time))));
+      return;
+    }
+  }
+}
+
 void SessionReader::Impl::takeChannels() {
-  groupOfChannel.assign(std::size_t{1} << 16, noGroup);
+  useOfChannel.assign(std::size_t{1} << 16, Use{});
   for (const auto& [id, channel] : file.channels()) {
     const auto counted = file.statistics().perChannel.find(id);
     const std::uint64_t count =
@@ -120,7 +157,7 @@ void SessionReader::Impl::takeChannels() {
     if (const auto found = channel.metadata.find(session::groupKey);
         found != channel.metadata.end() && channel.messageEncoding == "cdr") {
       if (auto group = session::groupFromJson(found->second)) {
-        groupOfChannel[id] = static_cast<int>(groups.size());
+        useOfChannel[id].group = static_cast<int>(groups.size());
         layouts.emplace_back(*group);
         groups.push_back({std::move(*group), count, id});
         continue;
@@ -130,7 +167,9 @@ void SessionReader::Impl::takeChannels() {
         session::streams.begin(), session::streams.end(),
         [&](const session::StreamInfo& known) { return known.topic == channel.topic; });
     if (stream != session::streams.end() && channel.messageEncoding == "json") {
-      channelsOfStream[static_cast<std::size_t>(stream - session::streams.begin())].push_back(id);
+      const auto place = static_cast<std::size_t>(stream - session::streams.begin());
+      channelsOfStream[place].push_back(id);
+      useOfChannel[id].stream = static_cast<SessionStream>(place);
       continue;
     }
     const auto schema = file.schemas().find(channel.schema);
@@ -181,7 +220,7 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
 }
 
 const SessionInfo& SessionReader::info() const { return m_impl->info; }
-bool SessionReader::ours() const { return m_impl->ours; }
+bool SessionReader::ours() const { return m_impl->described || !m_impl->groups.empty(); }
 bool SessionReader::complete() const { return m_impl->file.indexed(); }
 const std::vector<std::string>& SessionReader::notes() const { return m_impl->notes; }
 std::span<const SessionGroup> SessionReader::groups() const { return m_impl->groups; }
@@ -242,7 +281,7 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
     std::vector<McapMessage> last(impl.groups.size());
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message || cursor.message().logTime > until) continue;
-      const int group = impl.groupOfChannel[cursor.message().channel];
+      const int group = impl.useOfChannel[cursor.message().channel].group;
       if (group == noGroup) continue;
       const auto g = static_cast<std::size_t>(group);
       if (cursor.message().logTime < best[g] ||
@@ -264,67 +303,91 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
   }
 }
 
-void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
-                         const std::function<bool(GroupId, const RowView&)>& visit) const {
-  const Impl& impl = *m_impl;
-  std::vector<bool> wanted(impl.groups.size(), groups.empty());
-  for (const GroupId group : groups) {
-    if (group < wanted.size()) wanted[group] = true;
-  }
-  const std::uint64_t begin = logTime(range.begin), end = logTime(range.end);
+template <class Visit>
+bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
+                               const std::vector<std::uint16_t>& wanted, const Visit& visit,
+                               const std::function<bool(double)>& progress) const {
+  const auto& chunks = file.chunks();
+  SessionItem item;
   SessionRow row;
-  const auto& chunks = impl.file.chunks();
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     const McapChunkInfo& chunk = chunks[i];
-    if (chunk.end < begin || chunk.start > end) continue;
-    bool needed = false;
-    for (std::size_t g = 0; g < wanted.size(); ++g) {
-      needed = needed || (wanted[g] && Impl::mayHold(chunk, impl.groups[g].channel));
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
+      return false;
     }
-    if (!needed) continue;
-    McapCursor cursor(impl.body(i));
+    if (chunk.end < begin || chunk.start > end ||
+        std::none_of(wanted.begin(), wanted.end(),
+                     [&](std::uint16_t channel) { return mayHold(chunk, channel); })) {
+      continue;
+    }
+    McapCursor cursor(body(i));
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message) continue;
       const McapMessage& message = cursor.message();
-      const int group = impl.groupOfChannel[message.channel];
-      if (group == noGroup || message.logTime < begin || message.logTime > end) continue;
-      const auto g = static_cast<std::size_t>(group);
-      if (!wanted[g] || !impl.layouts[g].read(message.data, row.time, row.words, row.values)) {
+      if (message.logTime < begin || message.logTime > end ||
+          !std::binary_search(wanted.begin(), wanted.end(), message.channel)) {
         continue;
       }
-      row.time = Impl::time(row.time, message);
-      if (!visit(static_cast<GroupId>(g), row.view())) return;
+      const Use use = useOfChannel[message.channel];
+      item.message = &message;
+      item.isRow = use.group != noGroup;
+      if (item.isRow) {
+        const auto g = static_cast<std::size_t>(use.group);
+        if (!layouts[g].read(message.data, row.time, row.words, row.values)) continue;
+        row.time = item.time = time(row.time, message);
+        item.group = static_cast<GroupId>(g);
+        item.row = row.view();
+      } else {
+        const auto source = session::timeFromJson(message.data);
+        if (!source) continue;
+        item.time = time(*source, message);
+        item.stream = use.stream;
+      }
+      if (!visit(item)) return false;
     }
   }
+  return true;
+}
+
+bool SessionReader::walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+                         const std::function<bool(double)>& progress) const {
+  std::vector<std::uint16_t> wanted;
+  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  for (const auto& channels : m_impl->channelsOfStream) {
+    wanted.insert(wanted.end(), channels.begin(), channels.end());
+  }
+  std::sort(wanted.begin(), wanted.end());
+  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+}
+
+bool SessionReader::walkRows(SessionRange range,
+                             const std::function<bool(const SessionItem&)>& visit,
+                             const std::function<bool(double)>& progress) const {
+  std::vector<std::uint16_t> wanted;
+  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  std::sort(wanted.begin(), wanted.end());
+  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+}
+
+void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
+                         const std::function<bool(GroupId, const RowView&)>& visit) const {
+  std::vector<std::uint16_t> wanted;
+  for (std::size_t g = 0; g < m_impl->groups.size(); ++g) {
+    if (groups.empty() || std::find(groups.begin(), groups.end(), g) != groups.end()) {
+      wanted.push_back(m_impl->groups[g].channel);
+    }
+  }
+  std::sort(wanted.begin(), wanted.end());
+  m_impl->walk(logTime(range.begin), logTime(range.end), wanted,
+               [&](const SessionItem& item) { return visit(item.group, item.row); }, {});
 }
 
 void SessionReader::messages(
     SessionStream stream, SessionRange range,
     const std::function<bool(double, std::string_view)>& visit) const {
-  const Impl& impl = *m_impl;
-  const auto& ids = impl.channelsOfStream[static_cast<std::size_t>(stream)];
-  if (ids.empty()) return;
-  const std::uint64_t begin = logTime(range.begin), end = logTime(range.end);
-  const auto& chunks = impl.file.chunks();
-  std::string json;
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    if (chunks[i].end < begin || chunks[i].start > end) continue;
-    if (std::none_of(ids.begin(), ids.end(),
-                     [&](std::uint16_t id) { return Impl::mayHold(chunks[i], id); })) {
-      continue;
-    }
-    McapCursor cursor(impl.body(i));
-    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message) continue;
-      const McapMessage& message = cursor.message();
-      if (message.logTime < begin || message.logTime > end ||
-          std::find(ids.begin(), ids.end(), message.channel) == ids.end()) {
-        continue;
-      }
-      const auto source = session::timeFromJson(message.data);
-      if (source && !visit(Impl::time(*source, message), message.data)) return;
-    }
-  }
+  m_impl->walk(logTime(range.begin), logTime(range.end),
+               m_impl->channelsOfStream[static_cast<std::size_t>(stream)],
+               [&](const SessionItem& item) { return visit(item.time, item.message->data); }, {});
 }
 
 std::vector<SessionEvent> SessionReader::events() const {
@@ -352,6 +415,14 @@ Result<std::string> SessionReader::attachment(std::string_view name) const {
     if (one.name == name) return m_impl->file.readAttachment(one);
   }
   return failure(ErrorCode::NotFound, "The session has no such attachment.", std::string(name));
+}
+
+std::optional<SessionLogLine> sessionLogLine(std::string_view json) {
+  return session::logLineFromJson(json);
+}
+
+std::optional<SessionDatagram> sessionDatagram(std::string_view json) {
+  return session::datagramFromJson(json);
 }
 
 }  // namespace pitchboard::telemetry

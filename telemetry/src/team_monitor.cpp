@@ -37,6 +37,7 @@ Battery batteryAt(double volts, double highest, const BatteryLimits& limits) {
 
 struct TeamMonitor::Robot {
   int number = 0;
+  std::uint64_t serial = 0;
   Sender sender;
   std::optional<std::uint16_t> previousPort;  ///< the one before, when it sends from a new one
   WallTime last{};
@@ -118,11 +119,13 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     if (since(time, oldest->last) < m_options.timeout) return nullptr;
     *oldest = Robot{};
     oldest->number = number;
+    oldest->serial = ++m_serial;
     oldest->sender = sender;
     return &*oldest;
   }
   m_robots.emplace_back();
   m_robots.back().number = number;
+  m_robots.back().serial = ++m_serial;
   m_robots.back().sender = sender;
   return &m_robots.back();
 }
@@ -188,6 +191,7 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
     ++robot.timeouts;
     robot.arrivals = {};
   }
+  m_usedSerial = robot.serial;
   ++robot.messages;
   robot.last = datagram.time;
   robot.arrivals.add(datagram.time);
@@ -217,6 +221,7 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
 RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   RobotStatus status;
   status.number = robot.number;
+  status.serial = robot.serial;
   status.sender = robot.sender;
   status.age = since(now, robot.last);
   status.timedOut = status.age >= m_options.timeout;

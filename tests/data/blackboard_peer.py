@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # An independent process on a blackboard: System V shared memory through ctypes, the layout from its
 # description (int i at word i, float j at word 125 + j, 2048 bytes), nothing of the program's code.
-# usage: blackboard_peer.py KEY read i:17 f:12 ... | write i:17=8 f:12=0.5 ... | create | hold
+# usage: blackboard_peer.py KEY read i:17 f:12 ... | write i:17=8 f:12=0.5 ... | create | hold | count i:17 RATE
 import ctypes
 import sys
 import time
@@ -37,3 +37,10 @@ elif sys.argv[2] == "write":
 elif sys.argv[2] == "hold":
     print("attached", flush=True)
     time.sleep(600)
+elif sys.argv[2] == "count":
+    word, rate = place(base, sys.argv[3]), float(sys.argv[4])
+    print("attached", flush=True)
+    start = time.monotonic()
+    while time.monotonic() < start + 600:
+        word.value = int((time.monotonic() - start) * rate)
+        time.sleep(0.2 / rate)

@@ -82,6 +82,7 @@ class TestScenario : public QObject {
     const auto s = read(R"({"version": 1, "name": "n", "title": "T", "description": "D",
       "physics": "published", "tick_rate": 120.5, "seed": 18446744073709551615,
       "after_goal": "stop_clock", "clock_running": false,
+      "clock": 61.5, "score": {"left": 2, "right": 1},
       "field": {"name": "mine", "base": "kid-2020", "length": 10},
       "noise": {"preset": "paper", "rotation": 90, "missed_detection": 0.5},
       "rigid_body": {"falls": true, "field_of_view": 90},
@@ -99,6 +100,8 @@ class TestScenario : public QObject {
     QCOMPARE(s->settings.noise.forward, 0.002);
     QCOMPARE(s->settings.rigidBody.fieldOfView, radiansFromDegrees(90));
     QVERIFY(s->settings.afterGoal == sim::AfterGoal::StopClock && !s->clockRunning);
+    QCOMPARE(s->clock, 61.5);
+    QVERIFY(s->score == (sim::Score{2, 1}));
     QVERIFY(s->robots[0].identity.imuStartsAt180);  // red faces left
     QCOMPARE(s->robots[0].identity.id.value, 9);
     QCOMPARE(s->writes.size(), std::size_t{3});

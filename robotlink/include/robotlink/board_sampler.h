@@ -21,7 +21,7 @@ namespace pitchboard::link {
 struct BoardSamplerOptions {
   static constexpr double slowest = 0.1, fastest = 1000.0;
   double rate = 60.0;        ///< samples per second, slowest to fastest
-  std::string group;         ///< name of the group; empty: "key 100"
+  std::string group{};       ///< name of the group; empty: "key 100"
   /// What counts as 0 s.
   std::chrono::steady_clock::time_point zero = std::chrono::steady_clock::now();
 };

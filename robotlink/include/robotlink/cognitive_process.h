@@ -14,6 +14,7 @@
 #include <base/ids.h>
 #include <base/result.h>
 #include <robotlink/blackboard.h>
+#include <robotlink/robot_thoughts.h>
 #include <robotlink/team_channel.h>
 #include <simcore/field.h>
 
@@ -31,6 +32,9 @@ class CognitiveProcess {
   virtual void step(Blackboard& board, const Clock& clock) = 0;
   /// Seconds between two steps.
   virtual double period() const = 0;
+  /// What it has in mind, for a display: fills its own part (particles or path), leaves the rest.
+  /// Called between steps, as seldom as the display likes; changes nothing.
+  virtual void tellThoughts(RobotThoughts& thoughts) const { (void)thoughts; }
 };
 
 /// What a process is told when it is made.

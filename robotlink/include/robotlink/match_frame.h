@@ -5,10 +5,13 @@
 // Plain values; frames are immutable once handed out.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <robotlink/live_values.h>
 #include <robotlink/process_supervisor.h>
+#include <robotlink/robot_thoughts.h>
 #include <simcore/field.h>
 #include <simcore/noise.h>
 #include <simcore/snapshot.h>
@@ -45,6 +48,11 @@ struct MatchFrame {
   sim::Snapshot snapshot;
   std::vector<RobotBoardView> boards;
   std::vector<ChildStatus> children;
+  /// What robots have in mind, of those that tell it (MatchOptions::thoughts); by robot number.
+  std::vector<RobotThoughts> thoughts;
+  std::vector<RobotHealth> health;   ///< of robots that are heard: one for each of the snapshot's
+  std::optional<RefereeView> referee;  ///< once one was heard
+  std::optional<TeamBall> teamBall;  ///< while at least two robots agree
   double speed = 0.0;                ///< simulated seconds per second, measured over the last second
   double ticksPerSecond = 0.0;       ///< measured
   double tickMicroseconds = 0.0;     ///< mean time of a tick, measured

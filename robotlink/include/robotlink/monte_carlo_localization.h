@@ -110,6 +110,8 @@ class MonteCarloLocalization {
   int size() const { return m_count; }
   /// Pose of particle i, for drawing.
   Pose particle(int i) const;
+  /// Its weight; not normalised.
+  double weight(int i) const { return static_cast<double>(m_weight[i]); }
 
  private:
   using Array = Eigen::ArrayXf;

@@ -53,6 +53,8 @@ struct Scenario {
   Point ball;
   Velocity ballVelocity;
   bool clockRunning = true;
+  double clock = 0.0;               ///< s of play so far, at least 0
+  sim::Score score;
   std::vector<BlackboardWrite> writes;   ///< in order of time
   StopConditions stop;
   bool operator==(const Scenario&) const = default;

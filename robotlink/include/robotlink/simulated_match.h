@@ -37,7 +37,10 @@ struct MatchOptions {
   int keyBase = 0;                   ///< key = keyBase + 100 × robot number
   std::string robotProgram;          ///< pitchboard-robot; needed for External
   ProcessOptions process;            ///< addresses and ports for the processes
+  bool thoughts = false;             ///< hear particles and paths, for display
 };
+
+struct Moment;
 
 class SimulatedMatch {
  public:
@@ -66,6 +69,9 @@ class SimulatedMatch {
   const Blackboard* blackboard(RobotId id) const;
   /// Empty when there is no such robot.
   std::string_view behaviour(RobotId id) const;
+  /// Particles and paths of the robots, by number; none unless MatchOptions::thoughts. Asks inline
+  /// processes, or takes what separate ones have sent.
+  std::vector<RobotThoughts> thoughts();
   const RobotVariables& variables() const { return m_variables; }
   const VariableCatalog& catalog() const { return *m_catalog; }
   /// What the bridge read before the last tick, in the order of the simulation's robots (a robot that
@@ -83,8 +89,17 @@ class SimulatedMatch {
   /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
   /// noBehaviour). The robot itself and its blackboard stay as they are.
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
+  /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
+  /// shirt is worn already.
+  Result<void> setIdentity(const sim::RobotIdentity& identity);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
+
+  /// Puts a recorded moment back exactly: robots come and go until they are those of the moment, and
+  /// what is known of their blackboards is written. Stepping on repeats what followed as long as the
+  /// robots are told the same; what their processes remember is not part of a moment. Errors leave
+  /// the match as it was.
+  Result<void> reenter(const Moment& moment);
 
   /// The present moment as a scenario that starts from it. Scripted writes of the past are kept at
   /// time 0, each variable's last; what processes remember is not part of it.
@@ -109,8 +124,10 @@ class SimulatedMatch {
   std::uint64_t nextDueTick(double period) const;
   Seat* seat(RobotId id) const;
   bool sharesBoards() const;
+  Result<void> checkShirt(const sim::RobotIdentity& identity) const;
   Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot) const;
   Result<void> startProcesses(Seat& seat);
+  Result<void> restartProcesses(Seat& seat);
   Result<void> startProcess(Seat& seat, const ProcessInfo& info);
   ProcessOptions inlineOptions(const Seat& seat);
   std::vector<std::string> commandOf(const Seat& seat, const ProcessInfo& info) const;
@@ -129,6 +146,7 @@ class SimulatedMatch {
   std::uint64_t m_expectedTick = 0;             // another one means that a moment was restored
   bool m_goalSeen = false, m_outSeen = false;
   std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
+  std::optional<ThoughtsReceiver> m_thoughts;
   std::unique_ptr<ProcessSupervisor> m_supervisor;
 };
 

@@ -28,6 +28,7 @@ class Behaviour {
 
   /// Referee and falls first, then play().
   Choice choose(const WorldModel& world);
+  const Walk& walk() const { return m_walk; }
 
  protected:
   Choice walkTo(const WorldModel& world, const Pose& pose, Intention intention, double near = 0.15);

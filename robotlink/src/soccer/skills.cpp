@@ -47,9 +47,7 @@ void Walk::plan(const WorldModel& world, const Goal& goal) {
   const sim::FieldSpec& field = world.field();
   m_obstacles.clear();
   const double body = 2 * field.robotRadius + robotClearance;
-  for (const auto& mate : world.mates()) {
-    if (mate) m_obstacles.push_back({mate->position, body});
-  }
+  for (const Point& mate : world.matePlaces()) m_obstacles.push_back({mate, body});
   for (const Point& opponent : world.opponents()) m_obstacles.push_back({opponent, body});
   for (const double x : {-field.halfLength(), field.halfLength()}) {
     for (const double y : {-field.goalWidth / 2, field.goalWidth / 2}) {
@@ -78,6 +76,7 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
     plan(world, goal);
   }
   if (m_path.points.empty()) return acts::stop;
+  m_stepped = world.now();
   while (m_path.points.size() > 2 && distance(m_path.next(), pose.position) < 0.08) {
     m_path.points.erase(m_path.points.begin());
   }

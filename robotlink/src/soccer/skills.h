@@ -43,13 +43,18 @@ class Walk {
   };
   /// Nothing when the robot is there.
   std::optional<Act> step(const WorldModel& world, const Goal& goal);
+  /// The path in use, from the next bend on; turned like the world model. Old when nobody walked
+  /// since `lastStep()`.
+  const Path& path() const { return m_path; }
+  /// When step() led somewhere last, s.
+  double lastStep() const { return m_stepped; }
 
  private:
   void plan(const WorldModel& world, const Goal& goal);
   PathPlanner m_planner;
   std::vector<Obstacle> m_obstacles;
   Path m_path;
-  double m_planned = -1e9;
+  double m_planned = -1e9, m_stepped = -1e9;
   Point m_plannedFor;
   int m_gait = -1;
   bool m_turning = false;

@@ -25,6 +25,19 @@ class SoccerDecision final : public CognitiveProcess {
 
   double period() const override { return 0.1; }
 
+  void tellThoughts(RobotThoughts& thoughts) const override {
+    auto path = std::make_shared<PlannedPath>();
+    const Walk& walk = m_behaviour->walk();
+    if (walk.lastStep() == m_world.now() && walk.path().points.size() > 1) {
+      path->complete = walk.path().complete;
+      path->points.push_back(m_world.toStudio(m_world.pose().position));
+      for (std::size_t i = 1; i < walk.path().points.size() && i < PlannedPath::most; ++i) {
+        path->points.push_back(m_world.toStudio(walk.path().points[i]));
+      }
+    }
+    thoughts.path = std::move(path);
+  }
+
  private:
   WorldModel m_world;
   std::unique_ptr<Behaviour> m_behaviour;

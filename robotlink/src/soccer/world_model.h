@@ -69,8 +69,15 @@ class WorldModel {
   }
 
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
+  /// Where all team-mates stand that were heard of lately, also those that mates() has no room for.
+  const std::vector<Point>& matePlaces() const { return m_matePlaces; }
   /// Opponents seen within the last seconds.
   std::vector<Point> opponents() const;
+
+  /// To the studio's frame, whichever side this team attacks, and back.
+  Point toStudio(const Point& turned) const {
+    return m_attacksLeft ? Point{-turned.x, -turned.y} : turned;
+  }
 
   Point toLocal(const Point& onField) const;
   Point toField(const Point& local) const;
@@ -109,6 +116,7 @@ class WorldModel {
   double m_ballSeen = -1e9;
   std::array<Sighting, 11> m_opponents;
   std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
+  std::vector<Point> m_matePlaces;
 };
 
 }  // namespace pitchboard::link

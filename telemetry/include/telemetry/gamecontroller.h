@@ -47,9 +47,9 @@ struct RefereeTeam {
   std::optional<int> singleShots;       ///< one bit per penalty shot, set if it scored
   std::optional<int> messageBudget;
   std::optional<int> goalkeeperColour, goalkeeper;
-  std::array<RefereePlayer, maxPlayers> slots{};
+  std::array<RefereePlayer, maxPlayers> allSlots{};
   std::size_t slotCount = 0;
-  std::span<const RefereePlayer> players() const { return {slots.data(), slotCount}; }
+  std::span<const RefereePlayer> players() const { return {allSlots.data(), slotCount}; }
   bool operator==(const RefereeTeam&) const = default;
 };
 

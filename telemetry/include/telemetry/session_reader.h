@@ -37,6 +37,16 @@ struct SessionRow {
   RowView view() const { return {time, words, values}; }
 };
 
+/// One thing of a session, in the order of recording; valid during the call that hands it out.
+struct SessionItem {
+  double time = 0.0;
+  const McapMessage* message = nullptr;
+  bool isRow = false;
+  GroupId group = 0;                           ///< with isRow
+  RowView row;                                 ///< with isRow
+  SessionStream stream = SessionStream::Events;  ///< otherwise; message->data is its JSON
+};
+
 class SessionReader {
  public:
   /// Errors as McapReader::open().
@@ -69,6 +79,13 @@ class SessionReader {
   /// The messages of a stream in the closed range, with their time, until the visitor says false.
   void messages(SessionStream stream, SessionRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
+  /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1) now
+  /// and then. Ends when one of them says false.
+  bool walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+            const std::function<bool(double)>& progress = {}) const;
+  /// The same with rows only.
+  bool walkRows(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+                const std::function<bool(double)>& progress = {}) const;
   /// All events; those that are not of the form of an event are left out.
   std::vector<SessionEvent> events() const;
 
@@ -86,5 +103,9 @@ class SessionReader {
   explicit SessionReader(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> m_impl;
 };
+
+/// A message of the streams Log, and Telemetry or RefereeRaw. Nothing when it is not of that form.
+std::optional<SessionLogLine> sessionLogLine(std::string_view json);
+std::optional<SessionDatagram> sessionDatagram(std::string_view json);
 
 }  // namespace pitchboard::telemetry

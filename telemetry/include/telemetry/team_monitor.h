@@ -61,6 +61,7 @@ struct ProcessStatus {
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus {
   int number = 0;
+  std::uint64_t serial = 0;    ///< of this robot as long as it is remembered, whatever port it sends from
   Sender sender;
   bool conflict = false;       ///< another sender uses the same number at the moment
   bool timedOut = false;
@@ -118,6 +119,9 @@ class TeamMonitor {
     TooManyRobots
   };
 
+  /// Serial of the robot whose message was used last.
+  std::uint64_t usedSerial() const { return m_usedSerial; }
+
   /// Takes one datagram. `decoded()` then holds its values until the next call.
   Verdict take(const DatagramView& datagram);
   const DecodedText& decoded() const { return m_decoded; }
@@ -146,6 +150,7 @@ class TeamMonitor {
   DecodedText m_decoded;
   std::vector<Robot> m_robots;
   std::vector<SenderRecord> m_senders;
+  std::uint64_t m_serial = 0, m_usedSerial = 0;
   std::uint64_t m_datagrams = 0, m_refusedByFilter = 0, m_refusedRobots = 0;
   ErrorTally m_errors;
 };

@@ -5,12 +5,15 @@
 // no logic: the match is the controller's, files are ScenarioFiles', docks look after themselves.
 // UI thread only.
 
+#include <QAction>
 #include <QMainWindow>
 #include <vector>
 
+#include <ui/frame_source.h>
 #include <ui/theme.h>
 
 class QSettings;
+class QUndoGroup;
 
 namespace pitchboard::link {
 struct Scenario;
@@ -20,6 +23,8 @@ namespace pitchboard::ui {
 
 class FieldView;
 class LinkedTime;
+class LiveController;
+class LiveOverlay;
 class MatchController;
 class NoticeBar;
 class PlotTarget;
@@ -43,6 +48,11 @@ class MainWindow : public QMainWindow {
   Timeline* timeline() const { return m_timeline; }
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
+  LiveController* live() const { return m_live; }
+  /// Shows this kind of source; Live begins to listen.
+  void showSource(SourceKind kind);
+  /// Simulated and heard robots side by side on the field.
+  void overlayLive(bool on) { m_overlayAction->setChecked(on); }
 
   /// Docks where they were; the default layout when there is none or it cannot be restored.
   void restoreLayout();
@@ -61,14 +71,18 @@ class MainWindow : public QMainWindow {
   void connectField();
 
   MatchController* m_controller;
+  LiveController* m_live;
   QSettings* m_settings;
   SourceSwitch* m_source;
+  QUndoGroup* m_undo;                  // nothing to undo while another source is shown
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
   Timeline* m_timeline;
   TimelineActions* m_timelineActions;
   FieldView* m_field;
+  LiveOverlay* m_overlay;
+  QAction* m_overlayAction = nullptr;   // of the View menu
   NoticeBar* m_notices;
   TransportBar* m_bar;
   StudioStatusBar* m_status;

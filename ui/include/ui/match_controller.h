@@ -18,12 +18,23 @@
 #include <vector>
 
 #include <robotlink/match_runner.h>
+#include <robotlink/recorded_frame.h>
+#include <robotlink/state_archive.h>
 #include <ui/frame_source.h>
 
 class QTimer;
 class QUndoStack;
 
+namespace pitchboard::link {
+class MatchSampler;
+}
+namespace pitchboard::telemetry {
+class RowSink;
+}
+
 namespace pitchboard::ui {
+
+class MatchRows;
 
 /// A robot and where it is to stand; for moving several at once.
 struct RobotPlacement {
@@ -55,11 +66,17 @@ class MatchController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
+  FramePtr frameAt(double time) const override;
   QUndoStack* undoStack() const { return m_undoStack; }
   /// Where the robots' processes run: as asked for, or Inline when that was not possible.
   link::Cognition cognition() const { return m_cognition; }
   /// What the next match is made with.
   const link::MatchOptions& options() const { return m_options; }
+  /// Names of the blackboards' words, for the next match on; the published ones at first.
+  void setCatalog(std::shared_ptr<const link::VariableCatalog> catalog);
+  const link::VariableCatalog& nextCatalog() const { return *m_nextCatalog; }
+  /// Those of the match that is open or being opened.
+  const link::VariableCatalog& catalog() const { return *m_catalog; }
 
   // Transport.
   void setPaused(bool paused);
@@ -79,6 +96,8 @@ class MatchController : public FrameSource {
   void moveBall(Point from, Point to);
   void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
   void removeRobots(const std::vector<RobotId>& ids);
+  /// These robots play for another team, each with the smallest shirt number that is free there.
+  void setTeam(const std::vector<RobotId>& ids, TeamColor team);
 
   // While a drag is going on the world follows, but only its end is one undoable command:
   /// Shows robots at their `to` pose without an entry on the undo stack.
@@ -89,6 +108,15 @@ class MatchController : public FrameSource {
   /// Writes DECISION_ACTION_A (and B when given) as the decision process would.
   void commandAction(RobotId id, int actionA, std::optional<int> actionB = {});
   void commandSearch(RobotId id, bool on);
+  /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
+  void setSampling(int everyNth);
+  int sampling() const { return m_everyNth; }
+  /// Where other blackboards of this computer are sampled to: their rows get the match's time. Another
+  /// one after `restarted`; null while there is no match.
+  std::shared_ptr<telemetry::RowSink> rowsBeside() const;
+  /// Writes one word of the robot's blackboard between two ticks, as any process could; `value` is
+  /// converted to the variable's type. `variableWritten` follows, or `errorOccurred`.
+  void writeVariable(RobotId id, const QString& name, double value);
   void setNoise(const sim::NoiseParameters& noise);
   void setRigidBody(const sim::RigidBodySettings& settings);
   /// The model of motion and collisions: starts the present moment anew with it.
@@ -106,20 +134,34 @@ class MatchController : public FrameSource {
   /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
   std::uint64_t stateHash();
 
+  /// The exact states of the recent past; another one after `restarted`, null while there is no match.
+  std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
+  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and what
+  /// could be undone. `errorOccurred` when memory does not hold it any more.
+  void continueFrom(double time);
+  /// Sees every tick from now on, until stopObserving() or `ending`. False: there is no match.
+  bool observe(std::shared_ptr<link::TickObserver> observer);
+  /// Waits for the tick in progress.
+  void stopObserving(const std::shared_ptr<link::TickObserver>& observer);
+
   /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
   const link::ScenarioRobot* robot(RobotId id) const;
 
  signals:
+  void ending();             ///< the match goes now: its observers see it for the last time
   void scenarioChanged();    ///< another match is being opened, or none; `restarted` follows
   void opened();             ///< it is there, or failed
   void transportChanged();   ///< paused, speed, or whether there is a match
   void errorOccurred(const QString& sentence);
+  /// `time`: of the tick after which it was written, simulated s.
+  void variableWritten(pitchboard::RobotId id, const QString& name, double time);
 
  private:
   friend class AddRobotCommand;
   friend class RemoveRobotsCommand;
   friend class PlacementCommand;
   friend class BallCommand;
+  friend class TeamCommand;
 
   struct Opening;            ///< what the worker made
   void poll();
@@ -136,6 +178,7 @@ class MatchController : public FrameSource {
                    std::function<void()> onFailure = {});
   void insertRobot(const link::ScenarioRobot& robot);
   void eraseRobot(RobotId id);
+  void changeIdentities(const std::vector<sim::RobotIdentity>& identities);
   void placeRobots(const std::vector<RobotPlacement>& placements, bool back);
   void placeBall(Point position);
 
@@ -143,9 +186,14 @@ class MatchController : public FrameSource {
   link::Cognition m_cognition = link::Cognition::Inline;
   link::Scenario m_scenario;
   std::map<RobotId, link::ScenarioRobot> m_robots;   // present, or about to be
-  std::unique_ptr<link::MatchRunner> m_runner;
+  std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
+  std::shared_ptr<link::MatchRunner> m_runner;   // keeps its catalog
   FramePtr m_frame;
-  std::shared_ptr<telemetry::SeriesStore> m_series;
+  std::shared_ptr<MatchRows> m_rows;
+  std::shared_ptr<link::MatchSampler> m_sampler;
+  std::shared_ptr<link::StateArchive> m_archive;
+  mutable std::unique_ptr<link::RecordedFrames> m_past;   // rebuilds frames; made when asked for
+  int m_everyNth = 1;
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;

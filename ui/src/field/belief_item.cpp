@@ -69,7 +69,7 @@ void BeliefItem::paintGhost(QPainter* painter) const {
                 p.drawEllipse(QPointF(0, 0), radius, radius);
               });
   }
-  if (m_style->shows(FieldLayer::Ghost)) {
+  if (m_look.ghost && m_style->shows(FieldLayer::Ghost)) {
     const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;
     const QColor line = onGrass(theme().fieldLines, isDarkTheme() ? 0.72 : 0.95);
     const QPen pen(line, std::clamp(radius * 0.13, 1.2, 2.2), Qt::SolidLine, Qt::FlatCap);

@@ -124,9 +124,11 @@ void FieldCanvas::paintEmptyState(QPainter* painter) const {
   const FramePtr& frame = m_scene->frame();
   const bool empty = frame && frame->snapshot.robots.empty();
   if (frame && !empty) return;
-  const QString text = frame ? tr("Press A to add a robot where the cursor is, B to put the ball "
-                                  "there.")
-                             : tr("No match is open. Choose a scenario in the toolbar.");
+  QString text = m_emptyText ? m_emptyText() : QString();
+  if (text.isEmpty()) {
+    text = frame ? tr("Press A to add a robot where the cursor is, B to put the ball there.")
+                 : tr("No match is open. Choose a scenario in the toolbar.");
+  }
   const QFont& font = fieldFont(scaled(this, 13), true);
   painter->setFont(font);
   const QRectF area(viewport()->rect());

@@ -31,6 +31,9 @@ class FieldCanvas : public QGraphicsView {
   /// Asked first for every key; says whether it took it.
   void setKeyHandler(std::function<bool(QKeyEvent*)> handler) { m_keyHandler = std::move(handler); }
 
+  /// What to say while there are no robots; an empty text: how to begin a simulation.
+  void setEmptyText(std::function<QString()> text) { m_emptyText = std::move(text); }
+
  signals:
   void cursorMoved(QPointF metres, bool valid);
   void menuRequested(QPoint globalPosition, QPointF metres);
@@ -66,6 +69,7 @@ class FieldCanvas : public QGraphicsView {
   FieldPointer* m_pointer;
   FieldBackground m_background;
   std::function<bool(QKeyEvent*)> m_keyHandler;
+  std::function<QString()> m_emptyText;
   QPointF m_cursor;
   QPointF m_panFrom;
   bool m_panning = false;

@@ -9,9 +9,12 @@
 
 #include "ball_item.h"
 #include "belief_item.h"
+#include "live_items.h"
 #include "overlay_items.h"
+#include "pose_difference.h"
 #include "robot_item.h"
 #include "sector_items.h"
+#include "thought_items.h"
 #include "trail_item.h"
 #include "view_wedge_item.h"
 
@@ -19,13 +22,28 @@ namespace pitchboard::ui {
 namespace {
 
 // From the ground up.
-enum Height { wedgeHeight, sectorHeight, trailHeight, beliefHeight, ballHeight, robotHeight,
-              toolHeight };
+enum Height { wedgeHeight, sectorHeight, trailHeight, particleHeight, beliefHeight, pathHeight,
+              ballHeight, robotHeight, toolHeight };
 
 constexpr double hitMargin_px = 3.0;
 
 double distance(const QPointF& a, const QPointF& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
+/// What a robot that is heard believes: its body is drawn there, so there is no ghost.
+BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView& board,
+                    const link::RobotHealth& health, const sim::FieldSpec& field) {
+  BeliefLook look;
+  look.team = robot.identity.team;
+  look.believed = robot.pose;
+  look.ghost = false;
+  const double sigma = sim::published_frame::metresFromCm(static_cast<double>(board.belief));
+  look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
+  look.origin = robot.pose.position;
+  if (!health.timedOut) look.ball = health.ball;
+  look.opacity = health.timedOut ? 0.45 : 1.0;
+  return look;
 }
 
 /// What the robot believes and perceives, from its blackboard.
@@ -57,10 +75,12 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
 struct FieldScene::Robot {
   Robot(FieldScene* scene, RobotId id)
       : body(&scene->m_style, id), belief(&scene->m_style), trail(&scene->m_style),
-        wedge(&scene->m_style) {
+        wedge(&scene->m_style), other(&scene->m_style), particles(&scene->m_style),
+        path(&scene->m_style) {
     const std::pair<QGraphicsItem*, Height> items[] = {
         {&body, robotHeight}, {&belief, beliefHeight}, {&trail, trailHeight},
-        {&wedge, wedgeHeight}};
+        {&wedge, wedgeHeight}, {&other, beliefHeight}, {&particles, particleHeight},
+        {&path, pathHeight}};
     for (const auto& [item, height] : items) {
       item->setZValue(height);
       scene->addItem(item);
@@ -71,11 +91,15 @@ struct FieldScene::Robot {
   BeliefItem belief;
   TrailItem trail;
   ViewWedgeItem wedge;
+  OtherPoseItem other;
+  ParticlesItem particles;
+  PlannedPathItem path;
 };
 
 FieldScene::FieldScene(QObject* parent)
     : QGraphicsScene(parent),
       m_ball(new BallItem(&m_style)),
+      m_teamBall(new TeamBallItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
       m_ruler(new RulerItem(&m_style)),
@@ -83,6 +107,7 @@ FieldScene::FieldScene(QObject* parent)
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {{m_ball, ballHeight},
+                                                     {m_teamBall, ballHeight},
                                                      {m_eopra, sectorHeight},
                                                      {m_starVars, sectorHeight},
                                                      {m_ruler, toolHeight},
@@ -102,7 +127,11 @@ void FieldScene::styleChanged() {
     robot->belief.styleChanges();
     robot->trail.styleChanges();
     robot->wedge.styleChanges();
+    robot->other.styleChanges();
+    robot->particles.styleChanges();
+    robot->path.styleChanges();
   }
+  m_teamBall->styleChanges();
   m_ball->styleChanges();
   m_eopra->styleChanges();
   m_starVars->styleChanges();
@@ -113,7 +142,8 @@ void FieldScene::styleChanged() {
 
 void FieldScene::showFrame(const FramePtr& frame) {
   m_frame = frame;
-  m_ball->setVisible(frame != nullptr);
+  m_ball->setVisible(frame && frame->ballKnown);
+  m_teamBall->setBall(frame ? frame->teamBall : std::nullopt);
   if (!frame) {
     m_robots.clear();
     setSelection({});
@@ -130,10 +160,31 @@ void FieldScene::showFrame(const FramePtr& frame) {
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     const bool known = i < frame->boards.size() &&
                        frame->boards[i].id == snapshot.robots[i].identity.id;
+    const bool heard = i < frame->health.size() &&
+                       frame->health[i].id == snapshot.robots[i].identity.id;
     showRobot(*m_robots.at(snapshot.robots[i].identity.id), snapshot.robots[i],
-              known ? &frame->boards[i] : nullptr, snapshot.time);
+              known ? &frame->boards[i] : nullptr, heard ? &frame->health[i] : nullptr,
+              snapshot.time);
   }
+  showThoughts();
   showSelected();
+}
+
+// Of the selected robots, or of all while none is selected: six clouds at once hide each other.
+void FieldScene::showThoughts() {
+  if (!m_frame) return;
+  for (auto& [id, robot] : m_robots) {
+    const bool chosen = m_selection.empty() ||
+        std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+    const auto told = std::find_if(m_frame->thoughts.begin(), m_frame->thoughts.end(),
+                                   [&](const auto& one) { return one.robot == id; });
+    const bool any = chosen && told != m_frame->thoughts.end();
+    const TeamColor team = robot->body.look().team;
+    robot->particles.setVisible(any && m_style.shows(FieldLayer::Particles));
+    robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
+    if (robot->particles.isVisible()) robot->particles.setCloud(told->cloud, team);
+    if (robot->path.isVisible()) robot->path.setPath(told->path, team);
+  }
 }
 
 void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
@@ -150,7 +201,8 @@ void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
 }
 
 void FieldScene::showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
-                           const link::RobotBoardView* board, double time) {
+                           const link::RobotBoardView* board, const link::RobotHealth* health,
+                           double time) {
   const RobotId id = snapshot.identity.id;
   RobotLook look;
   look.pose = snapshot.pose;
@@ -160,15 +212,42 @@ void FieldScene::showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
   look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
   look.followed = m_followed == id;
   if (snapshot.fallen) look.word = QStringLiteral("fallen");
+  const bool poseKnown = health == nullptr || health->poseKnown;
+  if (health != nullptr && health->timedOut) {
+    look.word = tr("timeout %1 s").arg(static_cast<int>(health->age));
+    look.opacity = 0.45;
+  } else if (health != nullptr && health->penalty) {
+    look.word = tr("penalised");
+  }
   robot.body.setLook(look);
+  robot.body.setVisible(poseKnown);
 
   robot.trail.append(snapshot.pose.position, time);
-  robot.trail.setVisible(m_style.shows(FieldLayer::Trails) && isTrailShown(id));
-  robot.wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
+  robot.trail.setVisible(poseKnown && m_style.shows(FieldLayer::Trails) && isTrailShown(id));
+  // Where a robot that is heard looks, it does not say.
+  robot.wedge.setVisible(health == nullptr && m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
   robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
-  robot.belief.setVisible(board != nullptr);
-  if (board) robot.belief.setLook(beliefOf(snapshot, *board, m_style.field));
+  robot.belief.setVisible(board != nullptr && poseKnown);
+  if (board != nullptr) {
+    robot.belief.setLook(health != nullptr ? beliefOf(snapshot, *board, *health, m_style.field)
+                                           : beliefOf(snapshot, *board, m_style.field));
+  }
+  showOtherPose(robot, snapshot, poseKnown);
+}
+
+void FieldScene::showOther(const FramePtr& frame) {
+  m_other = frame;
+  if (m_frame) showFrame(m_frame);
+}
+
+void FieldScene::showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown) {
+  const auto difference =
+      m_other ? poseDifference(*m_other, snapshot.identity.id, snapshot.pose) : std::nullopt;
+  robot.other.setVisible(poseKnown && difference.has_value());
+  if (!difference) return;
+  robot.other.setOther({difference->other, snapshot.pose.position, snapshot.identity.team,
+                        differenceText(*difference)});
 }
 
 void FieldScene::showSelected() {
@@ -213,9 +292,11 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
     look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
     robot->body.setLook(look);
     robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
+                            m_frame && m_frame->truthKnown &&
                             (look.selected || m_style.wedgeForAll));
     robot->wedge.styleChanges();
   }
+  showThoughts();
   showSelected();
   emit selectionChangedTo(m_selection);
 }
@@ -235,11 +316,11 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
   double least = robotReach;
   for (const auto& [id, robot] : m_robots) {
     const double away = distance(toScene(robot->body.look().pose.position), metres);
-    if (away > least) continue;
+    if (away > least || !robot->body.isVisible()) continue;
     least = away;
     nearest = {FieldHit::Kind::Robot, id};
   }
-  const bool onBall = m_frame && distance(toScene(m_frame->snapshot.ball), metres) <=
+  const bool onBall = m_frame && m_frame->ballKnown && distance(toScene(m_frame->snapshot.ball), metres) <=
                                      m_style.ballDrawRadius() + margin;
   // A ball at a robot's foot is smaller and must still be reached.
   if (onBall && (nearest.kind == FieldHit::Kind::Nothing ||
@@ -252,7 +333,10 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
 std::vector<RobotId> FieldScene::robotsIn(const QRectF& metres) const {
   std::vector<RobotId> inside;
   for (const auto& [id, robot] : m_robots) {
-    if (metres.contains(toScene(robot->body.look().pose.position))) inside.push_back(id);
+    const RobotItem& body = robot->body;
+    if (body.isVisible() && metres.contains(toScene(body.look().pose.position))) {
+      inside.push_back(id);
+    }
   }
   return inside;
 }

@@ -17,10 +17,12 @@ namespace pitchboard::ui {
 
 class BallItem;
 class BeliefItem;
+class OtherPoseItem;
 class RobotItem;
 class RubberBandItem;
 class RulerItem;
 class SectorItem;
+class TeamBallItem;
 class TrailItem;
 class ViewWedgeItem;
 
@@ -47,6 +49,8 @@ class FieldScene : public QGraphicsScene {
 
   void showFrame(const FramePtr& frame);
   const FramePtr& frame() const { return m_frame; }
+  /// Another source's view of the same robots, drawn beside this one's; null: none.
+  void showOther(const FramePtr& frame);
 
   const std::vector<RobotId>& selection() const { return m_selection; }
   /// Robots that are not there are left out.
@@ -75,17 +79,21 @@ class FieldScene : public QGraphicsScene {
   void styleChanged();
   void matchRobots(const sim::Snapshot& snapshot);
   void showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
-                 const link::RobotBoardView* board, double time);
+                 const link::RobotBoardView* board, const link::RobotHealth* health, double time);
+  void showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown);
+  void showThoughts();
   void showSelected();
   void setSelection(std::vector<RobotId> ids);
 
   FieldStyle m_style;
   FramePtr m_frame;
+  FramePtr m_other;
   std::map<RobotId, std::unique_ptr<Robot>> m_robots;
   std::vector<RobotId> m_selection;
   std::set<RobotId> m_hiddenTrails;
   std::optional<RobotId> m_followed;
   BallItem* m_ball;
+  TeamBallItem* m_teamBall;
   SectorItem* m_eopra;
   SectorItem* m_starVars;
   RulerItem* m_ruler;

@@ -39,7 +39,9 @@ constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "
                                                              {"Coordinate grid", ""},
                                                              {"Landmarks", "F9"},
                                                              {"EOPRA sectors", "F7"},
-                                                             {"StarVars sectors", "F8"}}};
+                                                             {"StarVars sectors", "F8"},
+                                                             {"Particles of localization", ""},
+                                                             {"Planned path", ""}}};
 
 struct ToolText {
   FieldTool tool;
@@ -80,6 +82,9 @@ struct FieldView::Private : FieldKeyTarget {
   void openEditor(PoseEdit edit);
   void openMenu(QPoint globalPosition, QPointF metres);
   bool handleKey(QKeyEvent* event);
+  /// Nothing can be moved in a match that is only watched.
+  MatchController* editor() const { return scene->style().readOnly ? nullptr : controller; }
+  void setReadOnly(bool readOnly);
   void addAtCursor(TeamColor color);
 
   // FieldKeyTarget
@@ -90,22 +95,22 @@ struct FieldView::Private : FieldKeyTarget {
     addAtCursor(rightShift ? TeamColor::Orange : TeamColor::Yellow);
   }
   void placeBallAtCursor() override {
-    if (controller) controller->moveBall(scene->ball(), fromScene(canvas->cursor()));
+    if (editor()) controller->moveBall(scene->ball(), fromScene(canvas->cursor()));
   }
   void selectRobot(int number) override { scene->select({RobotId{number}}); }
   void selectAll() override { scene->selectAll(); }
   void moveSelectedToCursor() override;
   void removeSelected() override {
-    if (controller) controller->removeRobots(scene->selection());
+    if (editor()) controller->removeRobots(scene->selection());
   }
   void commandSelected(int action, int actionB) override {
-    if (!controller) return;
+    if (!editor()) return;
     for (const RobotId id : scene->selection()) {
       controller->commandAction(id, action, actionB < 0 ? std::nullopt : std::optional(actionB));
     }
   }
   void searchSelected(bool on) override {
-    if (!controller) return;
+    if (!editor()) return;
     for (const RobotId id : scene->selection()) controller->commandSearch(id, on);
   }
   void nudgeSelected(int right, int up, bool coarse) override {
@@ -124,11 +129,17 @@ struct FieldView::Private : FieldKeyTarget {
   void fit() override { canvas->fit(); }
   void toggleHelp() override { help->toggle(); }
   void togglePause() override {
-    if (controller && controller->frame()) controller->setPaused(!controller->frame()->paused);
+    if (editor() && controller->frame()) controller->setPaused(!controller->frame()->paused);
   }
-  void loadMatch() override { emit q->loadMatchRequested(); }
-  void reset() override { emit q->resetRequested(); }
-  void clear() override { emit q->clearRequested(); }
+  void loadMatch() override {
+    if (!scene->style().readOnly) emit q->loadMatchRequested();
+  }
+  void reset() override {
+    if (!scene->style().readOnly) emit q->resetRequested();
+  }
+  void clear() override {
+    if (!scene->style().readOnly) emit q->clearRequested();
+  }
 
   FieldView* q;
   MatchController* controller;
@@ -247,14 +258,22 @@ void FieldView::Private::showLayer(int layer, bool shown) {
   canvas->viewport()->update();
 }
 
+void FieldView::Private::setReadOnly(bool readOnly) {
+  if (scene->style().readOnly == readOnly) return;
+  pointer->cancel();
+  if (readOnly && pointer->tool() == FieldTool::Add) pointer->setTool(FieldTool::Select);
+  scene->changeStyle([readOnly](FieldStyle& style) { style.readOnly = readOnly; });
+  tools.back()->setEnabled(!readOnly);   // the one that adds robots
+}
+
 void FieldView::Private::addAtCursor(TeamColor color) {
-  if (!controller) return;
+  if (!editor()) return;
   controller->addRobot(
       color, {fromScene(canvas->cursor()), info(color).facesLeft ? std::numbers::pi : 0.0});
 }
 
 void FieldView::Private::moveSelectedToCursor() {
-  if (!controller || scene->selection().empty()) return;
+  if (!editor() || scene->selection().empty()) return;
   const auto first = scene->pose(scene->selection().front());
   const Point cursor = fromScene(canvas->cursor());
   // Several robots keep their formation round the first one.
@@ -263,7 +282,7 @@ void FieldView::Private::moveSelectedToCursor() {
 
 void FieldView::Private::openPoseEditor(RobotId id) {
   const auto pose = scene->pose(id);
-  if (!pose || !controller) return;
+  if (!pose || !editor()) return;
   QString name;
   for (const sim::RobotSnapshot& robot : scene->frame()->snapshot.robots) {
     if (robot.identity.id == id) name = robotName(robot.identity.team, robot.identity.number);
@@ -278,7 +297,7 @@ void FieldView::Private::openPoseEditor(RobotId id) {
 }
 
 void FieldView::Private::openBallEditor() {
-  if (!controller || !scene->frame()) return;
+  if (!editor() || !scene->frame()) return;
   const Point ball = scene->ball();
   openEditor({tr("Position of the ball"), {ball, 0.0}, false,
               [this](const Pose& to) { controller->previewBall(to.position); },
@@ -341,7 +360,15 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
           [this](RobotId id) { d->openPoseEditor(id); });
   if (!source) return;
   connect(source, &FrameSource::frameReceived, this, &FieldView::showFrame);
-  connect(source, &FrameSource::restarted, this, [this, source] { showFrame(source->frame()); });
+  const auto begin = [this, source] {
+    d->setReadOnly(source->kind() != SourceKind::Simulate);
+    showFrame(source->frame());
+  };
+  connect(source, &FrameSource::restarted, this, begin);
+  d->setReadOnly(source->kind() != SourceKind::Simulate);
+  d->canvas->setEmptyText([source] {
+    return source->kind() == SourceKind::Simulate ? QString() : source->emptyText();
+  });
 }
 
 FieldView::~FieldView() {
@@ -360,6 +387,8 @@ void FieldView::showFrame(const FramePtr& frame) {
     if (const auto pose = d->scene->pose(*id)) d->canvas->centreOnMetres(toScene(pose->position));
   }
 }
+
+void FieldView::showOther(const FramePtr& frame) { d->scene->showOther(frame); }
 
 std::vector<RobotId> FieldView::selection() const { return d->scene->selection(); }
 void FieldView::select(const std::vector<RobotId>& ids) { d->scene->select(ids); }

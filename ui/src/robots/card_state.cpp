@@ -37,6 +37,22 @@ void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int acti
   }
 }
 
+std::vector<CardValue> boardValues(const sim::RobotSnapshot& robot,
+                                   const link::RobotBoardView& board) {
+  const auto whole = [](int value) { return numberText(value, 0); };
+  const auto real = [](double value, int decimals) { return numberText(value, decimals); };
+  const QString cm = QStringLiteral("cm"), degree = QStringLiteral("°");
+  return {{QStringLiteral("TRUE_X"), real(robot.pose.position.x, 2), QStringLiteral("m")},
+          {QStringLiteral("TRUE_Y"), real(robot.pose.position.y, 2), QStringLiteral("m")},
+          {QStringLiteral("LOCALIZATION_X"), whole(board.localizationX), cm},
+          {QStringLiteral("LOCALIZATION_Y"), whole(board.localizationY), cm},
+          {QStringLiteral("LOCALIZATION_THETA"), whole(board.localizationTheta), degree},
+          {QStringLiteral("LOCALIZATION_RBT01_X"), real(double(board.belief), 1), cm},
+          {QStringLiteral("VISION_BALL_DIST"), real(double(board.ballDistCm), 1), cm},
+          {QStringLiteral("VISION_PAN_DEG"), real(double(board.panDeg), 1), degree},
+          {QStringLiteral("DECISION_ACTION_A"), whole(board.actionA), {}}};
+}
+
 QString ageText(double milliseconds) {
   if (milliseconds < 1000) return QStringLiteral("%1 ms").arg(qRound(milliseconds));
   return QStringLiteral("%1 s").arg(numberText(milliseconds / 1000, 1));
@@ -44,7 +60,23 @@ QString ageText(double milliseconds) {
 
 }  // namespace
 
+bool CardState::operator==(const CardState& o) const {
+  const auto same = [](const auto& a, const auto& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->volts == b->volts && a->fraction == b->fraction && a->low == b->low));
+  };
+  return id == o.id && team == o.team && number == o.number && name == o.name &&
+         voltage == o.voltage && lamps == o.lamps && tag == o.tag && tagKind == o.tagKind &&
+         action == o.action && detail == o.detail && detailTip == o.detailTip && live == o.live &&
+         timedOut == o.timedOut && same(battery, o.battery) && values == o.values;
+}
+
+QString CardState::process(std::size_t lamp) const {
+  return lamp == 0 && live ? QStringLiteral("control") : QLatin1String(processes[lamp]);
+}
+
 double CardState::charge() const {
+  if (battery) return battery->fraction;
   constexpr double empty = 146.5, full = 191.5;
   return std::clamp((voltage - empty) / (full - empty), 0.0, 1.0);
 }
@@ -67,6 +99,7 @@ void CardTracker::updateLamps(History& history, const link::MatchFrame& frame,
 }
 
 std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64 now) {
+  if (!frame.health.empty() || frame.origin == link::FrameOrigin::Live) return liveCards(frame);
   const qint64 passed = m_last >= 0 ? now - m_last : 0;
   if (!frame.paused) m_playing += passed;
   m_last = now;
@@ -100,6 +133,8 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     // Age only matters when it grows; a small one would flicker.
     card.detail = (frame.paused ? QStringLiteral("paused") : ageText(m_age)) +
                   QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
+    card.detailTip = QStringLiteral("Age of the tick shown; distance walked");
+    if (board != frame.boards.end()) card.values = boardValues(robot, *board);
     chooseTag(card, robot.statistics, action, robot.fallen);
     cards.push_back(std::move(card));
   }

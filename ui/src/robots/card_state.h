@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a robot's card says, as a value: computed from the match's frames, drawn by RobotCard.
+// What a robot's card says, as a value: computed from the source's frames, drawn by RobotCard.
 
 #include <QString>
 #include <array>
 #include <map>
+#include <optional>
+#include <vector>
 
 #include <robotlink/match_runner.h>
 
@@ -20,6 +22,12 @@ struct Lamp {
 };
 
 enum class TagKind { None, Warning, Error };
+
+/// A further value that a card can show: "VISION_BALL_DIST", "83.2", "cm".
+struct CardValue {
+  QString name, text, unit;
+  bool operator==(const CardValue&) const = default;
+};
 
 struct CardState {
   static constexpr int lampCount = 5;
@@ -36,15 +44,28 @@ struct CardState {
   QString tag;
   TagKind tagKind = TagKind::None;
   QString action;
-  QString detail;                        ///< age of the tick and distance walked
-  bool operator==(const CardState&) const = default;
+  QString detail;                        ///< age of the tick and distance walked; or how it is heard
+  QString detailTip;
+  bool live = false;                     ///< heard by network
+  bool timedOut = false;                 ///< greyed
+  std::optional<telemetry::Battery> battery;  ///< as the robot's cells have it; else from `voltage`
+  std::vector<CardValue> values;         ///< shown where the user asked for them
+  bool operator==(const CardState& other) const;
 
-  bool batteryLow() const { return voltage > 0 && voltage < lowVoltage; }
+  bool batteryLow() const {
+    return battery ? battery->low : voltage > 0 && voltage < lowVoltage;
+  }
   /// Charge for the bar, 0..1, between empty and full of a four-cell battery.
   double charge() const;
 
+  /// What lamp i stands for: in Live the letter C is control, not communication.
+  QString process(std::size_t lamp) const;
+
   static constexpr int lowVoltage = 160;
 };
+
+/// The cards of robots that are heard: everything they say is in the frame.
+std::vector<CardState> liveCards(const link::MatchFrame& frame);
 
 /// Remembers since when each process has been silent. A process that was never seen working is
 /// unknown, not silent. Time stands still while the match is paused.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "robot_card.h"
 
+#include <QApplication>
 #include <QHelpEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -21,12 +22,22 @@ void RobotCard::setState(const CardState& state) {
   CardState rest = state;
   rest.action = m_state.action;
   rest.detail = m_state.detail;
+  rest.detailTip = m_state.detailTip;
   const bool footOnly = rest == m_state;
+  const bool taller = state.tag.isEmpty() != m_state.tag.isEmpty() && !m_parts.processes;
   m_state = state;
+  if (taller) updateGeometry();
   setAccessibleName(state.name);
   setAccessibleDescription(QStringLiteral("%1, %2").arg(state.action, state.tag));
   if (!footOnly) update();
   else if (!m_collapsed) update(rowRect(2));
+}
+
+void RobotCard::setParts(const CardParts& parts) {
+  if (parts == m_parts) return;
+  m_parts = parts;
+  updateGeometry();
+  update();
 }
 
 void RobotCard::setSelected(bool selected) {
@@ -43,7 +54,15 @@ void RobotCard::setCollapsed(bool collapsed) {
 }
 
 QSize RobotCard::sizeHint() const {
-  return {scaled(this, 236), scaled(this, m_collapsed ? 30 : 74)};
+  int height = 30;
+  if (!m_collapsed) {
+    const int rows = 3 + static_cast<int>(m_parts.values.size());
+    height = 10;
+    for (int row = 0; row < rows; ++row) {
+      if (const int high = rowHeight(row); high > 0) height += high;
+    }
+  }
+  return {scaled(this, 236), scaled(this, height)};
 }
 
 QSize RobotCard::minimumSizeHint() const { return {scaled(this, 190), sizeHint().height()}; }
@@ -52,11 +71,11 @@ bool RobotCard::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     QString tip;
-    for (int lamp = 0; lamp < CardState::lampCount; ++lamp) {
+    for (int lamp = 0; lamp < CardState::lampCount && m_parts.processes; ++lamp) {
       if (lampRect(lamp).contains(help->pos())) tip = lampTip(lamp);
     }
     if (!m_collapsed && rowRect(2).contains(help->pos())) {
-      tip = tr("Action of the robot; age of the tick shown; distance walked");
+      tip = m_state.detailTip;
     }
     if (tip.isEmpty()) QToolTip::hideText();
     else QToolTip::showText(help->globalPos(), tip, this);
@@ -67,19 +86,36 @@ bool RobotCard::event(QEvent* event) {
 
 QString RobotCard::lampTip(int lamp) const {
   const auto index = static_cast<std::size_t>(lamp);
-  const QString process = QLatin1String(CardState::processes[index]);
+  const QString process = m_state.process(index);
   const Lamp& state = m_state.lamps[index];
   if (state.state == LampState::Working) return tr("%1: working").arg(process);
   if (state.state == LampState::Silent) {
     return tr("%1: silent for %2 s").arg(process).arg(state.seconds);
   }
-  return tr("%1: not heard of since the match began").arg(process);
+  return m_state.live ? tr("%1: nothing known").arg(process)
+                      : tr("%1: not heard of since the match began").arg(process);
 }
 
 void RobotCard::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QFrame::mousePressEvent(event);
   if (chevronRect().contains(event->pos())) setCollapsed(!m_collapsed);
   else emit clicked(event->modifiers());
+  m_pressed = event->pos();
+  m_held = !chevronRect().contains(event->pos());
+  m_dragging = false;
+}
+
+void RobotCard::mouseMoveEvent(QMouseEvent* event) {
+  if (!m_held) return;
+  if ((event->pos() - m_pressed).manhattanLength() >= QApplication::startDragDistance()) {
+    m_dragging = true;
+  }
+  if (m_dragging) emit dragged(event->globalPosition().toPoint());
+}
+
+void RobotCard::mouseReleaseEvent(QMouseEvent* event) {
+  m_held = false;
+  if (std::exchange(m_dragging, false)) emit dropped(event->globalPosition().toPoint());
 }
 
 void RobotCard::keyPressEvent(QKeyEvent* event) {

@@ -19,9 +19,17 @@ QRectF sharp(const QRect& rect) { return QRectF(rect).adjusted(0.5, 0.5, -0.5, -
 
 QRect RobotCard::rowRect(int row) const {
   const int left = scaled(this, 9), wide = width() - left - scaled(this, 8);
-  const int top[] = {scaled(this, 5), scaled(this, 29), scaled(this, 50)};
-  const int high[] = {scaled(this, 20), scaled(this, 16), scaled(this, 18)};
-  return {left, top[row], wide, high[row]};
+  int top = 5;
+  for (int above = 0; above < row; ++above) top += rowHeight(above);
+  const int gap = row == 0 ? 4 : row == 1 ? 5 : 0;
+  return {left, scaled(this, top), wide, scaled(this, std::max(0, rowHeight(row) - gap))};
+}
+
+int RobotCard::rowHeight(int row) const {
+  if (row == 0) return 24;
+  if (row == 1) return m_parts.processes || !m_state.tag.isEmpty() ? 21 : 0;
+  if (row == 2) return m_parts.action || m_parts.health ? 19 : 0;
+  return 16;
 }
 
 QRect RobotCard::lampRect(int lamp) const {
@@ -48,11 +56,12 @@ void RobotCard::paintEvent(QPaintEvent*) {
   if (m_collapsed) return;
   paintTag(painter);
   paintFoot(painter);
+  paintValues(painter);
 }
 
 void RobotCard::paintFrame(QPainter& painter) const {
   painter.setPen(m_selected || hasFocus() ? theme().accentLine : theme().innerLine);
-  painter.setBrush(theme().window);
+  painter.setBrush(m_state.timedOut ? theme().view : theme().window);
   painter.drawRoundedRect(sharp(rect()), corner, corner);
   if (m_selected) {
     QPainterPath outline;
@@ -65,6 +74,8 @@ void RobotCard::paintFrame(QPainter& painter) const {
 }
 
 void RobotCard::paintHead(QPainter& painter) const {
+  const double greyed = m_state.timedOut ? 0.5 : 1.0;
+  painter.setOpacity(greyed);
   const QRect row = rowRect(0);
   const QRect badge(row.left(), row.top(), row.height(), row.height());
   painter.setPen(Qt::NoPen);
@@ -77,12 +88,14 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.drawText(row.adjusted(row.height() + scaled(this, 8), 0, 0, 0),
                    Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
 
+  painter.setOpacity(1.0);
   painter.setPen(theme().secondaryText);
   painter.setFont(themeFont(TypeRole::Small));
   painter.drawText(chevronRect(), Qt::AlignCenter,
                    m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
 
-  if (m_state.voltage <= 0) return;
+  if (m_state.voltage <= 0 || !m_parts.battery) return;
+  painter.setOpacity(greyed);
   const bool low = m_state.batteryLow();
   const QRect bar(chevronRect().left() - scaled(this, 40), row.center().y() - scaled(this, 4),
                   scaled(this, 36), scaled(this, 10));
@@ -99,9 +112,11 @@ void RobotCard::paintHead(QPainter& painter) const {
                          row.height()),
                    Qt::AlignRight | Qt::AlignVCenter,
                    numberText(m_state.voltage / 10.0, 1) + QStringLiteral(" V"));
+  painter.setOpacity(1.0);
 }
 
 void RobotCard::paintLamps(QPainter& painter) const {
+  if (!m_parts.processes) return;
   for (int i = 0; i < CardState::lampCount; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const LampState state = m_state.lamps[index].state;
@@ -139,7 +154,9 @@ void RobotCard::paintTag(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Small, true));
   const QRect row = rowRect(1);
   const int wide = qMin(painter.fontMetrics().horizontalAdvance(m_state.tag) + scaled(this, 12),
-                        row.right() - lampRect(CardState::lampCount - 1).right());
+                        m_parts.processes
+                            ? row.right() - lampRect(CardState::lampCount - 1).right() - scaled(this, 4)
+                            : row.width());
   const QRect box(row.right() - wide + 1, row.top(), wide, row.height());
   painter.setPen(Qt::NoPen);
   painter.setBrush(error ? theme().errorGround : theme().warningGround);
@@ -154,13 +171,42 @@ void RobotCard::paintFoot(QPainter& painter) const {
   const QRect row = rowRect(2);
   painter.setFont(themeFont(TypeRole::Secondary));
   painter.setPen(theme().secondaryText);
-  painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, m_state.detail);
-  const int taken = painter.fontMetrics().horizontalAdvance(m_state.detail) + scaled(this, 8);
+  const QString detail = m_parts.health ? m_state.detail : QString();
+  painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, detail);
+  if (!m_parts.action) return;
+  const int taken = painter.fontMetrics().horizontalAdvance(detail) + scaled(this, 8);
   painter.setFont(themeFont(TypeRole::Body));
-  painter.setPen(theme().text);
+  painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
   const QRect room = row.adjusted(0, 0, -taken, 0);
   painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
                    painter.fontMetrics().elidedText(m_state.action, Qt::ElideRight, room.width()));
+}
+
+const CardValue* RobotCard::value(const QString& name) const {
+  for (const CardValue& known : m_state.values) {
+    if (known.name == name) return &known;
+  }
+  return nullptr;
+}
+
+void RobotCard::paintValues(QPainter& painter) const {
+  painter.setFont(themeFont(TypeRole::Secondary));
+  const int unitWidth = scaled(this, 40);
+  for (qsizetype i = 0; i < m_parts.values.size(); ++i) {
+    const QRect row = rowRect(3 + static_cast<int>(i));
+    const CardValue* known = value(m_parts.values[i]);
+    const bool greyed = known == nullptr || m_state.timedOut;
+    painter.setPen(theme().secondaryText);
+    painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter,
+                     painter.fontMetrics().elidedText(m_parts.values[i], Qt::ElideMiddle,
+                                                      row.width() * 6 / 10));
+    if (known == nullptr) continue;
+    painter.drawText(row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
+                     Qt::AlignLeft | Qt::AlignVCenter, known->unit);
+    painter.setPen(greyed ? theme().disabledText : theme().text);
+    painter.drawText(row.adjusted(0, 0, -unitWidth, 0), Qt::AlignRight | Qt::AlignVCenter,
+                     known->text);
+  }
 }
 
 }  // namespace pitchboard::ui

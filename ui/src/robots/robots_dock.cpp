@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "robots_dock.h"
 
-#include <QActionGroup>
+#include <QDockWidget>
+#include <QEvent>
 #include <QLabel>
-#include <QMenu>
+#include <QMainWindow>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <set>
+#include <algorithm>
 
+#include <base/angles.h>
 #include <ui/field_view.h>
 #include <ui/match_controller.h>
 #include <ui/theme.h>
 
-#include "blackboard_window.h"
-#include "robot_card.h"
+#include "field/pose_difference.h"
+#include "live/live_overlay.h"
 #include "shell/robot_selection.h"
+#include "shell/robot_words.h"
 #include "shell/source_switch.h"
 
 namespace pitchboard::ui {
@@ -22,6 +25,7 @@ namespace pitchboard::ui {
 RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
     : QScrollArea(parent), m_context(context) {
   constexpr int refreshMilliseconds = 100;
+  setObjectName(QStringLiteral("robotCards"));
   setFrameShape(QFrame::NoFrame);
   setWidgetResizable(true);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -42,11 +46,12 @@ RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
   m_column->addWidget(m_empty);
   m_column->addStretch(1);
   setWidget(list);
+  loadParts();
 
   m_clock.start();
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
-    if (isVisible()) refresh();
+    if (isVisible() || !m_floating.empty()) refresh();
   });
   timer->start(refreshMilliseconds);
   connect(context.source, &FrameSource::restarted, this, [this] {
@@ -58,87 +63,184 @@ RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
 
 QSize RobotsDock::sizeHint() const { return {scaled(this, 256), scaled(this, 300)}; }
 
-void RobotsDock::refresh() {
+std::vector<CardState> RobotsDock::states() {
   const FramePtr frame = m_context.source->frame();
-  if (!frame) {
-    makeCards(0);
-    return;
+  if (!frame) return {};
+  std::vector<CardState> cards = m_tracker.update(*frame, m_clock.elapsed());
+  const FramePtr other = m_context.overlay != nullptr ? m_context.overlay->other() : nullptr;
+  if (!other) return cards;
+  for (CardState& card : cards) {
+    for (const sim::RobotSnapshot& robot : frame->snapshot.robots) {
+      if (robot.identity.id != card.id) continue;
+      const auto difference = poseDifference(*other, card.id, robot.pose);
+      if (!difference) break;
+      const QString words = differenceText(*difference);
+      card.detail = words + QStringLiteral(" · ") + card.detail;
+      card.detailTip += tr("\nTruth and what is heard are %1 apart").arg(words);
+      card.values.push_back({QStringLiteral("BELIEF_ERROR"),
+                             numberText(difference->metres * 100, 1), QStringLiteral("cm")});
+      card.values.push_back({QStringLiteral("BELIEF_ERROR_THETA"),
+                             numberText(degreesFromRadians(difference->radians), 1),
+                             QStringLiteral("°")});
+    }
   }
-  const std::vector<CardState> states = m_tracker.update(*frame, m_clock.elapsed());
-  // A card stands for the robot at its place: when one leaves, those after it move up.
-  std::set<RobotId> collapsed;
-  for (const RobotCard* card : m_cards) {
-    if (card->isCollapsed()) collapsed.insert(card->state().id);
+  return cards;
+}
+
+void RobotsDock::refresh() { showCards(states()); }
+
+void RobotsDock::showCards(const std::vector<CardState>& states) {
+  m_empty->setVisible(states.empty());
+  if (states.empty()) m_empty->setText(m_context.source->emptyText());
+  for (auto known = m_cards.begin(); known != m_cards.end();) {
+    const RobotId id = (known++)->first;
+    if (std::any_of(states.begin(), states.end(), [id](const auto& s) { return s.id == id; })) {
+      continue;
+    }
+    delete m_cards[id];
+    m_cards.erase(id);
+    if (const auto window = m_floating.find(id); window != m_floating.end()) {
+      window->second->deleteLater();
+      m_floating.erase(window);
+    }
   }
-  makeCards(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    RobotCard* card = m_cards[static_cast<qsizetype>(i)];
-    card->setState(states[i]);
-    card->setCollapsed(collapsed.count(states[i].id) != 0);
+  bool isNew = false;
+  for (const CardState& state : states) {
+    RobotCard*& card = m_cards[state.id];
+    if (card == nullptr) {
+      card = makeCard(state.id);
+      isNew = true;
+    }
+    card->setState(state);
+    if (std::find(m_order.begin(), m_order.end(), state.id) == m_order.end()) {
+      m_order.push_back(state.id);
+    }
   }
+  if (isNew) arrange();
   showSelection();
 }
 
-void RobotsDock::makeCards(std::size_t count) {
-  m_empty->setVisible(count == 0);
-  if (count == 0) {
-    m_empty->setText(m_context.source->emptyText());
+RobotCard* RobotsDock::makeCard(RobotId id) {
+  auto* card = new RobotCard(widget());
+  card->setParts(m_parts);
+  connect(card, &RobotCard::clicked, this, [this, id](Qt::KeyboardModifiers modifiers) {
+    if (modifiers & Qt::ControlModifier) m_context.selection->toggle(id);
+    else m_context.selection->set({id});
+  });
+  connect(card, &RobotCard::menuRequested, this,
+          [this, card](const QPoint& at) { showMenu(card, at); });
+  connect(card, &RobotCard::dragged, this, [this, card](const QPoint& at) { follow(card, at); });
+  connect(card, &RobotCard::dropped, this, [this, card](const QPoint& at) { drop(card, at); });
+  return card;
+}
+
+void RobotsDock::arrange() {
+  int place = 0;
+  for (const RobotId id : m_order) {
+    const auto card = m_cards.find(id);
+    if (card == m_cards.end() || m_floating.count(id) != 0) continue;
+    m_column->removeWidget(card->second);
+    m_column->insertWidget(place++, card->second);
   }
-  while (m_cards.size() > static_cast<qsizetype>(count)) delete m_cards.takeLast();
-  while (m_cards.size() < static_cast<qsizetype>(count)) {
-    auto* card = new RobotCard(widget());
-    connect(card, &RobotCard::clicked, this, [this, card](Qt::KeyboardModifiers modifiers) {
-      if (modifiers & Qt::ControlModifier) m_context.selection->toggle(card->state().id);
-      else m_context.selection->set({card->state().id});
-    });
-    connect(card, &RobotCard::menuRequested, this,
-            [this, card](const QPoint& at) { showMenu(card, at); });
-    m_column->insertWidget(static_cast<int>(m_cards.size()), card);
-    m_cards.append(card);
+}
+
+QList<RobotCard*> RobotsDock::cards() const {
+  QList<RobotCard*> listed;
+  for (const RobotId id : m_order) {
+    const auto card = m_cards.find(id);
+    if (card != m_cards.end() && m_floating.count(id) == 0) listed.append(card->second);
   }
+  return listed;
+}
+
+void RobotsDock::moveCard(RobotId id, qsizetype place) {
+  QList<RobotCard*> listed = cards();
+  std::vector<RobotId> ids;
+  for (const RobotCard* card : listed) {
+    if (card->state().id != id) ids.push_back(card->state().id);
+  }
+  const auto at = std::clamp<qsizetype>(place, 0, static_cast<qsizetype>(ids.size()));
+  const RobotId before = at < static_cast<qsizetype>(ids.size())
+                             ? ids[static_cast<std::size_t>(at)] : RobotId{};
+  std::erase(m_order, id);
+  m_order.insert(std::find(m_order.begin(), m_order.end(), before), id);
+  arrange();
+}
+
+void RobotsDock::follow(RobotCard* card, const QPoint& at) {
+  if (m_floating.count(card->state().id) != 0) return;
+  const QPoint here = widget()->mapFromGlobal(at);
+  if (!viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
+    setCursor(Qt::DragCopyCursor);
+    return;
+  }
+  unsetCursor();
+  qsizetype place = 0;
+  for (const RobotCard* other : cards()) {
+    if (other != card && other->geometry().center().y() < here.y()) ++place;
+  }
+  if (cards().indexOf(card) != place) moveCard(card->state().id, place);
+}
+
+void RobotsDock::drop(RobotCard* card, const QPoint& at) {
+  unsetCursor();
+  const RobotId id = card->state().id;
+  if (m_floating.count(id) != 0 || viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
+    return;
+  }
+  floatCard(id);
+  floating(id)->move(at);
+}
+
+QDockWidget* RobotsDock::floating(RobotId id) const {
+  const auto window = m_floating.find(id);
+  return window == m_floating.end() ? nullptr : window->second;
+}
+
+void RobotsDock::floatCard(RobotId id) {
+  const auto card = m_cards.find(id);
+  auto* main = qobject_cast<QMainWindow*>(window());
+  if (card == m_cards.end() || m_floating.count(id) != 0 || main == nullptr) return;
+  auto* dock = new QDockWidget(card->second->state().name, main);
+  dock->setObjectName(QStringLiteral("card-%1").arg(id.value));
+  m_column->removeWidget(card->second);
+  dock->setWidget(card->second);
+  dock->installEventFilter(this);
+  m_floating[id] = dock;
+  main->addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->setFloating(true);
+  dock->adjustSize();
+  dock->show();
+  card->second->show();
+}
+
+bool RobotsDock::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Close) {
+    for (const auto& [id, dock] : m_floating) {
+      if (dock != watched) continue;
+      unfloat(id);
+      break;
+    }
+  }
+  return QScrollArea::eventFilter(watched, event);
+}
+
+void RobotsDock::unfloat(RobotId id) {
+  QDockWidget* dock = m_floating.at(id);
+  m_floating.erase(id);
+  RobotCard* card = m_cards.at(id);
+  card->setParent(widget());
+  arrange();
+  card->show();
+  dock->deleteLater();
 }
 
 void RobotsDock::showSelection() {
-  for (RobotCard* card : m_cards) card->setSelected(m_context.selection->contains(card->state().id));
+  for (const auto& [id, card] : m_cards) card->setSelected(m_context.selection->contains(id));
 }
 
 void RobotsDock::setAllCollapsed(bool collapsed) {
-  for (RobotCard* card : m_cards) card->setCollapsed(collapsed);
-}
-
-void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
-  const RobotId id = card->state().id;
-  MatchController* controller = m_context.controller;
-  const link::ScenarioRobot* robot = controller->robot(id);
-  if (robot == nullptr) return;
-  QMenu menu(this);
-  QMenu* behaviour = menu.addMenu(tr("Behaviour"));
-  const auto offer = [&](std::string_view name, const QString& text) {
-    const QString key = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-    QAction* action = behaviour->addAction(text.isEmpty() ? key : text);
-    action->setCheckable(true);
-    action->setChecked(robot->behaviour == name);
-    connect(action, &QAction::triggered, controller,
-            [controller, id, key] { controller->setBehaviour(id, key); });
-  };
-  for (const link::BehaviourInfo& known : link::behaviours()) offer(known.name, {});
-  offer(link::noBehaviour, tr("none (your own process)"));
-  QAction* follow = menu.addAction(tr("Follow"));
-  follow->setCheckable(true);
-  follow->setChecked(m_context.field->followed() == id);
-  connect(follow, &QAction::toggled, m_context.field, [field = m_context.field, id](bool on) {
-    field->follow(on ? std::optional(id) : std::nullopt);
-  });
-  menu.addAction(tr("Blackboard…"), this, [this, id] {
-    (new BlackboardWindow(m_context.controller, id, window()))->show();
-  });
-  menu.addSeparator();
-  menu.addAction(tr("Collapse all"), this, [this] { setAllCollapsed(true); });
-  menu.addAction(tr("Expand all"), this, [this] { setAllCollapsed(false); });
-  menu.addSeparator();
-  menu.addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove %1").arg(card->state().name),
-                 controller, [controller, id] { controller->removeRobots({id}); });
-  menu.exec(at);
+  for (const auto& [id, card] : m_cards) card->setCollapsed(collapsed);
 }
 
 QWidget* makeRobotsDock(const StudioContext& context, QWidget* parent) {

@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dock_list.h"
 
+#include "live/bad_messages_dock.h"
 #include "log_dock.h"
 #include "noise_dock.h"
 #include "plots/plots_dock.h"
 #include "processes_dock.h"
 #include "robots/robots_dock.h"
 #include "timeline/timeline_dock.h"
+#include "variables/variables_dock.h"
 
 namespace pitchboard::ui {
 
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, makeRobotsDock},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 330, makeNoiseDock},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, makeVariablesDock},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, makeNoiseDock},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, makePlotsDock},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
+      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, makeBadMessagesDock},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, makeLogDock},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, makeTimelineDock, true},
   };

@@ -15,6 +15,8 @@ namespace pitchboard::ui {
 
 class FieldView;
 class LinkedTime;
+class LiveController;
+class LiveOverlay;
 class MatchController;
 class PlotTarget;
 class RobotSelection;
@@ -33,6 +35,8 @@ struct StudioContext {
   PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
   Timeline* timeline = nullptr;           ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
+  LiveController* live = nullptr;         ///< listens once it was asked to
+  LiveOverlay* overlay = nullptr;         ///< the other source drawn beside the shown one
 };
 
 struct DockInfo {

@@ -14,6 +14,7 @@
 
 #include "log_model.h"
 #include "robot_words.h"
+#include "source_switch.h"
 #include "table_style.h"
 #include "words_filter.h"
 
@@ -76,8 +77,12 @@ class LogDock : public QWidget {
     m_table->addAction(copy);
     m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
 
-    connect(m_controller, &MatchController::logReceived, this,
-            [this](const std::vector<link::LogLine>& lines) { append(lines); });
+    // Simulated and live lines stand in one log: both go on while the other is looked at.
+    for (FrameSource* source : context.source->sources()) {
+      connect(source, &FrameSource::logReceived, this,
+              [this](const std::vector<link::LogLine>& lines) { append(lines); });
+    }
+    // What happens in a live match comes as lines already.
     connect(m_controller, &MatchController::eventsReceived, this,
             [this](const std::vector<sim::Event>& events) { appendEvents(events); });
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {

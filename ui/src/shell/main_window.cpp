@@ -6,13 +6,17 @@
 #include <QDockWidget>
 #include <QScreen>
 #include <QSettings>
+#include <QUndoGroup>
 #include <QVBoxLayout>
 
 #include <ui/field_view.h>
+#include <ui/live_controller.h>
 #include <ui/match_controller.h>
 #include <ui/scenario_files.h>
 
 #include "dock_list.h"
+#include "live/live_overlay.h"
+#include "live/live_settings.h"
 #include "dock_title.h"
 #include "menus.h"
 #include "notice_bar.h"
@@ -38,11 +42,15 @@ const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
 
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
-    : QMainWindow(parent), m_controller(controller), m_settings(settings),
-      m_source(new SourceSwitch(controller, this)), m_selection(new RobotSelection(this)),
+    : QMainWindow(parent), m_controller(controller), m_live(new LiveController(this)),
+      m_settings(settings), m_source(new SourceSwitch(controller, this)),
+      m_undo(new QUndoGroup(this)), m_selection(new RobotSelection(this)),
       m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
       m_timeline(new Timeline(m_source, this)),
       m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
+  m_source->add(m_live);
+  m_undo->addStack(controller->undoStack());
+  m_undo->setActiveStack(controller->undoStack());
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -54,6 +62,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->setSpacing(0);
   m_notices = new NoticeBar(centre);
   m_field = new FieldView(m_source, controller, centre);
+  m_overlay = new LiveOverlay(controller, m_live, m_source, m_field, this);
   column->addWidget(m_notices);
   column->addWidget(m_field, 1);
   setCentralWidget(centre);
@@ -73,11 +82,22 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   }
   connect(controller, &MatchController::errorOccurred, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_live, &LiveController::errorOccurred, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_source, &SourceSwitch::changed, this, [this] {
+    const bool editable = m_source->kind() == SourceKind::Simulate;
+    m_undo->setActiveStack(editable ? m_controller->undoStack() : nullptr);
+    m_selection->set({});
+  });
   connect(m_files, &ScenarioFiles::failed, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files,
           &ScenarioFiles::askAndOpen);
+  const LiveSettings live = loadLiveSettings(*settings);
+  m_live->setOptions(live.options);
+  if (!live.problem.isEmpty()) m_notices->show(tr("Live: %1").arg(live.problem));
   restoreLayout();
   m_field->setFocus();
 }
@@ -86,7 +106,14 @@ MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
   return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
-          m_timelineActions};
+          m_timelineActions, m_live, m_overlay};
+}
+
+void MainWindow::showSource(SourceKind kind) {
+  FrameSource* source = m_source->find(kind);
+  if (source == nullptr) return;
+  if (kind == SourceKind::Live) m_live->start();
+  m_source->choose(source);
 }
 
 void MainWindow::makeDocks() {
@@ -146,22 +173,30 @@ void MainWindow::restoreLayout() {
 
 void MainWindow::resetLayout() {
   const auto infos = studioDocks();
-  QDockWidget* bottom = nullptr;
+  const auto isBottom = [&infos](std::size_t i) {
+    return infos[i].area == Qt::BottomDockWidgetArea;
+  };
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
   QDockWidget* firstBottom = nullptr;
   for (std::size_t i = 0; i < infos.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    addDockWidget(infos[i].area, m_docks[i]);
+    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].ownRow && firstBottom != nullptr) {
+      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+    }
+  }
+  QDockWidget* bottom = firstBottom;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
     QDockWidget* dock = m_docks[i];
-    dock->setFloating(false);
-    addDockWidget(infos[i].area, dock);
-    if (infos[i].ownRow && bottom != nullptr) {
-      splitDockWidget(firstBottom, dock, Qt::Vertical);
-    } else if (infos[i].area == Qt::BottomDockWidgetArea) {
-      if (bottom != nullptr) tabifyDockWidget(bottom, dock);
-      else firstBottom = dock;
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
+      tabifyDockWidget(bottom, dock);
       bottom = dock;
     }
     dock->setVisible(infos[i].shownAtFirst);
-    resizeDocks({dock}, {scaled(this, infos[i].extent)},
-                infos[i].area == Qt::BottomDockWidgetArea ? Qt::Vertical : Qt::Horizontal);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)}, isBottom(i) ? Qt::Vertical : Qt::Horizontal);
   }
   if (firstBottom != nullptr) firstBottom->raise();
 }

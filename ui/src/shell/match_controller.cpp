@@ -5,13 +5,36 @@
 #include <QUndoStack>
 #include <algorithm>
 
+#include <robotlink/match_sampler.h>
+
+#include "match_rows.h"
 #include "robot_words.h"
 
 namespace pitchboard::ui {
+namespace {
+
+using CatalogPtr = std::shared_ptr<const link::VariableCatalog>;
+
+// A match refers to its catalog until its thread has ended.
+struct RunnerWithCatalog {
+  CatalogPtr catalog;
+  std::unique_ptr<link::MatchRunner> runner;
+};
+
+std::shared_ptr<link::MatchRunner> holding(CatalogPtr catalog,
+                                           std::unique_ptr<link::MatchRunner> runner) {
+  const auto both = std::make_shared<RunnerWithCatalog>(
+      RunnerWithCatalog{std::move(catalog), std::move(runner)});
+  return {both, both->runner.get()};
+}
+
+}  // namespace
 
 MatchController::MatchController(link::MatchOptions options, QObject* parent)
     : FrameSource(parent),
       m_options(std::move(options)),
+      m_nextCatalog(&link::VariableCatalog::published(), [](const auto*) {}),
+      m_catalog(m_nextCatalog),
       m_timer(new QTimer(this)),
       m_undoStack(new QUndoStack(this)) {
   constexpr int displayMilliseconds = 16;
@@ -31,35 +54,56 @@ MatchController::~MatchController() {
 }
 
 struct MatchController::Opening {
-  std::unique_ptr<link::MatchRunner> runner;
+  std::shared_ptr<link::MatchRunner> runner;
   link::Cognition cognition = link::Cognition::Inline;
+  std::shared_ptr<link::TickObserver> sampler, archive;   // that the match was started with
   QString error;   // of a match that plays otherwise than asked for, or not at all
 
-  void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused);
+  void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
+             CatalogPtr catalog);
 };
 
 void MatchController::Opening::start(const link::Scenario& scenario,
-                                     const link::MatchOptions& options, bool paused) {
+                                     const link::MatchOptions& options, bool paused,
+                                     CatalogPtr catalog) {
   const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
   cognition = options.cognition;
-  auto made = link::MatchRunner::start(scenario, options, paused);
+  auto made = link::MatchRunner::start(scenario, options, paused, *catalog, {sampler, archive});
   if (!made && options.cognition != link::Cognition::Inline) {
     const Error reason = made.error();
     link::MatchOptions inside = options;
     inside.cognition = cognition = link::Cognition::Inline;
     inside.systemV = false;
-    made = link::MatchRunner::start(scenario, inside, paused);
+    made = link::MatchRunner::start(scenario, inside, paused, *catalog, {sampler, archive});
     if (made) {
       error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
                  "instead, and other programs cannot see their blackboards. Close the other "
                  "program, then restart the match.").arg(words(reason));
     }
   }
-  if (made) runner = std::move(*made);
+  if (made) runner = holding(std::move(catalog), std::move(*made));
   else error = tr("The match cannot be played: %1").arg(words(made.error()));
 }
 
-std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const { return m_series; }
+std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const {
+  return m_rows ? std::shared_ptr<const telemetry::SeriesStore>(m_rows, &m_rows->store()) : nullptr;
+}
+
+std::shared_ptr<telemetry::RowSink> MatchController::rowsBeside() const {
+  return m_rows ? MatchRows::beside(m_rows) : nullptr;
+}
+
+void MatchController::setSampling(int everyNth) {
+  if (everyNth == m_everyNth || everyNth < 1) return;
+  m_everyNth = everyNth;
+  if (!m_rows) return;
+  const auto old = std::exchange(
+      m_sampler, std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{everyNth}));
+  // While a match is being opened, take() exchanges them.
+  if (!m_runner) return;
+  m_runner->stopObserving(old);
+  m_runner->observe(m_sampler);
+}
 
 QString MatchController::emptyText() const {
   return isOpening() ? tr("Opening…")
@@ -68,14 +112,23 @@ QString MatchController::emptyText() const {
 }
 
 std::shared_ptr<link::MatchRunner> MatchController::retire() {
+  if (m_runner) emit ending();
   ++m_generation;
   m_timer->stop();
   m_opening = false;
   m_whenOpen.clear();
   m_runTo.reset();
   m_frame.reset();
+  m_rows.reset();
+  m_sampler.reset();
+  m_archive.reset();
+  m_past.reset();
   m_undoStack->clear();
   return std::move(m_runner);
+}
+
+void MatchController::setCatalog(std::shared_ptr<const link::VariableCatalog> catalog) {
+  m_nextCatalog = std::move(catalog);
 }
 
 void MatchController::close() {
@@ -103,16 +156,24 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
   m_scenario = scenario;
   m_paused = paused;
   m_opening = true;
+  m_catalog = m_nextCatalog;
+  m_rows = std::make_shared<MatchRows>();
+  m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
+  m_archive = std::make_shared<link::StateArchive>();
   for (const link::ScenarioRobot& entry : scenario.robots) {
     m_robots.emplace(entry.identity.id, entry);
   }
   m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
-                  options = m_options, generation = m_generation.load()]() mutable {
+                  options = m_options, catalog = m_catalog, sampler = m_sampler,
+                  archive = m_archive,
+                  generation = m_generation.load()]() mutable {
     old.reset();
     if (between) between();
     if (generation != m_generation) return;
     const auto opening = std::make_shared<Opening>();
-    opening->start(scenario, options, paused);
+    opening->sampler = sampler;
+    opening->archive = archive;
+    opening->start(scenario, options, paused, catalog);
     QMetaObject::invokeMethod(this, [this, opening, generation] {
       if (generation == m_generation) take(*opening);
       else m_worker.start([opening] { opening->runner.reset(); });
@@ -130,6 +191,10 @@ void MatchController::take(Opening& opening) {
   if (m_runner) {
     m_runner->setSpeed(m_speed);
     m_runner->setPaused(m_paused);
+    if (opening.sampler != m_sampler) {
+      m_runner->stopObserving(opening.sampler);
+      m_runner->observe(m_sampler);
+    }
     if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
     m_timer->start();

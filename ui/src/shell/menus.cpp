@@ -7,7 +7,7 @@
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QSettings>
-#include <QUndoStack>
+#include <QUndoGroup>
 
 #include <ui/field_view.h>
 #include <ui/main_window.h>
@@ -15,10 +15,13 @@
 #include <ui/scenario_files.h>
 
 #include "help_windows.h"
+#include "live/live_overlay.h"
+#include "live/live_settings_dialog.h"
 #include "plots/plot_menus.h"
 #include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
+#include "source_switch.h"
 #include "status_bar.h"
 #include "timeline/timeline_actions.h"
 #include "transport_bar.h"
@@ -44,6 +47,13 @@ void StudioMenus::make() {
   makeHelp();
 }
 
+void StudioMenus::onlyWhenSimulating(QAction* action) {
+  SourceSwitch* source = m_window.m_source;
+  QObject::connect(source, &SourceSwitch::changed, action, [action, source] {
+    action->setEnabled(source->kind() == SourceKind::Simulate);
+  });
+}
+
 void StudioMenus::makeFile() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&File"));
   ScenarioFiles* files = m_window.m_files;
@@ -60,9 +70,10 @@ void StudioMenus::makeFile() {
     recent->setToolTipsVisible(true);
     recent->setEnabled(!recent->isEmpty());
   });
-  withIcon(menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
-                           &ScenarioFiles::askAndSave),
-           "document-save", QKeySequence::Save);
+  QAction* save = menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
+                                  &ScenarioFiles::askAndSave);
+  withIcon(save, "document-save", QKeySequence::Save);
+  onlyWhenSimulating(save);
   withIcon(menu->addAction(QObject::tr("Export &picture…"), files,
                            &ScenarioFiles::askAndExportPicture),
            "document-export");
@@ -75,15 +86,16 @@ void StudioMenus::makeEdit() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Edit"));
   MatchController* controller = m_window.m_controller;
   RobotSelection* selection = m_window.m_selection;
-  QAction* undo = controller->undoStack()->createUndoAction(&m_window, QObject::tr("Undo"));
-  QAction* redo = controller->undoStack()->createRedoAction(&m_window, QObject::tr("Redo"));
+  SourceSwitch* source = m_window.m_source;
+  QAction* undo = m_window.m_undo->createUndoAction(&m_window, QObject::tr("Undo"));
+  QAction* redo = m_window.m_undo->createRedoAction(&m_window, QObject::tr("Redo"));
   menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
   menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
   menu->addSeparator();
   withIcon(menu->addAction(QObject::tr("Select &all robots"), selection,
-                           [controller, selection] {
+                           [source, selection] {
                              std::vector<RobotId> all;
-                             if (const FramePtr frame = controller->frame()) {
+                             if (const FramePtr frame = source->frame()) {
                                for (const auto& robot : frame->snapshot.robots) {
                                  all.push_back(robot.identity.id);
                                }
@@ -98,8 +110,9 @@ void StudioMenus::makeEdit() {
       [controller, selection] { controller->removeRobots(selection->ids()); });
   withIcon(remove, "edit-delete");
   remove->setEnabled(false);
-  QObject::connect(selection, &RobotSelection::changed, remove,
-                   [remove](const auto& ids) { remove->setEnabled(!ids.empty()); });
+  QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
+    remove->setEnabled(!ids.empty() && source->kind() == SourceKind::Simulate);
+  });
 }
 
 void StudioMenus::makeThemes(QMenu* menu) {
@@ -131,6 +144,15 @@ void StudioMenus::makeView() {
   layers->addSeparator();
   for (QAction* action : m_window.m_field->layerOptionActions()) layers->addAction(action);
   for (QAction* action : m_window.m_field->viewActions()) menu->addAction(action);
+  QAction* overlay = menu->addAction(QObject::tr("Overlay what is &heard live"));
+  overlay->setObjectName(QStringLiteral("liveOverlay"));
+  overlay->setCheckable(true);
+  m_window.m_overlayAction = overlay;
+  overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
+  QObject::connect(overlay, &QAction::toggled, m_window.m_overlay, &LiveOverlay::setOn);
+  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [this_ = &m_window] {
+    showLiveSettings(this_->m_live, this_->m_settings, this_);
+  });
   menu->addSeparator();
   makeThemes(menu->addMenu(QObject::tr("&Theme")));
   menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
@@ -149,13 +171,15 @@ void StudioMenus::makeSimulation() {
   menu->addSeparator();
   QAction* clock = menu->addAction(QObject::tr("Game &clock runs"));
   clock->setCheckable(true);
-  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller] {
+  QObject::connect(menu, &QMenu::aboutToShow, clock,
+                   [clock, controller, source = m_window.m_source] {
     const FramePtr frame = controller->frame();
-    clock->setEnabled(frame != nullptr);
+    clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
     clock->setChecked(frame && frame->snapshot.clockRunning);
   });
   QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
-  menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore);
+  onlyWhenSimulating(
+      menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore));
 }
 
 void StudioMenus::makeTimeline() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+class QAction;
 class QMenu;
 
 namespace pitchboard::ui {
@@ -22,6 +23,8 @@ class StudioMenus {
   void makeTimeline();
   void makePlots();
   void makeHelp();
+  /// Greyed while another source than the simulation is shown.
+  void onlyWhenSimulating(QAction* action);
 
   MainWindow& m_window;
 };

@@ -9,6 +9,7 @@
 #include <ui/match_controller.h>
 
 #include "processes_model.h"
+#include "source_switch.h"
 #include "table_style.h"
 
 namespace pitchboard::ui {
@@ -39,7 +40,7 @@ class ProcessesDock : public QStackedWidget {
  public:
   ProcessesDock(const StudioContext& context, QWidget* parent)
       : QStackedWidget(parent), m_controller(context.controller),
-        m_model(new ProcessesModel(this)), m_table(new QTableView(this)),
+        m_source(context.source), m_model(new ProcessesModel(this)), m_table(new QTableView(this)),
         m_empty(new QLabel(this)) {
     constexpr int refreshMilliseconds = 250;
     m_table->setObjectName(QStringLiteral("processesTable"));
@@ -63,6 +64,7 @@ class ProcessesDock : public QStackedWidget {
       if (isVisible()) refresh();
     });
     timer->start(refreshMilliseconds);
+    connect(m_source, &SourceSwitch::changed, this, [this] { refresh(); });
     for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
       connect(m_controller, changed, this, [this] { refresh(); });
     }
@@ -74,15 +76,18 @@ class ProcessesDock : public QStackedWidget {
 
  private:
   void refresh() {
-    if (const FramePtr frame = m_controller->frame()) m_model->update(*frame);
+    const bool simulated = m_source->kind() == SourceKind::Simulate;
+    if (const FramePtr frame = m_source->frame()) m_model->update(*frame);
     else m_model->clear();
-    m_empty->setText(emptyText(*m_controller));
+    m_empty->setText(simulated ? emptyText(*m_controller)
+                               : tr("These robots' processes run on the robots. The letters on the cards "
+                                    "tell which of them work."));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 
   void showMenu(const QPoint& at) {
     const QModelIndex index = m_table->indexAt(at);
-    if (!index.isValid()) return;
+    if (m_source->kind() != SourceKind::Simulate || !index.isValid()) return;
     const RobotId id = m_model->robotAt(index.row());
     const QString name = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
     QMenu menu(this);
@@ -96,6 +101,7 @@ class ProcessesDock : public QStackedWidget {
   }
 
   MatchController* m_controller;
+  SourceSwitch* m_source;
   ProcessesModel* m_model;
   QTableView* m_table;
   QLabel* m_empty;

@@ -4,8 +4,15 @@
 namespace pitchboard::ui {
 
 SourceSwitch::SourceSwitch(FrameSource* first, QObject* parent)
-    : FrameSource(parent), m_current(first) {
+    : FrameSource(parent), m_current(first), m_sources{first} {
   follow();
+}
+
+FrameSource* SourceSwitch::find(SourceKind kind) const {
+  for (FrameSource* source : m_sources) {
+    if (source->kind() == kind) return source;
+  }
+  return nullptr;
 }
 
 void SourceSwitch::choose(FrameSource* source) {
@@ -25,6 +32,7 @@ void SourceSwitch::follow() {
     else emit frameReceived(frame);
   });
   connect(m_current, &FrameSource::eventsReceived, this, &FrameSource::eventsReceived);
+  connect(m_current, &FrameSource::eventsRecorded, this, &FrameSource::eventsRecorded);
   connect(m_current, &FrameSource::logReceived, this, &FrameSource::logReceived);
   connect(m_current, &FrameSource::restarted, this, [this] {
     forgetPast();

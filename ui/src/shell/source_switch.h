@@ -15,6 +15,11 @@ class SourceSwitch : public FrameSource {
   explicit SourceSwitch(FrameSource* first, QObject* parent = nullptr);
 
   FrameSource* current() const { return m_current; }
+  /// Offers a further source; the mode buttons follow.
+  void add(FrameSource* source) { m_sources.push_back(source); }
+  const std::vector<FrameSource*>& sources() const { return m_sources; }
+  /// The source of this kind, or nullptr.
+  FrameSource* find(SourceKind kind) const;
   /// Shows this source from now on; `restarted` and `changed` follow.
   void choose(FrameSource* source);
 
@@ -45,6 +50,7 @@ class SourceSwitch : public FrameSource {
   void follow();
   void forgetPast();
   FrameSource* m_current;
+  std::vector<FrameSource*> m_sources;
   FramePtr m_past;
   std::optional<double> m_pastTime;
 };

@@ -8,17 +8,20 @@
 #include <QTimer>
 
 #include <base/angles.h>
+#include <ui/live_controller.h>
 #include <ui/match_controller.h>
 #include <ui/theme.h>
 
 #include "robot_selection.h"
 #include "robot_words.h"
+#include "source_switch.h"
 
 namespace pitchboard::ui {
 
 StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
     : QStatusBar(parent), m_context(context) {
   constexpr int refreshMilliseconds = 200;
+  m_clock.start();
   setSizeGripEnabled(false);
   m_pace = addLabel("statusPace", false);
   m_world = addLabel("statusWorld", false);
@@ -28,6 +31,7 @@ StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
   timer->start(refreshMilliseconds);
+  connect(context.source, &SourceSwitch::changed, this, &StudioStatusBar::refresh);
   connect(context.selection, &RobotSelection::changed, this, &StudioStatusBar::refresh);
   setContextMenuPolicy(Qt::CustomContextMenu);
   connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
@@ -73,33 +77,63 @@ void StudioStatusBar::copyStateHash() {
 }
 
 void StudioStatusBar::refresh() {
-  const FramePtr frame = m_context.controller->frame();
+  const FramePtr frame = m_context.source->frame();
+  if (m_context.source->kind() == SourceKind::Live) {
+    showLive(frame.get());
+    if (frame) showSelected(*frame);
+    else m_selected->clear();
+    return;
+  }
+  m_pace->setToolTip({});
+  m_processes->setPalette({});
+  m_processes->setToolTip({});
   if (!frame) {
     m_pace->setText(m_context.controller->isOpening() ? tr("Opening…") : tr("No match"));
     for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
     return;
   }
-  m_pace->setText(frame->finished ? tr("Simulation finished")
-                  : frame->paused
+  showMatch(*frame);
+  showSelected(*frame);
+}
+
+void StudioStatusBar::showLive(const link::MatchFrame* frame) {
+  const LiveStatusText text =
+      m_live.update(m_context.live->details(), frame, static_cast<double>(m_clock.elapsed()) / 1000);
+  m_pace->setText(text.network);
+  m_pace->setToolTip(text.tip);
+  m_world->setText(text.referee);
+  m_processes->setText(text.trouble);
+  QPalette red = palette();
+  red.setColor(QPalette::PlaceholderText, theme().errorText);
+  m_processes->setPalette(red);
+  m_processes->setToolTip(text.trouble.isEmpty() ? QString() : text.tip);
+}
+
+void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
+  m_pace->setText(frame.finished ? tr("Simulation finished")
+                  : frame.paused
                       ? tr("Simulation paused")
                       : tr("Simulation %1/s, ×%2")
-                            .arg(countText(static_cast<qulonglong>(frame->ticksPerSecond + 0.5)),
-                                 numberText(frame->speed, 2)));
-  const auto robots = frame->snapshot.robots.size();
+                            .arg(countText(static_cast<qulonglong>(frame.ticksPerSecond + 0.5)),
+                                 numberText(frame.speed, 2)));
+  const auto robots = frame.snapshot.robots.size();
   m_world->setText(tr("%1, tick %2, seed %3")
                        .arg(robots == 1 ? tr("1 robot") : tr("%1 robots").arg(robots),
-                            countText(frame->snapshot.tick))
-                       .arg(frame->seed));
+                            countText(frame.snapshot.tick))
+                       .arg(frame.seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::External: m_processes->setText(tr("Robot processes separate")); break;
     case link::Cognition::Inline: m_processes->setText(tr("Robots decide in the studio")); break;
     case link::Cognition::None: m_processes->setText(tr("Waiting for your processes")); break;
   }
+}
+
+void StudioStatusBar::showSelected(const link::MatchFrame& frame) {
   const auto& selected = m_context.selection->ids();
   QString text;
   if (selected.size() > 1) text = tr("%1 robots selected").arg(selected.size());
   if (selected.size() == 1) {
-    for (const sim::RobotSnapshot& robot : frame->snapshot.robots) {
+    for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
       if (robot.identity.id != selected.front()) continue;
       text = tr("%1 selected: %2, %3 m, %4°")
                  .arg(robotName(robot.identity), numberText(robot.pose.position.x, 2),

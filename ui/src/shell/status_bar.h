@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The line at the bottom: how the simulation runs, where the cursor is, what is selected. Numbers
+// The line at the bottom: how the simulation runs or the network is heard, where the cursor is, what is
+// selected. Numbers
 // change five times a second, so that they can be read.
 
+#include <QElapsedTimer>
 #include <QPointF>
 #include <QStatusBar>
 
 #include "dock_list.h"
+#include "live/live_status.h"
 
 class QLabel;
 
@@ -22,9 +25,14 @@ class StudioStatusBar : public QStatusBar {
 
  private:
   void refresh();
+  void showMatch(const link::MatchFrame& frame);
+  void showLive(const link::MatchFrame* frame);
+  void showSelected(const link::MatchFrame& frame);
   QLabel* addLabel(const char* name, bool atRight);
 
   StudioContext m_context;
+  LiveStatus m_live;
+  QElapsedTimer m_clock;
   int m_labels = 0;
   QLabel* m_pace;
   QLabel* m_world;

@@ -11,18 +11,22 @@
 #include <ui/theme.h>
 
 #include "scenario_chooser.h"
+#include "live/live_bar.h"
 #include "scoreboard.h"
+#include "source_switch.h"
 
 namespace pitchboard::ui {
 namespace {
 
 struct Mode {
+  SourceKind kind;
   const char* name;
   const char* tip;
 };
 // The kinds of source that the window can show; a further one is a line here.
 constexpr Mode modes[] = {
-    {"Simulate", "Robots simulated on this computer"},
+    {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
+    {SourceKind::Live, "Live", "Robots and referee as the network tells. Nothing is sent to robots"},
 };
 
 constexpr double speeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 10, link::MatchRunner::unlimitedSpeed};
@@ -49,9 +53,10 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
   addWidget(edge);
   addModes();
   addSeparator();
-  addWidget(m_scenarios);
-  addSeparator();
+  addControl(SourceKind::Simulate, addWidget(m_scenarios));
+  addControl(SourceKind::Simulate, addSeparator());
   addTransport();
+  addControl(SourceKind::Live, addWidget(new LiveBar(context, this)));
   auto* stretch = new QWidget(this);
   stretch->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   addWidget(stretch);
@@ -60,10 +65,12 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
   constexpr int scoreMilliseconds = 100;
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
-    if (const FramePtr frame = m_context.controller->frame()) {
+    if (const FramePtr frame = m_context.source->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
     }
   });
+  connect(context.source, &SourceSwitch::changed, this, &TransportBar::showMode);
+  showMode();
   timer->start(scoreMilliseconds);
 }
 
@@ -73,7 +80,12 @@ void TransportBar::addModes() {
     auto* action = new QAction(tr(mode.name), group);
     action->setCheckable(true);
     action->setToolTip(tr(mode.tip));
-    action->setChecked(&mode == &modes[0]);
+    action->setChecked(mode.kind == m_context.source->kind());
+    connect(action, &QAction::triggered, this, [this, kind = mode.kind] {
+      emit sourceRequested(kind);
+      showMode();   // the request may have been refused
+    });
+    m_modes.push_back({mode.kind, action});
     auto* button = new QToolButton(this);
     button->setObjectName(QStringLiteral("mode"));
     button->setDefaultAction(action);
@@ -103,8 +115,18 @@ void TransportBar::addTransport() {
   connect(m_speed, &QComboBox::activated, this, [this] {
     m_context.controller->setSpeed(m_speed->currentData().toDouble());
   });
-  addWidget(m_speed);
+  for (QAction* action : transportActions()) addControl(SourceKind::Simulate, action);
+  addControl(SourceKind::Simulate, addWidget(m_speed));
   connect(controller, &MatchController::transportChanged, this, &TransportBar::showTransport);
+  showTransport();
+}
+
+void TransportBar::showMode() {
+  const SourceKind shown = m_context.source->kind();
+  for (const Control& mode : m_modes) mode.action->setChecked(mode.kind == shown);
+  for (const Control& control : m_controls) control.action->setVisible(control.kind == shown);
+  const FramePtr frame = m_context.source->frame();
+  m_scoreboard->setState(frame ? scoreboardOf(*frame) : ScoreboardState{});
   showTransport();
 }
 
@@ -117,7 +139,8 @@ void TransportBar::showTransport() {
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
   for (QAction* action : transportActions()) {
-    action->setEnabled(controller.isOpen() || controller.isOpening());
+    action->setEnabled((controller.isOpen() || controller.isOpening()) &&
+                       m_context.source->kind() == SourceKind::Simulate);
   }
   int at = m_speed->findData(controller.speed());
   if (at < 0) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The tool bar: mode, scenario, transport, speed, scoreboard.
+// The tool bar: mode; scenario, transport and speed of a simulation, or ports and team of Live;
+// scoreboard.
 
 #include <QToolBar>
+#include <vector>
+
+#include <ui/frame_source.h>
 
 #include "dock_list.h"
 
@@ -23,12 +27,25 @@ class TransportBar : public QToolBar {
   /// Restart, play/pause, step: for the menu too.
   QList<QAction*> transportActions() const { return {m_restart, m_play, m_step}; }
 
+ signals:
+  void sourceRequested(pitchboard::ui::SourceKind kind);
+
  private:
   void addModes();
+  /// Shown while a source of this kind is; hidden otherwise.
+  void addControl(SourceKind kind, QAction* action) { m_controls.push_back({kind, action}); }
+  void showMode();
   void addTransport();
   void showTransport();
 
+  struct Control {
+    SourceKind kind;
+    QAction* action;
+  };
+
   StudioContext m_context;
+  std::vector<Control> m_modes;      // their buttons' actions
+  std::vector<Control> m_controls;
   ScenarioChooser* m_scenarios;
   Scoreboard* m_scoreboard;
   QComboBox* m_speed;

@@ -15,6 +15,7 @@
 
 #include "variables_delegate.h"
 #include "variables_filter.h"
+#include "variables_header.h"
 #include "variables_model.h"
 
 namespace pitchboard::ui {
@@ -24,7 +25,8 @@ constexpr int openAllUpTo = 1500;
 }  // namespace
 
 VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWidget* parent)
-    : QTreeView(parent), m_model(model), m_filter(filter), m_restoreTimer(new QTimer(this)) {
+    : QTreeView(parent), m_model(model), m_filter(filter), m_header(new VariablesHeader(this)),
+      m_restoreTimer(new QTimer(this)) {
   setObjectName(QStringLiteral("variablesView"));
   setFrameShape(QFrame::NoFrame);
   setAlternatingRowColors(true);
@@ -33,7 +35,8 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   setEditTriggers(NoEditTriggers);
   setDragEnabled(true);
   setDragDropMode(DragOnly);
-  setIndentation(scaled(this, 12));
+  setIndentation(scaled(this, 10));
+  setTextElideMode(Qt::ElideMiddle);   // names differ at both ends
   setAnimated(false);
   setExpandsOnDoubleClick(true);
   setItemDelegate(new VariablesDelegate(this));
@@ -44,7 +47,10 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   const auto rest = [this] { m_remembers = false; };
   connect(filter, &QAbstractItemModel::modelAboutToBeReset, this, rest);
   connect(filter, &QAbstractItemModel::rowsAboutToBeRemoved, this, rest);
+  setHeader(m_header);
   setModel(filter);
+  m_header->reset();
+  setSortingEnabled(true);
   connect(filter, &QAbstractItemModel::modelReset, this, &VariablesView::restoreSoon);
   connect(filter, &QAbstractItemModel::rowsRemoved, this, &VariablesView::restoreSoon);
   connect(filter, &QAbstractItemModel::rowsInserted, this, &VariablesView::restoreSoon);
@@ -77,6 +83,26 @@ void VariablesView::selectionChanged(const QItemSelection& selected, const QItem
 
 void VariablesView::followFilter() {
   m_closedWhileFiltering.clear();
+  restore();
+}
+
+// QTreeView's own expandAll() does not say what it opened.
+void VariablesView::openAll() {
+  m_closedWhileFiltering.clear();
+  for (int g = 0; g < m_model->rowCount(); ++g) {
+    const QModelIndex group = m_model->index(g, 0);
+    m_open.insert(group.data(VariablesModel::PathRole).toString());
+    for (int h = 0; h < m_model->rowCount(group); ++h) {
+      m_open.insert(m_model->index(h, 0, group).data(VariablesModel::PathRole).toString());
+    }
+  }
+  m_openedAtFirst = true;
+  restore();
+}
+
+void VariablesView::closeAll() {
+  m_open.clear();
+  m_openedAtFirst = true;
   restore();
 }
 
@@ -170,6 +196,8 @@ void VariablesView::copySelection() const {
   if (!lines.isEmpty()) QApplication::clipboard()->setText(lines.join(QLatin1Char('\n')));
 }
 
+void VariablesView::editCurrent() { editValue(currentIndex()); }
+
 void VariablesView::editValue(const QModelIndex& index) {
   const QModelIndex value = index.siblingAtColumn(VariablesModel::Value);
   if (value.flags().testFlag(Qt::ItemIsEditable)) {
@@ -199,10 +227,10 @@ void VariablesView::keyPressEvent(QKeyEvent* event) {
       }
       return;
     case Qt::Key_Asterisk:   // QTreeView would open everything below
-      emit favouriteRequested(selectedInModel());
+      requestFavourites();
       return;
     case Qt::Key_F2:
-      if (onVariable) editValue(current);
+      if (onVariable) editCurrent();
       return;
     default: break;
   }

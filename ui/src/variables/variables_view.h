@@ -12,6 +12,7 @@ class QTimer;
 namespace pitchboard::ui {
 
 class VariablesFilter;
+class VariablesHeader;
 class VariablesModel;
 
 class VariablesView : public QTreeView {
@@ -19,6 +20,7 @@ class VariablesView : public QTreeView {
  public:
   VariablesView(VariablesModel* model, VariablesFilter* filter, QWidget* parent = nullptr);
 
+  VariablesHeader* columns() const { return m_header; }
   /// Rows in sight, as indexes of the model.
   QModelIndexList rowsInSight() const;
   /// Device pixels of a sparkline; 0 when that column is hidden.
@@ -27,6 +29,11 @@ class VariablesView : public QTreeView {
   QStringList selectedVariables() const;
   /// To call after the filter was set: everything found is opened, or what was open before again.
   void followFilter();
+  void copySelection() const;
+  void requestFavourites() { emit favouriteRequested(selectedInModel()); }
+  void editCurrent();
+  void openAll();
+  void closeAll();
   bool isEditing() const { return state() == EditingState; }
 
  signals:
@@ -42,7 +49,6 @@ class VariablesView : public QTreeView {
   void selectionChanged(const QItemSelection& selected, const QItemSelection& gone) override;
 
  private:
-  void copySelection() const;
   void editValue(const QModelIndex& index);
   void remember(const QModelIndex& index, bool open);
   void restoreSoon();
@@ -52,6 +58,7 @@ class VariablesView : public QTreeView {
 
   VariablesModel* m_model;
   VariablesFilter* m_filter;
+  VariablesHeader* m_header;
   QTimer* m_restoreTimer;
   QSet<QString> m_open, m_closedWhileFiltering, m_selected;
   QString m_current;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/session_export.h>
+
+#include <cstdio>
+#include <memory>
+#include <unistd.h>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "report_command.h"
+
+namespace pitchboard::cli {
+namespace {
+
+using namespace telemetry;
+
+constexpr const char* reportFormat = "report";
+
+struct Options {
+  std::string file, format = "csv-wide", output;
+  std::optional<double> from, to;
+  std::vector<std::string> robots, variables;
+  bool rowsOnly = false;
+  bool progress = false;
+};
+
+int run(const Options& options) {
+  const bool asReport = options.format == reportFormat;
+  const auto format = asReport ? ExportFormat::CsvWide : exportFormat(options.format);
+  if (!format) return reportError(format.error());
+  if (*format == ExportFormat::Mcap && options.output.empty()) {
+    return reportError({ErrorCode::InvalidArgument, "A session needs a file; add -o FILE.", {}});
+  }
+  const InterruptGuard signals;
+  Progress progress("exporting", options.progress);
+  McapReaderOptions reading;
+  reading.progress = [](double) { return !interrupted; };
+  const auto session = SessionReader::open(options.file, reading);
+  if (!session) return reportError(session.error());
+  if (asReport) {
+    const SessionRange all{-1e300, 1e300};
+    const auto done = exportReport(*session, {options.from.value_or(all.begin),
+                                              options.to.value_or(all.end)}, options.output);
+    for (const std::string& note : session->notes()) std::fprintf(stderr, "warning: %s\n", note.c_str());
+    return done ? 0 : reportError(done.error());
+  }
+  ExportSelection selection;
+  selection.range.begin = options.from.value_or(selection.range.begin);
+  selection.range.end = options.to.value_or(selection.range.end);
+  selection.robots = options.robots;
+  selection.variables = options.variables;
+  selection.messages = !options.rowsOnly;
+  const auto report = [&] {
+    if (!options.output.empty()) {
+      return exportFile(*session, *format, selection, options.output, std::ref(progress));
+    }
+    return exportText(
+        *session, *format, selection,
+        [](std::string_view text) {
+          return std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+        },
+        std::ref(progress));
+  }();
+  for (const std::string& note : session->notes()) std::fprintf(stderr, "warning: %s\n", note.c_str());
+  if (!report) return reportError(report.error());
+  if (std::fflush(stdout) != 0) {
+    return reportError({ErrorCode::SystemError, "The output cannot be written.", {}});
+  }
+  return 0;
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& parent, int& exitCode) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = parent.add_subcommand(
+      "export",
+      "Write a session, or part of it, as CSV, JSON lines or a shorter session.\n"
+      "Examples: pitchboard-cli export match.mcap --to csv-wide -o match.csv\n"
+      "          pitchboard-cli export match.mcap --to csv-long --robots B1,R2 --variables 'VISION_*'\n"
+      "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap");
+  command->add_option("file", options->file, "The session")->required()->type_name("FILE");
+  command->add_option("--to", options->format,
+                      "csv-wide: a line per time; csv-long: a line per value; jsonl; mcap; report: "
+                      "an HTML page with score, statistics and events")
+      ->type_name("FORMAT")->capture_default_str();
+  command->add_option("--from", options->from, "First second")->type_name("T");
+  command->add_option("--until", options->to, "Last second")->type_name("T");
+  command->add_option("--robots", options->robots, "Only these, e.g. B1,R2 or match")
+      ->type_name("NAMES")->delimiter(',');
+  command->add_option("--variables", options->variables, "Only these; * stands for any letters")
+      ->type_name("NAMES")->delimiter(',');
+  command->add_flag("--rows-only", options->rowsOnly, "Without events, log and datagrams (jsonl, mcap)");
+  command->add_option("-o,--output", options->output, "A new file; else the text goes to stdout")
+      ->type_name("FILE");
+  command->add_flag("--progress", options->progress, "Say on stderr how far it is, also without a terminal");
+  command->callback([options, &exitCode] { exitCode = run(*options); });
+}
+
+}  // namespace pitchboard::cli

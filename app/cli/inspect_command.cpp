@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/session_reader.h>
+
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "live_json.h"
+#include "progress.h"
+
+namespace pitchboard::cli {
+namespace {
+
+using namespace telemetry;
+
+struct Options {
+  std::string file;
+  bool json = false, events = false, check = false, progress = false;
+};
+
+constexpr std::array<std::string_view, sessionStreamCount> streamNames{
+    "events", "log", "telemetry", "referee/raw", "referee", "checkpoints"};
+
+std::string wallText(WallTime time) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(time));
+  std::tm parts{};
+  if (!gmtime_r(&seconds, &parts)) return "?";
+  std::array<char, 40> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S UTC", &parts);
+  return text.data();
+}
+
+/// Every part is unpacked and its checksum compared; what is wrong is in the notes then.
+void readEverything(const SessionReader& session, Progress& progress) {
+  session.walk({-1e18, 1e18}, [](const SessionItem&) { return true; }, std::ref(progress));
+}
+
+Json toJson(const SessionReader& session, const Options& options) {
+  const SessionInfo& info = session.info();
+  Json out{{"file", options.file},
+           {"bytes", session.file().fileBytes()},
+           {"complete", session.complete()},
+           {"program", info.program},
+           {"source", info.source},
+           {"title", info.title}};
+  if (info.seed) out["seed"] = *info.seed;
+  out["start"] = unixSeconds(info.start);
+  out["created"] = unixSeconds(info.created);
+  out["more"] = info.more;
+  if (const auto range = session.range()) {
+    out["from"] = range->begin;
+    out["until"] = range->end;
+  }
+  out["groups"] = Json::array();
+  for (const SessionGroup& group : session.groups()) {
+    Json columns = Json::array();
+    for (const ColumnInfo& column : group.info.columns) columns.push_back(column.name);
+    out["groups"].push_back({{"name", group.info.name}, {"rows", group.rows},
+                             {"attributes", group.info.attributes}, {"columns", columns}});
+  }
+  out["messages"] = Json::object();
+  for (std::size_t i = 0; i < streamNames.size(); ++i) {
+    out["messages"][std::string(streamNames[i])] = session.count(static_cast<SessionStream>(i));
+  }
+  out["attachments"] = Json::array();
+  for (const auto& attachment : session.attachments()) {
+    out["attachments"].push_back({{"name", attachment.name}, {"mediaType", attachment.mediaType},
+                                  {"bytes", attachment.dataSize}});
+  }
+  if (options.events) {
+    out["events"] = Json::array();
+    for (const SessionEvent& event : session.events()) {
+      out["events"].push_back({{"time", event.time}, {"kind", event.kind}, {"group", event.group},
+                               {"text", event.text}});
+    }
+  }
+  out["notes"] = session.notes();
+  return out;
+}
+
+void printText(const SessionReader& session, const Options& options) {
+  const SessionInfo& info = session.info();
+  std::printf("%s: %.3f MB%s\n", options.file.c_str(),
+              static_cast<double>(session.file().fileBytes()) / 1e6,
+              session.complete() ? ""
+                                 : "; broken off or damaged: pitchboard-cli repair makes a whole one");
+  if (session.ours()) {
+    std::printf("recorded %s by %s, %s \"%s\"", wallText(info.created).c_str(), info.program.c_str(),
+                info.source.c_str(), info.title.c_str());
+    if (info.seed) std::printf(", seed %llu", static_cast<unsigned long long>(*info.seed));
+    std::printf("\n");
+  }
+  if (const auto range = session.range()) {
+    std::printf("%.3f s to %.3f s\n", range->begin, range->end);
+  }
+  for (const SessionGroup& group : session.groups()) {
+    std::printf("  %-8s %10llu rows of %zu columns\n", group.info.name.c_str(),
+                static_cast<unsigned long long>(group.rows), group.info.columns.size());
+  }
+  for (std::size_t i = 0; i < streamNames.size(); ++i) {
+    const auto count = session.count(static_cast<SessionStream>(i));
+    if (count > 0) {
+      std::printf("  %-11s %7llu messages\n", std::string(streamNames[i]).c_str(),
+                  static_cast<unsigned long long>(count));
+    }
+  }
+  for (const auto& attachment : session.attachments()) {
+    std::printf("  attachment %s, %llu bytes\n", attachment.name.c_str(),
+                static_cast<unsigned long long>(attachment.dataSize));
+  }
+  if (options.events) {
+    for (const SessionEvent& event : session.events()) {
+      std::printf("%10.3f %-10s %-4s %s\n", event.time, event.kind.c_str(), event.group.c_str(),
+                  event.text.c_str());
+    }
+  }
+  for (const std::string& note : session.notes()) std::printf("%s\n", note.c_str());
+}
+
+int run(const Options& options) {
+  const InterruptGuard signals;
+  Progress progress("reading", options.progress);
+  McapReaderOptions reading;
+  reading.progress = std::ref(progress);
+  const auto session = SessionReader::open(options.file, reading);
+  if (!session) return reportError(session.error());
+  if (options.check) readEverything(*session, progress);
+  if (options.json) {
+    std::printf("%s\n", dump(toJson(*session, options)).c_str());
+  } else {
+    printText(*session, options);
+  }
+  return session->complete() && session->notes().empty() ? 0 : 1;
+}
+
+}  // namespace
+
+void addInspectCommand(CLI::App& parent, int& exitCode) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = parent.add_subcommand(
+      "inspect",
+      "Say what is in a session. Ends with 1 when it broke off or something in it is not understood.\n"
+      "Example: pitchboard-cli inspect match.mcap --events");
+  command->add_option("file", options->file, "The session")->required()->type_name("FILE");
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->add_flag("--events", options->events, "List the events");
+  command->add_flag("--check", options->check, "Read everything and compare all checksums");
+  command->add_flag("--progress", options->progress, "Say on stderr how far it is, also without a terminal");
+  command->callback([options, &exitCode] { exitCode = run(*options); });
+}
+
+}  // namespace pitchboard::cli

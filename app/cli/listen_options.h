@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the commands that receive from the network have in common.
+
+#include <telemetry/profile.h>
+#include <telemetry/team_monitor.h>
+#include <telemetry/udp_receiver.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <base/result.h>
+
+namespace pitchboard::cli {
+
+struct ListenOptions {
+  std::string bind = "0.0.0.0";
+  int portBase = 1240;
+  int robots = 16;
+  int refereePort = 3838;
+  std::string profile;
+  std::vector<std::string> senders;
+};
+
+void addListenOptions(CLI::App& command, ListenOptions& options);
+
+struct ListenSetup {
+  telemetry::ReceiverOptions receiver;
+  telemetry::Profile profile;
+  telemetry::MonitorOptions monitor;
+};
+Result<ListenSetup> listenSetup(const ListenOptions& options);
+
+/// Tells on stderr what is received.
+void sayListening(const ListenOptions& options);
+/// Says on stderr which ports are not received, once for each change.
+void reportPorts(const telemetry::ReceiverStatus& status, std::map<std::size_t, std::string>& told);
+telemetry::WallTime wallNow();
+
+}  // namespace pitchboard::cli

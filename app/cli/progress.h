@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One line on stderr that says how far a command is: only on a terminal, or when it is asked for.
+
+#include <chrono>
+#include <string>
+
+namespace pitchboard::cli {
+
+class Progress {
+ public:
+  /// `what` begins the line: "exporting".
+  Progress(std::string what, bool wanted);
+  ~Progress();  ///< takes the line away from a terminal
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// 0 to 1. False when the user interrupted the command (interrupt.h).
+  bool operator()(double part);
+  /// Any words instead of a percentage.
+  void say(const std::string& words);
+
+ private:
+  std::string m_what;
+  bool m_terminal;
+  bool m_shown;
+  bool m_open = false;
+  std::chrono::steady_clock::time_point m_last;
+};
+
+}  // namespace pitchboard::cli

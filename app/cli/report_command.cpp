@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_command.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <robotlink/field_svg.h>
+#include <robotlink/recorded_frame.h>
+#include <robotlink/report.h>
+
+namespace pitchboard::cli {
+
+Result<void> exportReport(const telemetry::SessionReader& session, telemetry::SessionRange range,
+                          const std::string& output) {
+  if (output.empty()) {
+    return failure(ErrorCode::InvalidArgument, "a report needs a file; add -o FILE.html");
+  }
+  const auto all = session.range();
+  if (!all) return failure(ErrorCode::NotFound, "there is nothing in this session");
+  const telemetry::TimeRange part{std::max(range.begin, all->begin), std::min(range.end, all->end)};
+  if (!(part.begin <= part.end)) {
+    return failure(ErrorCode::InvalidArgument, "there is nothing in this part of the session");
+  }
+  link::ReportContent content;
+  content.session = session.info();
+  content.title = session.info().title;
+  content.statistics = link::statisticsOf(session, part);
+  content.events = session.events();
+  content.notes = session.notes();
+  if (!session.complete()) content.notes.push_back("The recording broke off.");
+
+  link::RecordedFrames frames(link::backdropOf(session));
+  const link::MatchFrame frame = frames.frameAt(session, part.end);
+  if (!frame.snapshot.robots.empty()) {
+    content.picture = link::fieldSvg(frame);
+    char caption[96];
+    std::snprintf(caption, sizeof caption, "The field at %.1f s%s", part.end,
+                  frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
+    content.pictureCaption = caption;
+  }
+  return link::writeReport(output, content);
+}
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/live_recorder.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace pitchboard::link {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+int whole(const Json& object, const char* key, int fallback = 0) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number_integer()) return fallback;
+  const auto value = found->get<std::int64_t>();
+  const bool fits = value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
+  return fits ? static_cast<int>(value) : fallback;
+}
+
+bool flag(const Json& object, const char* key, bool fallback = false) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_boolean() ? found->get<bool>() : fallback;
+}
+
+}  // namespace
+
+std::string refereeToJson(const RefereeView& r, double time) {
+  Json json{{"time", time},
+            {"version", r.version},
+            {"sender", r.sender},
+            {"state", r.state},
+            {"set_play", r.setPlay},
+            {"phase", r.phase},
+            {"first_half", r.firstHalf},
+            {"stopped", r.stopped},
+            {"seconds_left", r.secondsLeft},
+            {"our_team", r.ourTeam}};
+  if (r.secondaryTime) json["secondary_time"] = *r.secondaryTime;
+  if (r.kickOffTeam) json["kick_off_team"] = *r.kickOffTeam;
+  json["teams"] = Json::array();
+  for (const RefereeTeamView& team : r.teams) {
+    json["teams"].push_back({{"number", team.number},
+                             {"colour", team.colour},
+                             {"score", team.score},
+                             {"players_left", team.playersLeft}});
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
+  const Json json = Json::parse(
+      bytes, [](int depth, Json::parse_event_t, Json&) { return depth <= 8; }, false);
+  if (!json.is_object() || text(json, "state").empty()) return {};
+  RefereeView r;
+  r.version = whole(json, "version");
+  r.sender = text(json, "sender");
+  r.state = text(json, "state");
+  r.setPlay = text(json, "set_play");
+  r.phase = text(json, "phase");
+  r.firstHalf = flag(json, "first_half", true);
+  r.stopped = flag(json, "stopped");
+  r.secondsLeft = whole(json, "seconds_left");
+  r.ourTeam = whole(json, "our_team");
+  if (json.contains("secondary_time")) r.secondaryTime = whole(json, "secondary_time");
+  if (json.contains("kick_off_team")) r.kickOffTeam = whole(json, "kick_off_team");
+  const auto teams = json.find("teams");
+  for (std::size_t i = 0; teams != json.end() && teams->is_array() && i < r.teams.size() && i < teams->size(); ++i) {
+    const Json& team = (*teams)[i];
+    if (!team.is_object()) continue;
+    r.teams[i] = {whole(team, "number"), text(team, "colour"), whole(team, "score"),
+                  whole(team, "players_left")};
+  }
+  return r;
+}
+
+Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& path,
+                                                           const LiveOptions& live,
+                                                           telemetry::WallTime zero,
+                                                           const RecorderOptions& options) {
+  telemetry::SessionInfo info;
+  info.program = options.program;
+  info.source = "live";
+  info.title = "Live";
+  info.start = zero;
+  info.created = std::chrono::system_clock::now();
+  info.more["field"] = live.field.name;
+  auto writer = telemetry::SessionWriter::create(path, info, options.writer);
+  if (!writer) return tl::unexpected(writer.error());
+  (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
+  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero));
+}
+
+LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero)
+    : m_writer(std::move(writer)),
+      m_zero(zero),
+      m_rows(m_writer, {zero, {}}) {}
+
+LiveRecorder::~LiveRecorder() = default;
+
+void LiveRecorder::heard(RobotId /*id*/, double time, const telemetry::DatagramView& datagram,
+                         const telemetry::TextDecoder& decoder,
+                         const telemetry::DecodedText& decoded) {
+  m_writer->append(telemetry::SessionStream::Telemetry,
+                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+  const std::lock_guard lock(m_mutex);
+  m_rows.take(datagram, decoded, decoder);
+}
+
+void LiveRecorder::refereeHeard(double time, const telemetry::DatagramView& datagram,
+                                const telemetry::RefereeState& /*state*/) {
+  m_writer->append(telemetry::SessionStream::RefereeRaw,
+                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+  m_refereeNews = true;
+}
+
+void LiveRecorder::happened(const sim::Event& event, double time) {
+  telemetry::SessionEvent out = sessionEvent(event, {});
+  out.time = time;
+  m_writer->append(out);
+}
+
+void LiveRecorder::logged(const LogLine& line) {
+  m_writer->append(telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+}
+
+void LiveRecorder::frameMade(const MatchFrame& frame) {
+  if (!frame.referee || !std::exchange(m_refereeNews, false)) return;
+  const double time = frame.snapshot.time;
+  m_writer->appendJson(telemetry::SessionStream::Referee, time, refereeToJson(*frame.referee, time));
+  if (std::exchange(m_refereeState, frame.referee->state) != frame.referee->state) {
+    m_writer->append(telemetry::SessionEvent{time, "referee", {}, "referee: " + frame.referee->state});
+  }
+}
+
+void LiveRecorder::report(const telemetry::TeamStatus& team) {
+  const std::lock_guard lock(m_mutex);
+  m_rows.report(team);
+}
+
+}  // namespace pitchboard::link

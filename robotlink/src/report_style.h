@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The style sheet of the report; colours as in docs/DESIGN_LANGUAGE.md. Private to robotlink.
+
+#include <string_view>
+
+namespace pitchboard::link {
+
+inline constexpr std::string_view reportStyle = R"css(
+:root { color-scheme: light dark;
+  --page: #eff0f2; --card: #ffffff; --line: #cfd3d8; --text: #22262b; --quiet: #636b75;
+  --blue: #2f6fc6; --red: #c2413c; --black: #4a5058; --orange: #c96f16; --yellow: #a68a00;
+  --good: #3f8a5e; --bad: #c02f2a; --accent: #5f4bb6; --track: #e6e8eb; }
+@media (prefers-color-scheme: dark) { :root {
+  --page: #212428; --card: #2b2e32; --line: #3d4248; --text: #dfe3e8; --quiet: #9ba3ad;
+  --blue: #4f8fe3; --red: #d8605b; --black: #8b939d; --orange: #e8a25c; --yellow: #d8c04a;
+  --good: #5c9f78; --bad: #f2726b; --accent: #a594f5; --track: #3a3f45; } }
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--page); color: var(--text);
+  font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
+main { max-width: 1040px; margin: 0 auto; padding: 32px 24px 64px; }
+h1 { font-size: 28px; line-height: 1.2; margin: 0 0 4px; }
+h2 { font-size: 18px; margin: 40px 0 12px; }
+p { margin: 0 0 8px; }
+.quiet, figcaption, th, .axis { color: var(--quiet); }
+.note { border-left: 3px solid var(--accent); padding: 4px 12px; margin: 16px 0 0; }
+.score { display: flex; flex-wrap: wrap; gap: 16px; margin-top: 24px; }
+.team { flex: 1 1 200px; background: var(--card); border: 1px solid var(--line);
+  border-top: 4px solid var(--c); border-radius: 6px; padding: 12px 16px; }
+.team b { display: block; font-size: 40px; line-height: 1.1; font-variant-numeric: tabular-nums; }
+figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: 6px;
+  padding: 12px; }
+figure img { display: block; width: 100%; height: auto; border-radius: 3px; }
+figcaption { font-size: 13px; margin-top: 8px; }
+.scroll { overflow-x: auto; background: var(--card); border: 1px solid var(--line);
+  border-radius: 6px; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { padding: 7px 12px; text-align: right; white-space: nowrap; }
+th { font-weight: 600; font-size: 13px; border-bottom: 1px solid var(--line); }
+tbody tr + tr td { border-top: 1px solid var(--line); }
+th.l, td.l { text-align: left; white-space: normal; }
+.badge { display: inline-block; min-width: 34px; padding: 0 8px; border-radius: 10px;
+  background: var(--c); color: #fff; font-weight: 700; font-size: 13px; text-align: center; }
+@media (prefers-color-scheme: dark) { .badge { color: #16181b; } }
+.blue { --c: var(--blue); } .red { --c: var(--red); } .black { --c: var(--black); }
+.orange { --c: var(--orange); } .yellow { --c: var(--yellow); }
+.low { color: var(--bad); font-weight: 700; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 16px; }
+.charts h3 { font-size: 14px; margin: 0 0 4px; display: flex; justify-content: space-between; }
+.charts h3 span:last-child { font-weight: 400; }
+svg.chart { display: block; width: 100%; height: auto; overflow: visible; }
+.axis { font-size: 11px; fill: currentColor; }
+.grid { stroke: var(--line); stroke-width: 1; }
+.curve { fill: none; stroke: var(--c); stroke-width: 1.6; stroke-linejoin: round; }
+.area { fill: var(--c); opacity: .16; }
+.bar { fill: var(--c); } .track { fill: var(--track); }
+details summary { cursor: pointer; color: var(--accent); margin: 12px 0; }
+footer { margin-top: 48px; font-size: 13px; color: var(--quiet); }
+@media print { body { background: #fff; } main { max-width: none; padding: 0; }
+  figure, .team, .scroll { break-inside: avoid; } details { display: block; } }
+)css";
+
+}  // namespace pitchboard::link

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Bytes as text (RFC 4648, the ordinary letters, with padding).
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pitchboard::telemetry {
+
+std::string toBase64(std::string_view bytes);
+/// Padding may be missing. Nothing for text that has other letters.
+std::optional<std::string> fromBase64(std::string_view letters);
+
+}  // namespace pitchboard::telemetry

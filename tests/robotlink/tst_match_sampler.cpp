@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a simulated match looks like as rows, against the match itself.
+
+#include <QtTest>
+
+#include <bit>
+#include <numbers>
+#include <resources/resources.h>
+
+#include <base/angles.h>
+#include <robotlink/match_sampler.h>
+#include <telemetry/action_words.h>
+#include <telemetry/series_store.h>
+
+#include "variable_meanings.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using telemetry::ColumnKind;
+using telemetry::SeriesStore;
+using std::chrono_literals::operator""us;
+
+namespace {
+
+struct Rig {
+  explicit Rig(const char* scenario = "match-3v3", int everyNth = 1)
+      : match(SimulatedMatch::create(loadScenario(scenario).value(), {}).value()),
+        sampler(store, {.everyNth = everyNth}) {
+    sampler.ticked(match, {});
+  }
+  void play(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      match.tick();
+      sampler.ticked(match, 12us);
+    }
+  }
+  double latest(const char* group, const char* column) const {
+    const auto id = store->find(group, column);
+    if (!id) qFatal("there is no %s of %s", column, group);
+    return store->view(id->group)->latest(id->column)->value;
+  }
+  const telemetry::ColumnInfo& column(const char* group, const char* name) const {
+    const auto id = *store->find(group, name);
+    return store->view(id.group)->info().columns[id.column];
+  }
+  std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
+  SimulatedMatch match;
+  MatchSampler sampler;
+};
+
+}  // namespace
+
+class TestMatchSampler : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void everyTickIsARow() {
+    Rig rig;
+    rig.play(300);
+    const sim::Snapshot now = rig.match.simulation().snapshot();
+    for (const char* name : {"match", "B1", "B2", "B3", "R1", "R2", "R3"}) {
+      const auto id = rig.store->findGroup(name);
+      QVERIFY2(id, name);
+      const auto view = rig.store->view(*id);
+      QCOMPARE(view->rows(), std::size_t{301});
+      QCOMPARE(*view->range(), (telemetry::TimeRange{0.0, 5.0}));
+    }
+    QCOMPARE(rig.latest("match", "TICK"), 300.0);
+    QCOMPARE(rig.latest("match", "BALL_X"), now.ball.x);
+    QCOMPARE(rig.latest("match", "BALL_VY"), now.ballVelocity.y);
+    QCOMPARE(rig.latest("match", "CLOCK"), now.clock);
+    QCOMPARE(rig.latest("match", "TICK_TIME"), 12.0);
+    for (const sim::RobotSnapshot& robot : now.robots) {
+      const std::string name = std::string(info(robot.identity.team).letter) +
+                               std::to_string(robot.identity.number);
+      QCOMPARE(rig.latest(name.c_str(), "TRUE_X"), robot.pose.position.x);
+      QCOMPARE(rig.latest(name.c_str(), "TRUE_Y"), robot.pose.position.y);
+      QCOMPARE(rig.latest(name.c_str(), "TRUE_YAW"), degreesFromRadians(robot.pose.yaw));
+      QCOMPARE(rig.latest(name.c_str(), "DISTANCE_WALKED"), robot.statistics.distanceWalked);
+      const auto view = rig.store->view(*rig.store->findGroup(name));
+      QCOMPARE(view->info().attributes.at("robot"), std::to_string(robot.identity.id.value));
+      QCOMPARE(view->info().attributes.at("team"), std::string(info(robot.identity.team).name));
+      QCOMPARE(view->info().attributes.at("number"), std::to_string(robot.identity.number));
+      QCOMPARE(view->info().attributes.at("imu180"),
+               std::string(robot.identity.imuStartsAt180 ? "1" : "0"));
+      // Every word of the blackboard.
+      double time = 0.0;
+      std::vector<std::uint32_t> words;
+      std::vector<double> values;
+      QVERIFY(view->rowAt(5.0, time, words, values));
+      const Blackboard& board = *rig.match.blackboard(robot.identity.id);
+      std::size_t i = 0;
+      for (const Variable& variable : VariableCatalog::published().variables()) {
+        const std::uint32_t wanted =
+            variable.type == VariableType::Int
+                ? std::bit_cast<std::uint32_t>(board.read(IntVar{variable.index}))
+                : std::bit_cast<std::uint32_t>(board.read(FloatVar{variable.index}));
+        QVERIFY2(words.at(i) == wanted, variable.name.c_str());
+        QCOMPARE(view->info().columns.at(i).name, variable.name);
+        ++i;
+      }
+      QCOMPARE(words.size(), i);
+    }
+  }
+
+  void errorsOfBeliefAndVision() {
+    Rig rig("one-robot");
+    const RobotId id = rig.match.simulation().state().robots.front().id;
+    const std::string group = std::string(info(rig.match.simulation().state().robots.front().team).letter) +
+                              std::to_string(rig.match.simulation().state().robots.front().number);
+    const char* const name = group.c_str();
+    Blackboard& board = *rig.match.blackboard(id);
+    const RobotVariables& v = rig.match.variables();
+    // The field is 9 m x 6 m: (450, 300) cm is the centre mark.
+    QVERIFY(rig.match.simulation().placeRobot(id, {{0.0, 0.0}, 0.0}));
+    QVERIFY(rig.match.simulation().placeBall({1.0, 0.0}));
+    for (const IntVar variable : {v.localizationX, v.localizationY, v.localizationTheta}) {
+      board.write(variable, 0);
+    }
+    board.write(v.localizationBelief, 0.0F);
+    board.write(v.visionLost, 1);
+    rig.sampler.ticked(rig.match, {});
+    QVERIFY(std::isnan(rig.latest(name, "BELIEF_ERROR")));   // nobody has said anything yet
+    QVERIFY(std::isnan(rig.latest(name, "BALL_ERROR")));
+    QCOMPARE(rig.latest(name, "TRUE_BALL_DIST"), 100.0);
+    QCOMPARE(rig.latest(name, "TRUE_BALL_ANGLE"), 0.0);
+
+    // 30 cm to the right of and 40 cm below the truth (y points down there), turned by 10° too far.
+    board.write(v.localizationX, 480);
+    board.write(v.localizationY, 340);
+    board.write(v.localizationTheta, 10);
+    // 100 cm away but 90° to the left: √2 m from where it is.
+    board.write(v.visionLost, 0);
+    board.write(v.visionBallDist, 100.0F);
+    board.write(v.visionPanDeg, 90.0F);
+    rig.sampler.ticked(rig.match, {});
+    const auto near = [&](const char* column, double wanted) {
+      const double found = rig.latest(name, column);
+      QVERIFY2(std::abs(found - wanted) < 1e-9, qPrintable(QString("%1: %2").arg(column).arg(found)));
+    };
+    near("BELIEF_X", 0.3);
+    near("BELIEF_Y", -0.4);
+    near("BELIEF_ERROR", 50.0);
+    near("BELIEF_ERROR_YAW", 10.0);
+    near("BALL_ERROR", 100.0 * std::numbers::sqrt2);
+    near("BALL_DIST_ERROR", 0.0);
+    near("BALL_ANGLE_ERROR", 90.0);
+  }
+
+  void unitsHeadingsAndWords() {
+    Rig rig;
+    QCOMPARE(rig.column("B1", "VISION_BALL_DIST").unit, std::string("cm"));
+    QCOMPARE(rig.column("B1", "VISION_BALL_DIST").heading, std::string("Vision"));
+    QCOMPARE(rig.column("B1", "IMU_EULER_Z").unit, std::string("rad"));
+    QCOMPARE(rig.column("B1", "LOCALIZATION_RBT01_X").heading, std::string("Localization"));
+    QCOMPARE(rig.column("B1", "VOLTAGE").unit, std::string("0.1 V"));
+    QVERIFY(rig.column("B1", "VISION_WORKING").kind == ColumnKind::Flag);
+    QCOMPARE(rig.column("B1", "VISION_WORKING").heading, std::string("Processes"));
+    for (const char* name : {"DECISION_ACTION_A", "CONTROL_ACTION", "ACTION"}) {
+      const auto& column = rig.column("B1", name);
+      QVERIFY(column.kind == ColumnKind::Enumeration);
+      QCOMPARE(column.labels.size(), std::size_t{23});
+      QCOMPARE(column.labels.at(22), telemetry::actionWords(22));
+    }
+    QCOMPARE(rig.column("B1", "TRUE_X").heading, std::string("Truth"));
+    QCOMPARE(rig.column("B1", "BELIEF_ERROR").heading, std::string("Belief error"));
+    for (const auto& column : rig.store->view(*rig.store->findGroup("B1"))->info().columns) {
+      QVERIFY2(!column.heading.empty() && column.heading != "Other", column.name.c_str());
+    }
+    // Variables of a team's own map go by their beginning.
+    telemetry::ColumnInfo own;
+    own.name = "VISION_NEW_THING";
+    VariableMeanings::published().describe(own);
+    QCOMPARE(own.heading, std::string("Vision"));
+    own = {};
+    own.name = "SOMETHING";
+    VariableMeanings::published().describe(own);
+    QCOMPARE(own.heading, std::string("Other"));
+  }
+
+  void theResourceIsSound() {
+    QVERIFY(VariableMeanings::parse(resourceText("variables.json"), "variables.json"));
+  }
+
+  void meaningsThatMakeNoSense_data() {
+    QTest::addColumn<QByteArray>("json");
+    QTest::addColumn<QString>("wanted");
+    QTest::newRow("no rules") << QByteArray("{}") << "rules";
+    QTest::newRow("no name") << QByteArray(R"({"rules": [{"unit": "cm"}]})") << "name";
+    QTest::newRow("kind") << QByteArray(R"({"rules": [{"name": "A", "kind": "flagg"}]})") << "flag";
+    QTest::newRow("labels") << QByteArray(R"({"rules": [{"name": "A", "labels": {"x": "y"}}]})") << "x";
+    QTest::newRow("labels text") << QByteArray(R"({"rules": [{"name": "A", "labels": 3}]})") << "actions";
+    QTest::newRow("key") << QByteArray(R"({"rules": [{"name": "A", "color": "red"}]})") << "color";
+    QTest::newRow("not JSON") << QByteArray("{") << "file";
+  }
+  void meaningsThatMakeNoSense() {
+    QFETCH(QByteArray, json);
+    QFETCH(QString, wanted);
+    const auto read = VariableMeanings::parse(json.toStdString(), "file");
+    QVERIFY(!read);
+    const QString text = QString::fromStdString(read.error().context + read.error().message);
+    QVERIFY2(text.contains(wanted), qPrintable(text));
+  }
+
+  void everyNth() {
+    Rig rig("match-3v3", 6);
+    rig.play(60);
+    QCOMPARE(rig.store->view(*rig.store->findGroup("B1"))->rows(), std::size_t{11});
+    QCOMPARE(rig.store->view(*rig.store->findGroup("match"))->latest(0)->time, 1.0);
+  }
+
+  void robotsComeAndGo() {
+    Rig rig("one-robot");
+    rig.play(10);
+    const auto revision = rig.store->groupsRevision();
+    ScenarioRobot robot;
+    robot.identity = {rig.match.freeRobotId(), TeamColor::Red, 7, true};
+    robot.pose = {{2.0, 1.0}, 0.0};
+    QVERIFY(rig.match.addRobot(robot));
+    rig.play(10);
+    QVERIFY(rig.store->groupsRevision() > revision);
+    const auto red = rig.store->findGroup("R7");
+    QVERIFY(red);
+    QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});
+    QVERIFY(rig.match.removeRobot(robot.identity.id));
+    rig.play(10);
+    QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});   // its past stays
+    QCOMPARE(rig.latest("match", "TICK"), 30.0);
+  }
+
+  void aMomentPutBack() {
+    Rig rig;
+    rig.play(100);
+    const sim::WorldState moment = rig.match.simulation().state();
+    rig.play(100);
+    QVERIFY(rig.match.simulation().restore(moment));
+    rig.play(20);
+    QCOMPARE(rig.store->view(*rig.store->findGroup("B1"))->rows(), std::size_t{121});
+    QCOMPARE(rig.latest("match", "TICK"), 120.0);
+  }
+
+  /// As the program uses it.
+  void besideARunner() {
+    auto store = std::make_shared<SeriesStore>();
+    auto runner = MatchRunner::start(loadScenario("match-3v3").value(), {}, true,
+                                     VariableCatalog::published(),
+                                     {std::make_shared<MatchSampler>(store)});
+    QVERIFY(runner);
+    (*runner)->runTo(200);
+    QVERIFY((*runner)->waitUntilStill(std::chrono::seconds(60)));
+    QCOMPARE(store->view(*store->findGroup("match"))->latest(0)->value, 200.0);
+    QVERIFY(store->view(*store->findGroup("B1"))->rows() >= 201);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestMatchSampler)
+#include "tst_match_sampler.moc"

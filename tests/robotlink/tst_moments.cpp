@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Looking back at a simulated match: frames from rows, sessions, exact re-entry, scenarios of moments.
+#include <QtTest>
+
+#include <random>
+
+#include <robotlink/live_recorder.h>
+#include <robotlink/match_recorder.h>
+#include <robotlink/moment.h>
+#include <robotlink/moment_scenario.h>
+#include <robotlink/recorded_frame.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using namespace std::chrono_literals;
+
+namespace {
+
+class StoreSink : public telemetry::RowSink {
+ public:
+  explicit StoreSink(telemetry::SeriesStore& store) : m_store(store) {}
+  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
+    return m_store.addGroup(info);
+  }
+  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
+    m_store.append(group, row);
+  }
+
+ private:
+  telemetry::SeriesStore& m_store;
+};
+
+/// Snapshots, boards and hashes by tick, as the match went on from them.
+class Witness : public TickObserver {
+ public:
+  struct Seen {
+    sim::Snapshot snapshot;
+    std::uint64_t hash = 0;
+    std::map<int, std::vector<std::uint32_t>> boards;
+  };
+  void ticked(const SimulatedMatch& match, std::chrono::nanoseconds) override {
+    Seen& s = seen[match.simulation().state().tick];
+    s.snapshot = match.simulation().snapshot();
+    s.hash = match.simulation().hash();
+    for (const auto& robot : s.snapshot.robots) {
+      auto& words = s.boards[robot.identity.id.value];
+      words.resize(Blackboard::words);
+      match.blackboard(robot.identity.id)
+          ->copyWords(std::span<std::uint32_t, Blackboard::words>(words.data(), Blackboard::words));
+    }
+  }
+  std::map<std::uint64_t, Seen> seen;
+};
+
+Scenario scenarioOf(const char* physics = "rigid-body") {
+  Scenario scenario = loadScenario("match-3v3").value();
+  scenario.settings.physics = physics;
+  scenario.settings.noise = noisePreset("paper").value();
+  scenario.stop = {};
+  return scenario;
+}
+
+/// A match that was played for 20 s, seen by everybody.
+struct Played {
+  explicit Played(const QString& folder, const char* physics = "rigid-body")
+      : scenario(scenarioOf(physics)), path((folder + "/match.mcap").toStdString()) {
+    recorder = MatchRecorder::create(path, scenario, VariableCatalog::published()).value();
+    runner = MatchRunner::start(
+                 scenario, {}, true, VariableCatalog::published(),
+                 {archive, std::make_shared<MatchSampler>(std::make_shared<StoreSink>(store)),
+                  recorder, witness})
+                 .value();
+    runner->runTo(500);
+    if (!runner->waitUntilStill(60s)) qFatal("still playing");
+    runner->execute([](SimulatedMatch& m) {
+      (void)m.simulation().placeBall({0.5, -1}, {1, 0.3});
+      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker"});
+      (void)m.removeRobot(RobotId{2});
+    });
+    runner->runTo(1200);
+    if (!runner->waitUntilStill(60s)) qFatal("still playing");
+  }
+  void stop() {
+    runner->stopObserving(recorder);
+    const auto finished = recorder->finish();
+    if (!finished) qFatal("%s", finished.error().text().c_str());
+  }
+
+  Scenario scenario;
+  std::string path;
+  telemetry::SeriesStore store;
+  std::shared_ptr<StateArchive> archive = std::make_shared<StateArchive>();
+  std::shared_ptr<Witness> witness = std::make_shared<Witness>();
+  std::shared_ptr<MatchRecorder> recorder;
+  std::unique_ptr<MatchRunner> runner;
+};
+
+void compareFrame(const MatchFrame& frame, const Witness::Seen& seen) {
+  QVERIFY(frame.origin == FrameOrigin::Recorded && frame.truthKnown && frame.ballKnown);
+  QCOMPARE(frame.snapshot.tick, seen.snapshot.tick);
+  QVERIFY(frame.snapshot.ball == seen.snapshot.ball);
+  QVERIFY(frame.snapshot.score == seen.snapshot.score);
+  QCOMPARE(frame.snapshot.clock, seen.snapshot.clock);
+  QCOMPARE(frame.snapshot.robots.size(), seen.snapshot.robots.size());
+  QCOMPARE(frame.boards.size(), frame.snapshot.robots.size());
+  QVERIFY(frame.health.empty());
+  for (const sim::RobotSnapshot& robot : seen.snapshot.robots) {
+    const auto found =
+        std::find_if(frame.snapshot.robots.begin(), frame.snapshot.robots.end(),
+                     [&](const auto& other) { return other.identity == robot.identity; });
+    QVERIFY(found != frame.snapshot.robots.end());
+    QVERIFY(found->pose.position == robot.pose.position);
+    QVERIFY(std::abs(std::remainder(found->pose.yaw - robot.pose.yaw, 6.283185307179586)) < 1e-12);
+    QVERIFY(found->statistics == robot.statistics);
+    QCOMPARE(found->action, robot.action);
+  }
+}
+
+}  // namespace
+
+class TestMoments : public QObject {
+  Q_OBJECT
+  QTemporaryDir m_folder;
+  std::unique_ptr<Played> m_match;
+
+ private slots:
+  void initTestCase() {
+    QVERIFY(m_folder.isValid());
+    m_match = std::make_unique<Played>(m_folder.path());
+    m_match->stop();
+  }
+
+  void framesComeFromMemory() {
+    RecordedFrames frames;
+    const double oneTick = 1.0 / 60;
+    // Not 500: a robot that was taken away then has a row of that very time.
+    for (const std::uint64_t tick : {0, 1, 300, 499, 501, 900, 1200}) {
+      const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
+      compareFrame(frame, m_match->witness->seen.at(tick));
+      if (tick < 60) continue;
+      QVERIFY(frame.boards[0].visionWorking && frame.boards[0].controlWorking);
+      QVERIFY(!frame.boards[0].behaviour.empty());
+    }
+    QElapsedTimer timer;
+    timer.start();
+    for (int i = 0; i < 200; ++i) (void)frames.frameAt(m_match->store, 5.0 + 0.07 * i);
+    const double each = static_cast<double>(timer.nsecsElapsed()) / 200e6;
+    qInfo("a frame from memory: %.3f ms", each);
+    QVERIFY(each < 5.0);
+  }
+
+  void framesComeFromASession() {
+    const auto session = telemetry::SessionReader::open(m_match->path).value();
+    QVERIFY(session.complete() && session.notes().empty());
+    const FrameBackdrop backdrop = backdropOf(session);
+    QVERIFY(backdrop.field == m_match->scenario.settings.field);
+    QVERIFY(backdrop.noise == m_match->scenario.settings.noise);
+    RecordedFrames frames(backdrop);
+    for (const std::uint64_t tick : {0, 1, 300, 499, 501, 900, 1200, 7}) {
+      const MatchFrame frame = frames.frameAt(session, static_cast<double>(tick) / 60);
+      compareFrame(frame, m_match->witness->seen.at(tick));
+      QVERIFY(frame.noise == m_match->scenario.settings.noise);
+      QCOMPARE(frame.seed, m_match->scenario.settings.seed);
+    }
+    // Before the first row there is nothing, and that is no error.
+    QVERIFY(frames.frameAt(session, -5).snapshot.robots.empty());
+    const auto events = session.events();
+    QVERIFY(std::any_of(events.begin(), events.end(), [](const auto& e) { return e.kind == "kick"; }));
+  }
+
+  void aRecordedMomentIsEnteredExactly() {
+    const auto session = telemetry::SessionReader::open(m_match->path).value();
+    std::mt19937 random(5);
+    for (int i = 0; i < 40; ++i) {
+      const std::uint64_t tick = i < 3 ? 499 + static_cast<std::uint64_t>(i) : random() % 1200;
+      const auto& seen = m_match->witness->seen.at(tick);
+      const double seconds = static_cast<double>(tick) / 60;
+      const auto fromFile = momentFromSession(session, seconds, VariableCatalog::published());
+      QVERIFY2(fromFile, fromFile ? "" : fromFile.error().text().c_str());
+      QVERIFY2(sim::stateHash(fromFile->state) == seen.hash, qPrintable(QString::number(tick)));
+      const auto fromMemory = momentFromMemory(*m_match->archive, m_match->store, tick,
+                                               VariableCatalog::published());
+      QVERIFY2(fromMemory, fromMemory ? "" : fromMemory.error().text().c_str());
+      QVERIFY(sim::stateHash(fromMemory->state) == seen.hash);
+      for (const Moment& moment : {*fromFile, *fromMemory}) {
+        QCOMPARE(moment.robots.size(), seen.snapshot.robots.size());
+        for (const MomentRobot& robot : moment.robots) {
+          QCOMPARE(robot.words.size(), VariableCatalog::published().variables().size());
+          for (const BoardWord& word : robot.words) {
+            QCOMPARE(word.bits,
+                     seen.boards.at(robot.id.value)[static_cast<std::size_t>(word.index)]);
+          }
+        }
+      }
+    }
+    QVERIFY(!momentFromSession(session, -10, VariableCatalog::published()));
+  }
+
+  void aMatchGoesOnFromAMoment() {
+    const auto session = telemetry::SessionReader::open(m_match->path).value();
+    const auto moment = momentFromSession(session, 15.0, VariableCatalog::published()).value();
+    auto match = SimulatedMatch::create(m_match->scenario, {}).value();
+    for (int i = 0; i < 50; ++i) match.tick();
+    const auto entered = match.reenter(moment);
+    QVERIFY2(entered, entered ? "" : entered.error().text().c_str());
+    QCOMPARE(match.simulation().hash(), m_match->witness->seen.at(900).hash);
+    QVERIFY(match.blackboard(RobotId{9}) && !match.blackboard(RobotId{2}));
+    QCOMPARE(match.behaviour(RobotId{9}), std::string_view("striker"));
+    const auto& names = match.variables();
+    QCOMPARE(std::bit_cast<std::uint32_t>(match.blackboard(RobotId{9})->read(names.controlAction)),
+             m_match->witness->seen.at(900).boards.at(9)[static_cast<std::size_t>(
+                 names.controlAction.index)]);
+    for (int i = 0; i < 100; ++i) match.tick();
+    QCOMPARE(match.simulation().state().tick, std::uint64_t{1000});
+    Scenario other = m_match->scenario;
+    other.settings.tickRate = 120;
+    QVERIFY(!SimulatedMatch::create(other, {}).value().reenter(moment));
+  }
+
+  void theRecentPastIsSaved() {
+    RecentPast past;
+    past.rows = &m_match->store;
+    past.archive = m_match->archive.get();
+    past.events = {{1.0, "bookmark", "", "too old"}, {18.0, "bookmark", "", "kept"}};
+    past.scenario = scenarioToJson(m_match->scenario);
+    const std::string path = m_folder.filePath("recent.mcap").toStdString();
+    const auto saved = saveRecent(path, 5.0, past, sessionInfo(m_match->scenario, {}));
+    QVERIFY2(saved, saved ? "" : saved.error().text().c_str());
+    QCOMPARE(saved->dropped, std::uint64_t{0});
+    const auto session = telemetry::SessionReader::open(path).value();
+    QCOMPARE(session.events().size(), std::size_t{1});
+    RecordedFrames frames(backdropOf(session));
+    for (const std::uint64_t tick : {901, 1000, 1200}) {
+      const double seconds = static_cast<double>(tick) / 60;
+      compareFrame(frames.frameAt(session, seconds), m_match->witness->seen.at(tick));
+      const auto moment = momentFromSession(session, seconds, VariableCatalog::published());
+      QVERIFY2(moment, moment ? "" : moment.error().text().c_str());
+      QCOMPARE(sim::stateHash(moment->state), m_match->witness->seen.at(tick).hash);
+    }
+    QCOMPARE(saveRecent(path, 5.0, past, {}).error().code, ErrorCode::Conflict);
+    const telemetry::SeriesStore empty;
+    past.rows = &empty;
+    QVERIFY(!saveRecent(path + "2", 5.0, past, {}));
+  }
+
+  void anExistingFileIsNeverWrittenOver() {
+    const auto again = MatchRecorder::create(m_match->path, m_match->scenario,
+                                             VariableCatalog::published());
+    QVERIFY(!again);
+    QCOMPARE(again.error().code, ErrorCode::Conflict);
+  }
+
+  void aMomentBecomesAScenario_data() {
+    QTest::addColumn<QString>("physics");
+    QTest::addColumn<bool>("believed");
+    QTest::newRow("rigid-body, true") << "rigid-body" << false;
+    QTest::newRow("rigid-body, believed") << "rigid-body" << true;
+    QTest::newRow("published, true") << "published" << false;
+    QTest::newRow("published, believed") << "published" << true;
+  }
+  void aMomentBecomesAScenario() {
+    QFETCH(QString, physics);
+    QFETCH(bool, believed);
+    RecordedFrames frames;
+    MatchFrame frame = frames.frameAt(m_match->store, 15.0);
+    frame.field = m_match->scenario.settings.field;
+    frame.physics = physics.toStdString();
+    frame.snapshot.score = {2, 1};
+    MomentOptions options;
+    options.base = &m_match->scenario;
+    if (believed) {
+      options.poses = MomentOptions::Poses::Believed;
+      options.ball = MomentOptions::Ball::Perceived;
+    }
+    const MomentScenario made = scenarioFromMoment(frame, options);
+    auto match = SimulatedMatch::create(made.scenario, {});
+    QVERIFY2(match, match ? "" : match.error().text().c_str());
+    const sim::Snapshot start = match->simulation().snapshot();
+    QVERIFY(start.score == (sim::Score{2, 1}));
+    QVERIFY(std::abs(start.clock - frame.snapshot.clock) < 1e-9);
+    QCOMPARE(start.robots.size(), frame.snapshot.robots.size());
+    for (std::size_t i = 0; !believed && i < start.robots.size(); ++i) {
+      QVERIFY(std::hypot(start.robots[i].pose.position.x - frame.snapshot.robots[i].pose.position.x,
+                         start.robots[i].pose.position.y - frame.snapshot.robots[i].pose.position.y) <
+              0.05);
+    }
+    for (int i = 0; i < 600; ++i) match->tick();
+    const auto text = scenarioToJson(made.scenario);
+    QVERIFY(scenarioFromJson(text, "moment.json"));
+  }
+
+  void whateverIsSeenCanBeStarted() {
+    MatchFrame frame;
+    frame.origin = FrameOrigin::Live;
+    frame.truthKnown = frame.ballKnown = false;
+    const double nan = std::nan("");
+    const std::vector<Pose> poses{{{99, 99}, 0}, {{nan, 0}, nan}, {{1, 1}, 0}, {{1, 1}, 3},
+                                  {{1.05, 1}, 9}, {{-4, 0}, 1}, {{0, 0}, 0}};
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      sim::RobotSnapshot robot;
+      robot.identity.id.value = i == 1 ? 70000 : static_cast<int>(i % 5);
+      robot.identity.number = static_cast<int>(i % 3);
+      robot.pose = poses[i];
+      frame.snapshot.robots.push_back(robot);
+    }
+    frame.snapshot.score = {-4, 3};
+    frame.snapshot.clock = nan;
+    frame.field.length = -3;
+    for (const char* physics : {"rigid-body", "published", "something new"}) {
+      frame.physics = physics;
+      const MomentScenario made = scenarioFromMoment(frame);
+      QVERIFY(made.notes.size() >= 5);
+      auto match = SimulatedMatch::create(made.scenario, {});
+      QVERIFY2(match, match ? "" : match.error().text().c_str());
+      const auto start = match->simulation().snapshot();
+      QCOMPARE(start.robots.size(), poses.size());
+      for (std::size_t a = 0; a < start.robots.size(); ++a) {
+        for (std::size_t b = a + 1; b < start.robots.size(); ++b) {
+          const Point p = start.robots[a].pose.position, q = start.robots[b].pose.position;
+          QVERIFY(std::hypot(p.x - q.x, p.y - q.y) >= 2 * made.scenario.settings.field.robotRadius);
+        }
+      }
+      for (int i = 0; i < 60; ++i) match->tick();
+      QVERIFY(scenarioFromJson(scenarioToJson(made.scenario), "moment.json"));
+    }
+  }
+
+  void theBallIsWhereMostRobotsSeeIt() {
+    MatchFrame frame;
+    frame.origin = FrameOrigin::Live;
+    frame.truthKnown = frame.ballKnown = false;
+    const Point ball{1.0, 0.5};
+    for (int i = 0; i < 4; ++i) {
+      sim::RobotSnapshot robot;
+      robot.identity = {RobotId{i + 1}, TeamColor::Blue, i + 1, false};
+      robot.pose = {{-1.0 + i, -1.0}, 0.3 * i};
+      RobotBoardView board;
+      board.id = robot.identity.id;
+      board.visionWorking = true;
+      // The last one sees something else.
+      const Point seen = i == 3 ? Point{-4, -2} : Point{ball.x + 0.1 * (i - 1), ball.y};
+      const double dx = seen.x - robot.pose.position.x, dy = seen.y - robot.pose.position.y;
+      board.ballDistCm = static_cast<float>(100 * std::hypot(dx, dy));
+      board.panDeg = static_cast<float>((std::atan2(dy, dx) - robot.pose.yaw) * 57.29577951308232);
+      frame.snapshot.robots.push_back(robot);
+      frame.boards.push_back(board);
+    }
+    MomentScenario made = scenarioFromMoment(frame);
+    QVERIFY(std::hypot(made.scenario.ball.x - ball.x, made.scenario.ball.y - ball.y) < 1e-4);
+    QCOMPARE(made.notes.size(), std::size_t{1});
+    QVERIFY2(made.notes[0].find("3 of the 4") != std::string::npos, made.notes[0].c_str());
+    for (auto& board : frame.boards) board.visionLost = true;
+    made = scenarioFromMoment(frame);
+    QVERIFY(made.scenario.ball == Point{});
+    QCOMPARE(made.notes, (std::vector<std::string>{
+                             "No robot sees the ball; it lies on the centre mark."}));
+    frame.referee.emplace();
+    frame.referee->state = "SET";
+    frame.referee->secondsLeft = 500;
+    made = scenarioFromMoment(frame);
+    QCOMPARE(made.scenario.clock, 100.0);
+    QVERIFY(!made.scenario.clockRunning);
+    QCOMPARE(made.scenario.writes.at(0).value, 12.0);
+  }
+
+  void missingColumnsAreNoError() {
+    telemetry::SeriesStore store;
+    telemetry::GroupInfo strange{"X1", {{"NEVER_HEARD_OF", telemetry::ColumnType::Int32, "", "",
+                                         telemetry::ColumnKind::Number, {}}},
+                                 {{"robot", "1"}, {"number", "999999999999"}, {"team", "green"}}};
+    const auto id = store.addGroup(strange);
+    const std::uint32_t word = 7;
+    store.append(id, {1.0, {&word, 1}, {}});
+    telemetry::GroupInfo bare{"nobody", {}, {}};
+    store.append(store.addGroup(bare), {1.0, {}, {}});
+    RecordedFrames frames;
+    const MatchFrame frame = frames.frameAt(store, 2.0);
+    QCOMPARE(frame.snapshot.robots.size(), std::size_t{1});
+    QVERIFY(!frame.truthKnown && !frame.ballKnown);
+  }
+
+  void liveIsRecordedAndSeenAgain() {
+    const std::string path = m_folder.filePath("live.mcap").toStdString();
+    LiveOptions live;
+    const telemetry::WallTime zero = std::chrono::system_clock::now();
+    auto recorder = LiveRecorder::create(path, live, zero).value();
+    telemetry::TeamMonitor monitor(live.profile, live.team);
+    const auto hear = [&](double time, std::string text) {
+      telemetry::DatagramView datagram;
+      datagram.time = zero + std::chrono::nanoseconds(static_cast<std::int64_t>(time * 1e9));
+      datagram.sender = {{0x7f000001}, 5000};
+      datagram.localPort = 1241;
+      datagram.payload = text;
+      QVERIFY(monitor.take(datagram) == telemetry::TeamMonitor::Verdict::Used);
+      recorder->heard(RobotId{1}, time, datagram, monitor.decoder(), monitor.decoded());
+    };
+    hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
+    hear(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
+    telemetry::DatagramView packet;
+    packet.payload = std::string_view("RGme\0\xff", 6);
+    recorder->refereeHeard(2.0, packet, {});
+    MatchFrame frame;
+    frame.snapshot.time = 2.0;
+    frame.referee.emplace();
+    frame.referee->state = "PLAYING";
+    frame.referee->secondsLeft = 432;
+    frame.referee->teams[1].score = 3;
+    recorder->frameMade(frame);
+    recorder->logged({2.0, "network", "port 1241 is taken", true});
+    QVERIFY(recorder->finish());
+
+    const auto session = telemetry::SessionReader::open(path).value();
+    QCOMPARE(session.count(telemetry::SessionStream::Telemetry), std::uint64_t{2});
+    QCOMPARE(session.count(telemetry::SessionStream::RefereeRaw), std::uint64_t{1});
+    QCOMPARE(session.events().size(), std::size_t{1});
+    RecordedFrames frames(backdropOf(session));
+    const MatchFrame seen = frames.frameAt(session, 2.1);
+    QVERIFY(!seen.truthKnown && !seen.ballKnown);
+    QCOMPARE(seen.snapshot.robots.size(), std::size_t{1});
+    QVERIFY(std::hypot(seen.snapshot.robots[0].pose.position.x - 0.1,
+                       seen.snapshot.robots[0].pose.position.y) < 1e-9);
+    QVERIFY(seen.boards[0].decisionWorking);
+    QCOMPARE(seen.boards[0].voltage, 189);
+    QCOMPARE(seen.health.size(), std::size_t{1});
+    QVERIFY(seen.health[0].ball && !seen.health[0].timedOut);
+    QVERIFY(seen.referee && seen.referee->state == "PLAYING");
+    QVERIFY(seen.snapshot.score == (sim::Score{0, 3}));
+    QVERIFY(!frames.frameAt(session, 1.1).boards[0].decisionWorking);
+    QCOMPARE(momentFromSession(session, 2.0, VariableCatalog::published()).error().code,
+             ErrorCode::NotFound);
+    const MomentScenario made = scenarioFromMoment(seen);
+    QVERIFY(SimulatedMatch::create(made.scenario, {}));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestMoments)
+#include "tst_moments.moc"

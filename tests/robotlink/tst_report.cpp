@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QtTest>
+
+#include <robotlink/match_sampler.h>
+#include <robotlink/report.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+class StoreSink : public telemetry::RowSink {
+ public:
+  explicit StoreSink(telemetry::SeriesStore& store) : m_store(store) {}
+  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
+    return m_store.addGroup(info);
+  }
+  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
+    m_store.append(group, row);
+  }
+
+ private:
+  telemetry::SeriesStore& m_store;
+};
+
+constexpr double played = 60.0;   // s
+
+}  // namespace
+
+class TestReport : public QObject {
+  Q_OBJECT
+  telemetry::SeriesStore m_store;
+  sim::Snapshot m_end;
+  std::vector<float> m_errors;       // of the first robot
+  SessionStatistics m_statistics;
+
+ private slots:
+  void initTestCase() {
+    Scenario scenario = loadScenario("match-3v3").value();
+    scenario.settings.noise = noisePreset("paper").value();
+    scenario.stop = {};
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    MatchSampler sampler(std::make_shared<StoreSink>(m_store));
+    sampler.ticked(match, {});
+    for (int i = 0; i < static_cast<int>(played) * 60; ++i) {
+      match.tick();
+      sampler.ticked(match, std::chrono::nanoseconds(1000));
+    }
+    m_end = match.simulation().snapshot();
+    m_statistics = statisticsOf(m_store, {0.0, played});
+  }
+
+  void numbersAreThoseOfTheMatch() {
+    QVERIFY(m_statistics.truthKnown);
+    QCOMPARE(m_statistics.robots.size(), m_end.robots.size());
+    double ball = 0.0;
+    for (const sim::RobotSnapshot& robot : m_end.robots) {
+      const std::string name =
+          std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
+      const auto found = std::find_if(m_statistics.robots.begin(), m_statistics.robots.end(),
+                                      [&](const auto& one) { return one.name == name; });
+      QVERIFY(found != m_statistics.robots.end());
+      QVERIFY(found->team == robot.identity.team);
+      QVERIFY(std::abs(*found->distance - robot.statistics.distanceWalked) < 1e-9);
+      QCOMPARE(found->kicks, robot.statistics.kicks);
+      QVERIFY(std::abs(found->seconds - played) < 1e-6);
+      QVERIFY(*found->uptime[0] > 0.95 && *found->uptime[1] > 0.95);
+      QVERIFY(found->ballSeconds >= 0.0 && found->ballSeconds <= played);
+      ball += found->ballSeconds;
+    }
+    QVERIFY(ball > 1.0 && ball <= played + 1e-6);
+    QCOMPARE(m_statistics.teams.size(), std::size_t{2});
+    QCOMPARE(*m_statistics.teams[0].score, m_end.score.left);
+    QCOMPARE(*m_statistics.teams[1].score, m_end.score.right);
+  }
+
+  void beliefErrorsAreQuantiles() {
+    const auto& robot = m_statistics.robots.front();
+    const auto series = m_store.find(robot.name, "BELIEF_ERROR");
+    QVERIFY(series);
+    std::vector<telemetry::Sample> samples;
+    m_store.view(series->group)->samples(series->column, {0.0, played}, samples);
+    std::vector<double> errors;
+    for (const auto& sample : samples) {
+      if (std::isfinite(sample.value)) errors.push_back(sample.value);
+    }
+    QVERIFY(errors.size() > 100);
+    std::sort(errors.begin(), errors.end());
+    QVERIFY(std::abs(*robot.errorMedian - errors[errors.size() / 2]) < 1.0);
+    QVERIFY(std::abs(*robot.error90 - errors[errors.size() * 9 / 10]) < 1.0);
+    QCOMPARE(robot.errorCurve.size(), StatisticsBuilder::parts);
+  }
+
+  void thePageHasEverythingAndNothingFromOutside() {
+    ReportContent content;
+    content.title = "3 against 3 <script>alert(1)</script>";
+    content.session.source = "simulation";
+    content.session.seed = 7;
+    content.session.start = std::chrono::sys_days(std::chrono::year{2026} / 7 / 4) + std::chrono::hours(12);
+    content.session.program = "pitchboard";
+    content.statistics = m_statistics;
+    content.events = {{12.34, "goal", "", "goal for the left side"},
+                      {20.0, "kick", "B1", "B1: kick left"},
+                      {30.0, "bookmark", "", "<b>look</b>"},
+                      {999.0, "goal", "", "after the end"}};
+    content.picture = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 104 74\"><rect width=\"104\" "
+                      "height=\"74\" fill=\"#33453a\"/></svg>";
+    content.pictureCaption = "The field at 0:30";
+    content.notes = {"The recording broke off."};
+    const QString html = QString::fromStdString(reportHtml(content));
+    QVERIFY(!html.contains("<script") && !html.contains("<b>look"));
+    QVERIFY(html.contains("0:12.3") && html.contains("goal for the left side"));
+    QVERIFY(!html.contains("after the end"));
+    QVERIFY(html.contains("1 kick</summary>"));
+    QVERIFY(html.contains("data:image/svg+xml;base64,"));
+    QVERIFY(html.contains("seed 7") && html.contains("The recording broke off."));
+    // Self-contained: nothing is fetched.
+    QVERIFY(!html.contains("src=\"http") && !html.contains("href=") && !html.contains("url("));
+    for (const auto& robot : m_statistics.robots) {
+      QVERIFY(html.contains('>' + QString::fromStdString(robot.name) + "</span>"));
+    }
+    QTemporaryDir folder;
+    const std::string path = folder.filePath("report.html").toStdString();
+    QVERIFY(writeReport(path, content));
+    QCOMPARE(writeReport(path, content).error().code, ErrorCode::Conflict);
+    QVERIFY(writeReport(path, content, true));
+    QCOMPARE(writeReport("/nonexistent/r.html", content).error().code, ErrorCode::SystemError);
+    QFile file(QString::fromStdString(path));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QCOMPARE(QString::fromUtf8(file.readAll()), html);
+    if (const QByteArray keep = qgetenv("PITCHBOARD_KEEP_REPORT"); !keep.isEmpty()) {
+      QFile::remove(QString::fromUtf8(keep));
+      QVERIFY(file.copy(QString::fromUtf8(keep)));
+    }
+  }
+
+  void nothingRecordedIsAReportToo() {
+    const telemetry::SeriesStore empty;
+    ReportContent content;
+    content.statistics = statisticsOf(empty, {0.0, 0.0});
+    const QString html = QString::fromStdString(reportHtml(content));
+    QVERIFY(html.contains("No robot was recorded.") && html.contains("Match report"));
+    QVERIFY(!html.contains("nan"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestReport)
+#include "tst_report.moc"

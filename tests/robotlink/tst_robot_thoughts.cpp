@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles and paths on their way to a display: the datagrams, and matches with inline and with
+// separate processes.
+#include <robotlink/match_runner.h>
+
+#include <QtTest>
+#include <cmath>
+
+#include "segment_keys.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+RobotThoughts example() {
+  auto cloud = std::make_shared<ParticleCloud>();
+  cloud->count = 2000;
+  cloud->pose = {{1.25, -2.5}, 0.75};
+  cloud->sigma = 0.125;
+  for (int i = 0; i < 500; ++i) cloud->particles.push_back({{i / 1000.0, -1.0}, -3.0, 0.002});
+  auto path = std::make_shared<PlannedPath>();
+  path->points = {{0, 0}, {1, 0.5}, {-4.5, 3}};
+  path->complete = false;
+  return {RobotId{7}, cloud, path, 0, 0};
+}
+
+Scenario match(int robots) {
+  Scenario scenario = loadScenario("match-3v3").value();
+  scenario.robots.resize(static_cast<std::size_t>(robots));
+  return scenario;
+}
+
+const RobotThoughts* of(const std::vector<RobotThoughts>& all, int robot) {
+  for (const RobotThoughts& one : all) {
+    if (one.robot.value == robot) return &one;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+class TestRobotThoughts : public QObject {
+  Q_OBJECT
+  const int m_base = testKeyBase();
+
+ private slots:
+  void cleanup() {
+    for (const int n : {1, 2, 3, 4, 5, 6}) removeSegment(m_base + 100 * n);
+  }
+
+  void thereAndBack() {
+    const RobotThoughts told = example();
+    const std::vector<std::string> datagrams = thoughtDatagrams(told);
+    QCOMPARE(datagrams.size(), std::size_t{2});
+    QVERIFY(datagrams[0].size() < 20'000);
+    RobotThoughts heard;
+    for (const std::string& datagram : datagrams) QVERIFY(readThoughtDatagram(datagram, heard));
+    QCOMPARE(heard.robot, told.robot);
+    QVERIFY(*heard.cloud == *told.cloud);
+    QVERIFY(*heard.path == *told.path);
+  }
+
+  void strangeNumbersDoNoHarm() {
+    RobotThoughts told;
+    told.robot = {1};
+    auto cloud = std::make_shared<ParticleCloud>();
+    cloud->particles.resize(2000, {{std::nan(""), 1e300}, INFINITY, -5});
+    cloud->sigma = 1e300;
+    told.cloud = cloud;
+    RobotThoughts heard;
+    QVERIFY(readThoughtDatagram(thoughtDatagrams(told).front(), heard));
+    QCOMPARE(heard.cloud->particles.size(), ParticleCloud::most);
+    QVERIFY(std::isfinite(heard.cloud->particles[0].position.y));
+  }
+
+  void badDatagrams_data() {
+    QTest::addColumn<QByteArray>("datagram");
+    for (const char* text :
+         {"", "PBT1", "PBT1 cloud", "PBT1 cloud 1", "PBT1 cloud 1 5 0 0 0", "PBT1 cloud 0 5 0 0 0 0",
+          "PBT1 cloud 65 5 0 0 0 0", "PBT1 cloud 1 5 0 0 0 0 1", "PBT1 cloud 1 5 0 0 0 -3",
+          "PBT1 cloud 1 5 0 0 0 0 ", "PBT1 cloud 1 5 x 0 0 0", "PBT1 cloud 1 5 99999999999999999999 0 0 0",
+          "PBT1 cloudy 1 5 0 0 0 0", "PBT1 path", "PBT1 path 1", "PBT1 path 1 2", "PBT1 path 1 1 5",
+          "PBT1 path 1 1 5 nan", "PBT1 path 1 1  5 5", "1 PB1 1 0 0 0 0 0 0 -1", "pBT1 path 1 1"}) {
+      QTest::addRow("%s", text) << QByteArray(text);
+    }
+    QByteArray flood = "PBT1 path 1 1";
+    for (int i = 0; i < 1000; ++i) flood += " 1 1";
+    QTest::newRow("too many points") << flood;
+  }
+  void badDatagrams() {
+    QFETCH(QByteArray, datagram);
+    RobotThoughts thoughts;
+    QVERIFY(!readThoughtDatagram(datagram.toStdString(), thoughts));
+    QVERIFY(!thoughts.cloud && !thoughts.path);
+  }
+
+  void overTheLoopbackDevice() {
+    using namespace std::chrono_literals;
+    auto receiver = ThoughtsReceiver::listen().value();
+    auto sender = ThoughtsSender::to(receiver.port()).value();
+    const auto now = std::chrono::steady_clock::now();
+    sender.send(example());
+    RobotThoughts other = example();
+    other.robot = {2};
+    other.path.reset();
+    sender.send(other);
+    receiver.poll(now);
+    auto all = receiver.thoughts(now + 500ms);
+    QCOMPARE(all.size(), std::size_t{2});
+    QCOMPARE(all[0].robot, RobotId{2});
+    QVERIFY(all[0].cloud && !all[0].path);
+    QVERIFY(*all[1].path == *example().path);
+    QCOMPARE(all[1].pathAge, 0.5);
+    QVERIFY(receiver.thoughts(now + 4s).empty());  // silent for too long
+    QCOMPARE(receiver.strange(), std::uint64_t{0});
+  }
+
+  void refusals() {
+    QVERIFY(!ThoughtsSender::to(0));
+    QVERIFY(!ThoughtsSender::to(65536));
+    QVERIFY(!ThoughtsReceiver::listen(70000));
+    auto first = ThoughtsReceiver::listen().value();
+    QVERIFY(!ThoughtsReceiver::listen(first.port()));
+  }
+
+  void inlineProcessesAreAsked() {
+    MatchOptions options;
+    options.process.particles = 2000;
+    QVERIFY(SimulatedMatch::create(match(6), options).value().thoughts().empty());  // nobody asked
+    options.thoughts = true;
+    auto played = SimulatedMatch::create(match(6), options).value();
+    double longest = 0;
+    for (int i = 0; i < 60 * 40; ++i) {
+      played.tick();
+      if (i % 60 != 0) continue;
+      for (const RobotThoughts& one : played.thoughts()) {
+        if (one.path && one.path->points.size() > 1) {
+          const Point a = one.path->points.front(), b = one.path->points.back();
+          longest = std::max(longest, std::hypot(a.x - b.x, a.y - b.y));
+        }
+      }
+    }
+    const auto all = played.thoughts();
+    QCOMPARE(all.size(), std::size_t{6});
+    QVERIFY(longest > 0.5);
+    for (const RobotThoughts& one : all) {
+      QVERIFY(one.cloud && one.path);
+      QVERIFY(one.cloud->particles.size() <= ParticleCloud::most);
+      QVERIFY(one.cloud->count >= 200);
+      double sum = 0;
+      for (const Particle& particle : one.cloud->particles) sum += particle.weight;
+      QVERIFY(std::abs(sum - 1.0) < 1e-9);
+      // By now it knows where it stands: belief, and the path's beginning, in the studio's frame
+      // for both sides.
+      const Pose truth = played.simulation().robotPose(one.robot).value();
+      QVERIFY(std::hypot(one.cloud->pose.position.x - truth.position.x,
+                         one.cloud->pose.position.y - truth.position.y) < 0.6);
+      if (!one.path->points.empty()) {
+        const Point start = one.path->points.front();
+        QVERIFY(std::hypot(start.x - truth.position.x, start.y - truth.position.y) < 0.7);
+      }
+    }
+  }
+
+  void askingChangesNothing() {
+    const auto hash = [](bool asked) {
+      MatchOptions options;
+      options.thoughts = asked;
+      auto played = SimulatedMatch::create(match(6), options).value();
+      for (int i = 0; i < 60 * 20; ++i) {
+        played.tick();
+        (void)played.thoughts();
+      }
+      return played.simulation().hash();
+    };
+    QCOMPARE(hash(true), hash(false));
+  }
+
+  void separateProcessesKnowACustomField() {
+    Scenario scenario = match(1);
+    scenario.settings.field.name = "park";
+    scenario.settings.field.length = 40.0;
+    scenario.settings.field.width = 20.0;
+    const auto again = fieldFromText(fieldToText(scenario.settings.field), "test");
+    QVERIFY(again && *again == scenario.settings.field);
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.process.telemetryPortBase = 60000;
+    options.process.teamPortBase = 60100;
+    options.process.team = 82;
+    options.thoughts = true;
+    auto runner = MatchRunner::start(scenario, options).value();
+    const auto farthest = [&] {
+      double most = 0;
+      const auto frame = runner->latest();
+      const RobotThoughts* first = frame ? of(frame->thoughts, 1) : nullptr;
+      if (!first || !first->cloud) return most;
+      for (const Particle& p : first->cloud->particles) most = std::max(most, std::abs(p.position.x));
+      return most;
+    };
+    // It starts anywhere on the field, so some particle lies far outside a field of 9 metres.
+    QTRY_VERIFY_WITH_TIMEOUT(farthest() > 10.0, 20000);
+    QVERIFY(farthest() < 25.0);
+  }
+
+  void separateProcessesTellThem_data() {
+    QTest::addColumn<bool>("asked");
+    QTest::newRow("asked") << true;
+    QTest::newRow("not asked") << false;
+  }
+  void separateProcessesTellThem() {
+    QFETCH(bool, asked);
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.process.telemetryPortBase = 60000;
+    options.process.teamPortBase = 60100;
+    options.process.team = 80;
+    options.thoughts = asked;
+    auto runner = MatchRunner::start(match(2), options).value();
+    if (!asked) {
+      QTRY_VERIFY(runner->latest() && !runner->latest()->boards.empty() &&
+                  runner->latest()->boards[0].decisionWorking);
+      QVERIFY(runner->latest()->thoughts.empty());
+      return;
+    }
+    const auto complete = [&] {
+      const auto frame = runner->latest();
+      const RobotThoughts* first = frame ? of(frame->thoughts, 1) : nullptr;
+      const RobotThoughts* second = frame ? of(frame->thoughts, 2) : nullptr;
+      return first && first->cloud && first->path && second && second->cloud && second->path;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(complete(), 20000);
+    const auto frame = runner->latest();
+    QVERIFY(of(frame->thoughts, 1)->cloudAge < 1.0);
+    QVERIFY(of(frame->thoughts, 1)->cloud->particles.size() > 100);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRobotThoughts)
+#include "tst_robot_thoughts.moc"

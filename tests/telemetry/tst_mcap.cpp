@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Damaged and hostile files: cut at every byte, every byte flipped, lengths that lie.
+
+#include <QtTest>
+#include <fstream>
+#include <random>
+
+#include <telemetry/mcap_reader.h>
+#include <telemetry/mcap_writer.h>
+
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+using namespace pitchboard::telemetry::rig;
+
+namespace {
+
+/// Everything that can be read, in order; used to see that nothing invented comes out.
+struct Contents {
+  std::vector<Row> rows;
+  bool complete = false;
+  std::size_t notes = 0;
+};
+
+Contents contentsOf(const std::string& bytes) {
+  Contents out;
+  const auto reader = SessionReader::openBytes(bytes);
+  if (!reader) return out;
+  out.rows = rowsOf(*reader, everything);
+  (void)reader->events();
+  std::vector<SessionRow> now;
+  reader->rowsAt(1.0, now);
+  for (const auto& attachment : reader->attachments()) (void)reader->attachment(attachment.name);
+  out.complete = reader->complete();
+  out.notes = reader->notes().size();
+  return out;
+}
+
+std::string number64(std::uint64_t value) {
+  return {reinterpret_cast<const char*>(&value), 8};
+}
+
+}  // namespace
+
+class TestMcap : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  std::string m_bytes;        // a small whole session
+  std::vector<Row> m_rows;
+  std::vector<std::uint64_t> m_chunkEnds;   // offsets behind the chunks
+  std::vector<std::size_t> m_rowsUntil;     // rows in the chunks up to there
+
+ private slots:
+  void initTestCase() {
+    const std::string path = m_folder.filePath("small.mcap").toStdString();
+    SessionWriterOptions options;
+    options.chunkBytes = 1200;
+    auto writer = SessionWriter::create(path, sessionInfo(), options);
+    QVERIFY(writer);
+    (*writer)->attach("a", "text/plain", "some text");
+    m_rows = record(**writer, 40);
+    QVERIFY((*writer)->finish());
+    m_bytes = bytesOf(path);
+    const auto reader = McapReader::open(path);
+    QVERIFY(reader && reader->indexed());
+    std::size_t rows = 0;
+    std::string body;
+    for (const McapChunkInfo& chunk : reader->chunks()) {
+      QVERIFY(reader->readChunk(chunk, body));
+      McapCursor cursor(body);
+      for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+        if (kind == McapCursor::Kind::Message &&
+            reader->channels().at(cursor.message().channel).messageEncoding == "cdr") {
+          ++rows;
+        }
+      }
+      m_chunkEnds.push_back(chunk.offset + chunk.length);
+      m_rowsUntil.push_back(rows);
+    }
+    QCOMPARE(rows, m_rows.size());
+    QVERIFY(m_chunkEnds.size() >= 4);
+  }
+
+  void walkAndIndexAgree() {
+    McapReaderOptions walk;
+    walk.ignoreSummary = true;
+    const auto walked = McapReader::openBytes(m_bytes, walk);
+    const auto indexed = McapReader::openBytes(m_bytes);
+    QVERIFY(!walked->indexed() && indexed->indexed());
+    QVERIFY(walked->problems().empty());
+    QVERIFY(walked->schemas() == indexed->schemas());
+    QVERIFY(walked->channels() == indexed->channels());
+    QCOMPARE(walked->chunks().size(), indexed->chunks().size());
+    for (std::size_t i = 0; i < walked->chunks().size(); ++i) {
+      const McapChunkInfo &a = walked->chunks()[i], &b = indexed->chunks()[i];
+      QCOMPARE(a.offset, b.offset);
+      QCOMPARE(a.length, b.length);
+      QCOMPARE(a.start, b.start);
+      QCOMPARE(a.end, b.end);
+      QCOMPARE(a.compressedSize, b.compressedSize);
+      QVERIFY(a.channels == b.channels);
+    }
+    QCOMPARE(walked->statistics().messages, indexed->statistics().messages);
+    QVERIFY(walked->statistics().perChannel == indexed->statistics().perChannel);
+    QCOMPARE(walked->statistics().start, indexed->statistics().start);
+    QCOMPARE(walked->attachments().size(), 1U);
+    QCOMPARE(walked->metadata().size(), 1U);
+  }
+
+  void cutAtEveryByte() {
+    for (std::size_t size = 0; size < m_bytes.size(); ++size) {
+      const Contents found = contentsOf(m_bytes.substr(0, size));
+      std::size_t expected = 0;
+      for (std::size_t i = 0; i < m_chunkEnds.size(); ++i) {
+        if (m_chunkEnds[i] <= size) expected = m_rowsUntil[i];
+      }
+      if (found.rows.size() != expected || found.complete ||
+          !std::equal(found.rows.begin(), found.rows.end(), m_rows.begin())) {
+        QFAIL(qPrintable(QStringLiteral("cut at %1: %2 rows instead of %3")
+                             .arg(size).arg(found.rows.size()).arg(expected)));
+      }
+    }
+  }
+
+  void everyByteFlipped() {
+    std::size_t told = 0;
+    for (std::size_t at = 0; at < m_bytes.size(); ++at) {
+      std::string bytes = m_bytes;
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << (at % 8)));
+      const Contents found = contentsOf(bytes);
+      // Rows may be missing, but what is there was recorded.
+      auto place = m_rows.begin();
+      for (const Row& row : found.rows) {
+        place = std::find(place, m_rows.end(), row);
+        if (place == m_rows.end()) {
+          QFAIL(qPrintable(QStringLiteral("byte %1 flipped: a row that nobody wrote").arg(at)));
+        }
+        ++place;
+      }
+      if (found.rows.size() < m_rows.size() && found.notes == 0 && at > 8) {
+        const auto reader = SessionReader::openBytes(bytes);
+        QVERIFY2(!reader, qPrintable(QStringLiteral("byte %1: silently lost rows").arg(at)));
+      }
+      told += found.notes > 0;
+    }
+    QVERIFY(told > m_bytes.size() / 2);
+  }
+
+  void damageInTheMiddleCostsOneChunk() {
+    std::string bytes = m_bytes;
+    bytes[m_chunkEnds[1] - 20] ^= 0x10;
+    const Contents found = contentsOf(bytes);
+    QCOMPARE(found.rows.size(), m_rows.size() - (m_rowsUntil[1] - m_rowsUntil[0]));
+    QVERIFY(found.notes > 0);
+    // The same without the summary, and with a length that leads nowhere: the walk finds the next.
+    bytes.resize(m_chunkEnds.back());
+    QCOMPARE(contentsOf(bytes).rows.size(), found.rows.size());
+    const auto whole = McapReader::openBytes(m_bytes);
+    const std::uint64_t second = whole->chunks()[1].offset;
+    bytes.replace(second + 1, 8, number64(0x7fffffffffffffffULL));
+    QCOMPARE(contentsOf(bytes).rows.size(), found.rows.size());
+  }
+
+  void lengthsThatLie_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    const std::string magic(mcapMagic.data(), 8);
+    const auto row = [&](const char* name, const std::string& bytes) {
+      QTest::newRow(name) << QByteArray::fromStdString(magic + bytes);
+    };
+    row("nothing", "");
+    row("header without end", "\x01" + number64(~0ULL));
+    row("header of 4 GB", std::string("\x01") + number64(8) + std::string("\xff\xff\xff\xff....", 8));
+    std::string chunk = number64(1) + number64(2) + number64(100ULL << 20) + std::string(4, '\0') +
+                        std::string("\x04\0\0\0zstd", 8) + number64(3) + "abc";
+    row("chunk that says 100 MB", "\x06" + number64(chunk.size()) + chunk);
+    chunk = number64(1) + number64(2) + number64(~0ULL) + std::string(4, '\0') + std::string(4, '\0') +
+            number64(~0ULL);
+    row("chunk longer than the file", "\x06" + number64(chunk.size()) + chunk);
+    std::string many;
+    for (int i = 0; i < 20'000; ++i) many += "\x06" + number64(60) + std::string(28, 'x') + std::string("\x04\0\0\0zstd", 8) + number64(~0ULL) + std::string(16, 'y');
+    row("many marks of chunks", "\x00" + many);
+    row("a megabyte of zeros", std::string(1 << 20, '\0'));
+    std::string empty;
+    for (int i = 0; i < 100'000; ++i) empty += "\x85" + number64(0);
+    row("many unknown records", empty);
+    std::string footer = "\x02" + number64(20) + number64(8) + number64(~0ULL) + std::string(4, '\0') + magic;
+    row("summary from the beginning", footer);
+    footer = "\x02" + number64(20) + number64(~0ULL) + number64(~0ULL) + std::string(4, '\0') + magic;
+    row("summary behind the end", footer);
+  }
+  void lengthsThatLie() {
+    QFETCH(QByteArray, bytes);
+    QElapsedTimer timer;
+    timer.start();
+    const Contents found = contentsOf(bytes.toStdString());
+    QVERIFY(found.rows.empty());
+    QVERIFY2(timer.elapsed() < 5000, qPrintable(QString::number(timer.elapsed())));
+  }
+
+  void randomBytes() {
+    std::mt19937 random(7);
+    for (int i = 0; i < 300; ++i) {
+      std::string bytes = m_bytes;
+      for (int k = 0; k < 20; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
+      if (i % 3 == 0) bytes.resize(random() % bytes.size());
+      (void)contentsOf(bytes);
+    }
+  }
+
+  void messagesWithoutChunks() {
+    // Other writers may leave messages loose in the file.
+    std::string bytes(mcapMagic.data(), 8);
+    bytes += "\x01" + number64(8) + std::string(8, '\0');
+    const std::string channel = std::string("\x01\0\0\0", 4) + std::string("\x07\0\0\0/events", 11) +
+                                std::string("\x04\0\0\0json", 8) + std::string(4, '\0');
+    bytes += "\x04" + number64(channel.size()) + channel;
+    for (int i = 0; i < 3; ++i) {
+      const std::string json = R"({"time":1,"kind":"goal"})";
+      bytes += "\x05" + number64(22 + json.size()) + std::string("\x01\0\0\0\0\0", 6) +
+               number64(1000 + static_cast<std::uint64_t>(i)) + number64(1000) + json;
+    }
+    const auto reader = SessionReader::openBytes(bytes);
+    QVERIFY(reader);
+    QCOMPARE(reader->events().size(), 3U);
+  }
+
+  void stopsWhenAsked() {
+    McapReaderOptions options;
+    options.ignoreSummary = true;
+    options.progress = [](double) { return false; };
+    QVERIFY(!McapReader::openBytes(m_bytes, options));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestMcap)
+#include "tst_mcap.moc"

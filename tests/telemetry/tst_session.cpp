@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is recorded is read back bit for bit; what goes wrong is said and never costs what stands.
+
+#include <QtTest>
+#include <csignal>
+#include <filesystem>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <telemetry/mcap_writer.h>
+#include <telemetry/session_repair.h>
+
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+using namespace pitchboard::telemetry::rig;
+
+class TestSession : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  int m_number = 0;
+  std::string newPath() {
+    return m_folder.filePath(QString::number(++m_number) + ".mcap").toStdString();
+  }
+  static SessionWriterOptions smallChunks() {
+    SessionWriterOptions options;
+    options.chunkBytes = 4000;
+    return options;
+  }
+
+ private slots:
+  void everythingComesBack() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    QVERIFY(writer);
+    (*writer)->attach("scenario.json", "application/json", "{\"a\":1}");
+    const auto rows = record(**writer, 300);
+    const SessionDatagram text{1.25, {{0x7f000001}, 4711}, 1241, "RBT 1|x\xff\0y"};
+    const SessionDatagram utf8{1.5, {{0xc0a80007}, 9}, 1242, "schön\n\""};
+    (*writer)->append(SessionStream::Telemetry, text);
+    (*writer)->append(SessionStream::Telemetry, utf8);
+    (*writer)->append(SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""});
+    (*writer)->appendJson(SessionStream::Checkpoints, 0.1, R"({"time":0.1})");
+    QVERIFY((*writer)->finish());
+    const SessionStatus status = (*writer)->status();
+    QCOMPARE(status.rows, rows.size());
+    QCOMPARE(status.dropped, 0U);
+    QVERIFY(!status.recording && status.problem.empty());
+    QCOMPARE(status.bytes, std::filesystem::file_size(path));
+
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader);
+    QVERIFY(reader->complete() && reader->ours());
+    QVERIFY2(reader->notes().empty(), reader->notes().empty() ? "" : reader->notes()[0].c_str());
+    QVERIFY(reader->info() == sessionInfo());
+    QCOMPARE(reader->groups().size(), 3U);
+    QVERIFY(reader->groups()[0].info == robotGroup("B1", 1));
+    QVERIFY(reader->groups()[1].info == robotGroup("B2", 2));
+    QVERIFY(reader->groups()[2].info == matchGroup());
+    QCOMPARE(reader->groups()[2].rows, 300U);
+    QVERIFY(rowsOf(*reader, everything) == rows);
+    QCOMPARE(reader->events().size(), 5U);
+    QCOMPARE(reader->events()[0], (SessionEvent{0.5, "kick", "B1", "kick 30"}));
+    QCOMPARE(reader->range()->begin, 0.0);
+    QVERIFY(std::abs(reader->range()->end - 299 / 60.0) < 1e-9);
+    QCOMPARE(reader->attachment("scenario.json").value(), std::string("{\"a\":1}"));
+    QVERIFY(!reader->attachment("other"));
+    QCOMPARE(reader->count(SessionStream::Telemetry), 2U);
+    QCOMPARE(reader->count(SessionStream::Checkpoints), 1U);
+    QCOMPARE(reader->count(SessionStream::Referee), 0U);
+    int seen = 0;
+    reader->messages(SessionStream::Telemetry, everything, [&](double time, std::string_view json) {
+      const SessionDatagram& expected = seen++ == 0 ? text : utf8;
+      // Bytes that are not text come back too.
+      if (time != expected.time || datagramOf(json) != expected) qFatal("another datagram");
+      return true;
+    });
+    QCOMPARE(seen, 2);
+    reader->messages(SessionStream::Checkpoints, everything, [&](double time, std::string_view json) {
+      seen += time == 0.1 && json == R"({"time":0.1})";
+      return true;
+    });
+    reader->messages(SessionStream::Log, everything, [&](double, std::string_view json) {
+      seen += sessionLogLine(json) == SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""};
+      return true;
+    });
+    QCOMPARE(seen, 4);
+  }
+
+  void momentsAndRanges() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    const auto rows = record(**writer, 600);
+    // A robot that joins late and one that has no row at all.
+    const GroupId late = (*writer)->addGroup(robotGroup("B3", 3));
+    (*writer)->addGroup(robotGroup("B4", 4));
+    Row joined = rowOf(0, 599);
+    joined.group = late;
+    append(**writer, joined);
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader->file().chunks().size() > 10);
+    std::vector<SessionRow> now;
+    for (const int tick : {0, 1, 59, 60, 299, 598, 599}) {
+      reader->rowsAt(tick / 60.0, now);
+      QCOMPARE(now.size(), 5U);
+      for (const GroupId group : {0U, 1U, 2U}) {
+        QVERIFY(now[group].present);
+        QVERIFY((Row{group, now[group].time, now[group].words, now[group].values}) ==
+                rowOf(group, tick));
+      }
+      QCOMPARE(now[3].present, tick == 599);
+      QVERIFY(!now[4].present);
+    }
+    reader->rowsAt(-0.001, now);
+    QVERIFY(!now[0].present);
+    reader->rowsAt(30.5 / 60.0, now);
+    QCOMPARE(now[0].time, 0.5);
+    reader->rowsAt(1e6, now);
+    QCOMPARE(now[1].time, 599 / 60.0);
+
+    const auto part = rowsOf(*reader, {100 / 60.0, 102 / 60.0});
+    QVERIFY(part == std::vector<Row>(rows.begin() + 300, rows.begin() + 309));
+    int count = 0;
+    const std::vector<GroupId> only{1};
+    reader->rows(everything, only, [&](GroupId group, const RowView&) {
+      return group == 1 && ++count < 10;
+    });
+    QCOMPARE(count, 10);
+  }
+
+  void sourcePutBack() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    const GroupId group = (*writer)->addGroup(matchGroup());
+    const std::vector<double> values{1.0, 2.0};
+    for (const double time : {0.0, 1.0, 2.0, 0.5, 0.75}) (*writer)->append(group, {time, {}, values});
+    (*writer)->append(group, {0.74, {}, values});  // disorder, not a new pass
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    const auto rows = rowsOf(*reader, everything);
+    QCOMPARE(rows.size(), 6U);
+    QCOMPARE(rows[2].time, 2.0);
+    QVERIFY(rows[3].time > 2.0 && rows[3].time < 2.01);
+    QVERIFY(std::abs(rows[4].time - rows[3].time - 0.25) < 1e-8);
+    QVERIFY(rows[5].time >= rows[4].time - 1e-8);
+    QVERIFY(reader->range()->end > 2.2);
+  }
+
+  void fieldNamesAreThoseOfRos() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    GroupInfo group{"Röbot 1", {}, {}};
+    for (const char* name : {"VISION__X", "vision_x", "9lives", "Ä", "SOURCE_TIME", "a_", "A"}) {
+      group.columns.push_back({name, ColumnType::Float64, "", "", ColumnKind::Number, {}});
+    }
+    (*writer)->addGroup(group);
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    const std::string text = reader->file().schemas().begin()->second.data;
+    for (const char* field : {"float64 source_time ", "float64 vision_x ", "float64 vision_x_2 ",
+                              "float64 v9lives ", "float64 v ", "float64 source_time_2 ",
+                              "float64 a ", "float64 a_2 "}) {
+      QVERIFY2(text.find(field) != std::string::npos, field);
+    }
+    QVERIFY(reader->groups()[0].info == group);
+  }
+
+  void neverOverwrites() {
+    const std::string path = newPath();
+    std::ofstream(path) << "precious";
+    const auto writer = SessionWriter::create(path, {});
+    QVERIFY(!writer);
+    QVERIFY(writer.error().code == ErrorCode::Conflict);
+    QCOMPARE(bytesOf(path), std::string("precious"));
+    const auto nowhere = SessionWriter::create("/no/such/folder/x.mcap", {});
+    QVERIFY(!nowhere && nowhere.error().message.find("folder") != std::string::npos);
+    const auto kernel = SessionWriter::create("/proc/x.mcap", {});
+    QVERIFY(!kernel);
+  }
+
+  void diskFull() {
+    // A file that may not grow beyond this is what a full disk looks like to a program.
+    struct rlimit old {}, small {};
+    QVERIFY(getrlimit(RLIMIT_FSIZE, &old) == 0);
+    small = {60'000, old.rlim_max};
+    struct sigaction ignore {}, before {};
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &ignore, &before);
+    QVERIFY(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    const std::string path = newPath();
+    auto options = smallChunks();
+    options.sync = false;
+    auto writer = SessionWriter::create(path, sessionInfo(), options);
+    options.waitWhenFull = true;
+    std::vector<Row> rows = record(**writer, 3000);
+    const auto finished = (*writer)->finish();
+    setrlimit(RLIMIT_FSIZE, &old);
+    sigaction(SIGXFSZ, &before, nullptr);
+    QVERIFY(!finished);
+    const SessionStatus status = (*writer)->status();
+    QVERIFY(!status.recording);
+    QVERIFY2(status.problem.find("Recording stopped") == 0, status.problem.c_str());
+    append(**writer, rows[0]);  // does nothing, and harms nothing
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader);
+    const auto found = rowsOf(*reader, everything);
+    QVERIFY(found.size() > 100 && found.size() < rows.size());
+    rows.resize(found.size());
+    QVERIFY(found == rows);
+  }
+
+  void diskFullOnARealFileSystem() {
+    if (geteuid() != 0) QSKIP("only root may mount");
+    QTemporaryDir mount;
+    const QString folder = mount.path();
+    if (QProcess::execute("mount", {"-t", "tmpfs", "-o", "size=400k", "tmpfs", folder}) != 0) {
+      QSKIP("this machine does not mount");
+    }
+    const std::string path = (folder + "/full.mcap").toStdString();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    std::vector<Row> rows;
+    std::string problem;
+    bool complete = false;
+    std::vector<Row> found;
+    if (writer) {
+      rows = record(**writer, 30'000);
+      (void)(*writer)->finish();
+      problem = (*writer)->status().problem;
+      if (const auto reader = SessionReader::open(path)) {
+        complete = reader->complete();
+        found = rowsOf(*reader, everything);
+      }
+    }
+    QProcess::execute("umount", {folder});
+    QVERIFY2(problem.find("The disk is full") != std::string::npos, problem.c_str());
+    QVERIFY(complete);  // room for the summary was kept
+    QVERIFY(found.size() > 100 && found.size() < rows.size());
+    rows.resize(found.size());
+    QVERIFY(found == rows);
+  }
+
+  void removedFile() {
+    const std::string path = newPath();
+    auto options = smallChunks();
+    options.chunkInterval = std::chrono::milliseconds(10);
+    auto writer = SessionWriter::create(path, sessionInfo(), options);
+    record(**writer, 10);
+    std::filesystem::remove(path);
+    int tick = 10;
+    QTRY_VERIFY_WITH_TIMEOUT((append(**writer, rowOf(0, tick++)), !(*writer)->status().recording), 5000);
+    QVERIFY((*writer)->status().problem.find("removed") != std::string::npos);
+    QVERIFY(!(*writer)->finish());
+  }
+
+  void fullQueueIsCounted() {
+    const std::string path = newPath();
+    SessionWriterOptions options;
+    options.queueBytes = 20'000;
+    options.chunkInterval = std::chrono::seconds(1000);
+    auto writer = SessionWriter::create(path, sessionInfo(), options);
+    const auto rows = record(**writer, 1000);
+    const SessionStatus status = (*writer)->status();
+    QVERIFY(status.dropped > 1000);
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    const auto found = rowsOf(*reader, everything);
+    QCOMPARE(found.size() + reader->events().size(), status.rows + status.messages);
+    auto place = rows.begin();
+    for (const Row& row : found) {  // whole rows, in order, with gaps
+      place = std::find(place, rows.end(), row);
+      QVERIFY(place != rows.end());
+      ++place;
+    }
+  }
+
+  void waitsWhenAskedTo() {
+    SessionWriterOptions options = smallChunks();
+    options.queueBytes = 10'000;
+    options.waitWhenFull = true;
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), options);
+    const auto rows = record(**writer, 3000);
+    QVERIFY((*writer)->finish());
+    QCOMPARE((*writer)->status().dropped, 0U);
+    QVERIFY(rowsOf(*SessionReader::open(path), everything) == rows);
+  }
+
+  void onDiskWithinASecond() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    const auto rows = record(**writer, 10);
+    QElapsedTimer timer;
+    timer.start();
+    QTRY_VERIFY_WITH_TIMEOUT(rowsOf(*SessionReader::open(path), everything) == rows, 3000);
+    QVERIFY2(timer.elapsed() < 1200, qPrintable(QString::number(timer.elapsed())));
+    QVERIFY(!SessionReader::open(path)->complete());
+  }
+
+  void newerVersionsAndStrangers() {
+    const std::string path = newPath();
+    {
+      auto file = McapWriter::create(path);
+      // The check is a CRC-32 over keys and values, each with its final zero (docs/SESSIONS.md).
+      QVERIFY(file->metadata("pitchboard", {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"},
+                                            {"check", "3914321931"}}));
+      McapChunk chunk;
+      chunk.add(McapSchema{1, "other/msg/Thing", "ros2msg", "int8 a"});
+      chunk.add(McapChannel{1, 1, "/other", "cdr", {}});
+      chunk.add(McapChannel{2, 0, "/events", "json", {}});
+      chunk.add(McapChannel{3, 0, "/robots/B1/row", "cdr", {{"pitchboard.group", "{\"name\":1}"}}});
+      chunk.add(McapMessage{1, 0, 6'000'000'000, 6'000'000'000, "abc"});
+      chunk.add(McapMessage{2, 0, 6'000'000'000, 6'000'000'000, R"({"time":1,"kind":"goal","later":[]})"});
+      chunk.add(McapMessage{2, 1, 6'000'000'000, 6'000'000'000, "[not an event"});
+      QVERIFY(file->writeChunk(chunk));
+      QVERIFY(file->finish());
+    }
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader);
+    QCOMPARE(reader->notes().size(), 3U);
+    QVERIFY(reader->notes()[0].find("newer version (format 9") != std::string::npos);
+    QVERIFY(reader->notes()[1].find("/other") != std::string::npos);
+    QCOMPARE(reader->events().size(), 1U);
+    QCOMPARE(reader->events()[0].kind, std::string("goal"));
+    QCOMPARE(reader->range()->begin, 1.0);
+  }
+
+  void notOurs() {
+    const auto text = SessionReader::openBytes("this is no container at all");
+    QVERIFY(!text && text.error().code == ErrorCode::ParseError);
+    const auto later = SessionReader::openBytes(std::string("\x89MCAP1\r\n......"));
+    QVERIFY(!later && later.error().code == ErrorCode::Unsupported);
+    QVERIFY(SessionReader::open("/no/such/file").error().code == ErrorCode::NotFound);
+    QVERIFY(!SessionReader::open("/dev/zero"));
+    const std::string path = newPath();
+    {
+      auto file = McapWriter::create(path, {"ros2", "somebody", 3, false});
+      McapChunk chunk;
+      chunk.add(McapChannel{1, 0, "/tf", "cdr", {}});
+      chunk.add(McapMessage{1, 0, 77, 77, "abc"});
+      QVERIFY(file->writeChunk(chunk) && file->finish());
+    }
+    const auto foreign = SessionReader::open(path);
+    QVERIFY(foreign && !foreign->ours());
+    QVERIFY(foreign->notes().back().find("somebody") != std::string::npos);
+    QVERIFY(foreign->groups().empty());
+  }
+
+  void repairMakesAWholeFile() {
+    const std::string path = newPath(), repaired = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    (*writer)->attach("a.txt", "text/plain", "hello");
+    const auto rows = record(**writer, 600);
+    QVERIFY((*writer)->finish());
+    const std::string whole = bytesOf(path);
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, whole.size() / 2);
+    std::vector<double> parts;
+    const auto report = repairSession(path, repaired, [&](double part) {
+      parts.push_back(part);
+      return true;
+    });
+    QVERIFY2(report, report ? "" : report.error().text().c_str());
+    QVERIFY(std::is_sorted(parts.begin(), parts.end()) && parts.size() > 5);
+    QCOMPARE(report->lost.size(), 1U);
+    const auto reader = SessionReader::open(repaired);
+    QVERIFY(reader->complete() && reader->notes().empty());
+    QCOMPARE(reader->attachment("a.txt").value(), std::string("hello"));
+    QVERIFY(reader->info() == sessionInfo());
+    const auto found = rowsOf(*reader, everything);
+    QVERIFY(found.size() > 500);
+    QVERIFY(std::equal(found.begin(), found.end(), rows.begin()));
+    QCOMPARE(report->messages, found.size() + reader->events().size());
+    // Nothing is overwritten, and what is stopped leaves nothing behind.
+    QVERIFY(repairSession(path, repaired).error().code == ErrorCode::Conflict);
+    QVERIFY(SessionReader::open(repaired)->complete());
+    const std::string stoppedPath = newPath();
+    QVERIFY(!repairSession(path, stoppedPath, [](double part) { return part < 0.6; }));
+    QVERIFY(!std::filesystem::exists(stoppedPath));
+  }
+
+ private:
+  static SessionDatagram datagramOf(std::string_view json);
+};
+
+SessionDatagram TestSession::datagramOf(std::string_view json) {
+  const auto found = sessionDatagram(json);
+  return found ? *found : SessionDatagram{};
+}
+
+QTEST_GUILESS_MAIN(TestSession)
+#include "tst_session.moc"

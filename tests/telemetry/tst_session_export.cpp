@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is exported is what was recorded: every number reads back to the same bits.
+
+#include <QFile>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QtTest>
+#include <charconv>
+#include <clocale>
+#include <filesystem>
+
+#include <telemetry/session_export.h>
+
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+using namespace pitchboard::telemetry::rig;
+
+class TestSessionExport : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  std::string m_path;
+  std::vector<Row> m_rows;
+  int m_number = 0;
+
+  std::string newPath() { return m_folder.filePath(QString::number(++m_number)).toStdString(); }
+  SessionReader session() const { return std::move(*SessionReader::open(m_path)); }
+
+  static QList<QByteArray> textOf(const SessionReader& reader, ExportFormat format,
+                                  const ExportSelection& selection = {}) {
+    QByteArray text;
+    const auto report = exportText(reader, format, selection, [&](std::string_view part) {
+      text.append(part.data(), static_cast<qsizetype>(part.size()));
+      return true;
+    });
+    if (!report) qFatal("%s", report.error().text().c_str());
+    if (report->bytes != static_cast<std::uint64_t>(text.size())) qFatal("another count of bytes");
+    if (report->lines != static_cast<std::uint64_t>(text.count('\n'))) qFatal("another count of lines");
+    text.chop(1);
+    return text.split('\n');
+  }
+  static bool same(const QByteArray& text, double value) {
+    double read = 0.0;
+    const auto [end, code] = std::from_chars(text.begin(), text.end(), read);
+    return code == std::errc() && end == text.end() &&
+           (std::isnan(value) ? std::isnan(read)
+                              : std::bit_cast<std::uint64_t>(read) == std::bit_cast<std::uint64_t>(value));
+  }
+  static double value(const Row& row, std::size_t column) {
+    if (column >= row.words.size()) return row.values[column - row.words.size()];
+    return column == 2 ? static_cast<double>(std::bit_cast<float>(row.words[2]))
+                       : static_cast<std::int32_t>(row.words[column]);
+  }
+
+ private slots:
+  void initTestCase() {
+    // Decimal commas of some languages must not reach the files.
+    for (const char* language : {"de_DE.UTF-8", "fr_FR.UTF-8"}) std::setlocale(LC_ALL, language);
+    m_path = m_folder.filePath("session.mcap").toStdString();
+    SessionWriterOptions options;
+    options.chunkBytes = 8'000;
+    auto writer = SessionWriter::create(m_path, sessionInfo(), options);
+    m_rows = record(**writer, 300);
+    (*writer)->attach("scenario.json", "application/json", "{}");
+    QVERIFY((*writer)->finish());
+  }
+
+  void wide() {
+    const auto lines = textOf(session(), ExportFormat::CsvWide);
+    QCOMPARE(lines[0], QByteArray("time,B1.DECISION_ACTION_A,B1.VISION_WORKING,B1.VISION_BALL_DIST,B1.TRUTH_X,"
+                                  "B1.TRUTH_YAW,B2.DECISION_ACTION_A,B2.VISION_WORKING,B2.VISION_BALL_DIST,"
+                                  "B2.TRUTH_X,B2.TRUTH_YAW,match.BALL_X,match.ball x"));
+    QCOMPARE(lines.size(), 301);
+    for (int tick = 0; tick < 300; ++tick) {
+      const auto cells = lines[tick + 1].split(',');
+      QCOMPARE(cells.size(), 13);
+      QVERIFY(same(cells[0], tick / 60.0));
+      for (int i = 0; i < 5; ++i) {
+        const auto column = static_cast<std::size_t>(i);
+        if (column == 2) {
+          float shortest = 0.0F;
+          std::from_chars(cells[3].begin(), cells[3].end(), shortest);
+          const float expected = std::bit_cast<float>(rowOf(0, tick).words[2]);
+          QVERIFY(std::isnan(expected) ? std::isnan(shortest) : shortest == expected);
+          continue;
+        }
+        QVERIFY(same(cells[1 + i], value(rowOf(0, tick), column)));
+        QVERIFY(same(cells[6 + i], value(rowOf(1, tick), column)));
+      }
+      QVERIFY(same(cells[12], -0.0));
+    }
+  }
+
+  void wideWithGaps() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    (*writer)->addGroup(robotGroup("B1", 1));
+    (*writer)->addGroup(robotGroup("B2", 2));
+    const GroupId match = (*writer)->addGroup(matchGroup());
+    append(**writer, rowOf(0, 1));
+    append(**writer, rowOf(1, 2));
+    (*writer)->append(match, {2 / 60.0, {}, std::vector<double>{5.0, 6.0}});
+    (*writer)->append(match, {2 / 60.0, {}, std::vector<double>{7.0, 8.0}});  // twice at one time
+    QVERIFY((*writer)->finish());
+    ExportSelection selection;
+    selection.variables = {"VISION_W*", "BALL_X"};
+    const auto lines = textOf(*SessionReader::open(path), ExportFormat::CsvWide, selection);
+    QCOMPARE(lines, (QList<QByteArray>{"time,B1.VISION_WORKING,B2.VISION_WORKING,match.BALL_X",
+                                       "0.016666666666666666,1,,", "0.03333333333333333,,0,5",
+                                       "0.03333333333333333,,,7"}));
+  }
+
+  void longForm() {
+    ExportSelection selection;
+    selection.robots = {"B2"};
+    selection.variables = {"*_X", "DECISION*"};
+    selection.range = {1.0, 2.0};
+    const auto lines = textOf(session(), ExportFormat::CsvLong, selection);
+    QCOMPARE(lines.size(), 1 + 61 * 2);
+    QCOMPARE(lines[0], QByteArray("time,robot,variable,value"));
+    QCOMPARE(lines[1], QByteArray("1,B2,DECISION_ACTION_A,-60"));
+    QCOMPARE(lines[2], QByteArray("1,B2,TRUTH_X,21"));
+  }
+
+  void jsonLines() {
+    const auto lines = textOf(session(), ExportFormat::JsonLines);
+    int rows = 0, events = 0;
+    for (const QByteArray& line : lines) {
+      const QJsonObject object = QJsonDocument::fromJson(line).object();
+      QVERIFY2(object.contains("time"), line.constData());
+      if (object.contains("robot")) {
+        const Row& row = m_rows[static_cast<std::size_t>(rows++)];
+        QCOMPARE(object["time"].toDouble(), row.time);
+        if (row.group == 2) continue;
+        QCOMPARE(object["values"]["TRUTH_X"].toDouble(), row.values[0]);
+        QCOMPARE(object["values"]["TRUTH_YAW"].isNull(), std::isinf(row.values[1]));
+      } else {
+        QCOMPARE(object["stream"].toString(), QStringLiteral("events"));
+        QCOMPARE(object["message"]["kind"].toString(), QStringLiteral("kick"));
+        ++events;
+      }
+    }
+    QCOMPARE(rows, 900);
+    QCOMPARE(events, 5);
+  }
+
+  void clip() {
+    ExportSelection selection;
+    selection.robots = {"B1", "match"};
+    selection.variables = {"TRUTH_YAW", "VISION_BALL_DIST", "ball x"};
+    selection.range = {1.0, 3.0};
+    const std::string path = newPath();
+    const auto report = exportFile(session(), ExportFormat::Mcap, selection, path);
+    QVERIFY2(report, report ? "" : report.error().text().c_str());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader->complete() && reader->notes().empty());
+    QVERIFY(reader->info() == sessionInfo());
+    QCOMPARE(reader->groups().size(), 2U);
+    QCOMPARE(reader->groups()[0].info.columns.size(), 2U);
+    QVERIFY(reader->groups()[0].info.columns[0] == robotGroup("B1", 1).columns[2]);
+    QCOMPARE(reader->events().size(), 2U);
+    QVERIFY(reader->attachment("scenario.json"));
+    const auto rows = rowsOf(*reader, everything);
+    QCOMPARE(rows.size(), 2 * 121U);
+    for (const Row& row : rows) {
+      const Row whole = rowOf(row.group == 0 ? 0 : 2, static_cast<int>(std::lround(row.time * 60)));
+      QCOMPARE(row.time, whole.time);
+      if (row.group == 0) {
+        QCOMPARE(row.words.at(0), whole.words[2]);
+        QCOMPARE(row.values.at(0), whole.values[1]);
+      }
+    }
+  }
+
+  void whatCannotBe() {
+    ExportSelection selection;
+    selection.robots = {"R9"};
+    const auto robot = checkSelection(session(), selection);
+    QVERIFY(!robot && robot.error().message.find("B1, B2, match") != std::string::npos);
+    selection.robots.clear();
+    selection.variables = {"NO_*"};
+    QVERIFY(checkSelection(session(), selection).error().code == ErrorCode::NotFound);
+    QVERIFY(!exportFormat("xls"));
+
+    const std::string path = newPath();
+    std::ofstream(path) << "precious";
+    QVERIFY(exportFile(session(), ExportFormat::CsvWide, {}, path).error().code == ErrorCode::Conflict);
+    QCOMPARE(bytesOf(path), std::string("precious"));
+    for (const ExportFormat format : {ExportFormat::CsvLong, ExportFormat::Mcap}) {
+      const std::string stopped = newPath();
+      QVERIFY(!exportFile(session(), format, {}, stopped, [](double part) { return part < 0.5; }));
+      QVERIFY(!std::filesystem::exists(stopped));
+    }
+    const auto full = exportFile(session(), ExportFormat::CsvWide, {}, "/dev/full");
+    QVERIFY(!full);
+    const auto sink = exportText(session(), ExportFormat::CsvLong, {}, [](std::string_view) { return false; });
+    QVERIFY(!sink);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestSessionExport)
+#include "tst_session_export.moc"

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of events, the axis, the marks and the moving position: without a window.
+#include <QAbstractItemModelTester>
+#include <QtTest>
+#include <cmath>
+
+#include <timeline/event_list.h>
+#include <timeline/event_marks.h>
+#include <timeline/playback.h>
+#include <timeline/time_axis.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+TimelineEvent at(double time, EventType type = EventType::Kick) { return {time, type, {}, {}}; }
+
+std::vector<double> timesOf(const EventList& list) {
+  std::vector<double> times;
+  for (const TimelineEvent& e : list.events()) times.push_back(e.time);
+  return times;
+}
+
+}  // namespace
+
+class TestEventList : public QObject {
+  Q_OBJECT
+ private slots:
+  void eventsStandInOrderOfTime() {
+    EventList list;
+    QAbstractItemModelTester tester(&list, QAbstractItemModelTester::FailureReportingMode::QtTest);
+    QCOMPARE(list.add(at(2)), 0);
+    QCOMPARE(list.add(at(1)), 0);
+    QCOMPARE(list.add(at(2, EventType::Fall)), 2);
+    QCOMPARE(list.add(at(std::nan(""))), -1);
+    list.add({at(1.5), at(0.5), at(3)});
+    QCOMPARE(timesOf(list), (std::vector{0.5, 1.0, 1.5, 2.0, 2.0, 3.0}));
+    QCOMPARE(list.event(4).type, EventType::Fall);
+    list.rewind(1.5);
+    QCOMPARE(timesOf(list), (std::vector{0.5, 1.0, 1.5}));
+    list.removeEvent(0);
+    list.clear();
+    QCOMPARE(list.rowCount(), 0);
+  }
+
+  void nextAndPreviousAreStrict() {
+    EventList list;
+    list.add({at(1), at(2), at(3)});
+    QCOMPARE(list.next(1.0).value(), 1);
+    QCOMPARE(list.next(0.0).value(), 0);
+    QVERIFY(!list.next(3.0));
+    QCOMPARE(list.previous(3.0).value(), 1);
+    QVERIFY(!list.previous(1.0));
+  }
+
+  void memoryIsBoundedAndBookmarksStay() {
+    EventList list(nullptr, 100);
+    QAbstractItemModelTester tester(&list, QAbstractItemModelTester::FailureReportingMode::QtTest);
+    list.add({0.0, EventType::Bookmark, {}, QStringLiteral("mine")});
+    for (int i = 1; i <= 250; ++i) list.add(at(i));
+    QCOMPARE(list.rowCount(), 100);
+    QCOMPARE(list.dropped(), std::size_t(151));
+    QCOMPARE(list.event(0).text, QStringLiteral("mine"));
+    QCOMPARE(list.event(99).time, 250.0);
+    std::vector<TimelineEvent> many;
+    for (int i = 300; i < 600; ++i) many.push_back(at(i));
+    list.add(std::move(many));
+    QCOMPARE(list.rowCount(), 100);
+    QCOMPARE(list.event(0).text, QStringLiteral("mine"));
+    // Nothing but bookmarks: the oldest go all the same.
+    EventList notes(nullptr, 3);
+    for (int i = 0; i < 5; ++i) notes.add({double(i), EventType::Bookmark, {}, {}});
+    QCOMPARE(timesOf(notes), (std::vector{2.0, 3.0, 4.0}));
+  }
+
+  void onlyBookmarksHaveANoteOfOnesOwn() {
+    EventList list;
+    QAbstractItemModelTester tester(&list, QAbstractItemModelTester::FailureReportingMode::QtTest);
+    list.add({1.0, EventType::Bookmark, {}, {}});
+    list.add(at(2));
+    QSignalSpy changes(&list, &QAbstractItemModel::dataChanged);
+    list.setNote(0, QStringLiteral("  a good\n pass "));
+    QCOMPARE(list.event(0).text, QStringLiteral("a good pass"));
+    QCOMPARE(changes.size(), 1);
+    list.setNote(1, QStringLiteral("no"));
+    QVERIFY(list.event(1).text.isEmpty());
+    list.setNote(0, QString(1000, QLatin1Char('x')));
+    QCOMPARE(list.event(0).text.size(), qsizetype(EventList::maxNote));
+    QVERIFY(list.flags(list.index(0, EventList::Note)) & Qt::ItemIsEditable);
+    QVERIFY(!(list.flags(list.index(1, EventList::Note)) & Qt::ItemIsEditable));
+  }
+
+  void everyKindReadsAndHasItsName() {
+    QSet<QString> names;
+    for (int i = 0; i < eventTypeCount; ++i) {
+      const auto type = static_cast<EventType>(i);
+      QVERIFY(!sentenceOf(at(1, type)).isEmpty());
+      names.insert(QLatin1String(info(type).name));
+      QCOMPARE(eventTypeNamed(QLatin1String(info(type).name)), type);
+    }
+    QCOMPARE(names.size(), qsizetype(eventTypeCount));
+    QCOMPARE(eventTypeNamed(QStringLiteral("of tomorrow")), EventType::Warning);
+    QCOMPARE(sentenceOf({1, EventType::Goal, QStringLiteral("BLUE"), {}}), QStringLiteral("goal for BLUE"));
+  }
+
+  void momentsAreWritten_data() {
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<int>("decimals");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("zero") << 0.0 << 0 << "00:00";
+    QTest::newRow("cut off") << 59.999 << 0 << "00:59";
+    QTest::newRow("tenths") << 0.3 << 3 << "00:00.300";
+    QTest::newRow("hours") << 3723.5 << 1 << "1:02:03.5";
+    QTest::newRow("before the beginning") << -5.25 << 2 << QString(QChar(0x2212)) + "00:05.25";
+    QTest::newRow("not a time") << double(NAN) << 1 << QString(QChar(0x2013));
+  }
+  void momentsAreWritten() {
+    QFETCH(double, seconds);
+    QFETCH(int, decimals);
+    QTEST(momentText(seconds, decimals), "text");
+  }
+
+  void aSignKeepsItsWidth() {
+    QCOMPARE(longMomentText(192.4), QStringLiteral("00:03:12"));
+    QCOMPARE(longMomentText(3792.0), QStringLiteral("01:03:12"));
+    QCOMPARE(longMomentText(36000.0), QStringLiteral("10:00:00"));
+  }
+
+  void ticksAreRoundAndFarEnoughApart_data() {
+    QTest::addColumn<double>("begin");
+    QTest::addColumn<double>("end");
+    for (const double span : {0.05, 0.7, 3.0, 17.0, 330.0, 7200.0, 400000.0}) {
+      QTest::addRow("%g s", span) << 12.3 << 12.3 + span;
+    }
+  }
+  void ticksAreRoundAndFarEnoughApart() {
+    QFETCH(double, begin);
+    QFETCH(double, end);
+    const TimeAxis axis{{begin, end}, 10, 1000};
+    const auto ticks = axisTicks(axis, 60);
+    QVERIFY(ticks.size() >= 2);
+    QVERIFY(ticks.size() <= 17);
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+      QVERIFY(ticks[i].time >= begin - 1e-9 && ticks[i].time <= end + 1e-6 * (end - begin));
+      if (i > 0) {
+        QVERIFY(axis.pixel(ticks[i].time) - axis.pixel(ticks[i - 1].time) >= 59.99);
+        QVERIFY(ticks[i].label != ticks[i - 1].label);
+      }
+    }
+  }
+
+  void timesOfDayAreRoundOnTheClock() {
+    const QDateTime start(QDate(2026, 7, 1), QTime(14, 11, 37));
+    const auto ticks = axisTicks({{0, 780}, 0, 1300}, 60, start);
+    QCOMPARE(ticks.front().label, QStringLiteral("14:12"));
+    QCOMPARE(ticks.front().time, 23.0);
+  }
+
+  void pixelsAndTimesAreTheSame() {
+    const TimeAxis axis{{5, 25}, 12, 400};
+    QCOMPARE(axis.pixel(5), 12.0);
+    QCOMPARE(axis.time(axis.pixel(13.25)), 13.25);
+  }
+
+  void marksThatWouldOverlapBecomeTheMostImportant() {
+    EventList list;
+    for (int i = 0; i < 1000; ++i) list.add(at(i * 0.1));
+    list.add({50.05, EventType::Goal, QStringLiteral("RED"), {}});
+    const TimeAxis axis{{0, 100}, 0, 500};
+    const QFontMetrics font{QFont()};
+    const auto marks = layOutMarks(list.events(), axis, {10, 8}, font);
+    int events = 0;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      if (i > 0) QVERIFY(marks[i].x - marks[i - 1].x >= 10);
+      QVERIFY(marks[i].first <= marks[i].row && marks[i].row <= marks[i].last);
+      events += marks[i].merged;
+    }
+    QCOMPARE(events, 1001);
+    QCOMPARE(std::count_if(marks.begin(), marks.end(),
+                           [&list](const EventMark& mark) {
+                             return list.event(mark.row).type == EventType::Goal;
+                           }),
+             std::ptrdiff_t(1));
+  }
+
+  void labelsNeedRoom() {
+    EventList list;
+    list.add({10, EventType::Referee, {}, QStringLiteral("PLAYING")});
+    list.add({10.5, EventType::Referee, {}, QStringLiteral("SET")});
+    const QFontMetrics font{QFont()};
+    const auto narrow = layOutMarks(list.events(), {{0, 20}, 0, 800}, {10, 8}, font);
+    QCOMPARE(narrow.size(), std::size_t(2));
+    QVERIFY(narrow[0].label.isEmpty());
+    QCOMPARE(narrow[1].label, QStringLiteral("SET"));
+    const auto wide = layOutMarks(list.events(), {{9, 11}, 0, 800}, {10, 8}, font);
+    QCOMPARE(wide[0].label, QStringLiteral("PLAYING"));
+  }
+
+  void manyMarksAreLaidOutFast() {
+    EventList list;
+    std::vector<TimelineEvent> many;
+    for (int i = 0; i < 20'000; ++i) many.push_back(at(i * 0.37, EventType(i % eventTypeCount)));
+    list.add(std::move(many));
+    QElapsedTimer clock;
+    clock.start();
+    const auto marks = layOutMarks(list.events(), {{0, 7400}, 0, 1900}, {10, 8}, QFontMetrics{QFont()});
+    QVERIFY(marks.size() <= 191);
+    QVERIFY2(clock.elapsed() < 100, qPrintable(QString::number(clock.elapsed())));
+  }
+
+  void playbackMovesAtItsSpeed() {
+    Playback play;
+    QVERIFY(!play.isAvailable());
+    play.setPaused(false);
+    QVERIFY(play.isPaused());
+    play.setRange({{10, 20}});
+    QCOMPARE(play.position(), 10.0);
+    play.setSpeed(4);
+    play.setPaused(false);
+    play.advance(0.5);
+    QCOMPARE(play.position(), 12.0);
+    QSignalSpy ends(&play, &Playback::reachedEnd);
+    play.advance(100);
+    QCOMPARE(play.position(), 20.0);
+    QVERIFY(play.isPaused());
+    QCOMPARE(ends.size(), 1);
+    // From the very end it begins anew.
+    play.setPaused(false);
+    QCOMPARE(play.position(), 10.0);
+    play.setSpeed(1000);
+    QCOMPARE(play.speed(), 16.0);
+    play.setSpeed(0.0001);
+    QCOMPARE(play.speed(), 0.1);
+    play.setSpeed(double(NAN));
+    QCOMPARE(play.speed(), 0.1);
+  }
+
+  void playbackLoops() {
+    Playback play;
+    play.setRange({{0, 60}});
+    play.setLoop({{10, 12}});
+    play.seek(11);
+    play.setPaused(false);
+    play.advance(1.25);
+    QCOMPARE(play.position(), 10.25);
+    play.advance(0.5);
+    QCOMPARE(play.position(), 10.75);
+    play.setLoop({{5, 5}});
+    QVERIFY(!play.loop());
+  }
+
+  void playbackStepsFromTickToTick() {
+    Playback play;
+    play.setRange({{0, 10}});
+    play.setTickRate(60);
+    play.seek(1.003);
+    play.setPaused(false);
+    play.step(1);
+    QVERIFY(play.isPaused());
+    QCOMPARE(play.position(), 61.0 / 60);
+    play.step(-2);
+    QCOMPARE(play.position(), 59.0 / 60);
+    play.seek(0);
+    play.step(-1);
+    QCOMPARE(play.position(), 0.0);
+  }
+
+  void whatHasLeftMemoryCannotBeShown() {
+    Playback play;
+    play.setRange({{0, 10}});
+    play.seek(2);
+    QSignalSpy moves(&play, &Playback::positionChanged);
+    play.setRange({{5, 15}});
+    QCOMPARE(play.position(), 5.0);
+    QCOMPARE(moves.size(), 1);
+    play.setRange({});
+    QVERIFY(!play.isAvailable());
+  }
+};
+
+QTEST_MAIN(TestEventList)
+#include "tst_event_list.moc"

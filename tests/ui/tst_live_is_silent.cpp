@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rule of the league: Live sends nothing to robots. Every function of the C library that sends is
+// replaced by one that counts, in this whole program, Qt included; the studio is then used in Live.
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <atomic>
+#include <dlfcn.h>
+#include <mutex>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+
+#include <ui/live_controller.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+
+#include "live_rig.h"
+
+namespace {
+
+struct Sent {
+  std::string bytes;
+  sockaddr_in to{};
+};
+std::mutex sentMutex;
+std::vector<Sent> sentPackets;
+
+bool isInternet(int descriptor) {
+  int domain = 0;
+  socklen_t length = sizeof domain;
+  return getsockopt(descriptor, SOL_SOCKET, SO_DOMAIN, &domain, &length) == 0 &&
+         (domain == AF_INET || domain == AF_INET6);
+}
+
+void note(int descriptor, const void* bytes, std::size_t length, const sockaddr* to) {
+  if (!isInternet(descriptor)) return;
+  Sent sent{std::string(static_cast<const char*>(bytes), length), {}};
+  if (to != nullptr) sent.to = *reinterpret_cast<const sockaddr_in*>(to);
+  const std::lock_guard lock(sentMutex);
+  sentPackets.push_back(std::move(sent));
+}
+
+std::vector<Sent> takeSent() {
+  const std::lock_guard lock(sentMutex);
+  return std::exchange(sentPackets, {});
+}
+
+}  // namespace
+
+// System calls are made directly: what these call could be replaced as well.
+extern "C" {
+ssize_t sendto(int fd, const void* data, size_t size, int flags, const sockaddr* to,
+               socklen_t length) {
+  note(fd, data, size, to);
+  return syscall(SYS_sendto, fd, data, size, flags, to, length);
+}
+ssize_t send(int fd, const void* data, size_t size, int flags) {
+  note(fd, data, size, nullptr);
+  return syscall(SYS_sendto, fd, data, size, flags, nullptr, 0);
+}
+ssize_t sendmsg(int fd, const msghdr* message, int flags) {
+  note(fd, "", 0, static_cast<const sockaddr*>(message->msg_name));
+  return syscall(SYS_sendmsg, fd, message, flags);
+}
+int sendmmsg(int fd, mmsghdr* messages, unsigned int count, int flags) {
+  note(fd, "", 0, nullptr);
+  return static_cast<int>(syscall(SYS_sendmmsg, fd, messages, count, flags));
+}
+ssize_t write(int fd, const void* data, size_t size) {
+  note(fd, data, size, nullptr);
+  return syscall(SYS_write, fd, data, size);
+}
+ssize_t writev(int fd, const iovec* parts, int count) {
+  note(fd, "", 0, nullptr);
+  return syscall(SYS_writev, fd, parts, count);
+}
+}
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestLiveIsSilent : public QObject {
+  Q_OBJECT
+
+  struct Studio {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    MatchController controller{link::MatchOptions()};
+    MainWindow window{&controller, &settings};
+    link::LiveOptions options = live_rig::options();
+    Studio() {
+      window.resize(1280, 800);
+      window.show();
+      window.live()->setOptions(options);
+      window.showSource(SourceKind::Live);
+    }
+  };
+  /// Sends past the counting functions.
+  static bool tell(int port, const std::string& text) {
+    const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const long sent = syscall(SYS_sendto, fd, text.data(), text.size(), 0, &to, sizeof to);
+    close(fd);
+    return sent == static_cast<long>(text.size());
+  }
+
+ private slots:
+  void theCountersSeeWhatIsSent() {
+    takeSent();
+    const TestSocket socket;
+    QVERIFY(socket.send(socket.port(), "x"));
+    QCOMPARE(takeSent().size(), std::size_t(1));
+  }
+
+  void liveSendsNothing() {
+    takeSent();
+    {
+      Studio s;
+      LiveController* live = s.window.live();
+      QTRY_VERIFY(live->frame() && !live->details().network.ports.empty());
+      for (int n = 1; n <= 6; ++n) {
+        QVERIFY(tell(s.options.portBase + n, telemetry::encode(live_rig::message(n))));
+        QVERIFY(tell(s.options.portBase + n, "nonsense"));
+      }
+      for (const char* file : {"v12hl688_PLAYING_1-0.bin", "v18spl118_READY.bin",
+                               "v20hsl158_PLAYING_RGTD_truedata.bin"}) {
+        const std::string bytes = live_rig::packet(QLatin1String(file));
+        QVERIFY(!bytes.empty() && tell(s.options.refereePort, bytes));
+      }
+      QTRY_COMPARE(live->frame()->health.size(), std::size_t(6));
+      QTRY_VERIFY(live->frame()->referee);
+      live->setOurTeam(live->frame()->referee->teams[0].number);
+      for (QAction* action : s.window.findChildren<QAction*>()) {
+        if (action->text().contains(QStringLiteral("Overlay"))) action->trigger();
+      }
+      s.window.grab();
+      live->clear();
+      s.window.showSource(SourceKind::Simulate);
+      s.window.showSource(SourceKind::Live);
+      QTRY_VERIFY(live->frame());
+    }
+    const std::vector<Sent> sent = takeSent();
+    QVERIFY2(sent.empty(), sent.empty() ? "" : sent.front().bytes.c_str());
+  }
+
+  void monitorModeSendsOnePacketToTheReferee() {
+    takeSent();
+    TestSocket referee;
+    Studio s;
+    s.options.monitor = telemetry::Address{INADDR_LOOPBACK};
+    s.options.monitorPort = referee.port();
+    s.window.live()->setOptions(s.options);
+    QTRY_VERIFY(referee.heard());
+    s.window.live()->setMonitor({});
+    s.options.monitor.reset();
+    QTRY_VERIFY(s.window.live()->details().network.ports.size() == 17);
+    const std::vector<Sent> sent = takeSent();
+    QVERIFY(!sent.empty());
+    for (const Sent& packet : sent) {
+      QCOMPARE(packet.bytes, std::string("RGTr\0", 5));
+      QCOMPARE(packet.to.sin_addr.s_addr, htonl(INADDR_LOOPBACK));
+      QCOMPARE(ntohs(packet.to.sin_port), referee.port());
+    }
+    // Off is off.
+    QTest::qWait(1200);
+    QVERIFY(takeSent().empty());
+  }
+};
+
+QTEST_MAIN(TestLiveIsSilent)
+#include "tst_live_is_silent.moc"

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The settings of Live, the profile editor and the table of bad messages, by their widgets.
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QAbstractItemModelTester>
+#include <QtTest>
+
+#include <live/bad_messages_model.h>
+#include <live/live_settings_dialog.h>
+#include <live/profile_editor.h>
+#include <ui/live_controller.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestLiveSettings : public QObject {
+  Q_OBJECT
+
+  struct Dialog {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    LiveController live;
+    LiveSettingsDialog* dialog = new LiveSettingsDialog(&live, &settings, nullptr);
+    Dialog() { dialog->show(); }
+    ~Dialog() { delete dialog; }
+    template <class T>
+    T* box(const char* name) { return dialog->findChild<T*>(QLatin1String(name)); }
+    QString problem() {
+      auto* label = box<QLabel>("liveProblem");
+      return label->isVisible() ? label->text() : QString();
+    }
+  };
+
+ private slots:
+  void whatIsSetIsUsedAndKept() {
+    Dialog d;
+    d.box<QSpinBox>("portBase")->setValue(5000);
+    d.box<QSpinBox>("robots")->setValue(6);
+    d.box<QSpinBox>("ourTeam")->setValue(12);
+    d.box<QDoubleSpinBox>("timeout")->setValue(4.5);
+    d.box<QSpinBox>("cells")->setValue(3);
+    d.box<QLineEdit>("senders")->setText(QStringLiteral("192.168.0.0/24, 10.0.0.7"));
+    QVERIFY(d.dialog->apply());
+    QCOMPARE(d.live.options().portBase, 5000);
+    QCOMPARE(d.live.options().ourTeam, 12);
+    const LiveSettings again = loadLiveSettings(d.settings);
+    QCOMPARE(again.options.portBase, 5000);
+    QCOMPARE(again.options.robots, 6);
+    QCOMPARE(again.options.ourTeam, 12);
+    QVERIFY(again.options.team.timeout == std::chrono::milliseconds(4500));
+    QCOMPARE(again.options.team.battery.cells, 3);
+    QVERIFY(again.options.team.senders.allows({0xc0a80005}));
+    QVERIFY(!again.options.team.senders.allows({0x08080808}));
+    QVERIFY(again.problem.isEmpty());
+  }
+
+  void mistakesAreSaidInTheDialog_data() {
+    QTest::addColumn<QString>("box");
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("said");
+    QTest::newRow("address") << "bind" << "localhost" << "Listen at";
+    QTest::newRow("sender") << "senders" << "1.2.3.4/77" << "Only from";
+    QTest::newRow("ports") << "portBase" << "65530" << "port";
+    QTest::newRow("collision") << "refereePort" << "1245" << "robots'";
+  }
+  void mistakesAreSaidInTheDialog() {
+    QFETCH(QString, box);
+    QFETCH(QString, text);
+    QFETCH(QString, said);
+    Dialog d;
+    auto* widget = d.dialog->findChild<QWidget*>(box);
+    if (auto* edit = qobject_cast<QLineEdit*>(widget)) edit->setText(text);
+    else qobject_cast<QSpinBox*>(widget)->setValue(text.toInt());
+    QVERIFY(!d.dialog->apply());
+    QVERIFY2(d.problem().contains(said), qPrintable(d.problem()));
+    QCOMPARE(d.live.options().portBase, 1240);
+    QVERIFY(d.settings.allKeys().isEmpty());
+  }
+
+  void monitorModeNeedsAnAddressAndIsOffAtFirst() {
+    Dialog d;
+    QVERIFY(!d.box<QCheckBox>("monitor")->isChecked());
+    d.box<QCheckBox>("monitor")->setChecked(true);
+    QVERIFY(!d.dialog->apply());
+    QVERIFY(d.problem().startsWith(QStringLiteral("Referee at")));
+    d.box<QLineEdit>("monitorAddress")->setText(QStringLiteral("127.0.0.1"));
+    QVERIFY(d.dialog->apply());
+    QVERIFY(d.live.options().monitor);
+    QVERIFY(!loadLiveSettings(d.settings).options.monitor);
+  }
+
+  void garbageInTheSettingsGivesDefaults() {
+    QTemporaryDir folder;
+    QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
+    settings.setValue(QStringLiteral("live/portBase"), QStringLiteral("many"));
+    settings.setValue(QStringLiteral("live/robots"), 100000);
+    settings.setValue(QStringLiteral("live/bind"), QStringLiteral("nowhere"));
+    settings.setValue(QStringLiteral("live/timeout"), QStringLiteral("nan"));
+    settings.setValue(QStringLiteral("live/profileFile"), QStringLiteral("/does/not/exist.json"));
+    const LiveSettings live = loadLiveSettings(settings);
+    QVERIFY(link::validate(live.options));
+    QVERIFY(!live.problem.isEmpty());
+    QCOMPARE(live.options.portBase, 1240);
+  }
+
+  void theEditorAddsMovesRemovesAndSaves() {
+    QTemporaryDir folder;
+    ProfileEditor editor(telemetry::publishedProfile(), {}, nullptr);
+    editor.setAttribute(Qt::WA_DeleteOnClose, false);
+    editor.show();
+    auto* table = editor.findChild<QTableWidget*>();
+    auto* problem = editor.findChild<QLabel*>(QStringLiteral("profileProblem"));
+    const auto click = [&editor](const char* name) {
+      QTest::mouseClick(editor.findChild<QToolButton*>(QLatin1String(name)), Qt::LeftButton);
+    };
+    QCOMPARE(editor.profile(), telemetry::publishedProfile());
+    table->setCurrentCell(14, 0);
+    click("addField");
+    QCOMPARE(table->rowCount(), 16);
+    table->item(15, 0)->setText(QStringLiteral("TEMPERATURE"));
+    QVERIFY(editor.saveTo(folder.filePath(QStringLiteral("p.json"))));
+    const auto loaded = telemetry::loadProfile(folder.filePath(QStringLiteral("p.json")).toStdString());
+    QVERIFY(loaded);
+    QCOMPARE(loaded->fields.back().name, std::string("TEMPERATURE"));
+    QCOMPARE(*loaded, editor.profile());
+    click("fieldUp");
+    QCOMPARE(editor.profile().fields[14].name, std::string("TEMPERATURE"));
+    click("fieldDown");
+    QCOMPARE(*loaded, editor.profile());
+    // Two fields of one name: said under the table, and not saved.
+    table->item(15, 0)->setText(QStringLiteral("X"));
+    QVERIFY(!problem->text().isEmpty());
+    QVERIFY(!editor.findChild<QPushButton*>(QStringLiteral("saveProfile"))->isEnabled());
+    QVERIFY(!editor.saveTo(folder.filePath(QStringLiteral("q.json"))));
+    QVERIFY(!QFile::exists(folder.filePath(QStringLiteral("q.json"))));
+    table->selectRow(15);
+    click("removeField");
+    QCOMPARE(editor.profile(), telemetry::publishedProfile());
+    QVERIFY(!editor.saveTo(QStringLiteral("/nonexistent/folder/p.json")));
+    QVERIFY(problem->text().contains(QStringLiteral("cannot be written")));
+  }
+
+  void aSavedProfileIsUsedByTheDialog() {
+    Dialog d;
+    QTest::mouseClick(d.box<QPushButton>("editProfile"), Qt::LeftButton);
+    auto* editor = d.dialog->findChild<ProfileEditor*>();
+    QVERIFY(editor);
+    editor->findChild<QTableWidget*>()->item(14, 0)->setText(QStringLiteral("BATTERY"));
+    const QString path = d.folder.filePath(QStringLiteral("team.json"));
+    QVERIFY(editor->saveTo(path));
+    QVERIFY(d.dialog->apply());
+    QCOMPARE(d.live.options().profile.fields[14].name, std::string("BATTERY"));
+    QCOMPARE(loadLiveSettings(d.settings).profileFile, path);
+  }
+
+  void badMessagesAreListedByKindRobotAndSender() {
+    telemetry::TeamMonitor monitor;
+    const telemetry::WallTime now{std::chrono::seconds(1'700'000'000)};
+    const telemetry::Sender sender{{0x7f000001}, 4000};
+    monitor.take({now, sender, 1241, false,
+                  "1 258 448 -8 56.3 184.6 41.0 1 1 1 1 1 8 0.05 189 OUT"});
+    monitor.take({now, sender, 1241, false, "1 2 3 OUT"});
+    link::LiveDetails details;
+    details.team = monitor.status(now);
+    details.unknownReferee = 2;
+    details.unknownRefereeReason = "not a referee's packet";
+    BadMessagesModel model;
+    const QAbstractItemModelTester tester(&model);
+    model.update({});
+    QCOMPARE(model.rowCount(), 0);
+    model.update(details);
+    QCOMPARE(model.rowCount(), 4);   // everybody, robot 1, its sender, the referee's port
+    QCOMPARE(model.index(0, BadMessagesModel::Sample).data().toString(), QStringLiteral("1 2 3 OUT"));
+    QVERIFY(model.index(1, BadMessagesModel::Who).data().toString().startsWith(
+        QStringLiteral("robot 1")));
+    details.unknownReferee = 3;
+    QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
+    model.update(details);
+    QCOMPARE(changed.size(), 1);
+    QCOMPARE(model.index(3, BadMessagesModel::Count).data().toString(), QStringLiteral("3"));
+  }
+};
+
+QTEST_MAIN(TestLiveSettings)
+#include "tst_live_settings.moc"

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "match_rows.h"
+
+#include <algorithm>
+
+namespace pitchboard::ui {
+
+class MatchRows::Beside : public telemetry::RowSink {
+ public:
+  explicit Beside(std::shared_ptr<MatchRows> rows) : m_rows(std::move(rows)) {}
+  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
+    return m_rows->addGroup(info);
+  }
+  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
+    m_rows->m_store.append(group, {m_rows->timeBeside(), row.words, row.values});
+  }
+
+ private:
+  std::shared_ptr<MatchRows> m_rows;
+};
+
+std::shared_ptr<telemetry::RowSink> MatchRows::beside(std::shared_ptr<MatchRows> rows) {
+  return std::make_shared<Beside>(std::move(rows));
+}
+
+telemetry::GroupId MatchRows::addGroup(const telemetry::GroupInfo& info) {
+  return m_store.addGroup(info);
+}
+
+void MatchRows::append(telemetry::GroupId group, const telemetry::RowView& row) {
+  // Only this thread changes the time: it may look without the lock.
+  if (row.time != m_time || !m_matchBegan) {
+    const std::lock_guard lock(m_mutex);
+    m_step = m_matchBegan ? std::max(0.0, row.time - m_time) : 0.0;
+    m_time = row.time;
+    m_arrived = Clock::now();
+    m_matchBegan = true;
+  }
+  m_store.append(group, row);
+}
+
+// Between two ticks time goes on as it does on the wall, but never past the next tick.
+double MatchRows::timeBeside() {
+  const std::lock_guard lock(m_mutex);
+  const double since = std::chrono::duration<double>(Clock::now() - m_arrived).count();
+  return m_matchBegan ? m_time + std::min(since, m_step) : 0.0;
+}
+
+}  // namespace pitchboard::ui
