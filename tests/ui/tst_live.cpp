@@ -121,7 +121,7 @@ class TestLive : public QObject {
     QVERIFY(chooser->isVisible() && !team->isVisible());
     s.goLive();
     QVERIFY(!chooser->isVisible() && team->isVisible());
-    QCOMPARE(s.scoreboard()->state().state, QStringLiteral("NO REFEREE"));
+    QTRY_COMPARE(s.scoreboard()->state().state, QStringLiteral("NO REFEREE"));
     QTRY_VERIFY(s.label("noRobots").contains(QStringLiteral("Nothing heard yet")));
     QTRY_VERIFY(s.label("statusPace").contains(QStringLiteral("UDP 0/s, 0 lost, 0 bad")));
     s.window.showSource(SourceKind::Simulate);
