@@ -3,6 +3,7 @@
 // painted meanwhile, what it costs in memory (docs/PERFORMANCE.md). The senders are a process of their
 // own. Arguments: datagrams per second (50000), seconds (10).
 #include <QApplication>
+#include <QEventLoop>
 #include <QGraphicsView>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -116,9 +117,11 @@ int main(int argc, char** argv) {
   window.showSource(ui::SourceKind::Live);
   Paints paints;
   window.field()->findChild<QGraphicsView*>()->viewport()->installEventFilter(&paints);
-  const auto spin = [&application](std::chrono::milliseconds time) {
-    QTimer::singleShot(time, &application, &QCoreApplication::quit);
-    QApplication::exec();
+  // Not quit(): that would close the window.
+  const auto spin = [](std::chrono::milliseconds time) {
+    QEventLoop loop;
+    QTimer::singleShot(time, &loop, &QEventLoop::quit);
+    loop.exec();
   };
   spin(std::chrono::seconds(1));
   [[maybe_unused]] const auto told = write(go[1], "g", 1);

@@ -121,11 +121,11 @@ class TestLive : public QObject {
     QVERIFY(chooser->isVisible() && !team->isVisible());
     s.goLive();
     QVERIFY(!chooser->isVisible() && team->isVisible());
-    QCOMPARE(s.scoreboard()->state().state, QStringLiteral("NO REFEREE"));
+    QTRY_COMPARE(s.scoreboard()->state().state, QStringLiteral("NO REFEREE"));
     QTRY_VERIFY(s.label("noRobots").contains(QStringLiteral("Nothing heard yet")));
     QTRY_VERIFY(s.label("statusPace").contains(QStringLiteral("UDP 0/s, 0 lost, 0 bad")));
     s.window.showSource(SourceKind::Simulate);
-    QVERIFY(chooser->isVisible() && !team->isVisible());
+    QTRY_VERIFY(chooser->isVisible() && !team->isVisible());
     QVERIFY(s.live()->isListening());
   }
 
@@ -253,7 +253,6 @@ class TestLive : public QObject {
 
   void lowBatteryAndSilentProcess() {
     Studio s;
-    s.change([](link::LiveOptions& o) { o.team.battery.cells = 4; });
     s.goLive();
     const Robot robot(s.options, 1);
     telemetry::TextMessage m = live_rig::message(1);

@@ -129,12 +129,14 @@ void FieldCanvas::paintEmptyState(QPainter* painter) const {
     text = frame ? tr("Press A to add a robot where the cursor is, B to put the ball there.")
                  : tr("No match is open. Choose a scenario in the toolbar.");
   }
-  const QFont& font = fieldFont(scaled(this, 13), true);
+  const bool longer = text.contains(QLatin1Char('\n'));
+  const QFont& font = fieldFont(scaled(this, longer ? 12 : 13), !longer);
   painter->setFont(font);
   const QRectF area(viewport()->rect());
+  const double side = std::max(30.0, longer ? (area.width() - scaled(this, 460)) / 2 : 30.0);
   constexpr int wrapped = Qt::AlignCenter | Qt::TextWordWrap;
   QRectF box = QFontMetricsF(font)
-                   .boundingRect(area.adjusted(30, 0, -30, 0), wrapped, text)
+                   .boundingRect(area.adjusted(side, 0, -side, 0), wrapped, text)
                    .adjusted(-14, -8, 14, 8);
   box.moveCenter({area.center().x(), area.top() + area.height() * 0.36});
   painter->setPen(QPen(theme().innerLine, 1));

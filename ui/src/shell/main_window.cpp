@@ -49,6 +49,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_timeline(new Timeline(m_source, this)),
       m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   m_source->add(m_live);
+  m_timeline->watch(m_live);   // it goes on unseen
   m_undo->addStack(controller->undoStack());
   m_undo->setActiveStack(controller->undoStack());
   setWindowTitle(QStringLiteral("Pitchboard"));

@@ -186,6 +186,7 @@ void Scoreboard::paintEvent(QPaintEvent*) {
       painter.fillRect(box, colour);
       // White on white and black on black must be seen.
       painter.setPen(theme().secondaryText);
+      painter.setBrush(Qt::NoBrush);
       painter.drawRect(box.adjusted(0, 0, -1, -1));
       painter.setPen(theme().text);
     }
