@@ -96,6 +96,8 @@ class MatchController : public FrameSource {
   void moveBall(Point from, Point to);
   void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
   void removeRobots(const std::vector<RobotId>& ids);
+  /// These robots play for another team, each with the smallest shirt number that is free there.
+  void setTeam(const std::vector<RobotId>& ids, TeamColor team);
 
   // While a drag is going on the world follows, but only its end is one undoable command:
   /// Shows robots at their `to` pose without an entry on the undo stack.
@@ -159,6 +161,7 @@ class MatchController : public FrameSource {
   friend class RemoveRobotsCommand;
   friend class PlacementCommand;
   friend class BallCommand;
+  friend class TeamCommand;
 
   struct Opening;            ///< what the worker made
   void poll();
@@ -175,6 +178,7 @@ class MatchController : public FrameSource {
                    std::function<void()> onFailure = {});
   void insertRobot(const link::ScenarioRobot& robot);
   void eraseRobot(RobotId id);
+  void changeIdentities(const std::vector<sim::RobotIdentity>& identities);
   void placeRobots(const std::vector<RobotPlacement>& placements, bool back);
   void placeBall(Point position);
 

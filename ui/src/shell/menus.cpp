@@ -18,6 +18,8 @@
 #include "help_windows.h"
 #include "live/live_overlay.h"
 #include "live/live_settings_dialog.h"
+#include "plots/plot_menus.h"
+#include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "session/session_files.h"
@@ -45,6 +47,7 @@ void StudioMenus::make() {
   makeView();
   makeSimulation();
   makeTimeline();
+  makePlots();
   makeHelp();
 }
 
@@ -219,6 +222,12 @@ void StudioMenus::makeTimeline() {
         this_, QObject::tr("Folder for recordings"), recording->folder());
     if (!chosen.isEmpty()) recording->setFolder(chosen);
   });
+}
+
+void StudioMenus::makePlots() {
+  if (auto* plots = m_window.findChild<PlotsDock*>()) {
+    m_window.menuBar()->addMenu(makePlotsMenu(plots));
+  }
 }
 
 void StudioMenus::makeHelp() {
