@@ -21,6 +21,7 @@ void addListenCommand(CLI::App& parent, int& exitCode);
 void addDecodeCommand(CLI::App& parent, int& exitCode);
 void addInspectCommand(CLI::App& parent, int& exitCode);
 void addRepairCommand(CLI::App& parent, int& exitCode);
+void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
 
 /// Prints "error: ..." on stderr and returns 2.

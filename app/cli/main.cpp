@@ -23,13 +23,14 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION);
 
   int exitCode = 0;
-  constexpr std::array<AddCommand, 9> commands{
+  constexpr std::array<AddCommand, 10> commands{
       &addSimulateCommand,
       &addConformanceCommand,
       &addBlackboardCommands,
       &addCatalogCommands,
       &addListenCommand,
       &addDecodeCommand,
+      &addRecordCommand,
       &addInspectCommand,
       &addRepairCommand,
       &addExportCommand};

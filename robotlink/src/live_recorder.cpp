@@ -4,8 +4,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "session_sink.h"
-
 namespace pitchboard::link {
 namespace {
 
@@ -97,10 +95,10 @@ Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& pa
   return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero));
 }
 
-LiveRecorder::LiveRecorder(std::unique_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero)
+LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero)
     : m_writer(std::move(writer)),
       m_zero(zero),
-      m_rows(std::make_shared<SessionSink>(*m_writer), {zero, {}}) {}
+      m_rows(m_writer, {zero, {}}) {}
 
 LiveRecorder::~LiveRecorder() = default;
 

@@ -8,8 +8,6 @@
 #include <robotlink/session_checkpoint.h>
 #include <telemetry/action_words.h>
 
-#include "session_sink.h"
-
 namespace pitchboard::link {
 namespace {
 
@@ -35,6 +33,24 @@ telemetry::SessionInfo sessionInfo(const Scenario& scenario, const RecorderOptio
   info.created = std::chrono::system_clock::now();
   info.start = info.created;
   return info;
+}
+
+telemetry::SessionInfo sessionInfo(const SimulatedMatch& match, std::string_view program,
+                                   telemetry::WallTime now) {
+  const sim::WorldState& state = match.simulation().state();
+  RecorderOptions options;
+  options.program = program;
+  telemetry::SessionInfo info = sessionInfo(match.scenario(), options);
+  info.created = now;
+  info.start = now - std::chrono::duration_cast<telemetry::Duration>(
+                         std::chrono::duration<double>(timeOf(state)));
+  return info;
+}
+
+void attachMatch(telemetry::SessionWriter& writer, const Scenario& scenario,
+                 const VariableCatalog& catalog) {
+  writer.attach(scenarioAttachment, "application/json", scenarioToJson(scenario));
+  writer.attach(catalogAttachment, "application/json", catalog.toJson());
 }
 
 telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldState& state) {
@@ -76,15 +92,13 @@ Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& 
                                                              const RecorderOptions& options) {
   auto writer = telemetry::SessionWriter::create(path, sessionInfo(scenario, options), options.writer);
   if (!writer) return tl::unexpected(writer.error());
-  (*writer)->attach(scenarioAttachment, "application/json", scenarioToJson(scenario));
-  (*writer)->attach(catalogAttachment, "application/json", catalog.toJson());
-  return std::shared_ptr<MatchRecorder>(
-      new MatchRecorder(std::move(*writer), options.everyNth));
+  attachMatch(**writer, scenario, catalog);
+  return std::make_shared<MatchRecorder>(std::move(*writer), options.everyNth);
 }
 
-MatchRecorder::MatchRecorder(std::unique_ptr<telemetry::SessionWriter> writer, int everyNth)
+MatchRecorder::MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer, int everyNth)
     : m_writer(std::move(writer)),
-      m_sampler(std::make_shared<SessionSink>(*m_writer), {everyNth}) {}
+      m_sampler(m_writer, {everyNth}) {}
 
 MatchRecorder::~MatchRecorder() { (void)finish(); }
 

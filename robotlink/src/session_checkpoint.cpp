@@ -2,6 +2,8 @@
 #include <robotlink/session_checkpoint.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <telemetry/base64.h>
 
 namespace pitchboard::link {
 namespace {
@@ -12,9 +14,32 @@ constexpr double timeTolerance = 1e-6;  // s; file times are whole nanoseconds
 
 }  // namespace
 
+std::string checkpointToJson(const StateSegment& segment) {
+  return nlohmann::ordered_json{
+      {"time", static_cast<double>(segment.firstTick()) / segment.tickRate()},
+      {"tick", segment.firstTick()},
+      {"last_tick", segment.lastTick()},
+      {"segment", telemetry::toBase64(segment.encode())}}
+      .dump();
+}
+
+Result<StateSegment> checkpointFromJson(std::string_view json) {
+  const auto object = nlohmann::json::parse(json, nullptr, false);
+  if (object.is_object()) {
+    const auto found = object.find("segment");
+    if (found != object.end() && found->is_string()) {
+      const auto bytes = telemetry::fromBase64(found->get_ref<const std::string&>());
+      if (bytes) return StateSegment::decode(*bytes);
+    }
+  }
+  return failure(ErrorCode::ParseError, "a recorded piece of the match cannot be read",
+                 "/checkpoints");
+}
+
 void appendCheckpoint(telemetry::SessionWriter& session, const StateSegment& segment) {
-  session.appendCheckpoint(static_cast<double>(segment.firstTick()) / segment.tickRate(),
-                           segment.encode());
+  session.appendJson(telemetry::SessionStream::Checkpoints,
+                     static_cast<double>(segment.firstTick()) / segment.tickRate(),
+                     checkpointToJson(segment));
 }
 
 Result<SessionCheckpoint> checkpointAt(const telemetry::SessionReader& session, double seconds) {
@@ -38,11 +63,7 @@ Result<SessionCheckpoint> checkpointAt(const telemetry::SessionReader& session, 
                    "this session has no state of a simulated match at that time; only what was "
                    "recorded from a simulation can be entered again exactly");
   }
-  const auto bytes = telemetry::sessionCheckpoint(json);
-  if (!bytes) {
-    return failure(ErrorCode::ParseError, "the state of the match at that time is damaged");
-  }
-  auto segment = StateSegment::decode(*bytes);
+  auto segment = checkpointFromJson(json);
   if (!segment) return tl::unexpected(segment.error());
   return SessionCheckpoint{*time, std::move(*segment)};
 }

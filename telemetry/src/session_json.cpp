@@ -89,7 +89,7 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
     {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"state":{"type":"string","contentEncoding":"base64","description":"a moment of the match that can be entered again exactly"}},"required":["time","state"]})"},
+     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
 }};
 
 /// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all times.

@@ -79,7 +79,7 @@ std::vector<std::string> fieldNames(const GroupInfo& group) {
 }
 
 std::string rowTopic(const GroupInfo& group) {
-  return (group.attributes.contains("robot") ? "/robots/" : "/") + plainName(group.name) + "/row";
+  return (group.attributes.contains("robot") || group.attributes.contains("live") ? "/robots/" : "/") + plainName(group.name) + "/row";
 }
 
 std::string rowSchemaName(const GroupInfo& group) {

@@ -214,8 +214,9 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
   const std::lock_guard lock(impl.mutex);
   std::size_t sameTopic = 0;
   for (std::size_t i = 0; i < impl.groups.size(); ++i) {
-    if (impl.groups[i].info == info) return static_cast<GroupId>(i);
-    if (impl.groups[i].info.name == info.name) ++sameTopic;
+    if (impl.groups[i].info.name != info.name) continue;
+    if (impl.groups[i].info.columns == info.columns) return static_cast<GroupId>(i);
+    ++sameTopic;
   }
   Impl::Group group{info, session::RowLayout(info)};
   if (!impl.stop && !impl.error && impl.channels < mostChannels) {

@@ -49,9 +49,9 @@ class LiveRecorder : public LiveObserver {
   Result<void> finish() { return m_writer->finish(); }
 
  private:
-  LiveRecorder(std::unique_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero);
+  LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero);
 
-  std::unique_ptr<telemetry::SessionWriter> m_writer;
+  std::shared_ptr<telemetry::SessionWriter> m_writer;
   const telemetry::WallTime m_zero;
   std::mutex m_mutex;                 // guards m_rows
   telemetry::LiveRows m_rows;

@@ -33,6 +33,14 @@ struct RecorderOptions {
 /// What the session is to say of a simulated match: title, seed, start.
 telemetry::SessionInfo sessionInfo(const Scenario& scenario, const RecorderOptions& options);
 
+/// The same of a match that may have been played already; its source was at 0 s when `now` minus its
+/// time.
+telemetry::SessionInfo sessionInfo(const SimulatedMatch& match, std::string_view program,
+                                   telemetry::WallTime now);
+/// The scenario and the catalog, as files of the session.
+void attachMatch(telemetry::SessionWriter& writer, const Scenario& scenario,
+                 const VariableCatalog& catalog);
+
 /// A line for the timeline; the robot's name is looked up in `state`.
 telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldState& state);
 
@@ -44,6 +52,8 @@ class MatchRecorder : public TickObserver {
                                                        const Scenario& scenario,
                                                        const VariableCatalog& catalog,
                                                        const RecorderOptions& options = {});
+  /// Into a session that was made and described by the caller.
+  explicit MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer, int everyNth = 1);
   ~MatchRecorder() override;
 
   // The match's thread.
@@ -61,11 +71,10 @@ class MatchRecorder : public TickObserver {
   Result<void> finish();
 
  private:
-  explicit MatchRecorder(std::unique_ptr<telemetry::SessionWriter> writer, int everyNth);
   void keep(std::optional<StateSegment> ended);
   void noteProcesses(const SimulatedMatch& match, double time);
 
-  std::unique_ptr<telemetry::SessionWriter> m_writer;
+  std::shared_ptr<telemetry::SessionWriter> m_writer;
   MatchSampler m_sampler;
   StateSegmenter m_segmenter;
   std::vector<sim::Event> m_events;        // of the tick that ticked() is about to show

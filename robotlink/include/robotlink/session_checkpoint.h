@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Pieces of a simulated match in a session file: each stands at the time of its first tick.
+// How pieces of a simulated match stand in a session file: JSON messages of the stream Checkpoints,
+// with the bytes of StateSegment in base64.
 
 #include <robotlink/state_segment.h>
 #include <telemetry/session_reader.h>
 #include <telemetry/session_writer.h>
 
 namespace pitchboard::link {
+
+/// One JSON message; its time is that of the first tick.
+std::string checkpointToJson(const StateSegment& segment);
+Result<StateSegment> checkpointFromJson(std::string_view json);
 
 void appendCheckpoint(telemetry::SessionWriter& session, const StateSegment& segment);
 

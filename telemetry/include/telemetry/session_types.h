@@ -36,7 +36,7 @@ enum class SessionStream : std::uint8_t {
   Telemetry,    ///< SessionDatagram from a robot
   RefereeRaw,   ///< SessionDatagram of the referee
   Referee,      ///< a referee packet decoded
-  Checkpoints   ///< states of a simulated match that can be entered again exactly
+  Checkpoints   ///< pieces of a simulated match that can be re-entered exactly
 };
 inline constexpr std::size_t sessionStreamCount = 6;
 

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include <base/result.h>
+#include <telemetry/row_sink.h>
 #include <telemetry/session_types.h>
 
 namespace pitchboard::telemetry {
@@ -39,19 +40,20 @@ struct SessionStatus {
 
 /// Every function may be called from any thread. After a failure append does nothing, and the file
 /// holds what was recorded until then.
-class SessionWriter {
+class SessionWriter : public RowSink {
  public:
   /// Error Conflict when the file exists, SystemError when it cannot be made.
   static Result<std::unique_ptr<SessionWriter>> create(const std::string& path,
                                                        const SessionInfo& info,
                                                        const SessionWriterOptions& options = {});
-  ~SessionWriter();  ///< as finish()
+  ~SessionWriter() override;  ///< as finish()
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
 
-  /// The same name with the same columns and attributes gives the same id again.
-  GroupId addGroup(const GroupInfo& info);
-  void append(GroupId group, const RowView& row);
+  /// The same name with the same columns gives the same id again; the attributes stay those of the
+  /// first time.
+  GroupId addGroup(const GroupInfo& info) override;
+  void append(GroupId group, const RowView& row) override;
   void append(const SessionEvent& event);
   void append(const SessionLogLine& line);
   /// `stream`: Telemetry or RefereeRaw.
