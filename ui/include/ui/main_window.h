@@ -57,6 +57,8 @@ class MainWindow : public QMainWindow {
   LiveController* live() const { return m_live; }
   /// A recorded session, in Replay; what is wrong with it is a notice.
   void openSession(const QString& path);
+  /// Offers to export from the session that Replay has open.
+  void showExport();
   /// Shows this kind of source; Live begins to listen.
   void showSource(SourceKind kind);
   /// Simulated and heard robots side by side on the field.

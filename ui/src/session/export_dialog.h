@@ -10,6 +10,7 @@
 #include <atomic>
 #include <optional>
 
+#include <telemetry/series_store.h>
 #include <telemetry/session_export.h>
 
 class QComboBox;

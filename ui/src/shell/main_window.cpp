@@ -2,6 +2,7 @@
 #include <ui/main_window.h>
 
 #include <QAbstractScrollArea>
+#include <QBuffer>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QScreen>
@@ -29,9 +30,11 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "session/export_dialog.h"
 #include "session/session_files.h"
 #include "session/session_recording.h"
 #include "timeline/looking_back_sign.h"
+#include "timeline/playback.h"
 #include "timeline/timeline.h"
 #include "timeline/timeline_actions.h"
 #include "transport_bar.h"
@@ -126,6 +129,18 @@ StudioContext MainWindow::context() const {
 }
 
 void MainWindow::openSession(const QString& path) { m_sessions->open(path); }
+
+void MainWindow::showExport() {
+  const auto all = m_replay->isOpen() ? m_replay->playback()->range() : std::nullopt;
+  if (!all) return;
+  QByteArray picture;
+  QBuffer buffer(&picture);
+  m_field->picture({1040, 740}).save(&buffer, "PNG");
+  auto* dialog = new ExportDialog(m_replay->path(), m_timeline->selection().value_or(*all),
+                                  picture, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->show();
+}
 
 void MainWindow::showSource(SourceKind kind) {
   FrameSource* source = m_source->find(kind);

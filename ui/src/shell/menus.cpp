@@ -13,6 +13,7 @@
 #include <ui/field_view.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
+#include <ui/replay_controller.h>
 #include <ui/scenario_files.h>
 
 #include "help_windows.h"
@@ -217,6 +218,12 @@ void StudioMenus::makeTimeline() {
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
   menu->addSeparator();
   SessionRecording* recording = m_window.m_recording;
+  QAction* exportAction = menu->addAction(
+      QObject::tr("&Export…"), &m_window, [this_ = &m_window] { this_->showExport(); });
+  exportAction->setObjectName(QStringLiteral("exportSession"));
+  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, replay = m_window.m_replay] {
+    exportAction->setEnabled(replay->isOpen());
+  });
   menu->addAction(QObject::tr("&Folder for recordings…"), recording, [this_ = &m_window, recording] {
     const QString chosen = QFileDialog::getExistingDirectory(
         this_, QObject::tr("Folder for recordings"), recording->folder());
