@@ -40,6 +40,8 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--size", a.size, "Size of the window or the picture")->type_name("WxH");
   app.add_option("--settings", a.settings,
                  "File for layout and preferences instead of the user's own")->type_name("FILE");
+  app.add_option("--session,session", a.session, "Open this recorded session in Replay")
+      ->type_name("FILE.mcap");
   app.add_flag("--live", a.live,
                "Start with what robots and referee send; no match is simulated unless --scenario is given");
   app.add_flag("--overlay", a.overlay, "Show simulated and heard robots side by side");

@@ -33,6 +33,7 @@ struct Arguments {
   std::string renderScenario;
   std::string picture;
   std::string settings;
+  std::string session;               ///< a recorded session to open in Replay
   bool live = false;
   bool overlay = false;
   bool scenarioGiven = false;        ///< else Live starts without a simulated match

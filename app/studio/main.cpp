@@ -93,7 +93,8 @@ int showWindow(QApplication& application, const Arguments& arguments,
   const auto live = liveOptionsOf(arguments, window.live()->options());
   if (!live) return report(live.error());
   window.live()->setOptions(*live);
-  if (!arguments.live || arguments.scenarioGiven) {
+  if (!arguments.session.empty()) window.openSession(QString::fromStdString(arguments.session));
+  if ((!arguments.live && arguments.session.empty()) || arguments.scenarioGiven) {
     controller.open(scenario, arguments.paused);
     window.files()->showCurrent(QString::fromStdString(arguments.scenario));
   }

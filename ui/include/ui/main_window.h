@@ -28,8 +28,11 @@ class LiveOverlay;
 class MatchController;
 class NoticeBar;
 class PlotTarget;
+class ReplayController;
 class RobotSelection;
 class ScenarioFiles;
+class SessionFiles;
+class SessionRecording;
 class SourceSwitch;
 class StudioStatusBar;
 struct StudioContext;
@@ -48,7 +51,14 @@ class MainWindow : public QMainWindow {
   Timeline* timeline() const { return m_timeline; }
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
+  SessionFiles* sessions() const { return m_sessions; }
+  SessionRecording* recording() const { return m_recording; }
+  ReplayController* replay() const { return m_replay; }
   LiveController* live() const { return m_live; }
+  /// A recorded session, in Replay; what is wrong with it is a notice.
+  void openSession(const QString& path);
+  /// Offers to export from the session that Replay has open.
+  void showExport();
   /// Shows this kind of source; Live begins to listen.
   void showSource(SourceKind kind);
   /// Simulated and heard robots side by side on the field.
@@ -79,6 +89,9 @@ class MainWindow : public QMainWindow {
   LinkedTime* m_time;
   PlotTarget* m_plots;
   Timeline* m_timeline;
+  ReplayController* m_replay;
+  SessionRecording* m_recording;
+  SessionFiles* m_sessions;
   TimelineActions* m_timelineActions;
   FieldView* m_field;
   LiveOverlay* m_overlay;

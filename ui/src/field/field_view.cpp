@@ -359,7 +359,12 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   connect(d->pointer, &FieldPointer::poseRequested, this,
           [this](RobotId id) { d->openPoseEditor(id); });
   if (!source) return;
-  connect(source, &FrameSource::frameReceived, this, &FieldView::showFrame);
+  connect(source, &FrameSource::frameReceived, this, [this, source](const FramePtr& frame) {
+    // The past cannot be moved by hand.
+    const bool past = frame && frame->origin == link::FrameOrigin::Recorded;
+    d->setReadOnly(past || source->kind() != SourceKind::Simulate);
+    showFrame(frame);
+  });
   const auto begin = [this, source] {
     d->setReadOnly(source->kind() != SourceKind::Simulate);
     showFrame(source->frame());

@@ -7,9 +7,11 @@
 #include <QStandardPaths>
 #include <QTimer>
 
+#include <robotlink/live_recorder.h>
 #include <robotlink/scenario.h>
 #include <shell/source_switch.h>
 #include <timeline/timeline.h>
+#include <ui/live_controller.h>
 #include <ui/match_controller.h>
 
 #include "session_events.h"
@@ -45,15 +47,18 @@ QString sessionFileName(const QDir& folder, const QString& title, const QDateTim
   return path;
 }
 
-SessionRecording::SessionRecording(MatchController* controller, SourceSwitch* source,
-                                   Timeline* timeline, QSettings* settings, QObject* parent)
-    : QObject(parent), m_controller(controller), m_source(source), m_timeline(timeline),
+SessionRecording::SessionRecording(MatchController* controller, LiveController* live,
+                                   SourceSwitch* source, Timeline* timeline, QSettings* settings,
+                                   QObject* parent)
+    : QObject(parent), m_controller(controller), m_live(live), m_source(source), m_timeline(timeline),
       m_settings(settings), m_timer(new QTimer(this)) {
   constexpr int healthMilliseconds = 500;
   m_worker.setMaxThreadCount(1);
   m_timer->setInterval(healthMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &SessionRecording::checkHealth);
-  connect(controller, &MatchController::ending, this, [this] { finish(true); });
+  connect(controller, &MatchController::ending, this, [this] {
+    if (m_recorder && !m_recorder->live) finish(true);
+  });
   connect(controller, &MatchController::opened, this, &SessionRecording::changed);
   connect(controller, &MatchController::scenarioChanged, this, [this] {
     m_log.clear();
@@ -68,7 +73,7 @@ SessionRecording::SessionRecording(MatchController* controller, SourceSwitch* so
             }
           });
   connect(timeline, &Timeline::bookmarked, this, [this](double time, const QString& note) {
-    if (!m_recorder || m_source->kind() != SourceKind::Simulate) return;
+    if (!m_recorder || m_recorder->live != (m_source->kind() == SourceKind::Live)) return;
     m_recorder->append({time, info(EventType::Bookmark).name, {}, note.toStdString()});
   });
 }
@@ -88,6 +93,7 @@ QString SessionRecording::folder() const {
 void SessionRecording::setFolder(const QString& folder) { m_settings->setValue(folderKey, folder); }
 
 bool SessionRecording::isPossible() const {
+  if (m_source->kind() == SourceKind::Live) return m_live->isListening();
   return m_source->kind() == SourceKind::Simulate && m_controller->isOpen();
 }
 
@@ -101,17 +107,51 @@ QString SessionRecording::newPath(const QString& title) {
   return sessionFileName(place, title, QDateTime::currentDateTime());
 }
 
-void SessionRecording::start() {
-  if (m_recorder || !isPossible()) return;
-  const link::Scenario& scenario = m_controller->scenario();
-  const QString path = newPath(QString::fromStdString(
-      scenario.title.empty() ? scenario.name : scenario.title));
-  if (path.isEmpty()) return;
+Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& path) {
   link::RecorderOptions options;
   options.program = programName();
   options.everyNth = m_controller->sampling();
-  auto made = link::MatchRecorder::create(path.toStdString(), scenario, m_controller->catalog(),
-                                          options);
+  auto made = link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
+                                          m_controller->catalog(), options);
+  if (!made) return tl::unexpected(made.error());
+  const std::shared_ptr<link::MatchRecorder> recorder = *made;
+  m_controller->observe(recorder);
+  return Recorder{false,
+                  [recorder] { return recorder->status(); },
+                  [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
+                  [this, recorder] { m_controller->stopObserving(recorder); },
+                  {},
+                  [recorder] { return recorder->finish(); }};
+}
+
+Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {
+  link::RecorderOptions options;
+  options.program = programName();
+  const auto clock = m_live->clock().value_or(QDateTime::currentDateTime());
+  auto made = link::LiveRecorder::create(
+      path.toStdString(), m_live->options(),
+      telemetry::WallTime(std::chrono::milliseconds(clock.toMSecsSinceEpoch())), options);
+  if (!made) return tl::unexpected(made.error());
+  const std::shared_ptr<link::LiveRecorder> recorder = *made;
+  m_live->observe(recorder);
+  return Recorder{true,
+                  [recorder] { return recorder->status(); },
+                  [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
+                  [this, recorder] { m_live->stopObserving(recorder); },
+                  [this, recorder] { recorder->report(m_live->details().team); },
+                  [recorder] { return recorder->finish(); }};
+}
+
+void SessionRecording::start() {
+  if (m_recorder || !isPossible()) return;
+  const bool live = m_source->kind() == SourceKind::Live;
+  const link::Scenario& scenario = m_controller->scenario();
+  const QString path = newPath(live ? tr("live")
+                                    : QString::fromStdString(scenario.title.empty()
+                                                                 ? scenario.name
+                                                                 : scenario.title));
+  if (path.isEmpty()) return;
+  auto made = live ? recordLive(path) : recordMatch(path);
   if (!made) {
     emit failed(tr("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
                    "recordings…").arg(words(made.error())));
@@ -119,7 +159,6 @@ void SessionRecording::start() {
   }
   m_recorder = std::move(*made);
   m_path = path;
-  m_controller->observe(m_recorder);
   m_timer->start();
   emit changed();
 }
@@ -128,11 +167,11 @@ void SessionRecording::stop() { finish(false); }
 
 void SessionRecording::finish(bool matchEnds) {
   if (!m_recorder) return;
-  const auto recorder = std::exchange(m_recorder, nullptr);
+  const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
   m_timer->stop();
-  m_controller->stopObserving(recorder);
+  recorder.detach();
   m_worker.start([this, recorder, path = m_path, matchEnds] {
-    const auto done = recorder->finish();
+    const auto done = recorder.finish();
     QMetaObject::invokeMethod(this, [this, done, path, matchEnds] {
       if (!done) {
         emit failed(tr("The recording %1 is not complete: %2. What was written before can be opened.")
@@ -152,16 +191,17 @@ telemetry::SessionStatus SessionRecording::status() const {
 
 void SessionRecording::checkHealth() {
   if (!m_recorder) return;
+  if (m_recorder->refresh) m_recorder->refresh();
   QString problem = QString::fromStdString(m_recorder->status().problem);
   // A file that was removed goes on being written, to nowhere.
   if (problem.isEmpty() && !QFile::exists(m_path)) {
     problem = tr("the file %1 was removed or its folder is gone").arg(m_path);
   }
   if (problem.isEmpty()) return;
-  const auto recorder = std::exchange(m_recorder, nullptr);
+  const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
   m_timer->stop();
-  m_controller->stopObserving(recorder);
-  m_worker.start([recorder] { static_cast<void>(recorder->finish()); });
+  recorder.detach();
+  m_worker.start([recorder] { static_cast<void>(recorder.finish()); });
   emit failed(tr("Recording has stopped: %1. The match goes on, and what was written before can be "
                  "opened.").arg(problem));
   emit changed();

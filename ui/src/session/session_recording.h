@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Record: keeps everything of the simulated match in a session file from the press of a button until
-// the next, or until the match ends; and saves what has just happened from memory. Files get a name
+// Record: keeps everything of the simulated match, or of what is heard live, in a session file from the
+// press of a button until the next, or until the match ends; and saves what has just happened from memory. Files get a name
 // of their own in the chosen folder and are never overwritten. UI thread only; the file is written by
 // a thread of its own, and what takes long runs on a worker.
 
@@ -10,7 +10,9 @@
 #include <QObject>
 #include <QThreadPool>
 #include <deque>
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include <robotlink/match_recorder.h>
 
@@ -19,6 +21,7 @@ class QTimer;
 
 namespace pitchboard::ui {
 
+class LiveController;
 class MatchController;
 class SourceSwitch;
 class Timeline;
@@ -26,7 +29,7 @@ class Timeline;
 class SessionRecording : public QObject {
   Q_OBJECT
  public:
-  SessionRecording(MatchController* controller, SourceSwitch* source, Timeline* timeline,
+  SessionRecording(MatchController* controller, LiveController* live, SourceSwitch* source, Timeline* timeline,
                    QSettings* settings, QObject* parent);
   ~SessionRecording() override;   ///< ends a recording that goes on
 
@@ -34,7 +37,7 @@ class SessionRecording : public QObject {
   QString folder() const;
   void setFolder(const QString& folder);
 
-  bool isRecording() const { return m_recorder != nullptr; }
+  bool isRecording() const { return m_recorder.has_value(); }
   /// What is shown can be recorded.
   bool isPossible() const;
   void start();
@@ -56,12 +59,25 @@ class SessionRecording : public QObject {
   void checkHealth();
   void finish(bool matchEnds);
 
+  /// What records a source of one kind.
+  struct Recorder {
+    bool live = false;
+    std::function<telemetry::SessionStatus()> status;
+    std::function<void(const telemetry::SessionEvent&)> append;
+    std::function<void()> detach;           ///< nothing reaches it any more
+    std::function<void()> refresh;          ///< twice a second; may be empty
+    std::function<Result<void>()> finish;   ///< any thread, once detached
+  };
+  Result<Recorder> recordMatch(const QString& path);
+  Result<Recorder> recordLive(const QString& path);
+
   MatchController* m_controller;
+  LiveController* m_live;
   SourceSwitch* m_source;
   Timeline* m_timeline;
   QSettings* m_settings;
   QTimer* m_timer;
-  std::shared_ptr<link::MatchRecorder> m_recorder;
+  std::optional<Recorder> m_recorder;
   QString m_path;
   std::deque<telemetry::SessionLogLine> m_log;   // of the present match, for saveLast()
   QThreadPool m_worker;

@@ -19,7 +19,10 @@ class LiveController;
 class LiveOverlay;
 class MatchController;
 class PlotTarget;
+class ReplayController;
 class RobotSelection;
+class SessionFiles;
+class SessionRecording;
 class SourceSwitch;
 class Timeline;
 class TimelineActions;
@@ -35,6 +38,8 @@ struct StudioContext {
   PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
   Timeline* timeline = nullptr;           ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
+  ReplayController* replay = nullptr;     ///< a recorded session
+  SessionRecording* recording = nullptr;
   LiveController* live = nullptr;         ///< listens once it was asked to
   LiveOverlay* overlay = nullptr;         ///< the other source drawn beside the shown one
 };

@@ -2,6 +2,7 @@
 #include <ui/main_window.h>
 
 #include <QAbstractScrollArea>
+#include <QBuffer>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QScreen>
@@ -12,6 +13,7 @@
 #include <ui/field_view.h>
 #include <ui/live_controller.h>
 #include <ui/match_controller.h>
+#include <ui/replay_controller.h>
 #include <ui/scenario_files.h>
 
 #include "dock_list.h"
@@ -28,7 +30,11 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "session/export_dialog.h"
+#include "session/session_files.h"
+#include "session/session_recording.h"
 #include "timeline/looking_back_sign.h"
+#include "timeline/playback.h"
 #include "timeline/timeline.h"
 #include "timeline/timeline_actions.h"
 #include "transport_bar.h"
@@ -46,10 +52,14 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_settings(settings), m_source(new SourceSwitch(controller, this)),
       m_undo(new QUndoGroup(this)), m_selection(new RobotSelection(this)),
       m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
-      m_timeline(new Timeline(m_source, this)),
+      m_timeline(new Timeline(m_source, this)), m_replay(new ReplayController(this)),
+      m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
       m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   m_source->add(m_live);
-  m_timeline->watch(m_live);   // it goes on unseen
+  m_source->add(m_replay);
+  m_timeline->watch(controller);
+  m_timeline->watch(m_live);
+  m_timeline->watch(m_replay);
   m_undo->addStack(controller->undoStack());
   m_undo->setActiveStack(controller->undoStack());
   setWindowTitle(QStringLiteral("Pitchboard"));
@@ -68,6 +78,14 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->addWidget(m_field, 1);
   setCentralWidget(centre);
 
+  m_sessions = new SessionFiles(m_replay, controller, m_source, m_timeline, m_notices, this);
+  connect(m_recording, &SessionRecording::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
+    m_notices->show(tr("Saved: %1").arg(path),
+                    {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }}});
+  });
+  connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
   const StudioContext context = this->context();
   m_bar = new TransportBar(context, settings, this);
   addToolBar(m_bar);
@@ -107,7 +125,21 @@ MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
   return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
-          m_timelineActions, m_live, m_overlay};
+          m_timelineActions, m_replay, m_recording, m_live, m_overlay};
+}
+
+void MainWindow::openSession(const QString& path) { m_sessions->open(path); }
+
+void MainWindow::showExport() {
+  const auto all = m_replay->isOpen() ? m_replay->playback()->range() : std::nullopt;
+  if (!all) return;
+  QByteArray picture;
+  QBuffer buffer(&picture);
+  m_field->picture({1040, 740}).save(&buffer, "PNG");
+  auto* dialog = new ExportDialog(m_replay->path(), m_timeline->selection().value_or(*all),
+                                  picture, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->show();
 }
 
 void MainWindow::showSource(SourceKind kind) {

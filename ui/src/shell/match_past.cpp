@@ -14,7 +14,8 @@ FramePtr MatchController::frameAt(double time) const {
   if (!rows || !m_frame || !rows->range()) return nullptr;
   if (!m_past) {
     m_past = std::make_unique<link::RecordedFrames>(link::FrameBackdrop{
-        m_frame->field, m_frame->noise, m_frame->physics, m_frame->seed, m_frame->tickRate});
+        m_frame->field, m_frame->noise, m_frame->physics, m_frame->seed, m_frame->tickRate,
+        std::nullopt});
   }
   auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
   if (past->snapshot.robots.empty() && !m_frame->snapshot.robots.empty() &&

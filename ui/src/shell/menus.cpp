@@ -4,6 +4,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QDockWidget>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QSettings>
@@ -12,6 +13,7 @@
 #include <ui/field_view.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
+#include <ui/replay_controller.h>
 #include <ui/scenario_files.h>
 
 #include "help_windows.h"
@@ -21,8 +23,11 @@
 #include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
+#include "session/session_files.h"
+#include "session/session_recording.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "timeline/timeline.h"
 #include "timeline/timeline_actions.h"
 #include "transport_bar.h"
 
@@ -70,6 +75,9 @@ void StudioMenus::makeFile() {
     recent->setToolTipsVisible(true);
     recent->setEnabled(!recent->isEmpty());
   });
+  SessionFiles* sessions = m_window.m_sessions;
+  withIcon(menu->addAction(QObject::tr("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
+           "folder-open", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
   QAction* save = menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
                                   &ScenarioFiles::askAndSave);
   withIcon(save, "document-save", QKeySequence::Save);
@@ -183,7 +191,44 @@ void StudioMenus::makeSimulation() {
 }
 
 void StudioMenus::makeTimeline() {
-  m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Timeline"));
+  m_window.m_timelineActions->fill(menu);
+  menu->addSeparator();
+  SessionFiles* sessions = m_window.m_sessions;
+  using Poses = link::MomentOptions::Poses;
+  QAction* asBelieved =
+      menu->addAction(QObject::tr("Simulate from here, &as the robots believe"), sessions,
+                      [sessions] { sessions->simulateFromHere(Poses::Believed); });
+  QAction* asItWas = menu->addAction(QObject::tr("Simulate from here, as it &was"), sessions,
+                                     [sessions] { sessions->simulateFromHere(Poses::True); });
+  QAction* goOn = menu->addAction(QObject::tr("&Continue the match from this moment"), sessions,
+                                  &SessionFiles::continueFromHere);
+  asBelieved->setObjectName(QStringLiteral("simulateBelieved"));
+  asItWas->setObjectName(QStringLiteral("simulateTrue"));
+  goOn->setObjectName(QStringLiteral("continueFromHere"));
+  Timeline* timeline = m_window.m_timeline;
+  SourceSwitch* source = m_window.m_source;
+  const auto refresh = [asItWas, goOn, timeline, source] {
+    const FramePtr frame = source->frame();
+    asItWas->setEnabled(frame && frame->truthKnown);
+    goOn->setEnabled(timeline->isLookingBack() && source->kind() == SourceKind::Simulate);
+  };
+  QObject::connect(timeline, &Timeline::lookingBackChanged, goOn, refresh);
+  QObject::connect(timeline, &Timeline::sourceChanged, goOn, refresh);
+  QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
+  menu->addSeparator();
+  SessionRecording* recording = m_window.m_recording;
+  QAction* exportAction = menu->addAction(
+      QObject::tr("&Export…"), &m_window, [this_ = &m_window] { this_->showExport(); });
+  exportAction->setObjectName(QStringLiteral("exportSession"));
+  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, replay = m_window.m_replay] {
+    exportAction->setEnabled(replay->isOpen());
+  });
+  menu->addAction(QObject::tr("&Folder for recordings…"), recording, [this_ = &m_window, recording] {
+    const QString chosen = QFileDialog::getExistingDirectory(
+        this_, QObject::tr("Folder for recordings"), recording->folder());
+    if (!chosen.isEmpty()) recording->setFolder(chosen);
+  });
 }
 
 void StudioMenus::makePlots() {

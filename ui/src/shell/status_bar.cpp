@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QClipboard>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenu>
 #include <QTimer>
@@ -10,11 +11,15 @@
 #include <base/angles.h>
 #include <ui/live_controller.h>
 #include <ui/match_controller.h>
+#include <ui/replay_controller.h>
 #include <ui/theme.h>
 
 #include "robot_selection.h"
 #include "robot_words.h"
+#include "session/session_recording.h"
 #include "source_switch.h"
+#include "timeline/time_axis.h"
+#include "timeline/timeline.h"
 
 namespace pitchboard::ui {
 
@@ -26,6 +31,7 @@ StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
   m_pace = addLabel("statusPace", false);
   m_world = addLabel("statusWorld", false);
   m_processes = addLabel("statusProcesses", false);
+  m_recording = addLabel("statusRecording", false);
   m_cursor = addLabel("statusCursor", true);
   m_selected = addLabel("statusSelected", true);
   auto* timer = new QTimer(this);
@@ -78,6 +84,7 @@ void StudioStatusBar::copyStateHash() {
 
 void StudioStatusBar::refresh() {
   const FramePtr frame = m_context.source->frame();
+  showMemory();
   if (m_context.source->kind() == SourceKind::Live) {
     showLive(frame.get());
     if (frame) showSelected(*frame);
@@ -88,12 +95,44 @@ void StudioStatusBar::refresh() {
   m_processes->setPalette({});
   m_processes->setToolTip({});
   if (!frame) {
-    m_pace->setText(m_context.controller->isOpening() ? tr("Opening…") : tr("No match"));
+    m_pace->setText(m_context.source->kind() == SourceKind::Replay ? tr("No session")
+                    : m_context.controller->isOpening() ? tr("Opening…")
+                                                        : tr("No match"));
     for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
     return;
   }
-  showMatch(*frame);
+  if (m_context.source->kind() == SourceKind::Replay) {
+    m_pace->setText(tr("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
+    m_world->setText(tr("%1 of %2").arg(momentText(m_context.timeline->shownTime(), 2),
+                                         momentText(m_context.timeline->now(), 0)));
+    m_processes->clear();
+  } else {
+    showMatch(*frame);
+  }
   showSelected(*frame);
+}
+
+void StudioStatusBar::showMemory() {
+  if (m_context.recording->isRecording()) {
+    const telemetry::SessionStatus status = m_context.recording->status();
+    m_recording->setText(tr("recording %1 %2 MB")
+                             .arg(longMomentText(status.seconds))
+                             .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1));
+    m_recording->setToolTip(m_context.recording->path());
+    return;
+  }
+  m_recording->setToolTip({});
+  if (m_context.source->kind() == SourceKind::Replay) {
+    const double part = m_context.replay->loaded();
+    m_recording->setText(part < 1 ? tr("Reading %1 %").arg(static_cast<int>(part * 100)) : QString());
+    return;
+  }
+  const auto rows = m_context.source->series();
+  const auto held = rows ? rows->range() : std::nullopt;
+  m_recording->setText(held ? tr("Memory holds the last %1 (%2 MB)")
+                                  .arg(momentText(held->end - held->begin, 0))
+                                  .arg(static_cast<double>(rows->memoryBytes()) / 1e6, 0, 'f', 0)
+                            : QString());
 }
 
 void StudioStatusBar::showLive(const link::MatchFrame* frame) {

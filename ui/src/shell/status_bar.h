@@ -26,6 +26,7 @@ class StudioStatusBar : public QStatusBar {
  private:
   void refresh();
   void showMatch(const link::MatchFrame& frame);
+  void showMemory();
   void showLive(const link::MatchFrame* frame);
   void showSelected(const link::MatchFrame& frame);
   QLabel* addLabel(const char* name, bool atRight);
@@ -37,6 +38,7 @@ class StudioStatusBar : public QStatusBar {
   QLabel* m_pace;
   QLabel* m_world;
   QLabel* m_processes;
+  QLabel* m_recording;
   QLabel* m_cursor;
   QLabel* m_selected;
 };

@@ -3,17 +3,24 @@
 
 #include <QActionGroup>
 #include <QComboBox>
+#include <QMenu>
+#include <QPainter>
 #include <QTimer>
 #include <QToolButton>
 #include <cmath>
 
 #include <ui/match_controller.h>
+#include <ui/replay_controller.h>
 #include <ui/theme.h>
 
 #include "scenario_chooser.h"
 #include "live/live_bar.h"
+#include "robot_words.h"
 #include "scoreboard.h"
+#include "session/session_recording.h"
 #include "source_switch.h"
+#include "timeline/playback.h"
+#include "timeline/timeline.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -27,13 +34,14 @@ struct Mode {
 constexpr Mode modes[] = {
     {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
     {SourceKind::Live, "Live", "Robots and referee as the network tells. Nothing is sent to robots"},
+    {SourceKind::Replay, "Replay", "A recorded session"},
 };
 
-constexpr double speeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 10, link::MatchRunner::unlimitedSpeed};
+constexpr double matchSpeeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 10, link::MatchRunner::unlimitedSpeed};
 
 QString speedText(double speed) {
   if (speed == link::MatchRunner::unlimitedSpeed) return QStringLiteral("max");
-  return QStringLiteral("%1×").arg(speed, 0, 'f', speed == 0.25 ? 2 : speed < 5 ? 1 : 0);
+  return QStringLiteral("%1×").arg(speed, 0, 'f', speed == 0.25 ? 2 : speed < 4 ? 1 : 0);
 }
 
 }  // namespace
@@ -56,6 +64,8 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
   addControl(SourceKind::Simulate, addWidget(m_scenarios));
   addControl(SourceKind::Simulate, addSeparator());
   addTransport();
+  m_recordSeparator = addSeparator();
+  addRecord();
   addControl(SourceKind::Live, addWidget(new LiveBar(context, this)));
   auto* stretch = new QWidget(this);
   stretch->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
@@ -68,6 +78,7 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
     if (const FramePtr frame = m_context.source->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
     }
+    if (m_context.recording->isRecording()) showRecord();
   });
   connect(context.source, &SourceSwitch::changed, this, &TransportBar::showMode);
   showMode();
@@ -94,31 +105,91 @@ void TransportBar::addModes() {
 }
 
 void TransportBar::addTransport() {
-  MatchController* controller = m_context.controller;
-  m_restart = addAction(themedIcon(QStringLiteral("media-skip-backward")), tr("Restart"),
-                        controller, &MatchController::restart);
+  m_restart = addAction(themedIcon(QStringLiteral("media-skip-backward")), tr("Restart"), this,
+                        [this] {
+                          if (Playback* past = playback()) past->toStart();
+                          else m_context.controller->restart();
+                        });
   m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
-  m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), tr("Pause"), this,
-                     [controller] { controller->setPaused(!controller->isPaused()); });
+  m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), tr("Pause"), this, [this] {
+    if (Playback* past = playback()) past->setPaused(!past->isPaused());
+    else m_context.controller->setPaused(!m_context.controller->isPaused());
+  });
   m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
-  m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), tr("One tick"), controller,
-                     &MatchController::stepOnce);
+  m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), tr("One tick"), this, [this] {
+    if (Playback* past = playback()) past->step(1);
+    else m_context.controller->stepOnce();
+  });
   m_step->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Period));
   m_restart->setObjectName(QStringLiteral("restart"));
   m_play->setObjectName(QStringLiteral("play"));
   m_step->setObjectName(QStringLiteral("step"));
 
   m_speed->setObjectName(QStringLiteral("speed"));
-  m_speed->setToolTip(tr("Speed: simulated seconds per second"));
   m_speed->setMinimumWidth(scaled(this, 68));
-  for (const double speed : speeds) m_speed->addItem(speedText(speed), speed);
   connect(m_speed, &QComboBox::activated, this, [this] {
-    m_context.controller->setSpeed(m_speed->currentData().toDouble());
+    const double speed = m_speed->currentData().toDouble();
+    if (Playback* past = playback()) past->setSpeed(speed);
+    else m_context.controller->setSpeed(speed);
   });
-  for (QAction* action : transportActions()) addControl(SourceKind::Simulate, action);
-  addControl(SourceKind::Simulate, addWidget(m_speed));
-  connect(controller, &MatchController::transportChanged, this, &TransportBar::showTransport);
+  m_speedAction = addWidget(m_speed);
+  connect(m_context.controller, &MatchController::transportChanged, this,
+          &TransportBar::showTransport);
+  connect(m_context.timeline, &Timeline::lookingBackChanged, this, &TransportBar::showTransport);
+  connect(m_context.timeline, &Timeline::sourceChanged, this, &TransportBar::showTransport);
+  for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
+    connect(past, &Playback::changed, this, &TransportBar::showTransport);
+  }
   showTransport();
+}
+
+void TransportBar::addRecord() {
+  m_record = new QToolButton(this);
+  m_record->setObjectName(QStringLiteral("record"));
+  m_record->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  m_record->setPopupMode(QToolButton::MenuButtonPopup);
+  auto* menu = new QMenu(m_record);
+  for (const int seconds : {10, 30, 60, 300}) {
+    menu->addAction(tr("Save the last %1 seconds").arg(seconds), m_context.recording,
+                    [this, seconds] { m_context.recording->saveLast(seconds); });
+  }
+  m_record->setMenu(menu);
+  connect(m_record, &QToolButton::clicked, this, [this] {
+    if (m_context.recording->isRecording()) m_context.recording->stop();
+    else m_context.recording->start();
+  });
+  m_recordAction = addWidget(m_record);
+  connect(m_context.recording, &SessionRecording::changed, this, &TransportBar::showRecord);
+  showRecord();
+}
+
+void TransportBar::showRecord() {
+  const bool on = m_context.recording->isRecording();
+  const int side = iconSize().height();
+  QPixmap dot(side * 2, side * 2);
+  dot.setDevicePixelRatio(2);
+  dot.fill(Qt::transparent);
+  QPainter painter(&dot);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QPointF centre(side / 2.0, side / 2.0);
+  const double radius = side * 0.22;
+  painter.setPen(on ? QPen(Qt::NoPen) : QPen(theme().secondaryText, 1.6));
+  painter.setBrush(on ? QBrush(theme().errorText) : QBrush(Qt::NoBrush));
+  painter.drawEllipse(centre, radius, radius);
+  painter.end();
+  m_record->setIcon(QIcon(dot));
+  m_record->setText(on ? tr("Recording %1").arg(clockText(m_context.recording->status().seconds))
+                       : tr("Record"));
+  m_record->setToolTip(on ? tr("Stop recording into %1").arg(m_context.recording->path())
+                          : tr("Record everything into a new file in %1")
+                                .arg(m_context.recording->folder()));
+  m_record->setEnabled(on || m_context.recording->isPossible());
+  m_recordAction->setVisible(m_context.source->kind() != SourceKind::Replay || on);
+}
+
+Playback* TransportBar::playback() const {
+  const Timeline& timeline = *m_context.timeline;
+  return timeline.isRecording() || timeline.isLookingBack() ? timeline.playback() : nullptr;
 }
 
 void TransportBar::showMode() {
@@ -128,26 +199,43 @@ void TransportBar::showMode() {
   const FramePtr frame = m_context.source->frame();
   m_scoreboard->setState(frame ? scoreboardOf(*frame) : ScoreboardState{});
   showTransport();
+  showRecord();
 }
 
 void TransportBar::showTransport() {
   const MatchController& controller = *m_context.controller;
-  const bool paused = controller.isPaused();
+  const Playback* past = playback();
+  const bool paused = past != nullptr ? past->isPaused() : controller.isPaused();
+  const bool there = past != nullptr ? past->isAvailable()
+                                     : controller.isOpen() || controller.isOpening();
+  m_restart->setText(past != nullptr ? tr("To the start") : tr("Restart"));
+  m_restart->setToolTip(QStringLiteral("%1 (%2)").arg(m_restart->text(),
+                                                      m_restart->shortcut().toString()));
   m_play->setText(paused ? tr("Play") : tr("Pause"));
   m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(),
                                                    m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
+  // Live goes on by itself; only its past can be played.
+  const bool shown = past != nullptr || m_context.source->kind() == SourceKind::Simulate;
   for (QAction* action : transportActions()) {
-    action->setEnabled((controller.isOpen() || controller.isOpening()) &&
-                       m_context.source->kind() == SourceKind::Simulate);
+    action->setVisible(shown);
+    action->setEnabled(there && shown);
   }
-  int at = m_speed->findData(controller.speed());
+  m_speedAction->setVisible(shown);
+  const std::span<const double> speeds =
+      past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
+  const double speed = past != nullptr ? past->speed() : controller.speed();
+  m_speed->clear();
+  for (const double offered : speeds) m_speed->addItem(speedText(offered), offered);
+  int at = m_speed->findData(speed);
   if (at < 0) {
-    m_speed->addItem(QStringLiteral("%1×").arg(controller.speed()), controller.speed());
+    m_speed->addItem(QStringLiteral("%1×").arg(speed), speed);
     at = m_speed->count() - 1;
   }
   m_speed->setCurrentIndex(at);
+  m_speed->setToolTip(past != nullptr ? tr("Speed: recorded seconds per second")
+                                      : tr("Speed: simulated seconds per second"));
 }
 
 }  // namespace pitchboard::ui

@@ -13,9 +13,11 @@
 
 class QComboBox;
 class QSettings;
+class QToolButton;
 
 namespace pitchboard::ui {
 
+class Playback;
 class ScenarioChooser;
 class Scoreboard;
 
@@ -36,6 +38,10 @@ class TransportBar : public QToolBar {
   void addControl(SourceKind kind, QAction* action) { m_controls.push_back({kind, action}); }
   void showMode();
   void addTransport();
+  void addRecord();
+  void showRecord();
+  /// What the buttons move when not the match; null otherwise.
+  Playback* playback() const;
   void showTransport();
 
   struct Control {
@@ -49,6 +55,10 @@ class TransportBar : public QToolBar {
   ScenarioChooser* m_scenarios;
   Scoreboard* m_scoreboard;
   QComboBox* m_speed;
+  QAction* m_speedAction = nullptr;
+  QToolButton* m_record = nullptr;
+  QAction* m_recordAction = nullptr;
+  QAction* m_recordSeparator = nullptr;
   QAction* m_restart;
   QAction* m_play;
   QAction* m_step;

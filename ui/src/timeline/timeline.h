@@ -47,6 +47,8 @@ class Timeline : public QObject {
   bool isRecording() const;
   /// Moves in the past: of the session, or while looking back.
   Playback* playback() const;
+  /// Moves while looking back, whatever the source is.
+  Playback* past() const { return m_past; }
   /// Wall clock at second 0, where the source has one (Live).
   std::optional<QDateTime> clock() const;
 
