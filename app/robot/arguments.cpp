@@ -5,7 +5,6 @@
 
 #include <robotlink/scenario.h>
 #include <robotlink/system_v.h>
-#include <telemetry/datagram.h>
 
 namespace pitchboard::robot {
 namespace {
@@ -22,9 +21,8 @@ std::string checkBehaviour(const std::string& name) {
 }
 
 std::string checkAddress(const std::string& text) {
-  if (telemetry::parseAddress(text)) return {};
-  return "'" + text + "' is not an IPv4 address; write one like 127.0.0.1 (this computer) or "
-         "255.255.255.255 (everybody on the network)";
+  const Result<void> valid = link::checkAddress(text);
+  return valid ? std::string() : valid.error().text();
 }
 
 std::string checkField(const std::string& text) {

@@ -93,11 +93,13 @@ int showWindow(QApplication& application, const Arguments& arguments,
   const auto live = liveOptionsOf(arguments, window.live()->options());
   if (!live) return report(live.error());
   window.live()->setOptions(*live);
-  if (!arguments.live || arguments.scenarioGiven) controller.open(scenario, arguments.paused);
+  if (!arguments.live || arguments.scenarioGiven) {
+    controller.open(scenario, arguments.paused);
+    window.files()->showCurrent(QString::fromStdString(arguments.scenario));
+  }
   if (arguments.live) window.showSource(ui::SourceKind::Live);
   if (arguments.overlay) window.overlayLive(true);
   if (arguments.playTo) controller.runTo(*arguments.playTo);
-  window.files()->showCurrent(QString::fromStdString(arguments.scenario));
   window.show();
   int exitCode = 0;
   if (!arguments.screenshotFile.empty()) {

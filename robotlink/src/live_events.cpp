@@ -6,6 +6,9 @@
 namespace pitchboard::link {
 namespace {
 
+/// Events have their time in ticks; a live frame counts sixty a second.
+std::uint64_t liveTick(double time) { return static_cast<std::uint64_t>(time * 60.0 + 0.5); }
+
 std::string clockWords(int seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%s%02d:%02d", seconds < 0 ? "-" : "", std::abs(seconds) / 60,
@@ -77,7 +80,7 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, LiveHappeni
     const bool scored = now.teams[side].score > was->score;
     say((scored ? "goal for " : "score corrected for ") + teamWords(now.teams[side]) + ": " +
         std::to_string(now.teams[0].score) + " : " + std::to_string(now.teams[1].score));
-    if (scored) out.events.push_back({sim::EventKind::Goal, 0, {}, static_cast<int>(side)});
+    if (scored) out.events.push_back({sim::EventKind::Goal, liveTick(time), {}, static_cast<int>(side)});
   }
 }
 

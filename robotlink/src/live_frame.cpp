@@ -113,7 +113,10 @@ std::optional<Penalty> penaltyOf(const RefereeState* state, int ourTeam, int num
   const RefereeTeam* team = state == nullptr ? nullptr : state->team(ourTeam);
   if (team == nullptr) return std::nullopt;
   for (const RefereePlayer& player : team->players()) {
-    if (player.number != number || player.penalty == 0 || player.unreliable) continue;
+    if (player.number != number || player.penalty == 0 || player.unreliable ||
+        telemetry::isSubstitute(*state, player)) {
+      continue;
+    }
     return Penalty{std::string(telemetry::penaltyWords(*state, player.penalty)),
                    player.secondsLeft};
   }

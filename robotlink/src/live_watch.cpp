@@ -22,6 +22,7 @@ using telemetry::WallTime;
 constexpr auto framePeriod = 16ms;    // at most so often while something arrives
 constexpr auto idlePeriod = 100ms;    // ages and timeouts go on without messages
 constexpr auto portsPeriod = 500ms;
+constexpr auto reportPeriod = 250ms;
 constexpr std::size_t flood = 16;     // datagrams in one go from which on it pays to gather
 constexpr std::size_t maxQueued = 10'000;
 
@@ -153,7 +154,11 @@ struct LiveWatch::Impl {
       tell({{}, happened.comparePorts(receiver->status(), made->snapshot.time)},
            made->snapshot.time);
     }
-    for (const auto& observer : observers) observer->frameMade(*made);
+    for (const auto& observer : observers) {
+      observer->frameMade(*made);
+      if (now >= nextReport) observer->reported(team);
+    }
+    if (now >= nextReport) nextReport = now + reportPeriod;
     frame = std::move(made);
     if (!std::exchange(announced, true) && onFrame) onFrame();
   }
@@ -208,7 +213,7 @@ struct LiveWatch::Impl {
   LiveOptions options;                       // changed by the thread only
   const std::function<void()> onFrame;
   std::unique_ptr<telemetry::UdpReceiver> receiver;
-  Steady::time_point nextRequest{}, nextPorts{};
+  Steady::time_point nextRequest{}, nextPorts{}, nextReport{};
 
   mutable std::mutex mutex;                  // guards everything below, and changes of `receiver`
   std::optional<LiveOptions> pending;
@@ -278,6 +283,8 @@ std::vector<LogLine> LiveWatch::takeLog() {
   const std::lock_guard lock(m_impl->mutex);
   return std::exchange(m_impl->lines, {});
 }
+
+telemetry::WallTime LiveWatch::began() const { return m_impl->wallBegin; }
 
 void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
   const std::lock_guard lock(m_impl->mutex);

@@ -13,8 +13,8 @@
 namespace pitchboard::link {
 namespace {
 
-std::string nameOf(const ScenarioRobot& robot) {
-  return std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
+std::string nameOf(const sim::RobotIdentity& robot) {
+  return std::string(info(robot.team).letter) + std::to_string(robot.number);
 }
 
 }  // namespace
@@ -49,13 +49,18 @@ Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(
   return seat;
 }
 
-Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
+Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) const {
   for (const sim::RobotIdentity& other : m_simulation.state().robots) {
-    if (other.team == robot.identity.team && other.number == robot.identity.number) {
-      return failure(ErrorCode::Conflict, "there is already a robot " + nameOf(robot) +
+    if (other.id != identity.id && other.team == identity.team && other.number == identity.number) {
+      return failure(ErrorCode::Conflict, "there is already a robot " + nameOf(identity) +
                                               "; choose another number");
     }
   }
+  return {};
+}
+
+Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
+  if (auto free = checkShirt(robot.identity); !free) return free;
   if (auto added = m_simulation.addRobot(robot.identity, robot.pose); !added) return added;
   const RobotId id = robot.identity.id;
   const auto giveUp = [&](const Error& error) {
@@ -228,17 +233,34 @@ Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behavio
     names.push_back(noBehaviour);
     return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
   }
-  const std::string before = changed->behaviour;
-  std::vector<InlineProcess> running = std::move(changed->processes);
-  changed->processes.clear();
-  changed->behaviour = behaviour;
-  m_supervisor->stop(id);
-  if (auto started = startProcesses(*changed); !started) {
-    changed->behaviour = before;
-    changed->processes = std::move(running);
-    return started;
+  const std::string before = std::exchange(changed->behaviour, behaviour);
+  auto started = restartProcesses(*changed);
+  if (!started) changed->behaviour = before;
+  return started;
+}
+
+/// On failure inline processes go on as before.
+Result<void> SimulatedMatch::restartProcesses(Seat& seat) {
+  std::vector<InlineProcess> running = std::exchange(seat.processes, {});
+  m_supervisor->stop(seat.id);
+  auto started = startProcesses(seat);
+  if (!started) seat.processes = std::move(running);
+  return started;
+}
+
+Result<void> SimulatedMatch::setIdentity(const sim::RobotIdentity& identity) {
+  Seat* changed = seat(identity.id);
+  const auto index = m_simulation.indexOf(identity.id);
+  if (!changed || !index) {
+    return failure(ErrorCode::NotFound,
+                   "there is no robot " + std::to_string(identity.id.value) + " on the field");
   }
-  return {};
+  if (auto free = checkShirt(identity); !free) return free;
+  sim::RobotIdentity& robot = m_simulation.editState().robots[*index];
+  const sim::RobotIdentity before = std::exchange(robot, identity);
+  auto started = restartProcesses(*changed);
+  if (!started) robot = before;
+  return started;
 }
 
 Scenario SimulatedMatch::toScenario() const {

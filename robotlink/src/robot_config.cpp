@@ -2,6 +2,7 @@
 #include <robotlink/robot_config.h>
 
 #include <algorithm>
+#include <arpa/inet.h>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -49,6 +50,14 @@ Result<RobotId> robotFromNumber(long long number) {
   return failure(ErrorCode::InvalidArgument,
                  "there is no robot " + std::to_string(number) + "; robots have numbers from 1 to " +
                      std::to_string(highestRobotNumber));
+}
+
+Result<void> checkAddress(const std::string& text) {
+  in_addr parsed{};
+  if (::inet_pton(AF_INET, text.c_str(), &parsed) == 1) return {};
+  return failure(ErrorCode::InvalidArgument,
+                 "'" + text + "' is not an IPv4 address; write one like 127.0.0.1 (this "
+                 "computer) or 255.255.255.255 (everybody on the network)");
 }
 
 const IniEntry* IniFile::find(std::string_view section, std::string_view name) const {

@@ -2,8 +2,8 @@
 #include "team_talk.h"
 
 #include <cmath>
-#include <limits>
 #include <charconv>
+#include <tuple>
 
 #include "team_variables.h"
 
@@ -48,8 +48,10 @@ int whole(float value) {
   return std::isfinite(value) ? static_cast<int>(std::clamp(value, -1e6F, 1e6F)) : -1;
 }
 
-// Five times a second: posts where this robot, its ball and its intention are, and writes the same
-// of up to three team-mates, in the order of their numbers, to COM_*_ROBOT1..3.
+// Five times a second: posts where this robot, its ball and its intention are, and writes what the
+// others posted: the places of up to ten team-mates to LOCALIZATION_RBT02.._RBT11, and all of the
+// three that matter most to COM_*_ROBOT1..3, both in the order of their numbers. Those who go for the
+// ball matter most, then those who see it, then the nearest.
 class TeamTalk final : public CognitiveProcess {
  public:
   TeamTalk(RobotId robot, std::shared_ptr<TeamChannel> channel)
@@ -61,7 +63,11 @@ class TeamTalk final : public CognitiveProcess {
       if (const auto message = TeamMessage::parse(text)) hear(*message, clock.seconds);
     }
     std::erase_if(m_mates, [&](const Mate& mate) { return clock.seconds - mate.heard > silence; });
-    for (std::size_t i = 0; i < mostTeamMates; ++i) write(board, i);
+    writePlaces(board);
+    const std::vector<const TeamMessage*> chosen = mostImportant(board);
+    for (std::size_t i = 0; i < mostTeamMates; ++i) {
+      write(board, i, i < chosen.size() ? chosen[i] : nullptr);
+    }
   }
 
   double period() const override { return cycle; }
@@ -102,9 +108,36 @@ class TeamTalk final : public CognitiveProcess {
     *mate = {message, now};
   }
 
-  void write(Blackboard& board, std::size_t i) const {
-    const bool known = i < m_mates.size();
-    const TeamMessage m = known ? m_mates[i].message : TeamMessage{};
+  std::vector<const TeamMessage*> mostImportant(const Blackboard& board) const {
+    std::vector<const TeamMessage*> all;
+    for (const Mate& mate : m_mates) all.push_back(&mate.message);
+    const int x = board.read(m_variables.localizationX), y = board.read(m_variables.localizationY);
+    const auto rank = [x, y](const TeamMessage& m) {
+      const bool attacks = m.intention == static_cast<int>(Intention::Ball);
+      const double away = std::hypot(static_cast<double>(m.x) - x, static_cast<double>(m.y) - y);
+      return std::tuple(attacks ? 0 : 1, m.ball >= 0 ? 0 : 1, away, m.robot);
+    };
+    std::sort(all.begin(), all.end(), [&](const TeamMessage* a, const TeamMessage* b) {
+      return rank(*a) < rank(*b);
+    });
+    if (all.size() > mostTeamMates) all.resize(mostTeamMates);
+    std::sort(all.begin(), all.end(),
+              [](const TeamMessage* a, const TeamMessage* b) { return a->robot < b->robot; });
+    return all;
+  }
+
+  void writePlaces(Blackboard& board) const {
+    for (std::size_t i = 0; i < mostMatePlaces; ++i) {
+      const bool known = i < m_mates.size();
+      const TeamMessage m = known ? m_mates[i].message : TeamMessage{};
+      writeIfPresent(board, m_team.mateX[i], known ? static_cast<float>(m.x) : -1.0F);
+      writeIfPresent(board, m_team.mateY[i], known ? static_cast<float>(m.y) : -1.0F);
+    }
+  }
+
+  void write(Blackboard& board, std::size_t i, const TeamMessage* message) const {
+    const bool known = message != nullptr;
+    const TeamMessage m = known ? *message : TeamMessage{};
     writeIfPresent(board, m_team.state[i], m.state);
     writeIfPresent(board, m_team.action[i], m.intention);
     writeIfPresent(board, m_team.place[i], known ? packPlace(m.x, m.y) : -1);

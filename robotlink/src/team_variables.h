@@ -5,6 +5,9 @@
 // process writes its own part, the team process sends it and writes what the others sent. All of it
 // lies in published variables. Places are whole cm of the LOCALIZATION frame; a place packed into one
 // int is x * 10000 + y, readable in the inspector (4500300 = x 450, y 300), and -1 is unknown.
+//
+// The published map has room for three team-mates with all that they tell (COM_*_ROBOT1..3), and for
+// the places of ten, a team of eleven (LOCALIZATION_RBT02_X to _RBT11_Y; _RBT01_X is the belief).
 
 #include <algorithm>
 #include <array>
@@ -16,6 +19,7 @@
 namespace pitchboard::link {
 
 constexpr int mostTeamMates = 3;     // COM_*_ROBOT1..3
+constexpr int mostMatePlaces = 10;   // LOCALIZATION_RBT02_X .. _RBT11_Y
 
 /// DECISION_STATE and COM_ACTION_ROBOTn.
 enum class Intention : int { None = 0, Idle = 1, Search = 2, Ball = 3, Support = 4, Keep = 5, Walk = 6 };
@@ -43,12 +47,19 @@ struct TeamVariables {
       place[i] = intVar("COM_POS_ROBOT" + n);
       ball[i] = intVar("COM_POS_BALL_ROBOT" + n);
     }
+    for (std::size_t i = 0; i < mostMatePlaces; ++i) {
+      const std::string n = std::to_string(i + 2);
+      const std::string name = "LOCALIZATION_RBT" + std::string(n.size() < 2 ? "0" : "") + n;
+      mateX[i] = floatVar(name + "_X");
+      mateY[i] = floatVar(name + "_Y");
+    }
   }
 
   IntVar intention;                ///< Intention
   IntVar targetX, targetY;         ///< cm, where the robot is walking to
   FloatVar ballX, ballY;           ///< cm, the ball as this robot saw it itself; -1 = not lately
   std::array<IntVar, mostTeamMates> state, action, place, ball;
+  std::array<FloatVar, mostMatePlaces> mateX, mateY;  ///< cm, every team-mate; -1 = none
 };
 
 constexpr int packPlace(int x_cm, int y_cm) {

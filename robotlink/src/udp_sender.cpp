@@ -8,17 +8,16 @@
 #include <unistd.h>
 #include <utility>
 
+#include <robotlink/robot_config.h>
+
 #include "spawn.h"
 
 namespace pitchboard::link {
 
 Result<UdpSender> UdpSender::to(const std::string& address) {
+  if (Result<void> valid = checkAddress(address); !valid) return tl::unexpected<Error>(valid.error());
   in_addr parsed{};
-  if (::inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
-    return failure(ErrorCode::InvalidArgument,
-                   "'" + address + "' is not an IPv4 address; write one like 127.0.0.1 (this "
-                   "computer) or 255.255.255.255 (everybody on the network)");
-  }
+  ::inet_pton(AF_INET, address.c_str(), &parsed);
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (fd < 0) {
     return failure(ErrorCode::SystemError, "cannot make a UDP socket: " + systemReason(errno));

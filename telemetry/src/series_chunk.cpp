@@ -50,15 +50,15 @@ std::shared_ptr<const Chunk> Chunk::ofStaging(const Staging& full, const Layout&
               const std::uint32_t c = layout.wordColumns[index];
               if (layout.slots[c].type == ColumnType::Int32) {
                 const auto typed = std::bit_cast<std::array<std::int32_t, blockRows>>(words);
-                chunk->m_columns[c] = Column::ofBlock(typed.data(), blockRows);
+                chunk->m_columns[c] = Column::ofBlock(typed.data());
               } else {
                 const auto typed = std::bit_cast<std::array<float, blockRows>>(words);
-                chunk->m_columns[c] = Column::ofBlock(typed.data(), blockRows);
+                chunk->m_columns[c] = Column::ofBlock(typed.data());
               }
             });
   transpose(full.values.get(), layout.values,
             [&](std::uint32_t index, const std::array<double, blockRows>& values) {
-              chunk->m_columns[layout.valueColumns[index]] = Column::ofBlock(values.data(), blockRows);
+              chunk->m_columns[layout.valueColumns[index]] = Column::ofBlock(values.data());
             });
   chunk->count(layout);
   return chunk;

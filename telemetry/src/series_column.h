@@ -3,7 +3,7 @@
 
 // One column of one chunk. A column that does not change costs 24 bytes; otherwise every block of
 // 64 rows that does not change costs its value only, the others are kept raw. Minimum and maximum
-// are kept for 64, 512 and 4096 rows. Private to the library; immutable once made.
+// are kept for 16 (of raw blocks), 64, 512 and 4096 rows. Private to the library; immutable once made.
 
 #include <algorithm>
 #include <array>
@@ -64,6 +64,11 @@ struct MinMax {
   T min{}, max{};
   bool any = false;
 
+  Extremes<T> extremes() const {
+    T none{};
+    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
+    return {any ? min : none, any ? max : none};
+  }
   void add(const Extremes<T>& other) { add(other.min, other.max); }
   void add(T low, T high) {
     if constexpr (std::is_floating_point_v<T>) {
@@ -93,25 +98,29 @@ struct MinMax {
 
 class Column {
  public:
-  /// From `count` (1 to 64) values of one block.
+  /// From the 64 values of one block.
   template <class T>
-  static Column ofBlock(const T* values, std::uint32_t count) {
+  static Column ofBlock(const T* values) {
     Column out;
     const auto first = bitsOf(values[0]);
     bool same = true;
-    for (std::uint32_t i = 1; i < count; ++i) same = same && bitsOf(values[i]) == first;
+    for (std::uint32_t i = 1; i < blockRows; ++i) same = same && bitsOf(values[i]) == first;
     if (same) {
       std::memcpy(&out.m_constant, &first, sizeof first);
       return out;
     }
     out.allocate<T>(1, 1);
     out.m_raw = 1;
-    MinMax<T> range;
-    range.scan(values, count);
-    out.setSummary<T>(0, range);
     T* raw = out.array<T>() + 2;
-    std::copy_n(values, count, raw);
-    std::fill(raw + count, raw + blockRows, T{});
+    std::copy_n(values, blockRows, raw);
+    MinMax<T> all;
+    for (std::uint32_t sub = 0; sub < blockRows / subRows; ++sub) {
+      MinMax<T> part;
+      part.scan(values + sub * subRows, subRows);
+      reinterpret_cast<Extremes<T>*>(raw + blockRows)[sub] = part.extremes();
+      if (part.any) all.add(part.min, part.max);
+    }
+    out.setSummary<T>(0, all);
     return out;
   }
 
@@ -138,7 +147,7 @@ class Column {
       MinMax<T> range;
       if (blocks[b]->m_bytes) {
         range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
-        values = std::copy_n(blocks[b]->array<T>() + 2, blockRows, values);
+        values = std::copy_n(blocks[b]->array<T>() + 2, rawValues, values);
         out.setSummary<T>(ofBlocks(chunkBlocks) + b, range);
       } else {
         const T value = blocks[b]->constant<T>();
@@ -178,7 +187,7 @@ class Column {
   const T* raw(std::uint32_t block, std::uint32_t blocks) const {
     const std::uint64_t before = m_raw & ((std::uint64_t{1} << block) - 1);
     return array<T>() + 2 * std::size_t{summaries(blocks)} +
-           static_cast<std::size_t>(std::popcount(before)) * blockRows;
+           static_cast<std::size_t>(std::popcount(before)) * rawValues;
   }
 
   /// Minimum and maximum of the rows [begin, end).
@@ -201,7 +210,7 @@ class Column {
         row = (block + 1) * blockRows;
       } else {
         const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
-        out.scan(raw<T>(block, blocks) + row % blockRows, stop - row);
+        rangeOfRaw(raw<T>(block, blocks), row % blockRows, stop - block * blockRows, out);
         row = stop;
       }
     }
@@ -219,18 +228,36 @@ class Column {
     const std::uint32_t block = row / blockRows;
     __builtin_prefetch(array<Extremes<T>>() + ofBlocks(blocks) + block);
     if (!isRaw(block)) return;
-    const auto* line = reinterpret_cast<const char*>(raw<T>(block, blocks));
-    for (std::size_t i = 0; i < blockRows * sizeof(T); i += 64) __builtin_prefetch(line + i);
+    const T* values = raw<T>(block, blocks);
+    __builtin_prefetch(values + blockRows);
+    const T* part = values + row % blockRows / subRows * subRows;
+    for (std::uint32_t i = 0; i < subRows; i += 64 / sizeof(T)) __builtin_prefetch(part + i);
+    __builtin_prefetch(part + subRows - 1);   // the memory may not begin with a cache line
   }
 
   template <class T>
   std::size_t heapBytes(std::uint32_t blocks) const {
     if (!m_bytes) return 0;
     return sizeof(T) * (2 * std::size_t{summaries(blocks)} +
-                        static_cast<std::size_t>(std::popcount(m_raw)) * blockRows);
+                        static_cast<std::size_t>(std::popcount(m_raw)) * rawValues);
   }
 
  private:
+  /// A raw block: its values, then minimum and maximum of each 16 of them.
+  static constexpr std::uint32_t rawValues = blockRows + 2 * (blockRows / subRows);
+
+  /// Of the values [begin, end) of a raw block.
+  template <class T>
+  static void rangeOfRaw(const T* values, std::uint32_t begin, std::uint32_t end, MinMax<T>& out) {
+    const auto* subs = reinterpret_cast<const Extremes<T>*>(values + blockRows);
+    while (begin < end) {
+      const std::uint32_t stop = std::min(end, (begin / subRows + 1) * subRows);
+      if (stop - begin == subRows) out.add(subs[begin / subRows]);
+      else out.scan(values + begin, stop - begin);
+      begin = stop;
+    }
+  }
+
   /// Of the whole chunk, of each 8 blocks, of each block; a single block has its own only. The raw
   /// blocks follow.
   static constexpr std::uint32_t ofBlocks(std::uint32_t blocks) {
@@ -240,13 +267,11 @@ class Column {
   template <class T>
   void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
     m_bytes = std::make_unique_for_overwrite<std::byte[]>(
-        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * blockRows));
+        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * rawValues));
   }
   template <class T>
   void setSummary(std::uint32_t at, const MinMax<T>& range) {
-    T none{};
-    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
-    array<Extremes<T>>()[at] = {range.any ? range.min : none, range.any ? range.max : none};
+    array<Extremes<T>>()[at] = range.extremes();
   }
   template <class T>
   T* array() const {

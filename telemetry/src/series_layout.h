@@ -13,7 +13,8 @@
 
 namespace pitchboard::telemetry::series {
 
-inline constexpr std::uint32_t blockRows = 64;     ///< smallest unit that has a summary
+inline constexpr std::uint32_t blockRows = 64;     ///< what the writer collects
+inline constexpr std::uint32_t subRows = 16;       ///< smallest unit that has a summary, in raw blocks
 inline constexpr std::uint32_t chunkBlocks = 64;   ///< a bit of a word for each
 inline constexpr std::uint32_t chunkRows = blockRows * chunkBlocks;
 inline constexpr std::uint32_t superBlocks = 8;    ///< blocks below one summary of the next level

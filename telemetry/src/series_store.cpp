@@ -124,7 +124,7 @@ std::size_t SeriesStore::groups() const {
 
 std::shared_ptr<const GroupView> SeriesStore::view(GroupId id) const {
   const std::shared_lock lock(m_impl->listMutex);
-  if (id >= m_impl->groups.size() || m_impl->replaced[id]) return nullptr;
+  if (id >= m_impl->groups.size()) return nullptr;
   return m_impl->groups[id]->view();
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The series store: values appended a second, what a curve's query over ten million points costs.
-// (Memory of a played match: series_memory.)
+// The series store: values appended a second, what a curve's query over ten million points costs,
+// memory and time of sampling a played match.
+
+#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <robotlink/match_sampler.h>
 #include <telemetry/series_store.h>
 
 namespace pitchboard::telemetry {
@@ -90,6 +94,53 @@ void view(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(tenMillion().view(0));
 }
 BENCHMARK(view);
+
+/// Six robots with the soccer behaviours, localization and realistic noise.
+link::SimulatedMatch soccer() {
+  link::Scenario scenario = link::loadScenario("match-3v3").value();
+  scenario.settings.noise = link::noisePreset("realistic").value();
+  link::MatchOptions options;
+  options.process.particles = 500;
+  return link::SimulatedMatch::create(scenario, options).value();
+}
+
+double residentMegabytes() {
+  long total = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> total >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+/// What sampling adds to a tick: 6 robots x (205 variables + truth) and the match.
+void sampling(benchmark::State& state) {
+  auto match = soccer();
+  for (int i = 0; i < 600; ++i) match.tick();
+  const auto store = std::make_shared<SeriesStore>(SeriesOptions{.memoryBudget = std::size_t{300} << 20});
+  link::MatchSampler sampler(store);
+  for (auto _ : state) {
+    state.PauseTiming();
+    match.tick();
+    state.ResumeTiming();
+    sampler.ticked(match, std::chrono::microseconds(1));
+  }
+}
+BENCHMARK(sampling)->Iterations(20'000)->Unit(benchmark::kMicrosecond);
+
+/// An hour at 60 Hz. MB by the store's own account, and what the process grew by.
+void hourOfMatch(benchmark::State& state) {
+  for (auto _ : state) {
+    auto match = soccer();
+    const double before = residentMegabytes();
+    const auto store = std::make_shared<SeriesStore>(SeriesOptions{.memoryBudget = std::size_t{4} << 30});
+    link::MatchSampler sampler(store);
+    for (int i = 0; i < 60 * 3600; ++i) {
+      match.tick();
+      sampler.ticked(match, std::chrono::microseconds(1));
+    }
+    state.counters["MB"] = static_cast<double>(store->memoryBytes()) / 1e6;
+    state.counters["MB resident"] = residentMegabytes() - before;
+  }
+}
+BENCHMARK(hourOfMatch)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 }  // namespace pitchboard::telemetry

@@ -32,7 +32,7 @@ const QList<Layer>& layers() {
        {"Eigen/", "nlohmann/", "tl/", "zlib.h"}},
       {"ui",
        {"base/", "simcore/", "telemetry/", "robotlink/", "resources/", "ui/"},
-       {"Q", "Qt", "tl/", "nlohmann/"}},
+       {"Q", "Qt", "tl/", "nlohmann/", "muParser.h"}},
       {"app/cli",
        {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},
        {"CLI/", "nlohmann/", "tl/"}},

@@ -22,13 +22,36 @@ class TestUnchangedProcess : public QObject {
  private slots:
   void cleanup() { removeSegment(m_base + 100); }
 
+  // What docs/ROBOTS.md shows is what runs here.
+  void theGuideShowsThesePrograms_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("language");
+    QTest::newRow("Python") << "naive_robot.py" << "python";
+    QTest::newRow("C++") << "naive_robot.cpp" << "cpp";
+  }
+  void theGuideShowsThesePrograms() {
+    QFETCH(QString, file);
+    QFETCH(QString, language);
+    QFile guide(PITCHBOARD_SOURCE_DIR "/docs/ROBOTS.md");
+    QFile program(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/" + file);
+    QVERIFY(guide.open(QIODevice::ReadOnly) && program.open(QIODevice::ReadOnly));
+    const QByteArray text = program.readAll();
+    QVERIFY(text.count('\n') <= 45);
+    QVERIFY(guide.readAll().contains("```" + language.toUtf8() + "\n" + text + "```\n"));
+  }
+
   void walksToTheBallAndKicksIt_data() {
     QTest::addColumn<QString>("physics");
-    QTest::newRow("rigid-body") << "rigid-body";
-    QTest::newRow("published") << "published";
+    QTest::addColumn<QStringList>("program");
+    const QStringList python{"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py"};
+    const QStringList cpp{QCoreApplication::applicationDirPath() + "/naive_robot"};
+    QTest::newRow("Python, rigid-body") << "rigid-body" << python;
+    QTest::newRow("Python, published") << "published" << python;
+    QTest::newRow("C++, rigid-body") << "rigid-body" << cpp;
   }
   void walksToTheBallAndKicksIt() {
     QFETCH(QString, physics);
+    QFETCH(QStringList, program);
     constexpr double speed = 8.0;
     Scenario scenario;
     scenario.settings.physics = physics.toStdString();
@@ -50,8 +73,8 @@ class TestUnchangedProcess : public QObject {
 
       QProcess process;
       process.setProcessChannelMode(QProcess::ForwardedChannels);
-      process.start("python3", {PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py",
-                                QString::number(m_base + 100), QString::number(0.25 / speed)});
+      process.start(program.first(), program.mid(1) + QStringList{QString::number(m_base + 100),
+                                                                  QString::number(0.25 / speed)});
       QVERIFY(process.waitForStarted());
 
       // A late tick is not made up for: the process would be left behind on a busy computer.

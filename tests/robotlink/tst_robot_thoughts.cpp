@@ -177,6 +177,35 @@ class TestRobotThoughts : public QObject {
     QCOMPARE(hash(true), hash(false));
   }
 
+  void separateProcessesKnowACustomField() {
+    Scenario scenario = match(1);
+    scenario.settings.field.name = "park";
+    scenario.settings.field.length = 40.0;
+    scenario.settings.field.width = 20.0;
+    const auto again = fieldFromText(fieldToText(scenario.settings.field), "test");
+    QVERIFY(again && *again == scenario.settings.field);
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.process.telemetryPortBase = 60000;
+    options.process.teamPortBase = 60100;
+    options.process.team = 82;
+    options.thoughts = true;
+    auto runner = MatchRunner::start(scenario, options).value();
+    const auto farthest = [&] {
+      double most = 0;
+      const auto frame = runner->latest();
+      const RobotThoughts* first = frame ? of(frame->thoughts, 1) : nullptr;
+      if (!first || !first->cloud) return most;
+      for (const Particle& p : first->cloud->particles) most = std::max(most, std::abs(p.position.x));
+      return most;
+    };
+    // It starts anywhere on the field, so some particle lies far outside a field of 9 metres.
+    QTRY_VERIFY_WITH_TIMEOUT(farthest() > 10.0, 20000);
+    QVERIFY(farthest() < 25.0);
+  }
+
   void separateProcessesTellThem_data() {
     QTest::addColumn<bool>("asked");
     QTest::newRow("asked") << true;

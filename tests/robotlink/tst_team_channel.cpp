@@ -53,6 +53,43 @@ class TestTeamChannel : public QObject {
     QCOMPARE(kept.back(), std::string("999"));
   }
 
+  void elevenRobotsHearEachOther() {
+    const auto channel = std::make_shared<InProcessTeamChannel>();
+    std::vector<Robot> robots;
+    for (int id = 1; id <= 11; ++id) robots.emplace_back(id, channel);
+    const VariableCatalog& catalog = VariableCatalog::published();
+    const IntVar intention = *catalog.intVar("DECISION_STATE");
+    const FloatVar ballX = *catalog.floatVar("LOCALIZATION_BALL_X");
+    const FloatVar ballY = *catalog.floatVar("LOCALIZATION_BALL_Y");
+    for (int id = 1; id <= 11; ++id) {
+      Robot& robot = robots[static_cast<std::size_t>(id - 1)];
+      robot.board.write(robot.v.localizationX, 50 * id);
+      robot.board.write(robot.v.localizationY, 300);
+      robot.board.write(intention, id == 11 ? 3 : 6);      // robot 11 goes for the ball
+      robot.board.write(ballX, id == 8 ? 450.0F : -1.0F);  // robot 8 sees it
+      robot.board.write(ballY, id == 8 ? 200.0F : -1.0F);
+    }
+    for (int round = 0; round < 2; ++round) {
+      for (Robot& robot : robots) robot.step(0.2 * round);
+    }
+    const Blackboard& first = robots[0].board;
+    for (int id = 2; id <= 11; ++id) {
+      const std::string name = "LOCALIZATION_RBT" + std::string(id < 10 ? "0" : "") + std::to_string(id);
+      QCOMPARE(first.read(*catalog.floatVar(name + "_X")), 50.0F * static_cast<float>(id));
+      QCOMPARE(first.read(*catalog.floatVar(name + "_Y")), 300.0F);
+    }
+    // Three with all they tell, by number: the nearest, the one that sees the ball, the one at it.
+    QCOMPARE(value(first, "COM_POS_ROBOT1"), 100 * 10000 + 300);
+    QCOMPARE(value(first, "COM_POS_ROBOT2"), 400 * 10000 + 300);
+    QCOMPARE(value(first, "COM_POS_BALL_ROBOT2"), 450 * 10000 + 200);
+    QCOMPARE(value(first, "COM_POS_ROBOT3"), 550 * 10000 + 300);
+    QCOMPARE(value(first, "COM_ACTION_ROBOT3"), 3);
+    robots[0].step(60.0);   // hears what still waited
+    robots[0].step(120.0);  // all fell silent
+    QCOMPARE(first.read(*catalog.floatVar("LOCALIZATION_RBT11_X")), -1.0F);
+    QCOMPARE(value(first, "COM_STATE_ROBOT1"), 0);
+  }
+
   void udpReachesTheTeamOnThisComputerOnly() {
     const int team = 40 + static_cast<int>(QCoreApplication::applicationPid() % 50);
     auto one = makeUdpTeamChannel("127.0.0.1", team);

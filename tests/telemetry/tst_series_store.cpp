@@ -302,7 +302,7 @@ class TestSeriesStore : public QObject {
     info.columns.pop_back();
     const GroupId other = store.addGroup(info);
     QVERIFY(other != id);
-    QVERIFY(!store.view(id));
+    QCOMPARE(store.view(id)->rows(), std::size_t{0});
     QCOMPARE(*store.findGroup("B1"), other);
     QCOMPARE(store.view(other)->rows(), std::size_t{0});
     QVERIFY(!store.range());
@@ -367,6 +367,33 @@ class TestSeriesStore : public QObject {
     stop = true;
     for (auto& reader : readers) reader.join();
     QCOMPARE(wrong.load(), 0);
+  }
+
+  /// Each thread has a group of its own; a third one forgets everything now and then.
+  void severalWriters() {
+    SeriesStore store({.memoryBudget = 500'000});
+    std::atomic<bool> stop{false};
+    std::vector<std::thread> writers;
+    for (int w = 0; w < 2; ++w) {
+      writers.emplace_back([&, w] {
+        const GroupId id = store.addGroup(group("W" + std::to_string(w)));
+        Source source(static_cast<unsigned>(w));
+        for (int i = 0; i < 20'000; ++i) store.append(id, viewOf(source.next()));
+      });
+    }
+    std::thread clearer([&] {
+      while (!stop) {
+        store.clear();
+        std::this_thread::yield();
+      }
+    });
+    for (auto& writer : writers) writer.join();
+    stop = true;
+    clearer.join();
+    QCOMPARE(store.refusedRows(), std::uint64_t{0});
+    QCOMPARE(store.groups(), std::size_t{2});
+    store.clear();
+    QVERIFY(!store.range());
   }
 };
 

@@ -305,6 +305,57 @@ class TestFieldView : public QObject {
     QCOMPARE(m_controller->undoStack()->count(), 2);
   }
 
+  void menuOfARobotChangesItsBehaviour() {
+    QVERIFY(trigger(pose(3).position, "Keeper"));
+    QTRY_COMPARE(m_controller->frame()->boards[2].behaviour, std::string("keeper"));
+    QCOMPARE(m_controller->robot(RobotId{3})->behaviour, std::string("keeper"));
+    QVERIFY(isChecked(pose(3).position, "Keeper"));
+    QVERIFY(!isChecked(pose(3).position, "Striker"));
+    QVERIFY(trigger(pose(3).position, "None (your own process)"));
+    QTRY_COMPARE(m_controller->frame()->boards[2].behaviour, std::string(link::noBehaviour));
+  }
+
+  void menuOfARobotChangesItsTeam() {
+    const Pose before = pose(1);
+    QVERIFY(isChecked(before.position, "Blue"));
+    QVERIFY(trigger(before.position, "Red"));
+    const auto identity = [this](int id) {
+      for (const auto& robot : m_controller->frame()->snapshot.robots) {
+        if (robot.identity.id.value == id) return robot.identity;
+      }
+      return sim::RobotIdentity{};
+    };
+    QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
+    QCOMPARE(identity(1).number, 4);            // 1 to 3 are worn
+    QVERIFY(identity(1).imuStartsAt180);        // it attacks to the left now
+    QVERIFY(near(pose(1), before));
+    QCOMPARE(m_controller->undoStack()->undoText(), QString("Put B1 in team red"));
+    QVERIFY(trigger(before.position, "Red"));   // is there already
+    QCOMPARE(m_controller->undoStack()->count(), 1);
+    m_controller->undoStack()->undo();
+    QTRY_COMPARE(int(identity(1).team), int(TeamColor::Blue));
+    QCOMPARE(identity(1).number, 1);
+    QVERIFY(!identity(1).imuStartsAt180);
+    m_controller->undoStack()->redo();
+    QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
+    QCOMPARE(int(m_controller->currentMoment().robots[0].identity.team), int(TeamColor::Red));
+  }
+
+  void selectedRobotsChangeTeamTogether() {
+    m_view->select({RobotId{1}, RobotId{2}, RobotId{4}});
+    QVERIFY(trigger(pose(1).position, "Orange"));
+    const auto inOrange = [this] {
+      int count = 0;
+      for (const auto& robot : m_controller->frame()->snapshot.robots) {
+        count += robot.identity.team == TeamColor::Orange;
+      }
+      return count;
+    };
+    QTRY_COMPARE(inOrange(), 3);
+    m_controller->undoStack()->undo();
+    QTRY_COMPARE(inOrange(), 0);
+  }
+
   void menuAsksToSaveTheMoment() {
     const QSignalSpy save(m_view.get(), &FieldView::saveScenarioRequested);
     QVERIFY(trigger({-1.0, -2.0}, "Save this moment as a scenario…"));
@@ -368,6 +419,39 @@ class TestFieldView : public QObject {
     QVERIFY(m_view->picture(size) != four);
   }
 
+  void particlesAndPathAreDrawnOfRobotsThatTellThem() {
+    auto frame = std::make_shared<link::MatchFrame>(*m_controller->frame());
+    auto cloud = std::make_shared<link::ParticleCloud>();
+    for (int i = 0; i < 200; ++i) cloud->particles.push_back({{-3.0 + 0.01 * i, 2.0}, 0.5, 0.005});
+    auto path = std::make_shared<link::PlannedPath>();
+    path->points = {{-1.0, -2.0}, {0.0, -2.5}, {2.0, -2.0}};
+    frame->thoughts = {{RobotId{1}, cloud, path, 0.0, 0.0}};
+    FieldView view(nullptr);
+    view.resize(900, 660);
+    view.showFrame(frame);
+    const QSize size(1040, 740);
+    const QImage without = view.picture(size);
+    for (const FieldLayer layer : {FieldLayer::Particles, FieldLayer::PlannedPath}) {
+      QAction* action = view.layerActions()[std::size_t(layer)];
+      QVERIFY(!action->isChecked());  // off at first
+      action->setChecked(true);
+      QVERIFY(view.picture(size) != without);
+      view.select({RobotId{2}});      // of selected robots only, and this one tells nothing
+      const QImage other = view.picture(size);
+      view.select({RobotId{1}});
+      QVERIFY(view.picture(size) != other);
+      view.select({});
+      action->setChecked(false);
+      QCOMPARE(view.picture(size), without);
+    }
+    auto silent = std::make_shared<link::MatchFrame>(*frame);
+    silent->thoughts.clear();
+    view.layerActions()[std::size_t(FieldLayer::Particles)]->setChecked(true);
+    view.layerActions()[std::size_t(FieldLayer::PlannedPath)]->setChecked(true);
+    view.showFrame(silent);
+    QCOMPARE(view.picture(size), without);
+  }
+
   void nothingIsDrawnBesideThePlayingArea() {
     // A picture much wider than the field: with everything shown, its sides stay empty.
     for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
@@ -414,6 +498,20 @@ class TestFieldView : public QObject {
     if (found != actions.end()) (*found)->trigger();
     menu->close();
     return found != actions.end();
+  }
+  bool isChecked(const Point& place, const QString& text) {
+    const QPoint point = at(place);
+    QContextMenuEvent event(QContextMenuEvent::Mouse, point,
+                            m_canvas->viewport()->mapToGlobal(point));
+    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    if (!menu) return false;
+    bool checked = false;
+    for (const QAction* action : menu->findChildren<QAction*>()) {
+      checked = checked || (action->text() == text && action->isChecked());
+    }
+    menu->close();
+    return checked;
   }
   Pose pose(int id) const {
     for (const auto& robot : m_controller->frame()->snapshot.robots) {

@@ -10,6 +10,7 @@
 #include <QTemporaryDir>
 #include <QToolBar>
 #include <QToolButton>
+#include <QUndoStack>
 #include <QtTest>
 
 #include <robots/robot_card.h>
@@ -21,6 +22,8 @@
 #include <ui/live_controller.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
+
+
 
 #include "live_rig.h"
 
@@ -298,7 +301,7 @@ class TestLive : public QObject {
   }
 
   void penaltiesOfOurTeamAreMarked() {
-    const std::string bytes = live_rig::packet(QStringLiteral("v12hl688_PENALISED.bin"));
+    const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
     const auto state =
         std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());
     int team = 0, player = 0;

@@ -86,7 +86,7 @@ class TestLiveIsSilent : public QObject {
   struct Studio {
     QTemporaryDir folder;
     QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller{link::MatchOptions{.cognition = link::Cognition::Inline}};
+    MatchController controller{link::MatchOptions()};
     MainWindow window{&controller, &settings};
     link::LiveOptions options = live_rig::options();
     Studio() {

@@ -169,7 +169,7 @@ class TestLiveSettings : public QObject {
     const telemetry::Sender sender{{0x7f000001}, 4000};
     monitor.take({now, sender, 1241, false,
                   "1 258 448 -8 56.3 184.6 41.0 1 1 1 1 1 8 0.05 189 OUT"});
-    monitor.take({now, sender, 1241, false, "1 2 3"});
+    monitor.take({now, sender, 1241, false, "1 2 3 OUT"});
     link::LiveDetails details;
     details.team = monitor.status(now);
     details.unknownReferee = 2;
@@ -180,7 +180,7 @@ class TestLiveSettings : public QObject {
     QCOMPARE(model.rowCount(), 0);
     model.update(details);
     QCOMPARE(model.rowCount(), 4);   // everybody, robot 1, its sender, the referee's port
-    QCOMPARE(model.index(0, BadMessagesModel::Sample).data().toString(), QStringLiteral("1 2 3"));
+    QCOMPARE(model.index(0, BadMessagesModel::Sample).data().toString(), QStringLiteral("1 2 3 OUT"));
     QVERIFY(model.index(1, BadMessagesModel::Who).data().toString().startsWith(
         QStringLiteral("robot 1")));
     details.unknownReferee = 3;

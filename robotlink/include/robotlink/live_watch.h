@@ -64,6 +64,8 @@ class LiveObserver {
                             const telemetry::RefereeState&) {}
   virtual void happened(const sim::Event&, double /*time*/) {}
   virtual void logged(const LogLine&) {}
+  /// How everybody is heard, a few times a second.
+  virtual void reported(const telemetry::TeamStatus&) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
 };
@@ -89,6 +91,8 @@ class LiveWatch {
   std::vector<sim::Event> takeEvents();
   std::vector<LogLine> takeLog();
 
+  /// The time of day at 0 s.
+  telemetry::WallTime began() const;
   void observe(std::shared_ptr<LiveObserver> observer);
   /// After this returns the observer is not called any more.
   void stopObserving(const std::shared_ptr<LiveObserver>& observer);

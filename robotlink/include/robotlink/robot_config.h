@@ -42,6 +42,9 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source);
 /// Reads the file.
 Result<IniFile> readIniFile(const std::string& path);
 
+/// InvalidArgument, in words, for anything but an IPv4 address in dotted form.
+Result<void> checkAddress(const std::string& text);
+
 /// InvalidArgument, in words, for a number outside 1..64.
 Result<RobotId> robotFromNumber(long long number);
 Result<RobotId> robotFromIni(const IniFile& file);

@@ -89,6 +89,9 @@ class SimulatedMatch {
   /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
   /// noBehaviour). The robot itself and its blackboard stay as they are.
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
+  /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
+  /// shirt is worn already.
+  Result<void> setIdentity(const sim::RobotIdentity& identity);
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
 
@@ -121,8 +124,10 @@ class SimulatedMatch {
   std::uint64_t nextDueTick(double period) const;
   Seat* seat(RobotId id) const;
   bool sharesBoards() const;
+  Result<void> checkShirt(const sim::RobotIdentity& identity) const;
   Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot) const;
   Result<void> startProcesses(Seat& seat);
+  Result<void> restartProcesses(Seat& seat);
   Result<void> startProcess(Seat& seat, const ProcessInfo& info);
   ProcessOptions inlineOptions(const Seat& seat);
   std::vector<std::string> commandOf(const Seat& seat, const ProcessInfo& info) const;

@@ -47,9 +47,7 @@ void Walk::plan(const WorldModel& world, const Goal& goal) {
   const sim::FieldSpec& field = world.field();
   m_obstacles.clear();
   const double body = 2 * field.robotRadius + robotClearance;
-  for (const auto& mate : world.mates()) {
-    if (mate) m_obstacles.push_back({mate->position, body});
-  }
+  for (const Point& mate : world.matePlaces()) m_obstacles.push_back({mate, body});
   for (const Point& opponent : world.opponents()) m_obstacles.push_back({opponent, body});
   for (const double x : {-field.halfLength(), field.halfLength()}) {
     for (const double y : {-field.goalWidth / 2, field.goalWidth / 2}) {

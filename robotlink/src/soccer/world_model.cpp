@@ -125,6 +125,17 @@ void WorldModel::readMates(const Blackboard& board) {
     }
     m_mates[i] = mate;
   }
+  m_matePlaces.clear();
+  for (std::size_t i = 0; i < m_team.mateX.size(); ++i) {
+    const double x = static_cast<double>(readOr(board, m_team.mateX[i], -1.0F));
+    const double y = static_cast<double>(readOr(board, m_team.mateY[i], -1.0F));
+    // Zeros are fresh memory: nobody stands on the corner.
+    if (x >= 0.0 && y >= 0.0 && x + y > 0.0 && x < 1e5 && y < 1e5) m_matePlaces.push_back(fromCm(x, y));
+  }
+  if (!m_matePlaces.empty()) return;
+  for (const auto& mate : m_mates) {  // another team's process writes these only
+    if (mate) m_matePlaces.push_back(mate->position);
+  }
 }
 
 double WorldModel::ballDistance() const { return length(m_ballLocal); }

@@ -69,6 +69,8 @@ class WorldModel {
   }
 
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
+  /// Where all team-mates stand that were heard of lately, also those that mates() has no room for.
+  const std::vector<Point>& matePlaces() const { return m_matePlaces; }
   /// Opponents seen within the last seconds.
   std::vector<Point> opponents() const;
 
@@ -114,6 +116,7 @@ class WorldModel {
   double m_ballSeen = -1e9;
   std::array<Sighting, 11> m_opponents;
   std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
+  std::vector<Point> m_matePlaces;
 };
 
 }  // namespace pitchboard::link

@@ -105,7 +105,8 @@ class SeriesStore : public RowSink {
   /// Grows whenever groups came (lists are then to be read anew).
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;
-  /// Null for an id that is unknown, or whose group was replaced by one with other columns.
+  /// Null for an id that was never given. A group that was replaced by one with other columns stays,
+  /// empty; findGroup() gives the other one.
   std::shared_ptr<const GroupView> view(GroupId group) const;
   std::optional<GroupId> findGroup(std::string_view name) const;
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;

@@ -18,9 +18,10 @@ namespace pitchboard::ui {
 
 /// What can be shown or hidden on the field, in the order of the layers menu.
 enum class FieldLayer {
-  FieldOfView, Belief, Ghost, PerceivedBall, Trails, Numbers, Grid, Landmarks, Eopra, StarVars
+  FieldOfView, Belief, Ghost, PerceivedBall, Trails, Numbers, Grid, Landmarks, Eopra, StarVars,
+  Particles, PlannedPath
 };
-inline constexpr int fieldLayerCount = 10;
+inline constexpr int fieldLayerCount = 12;
 
 class FieldView : public QWidget {
   Q_OBJECT

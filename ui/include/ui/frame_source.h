@@ -13,6 +13,7 @@
 
 #include <robotlink/match_frame.h>
 #include <simcore/simulation.h>
+#include <telemetry/session_types.h>
 
 namespace pitchboard::telemetry {
 class SeriesStore;
@@ -50,6 +51,8 @@ class FrameSource : public QObject {
   void frameReceived(const pitchboard::ui::FramePtr& frame);
   void eventsReceived(const std::vector<pitchboard::sim::Event>& events);
   void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
+  /// What a recording holds of events, once for each recording.
+  void eventsRecorded(const std::vector<pitchboard::telemetry::SessionEvent>& events);
   /// Another match or session, or none: what was remembered of the old one is void.
   void restarted();
 };

@@ -6,6 +6,7 @@
 // another source is shown. It sends nothing but the monitor request, when that is turned on. UI
 // thread only.
 
+#include <deque>
 #include <memory>
 
 #include <robotlink/live_watch.h>
@@ -40,6 +41,9 @@ class LiveController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_series; }
   QString emptyText() const override;
+  /// From the last minutes: at most five moments a second are kept, and so many robots in all.
+  FramePtr frameAt(double time) const override;
+  std::optional<QDateTime> clock() const override;
 
   /// Ports, senders, errors: copied from the watch, so not for every frame.
   link::LiveDetails details() const;
@@ -54,11 +58,16 @@ class LiveController : public FrameSource {
 
  private:
   void deliver();
+  void remember();
+  void keepRows();
 
   link::LiveOptions m_options;
   std::vector<std::shared_ptr<link::LiveObserver>> m_observers;
   std::unique_ptr<link::LiveWatch> m_watch;
   FramePtr m_frame;
+  std::deque<FramePtr> m_past;
+  std::size_t m_pastRobots = 0;
+  std::shared_ptr<link::LiveObserver> m_rows;
   std::shared_ptr<telemetry::SeriesStore> m_series;
 };
 

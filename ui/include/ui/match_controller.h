@@ -18,6 +18,8 @@
 #include <vector>
 
 #include <robotlink/match_runner.h>
+#include <robotlink/recorded_frame.h>
+#include <robotlink/state_archive.h>
 #include <ui/frame_source.h>
 
 class QTimer;
@@ -64,6 +66,7 @@ class MatchController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
+  FramePtr frameAt(double time) const override;
   QUndoStack* undoStack() const { return m_undoStack; }
   /// Where the robots' processes run: as asked for, or Inline when that was not possible.
   link::Cognition cognition() const { return m_cognition; }
@@ -93,6 +96,8 @@ class MatchController : public FrameSource {
   void moveBall(Point from, Point to);
   void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
   void removeRobots(const std::vector<RobotId>& ids);
+  /// These robots play for another team, each with the smallest shirt number that is free there.
+  void setTeam(const std::vector<RobotId>& ids, TeamColor team);
 
   // While a drag is going on the world follows, but only its end is one undoable command:
   /// Shows robots at their `to` pose without an entry on the undo stack.
@@ -129,10 +134,21 @@ class MatchController : public FrameSource {
   /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
   std::uint64_t stateHash();
 
+  /// The exact states of the recent past; another one after `restarted`, null while there is no match.
+  std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
+  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and what
+  /// could be undone. `errorOccurred` when memory does not hold it any more.
+  void continueFrom(double time);
+  /// Sees every tick from now on, until stopObserving() or `ending`. False: there is no match.
+  bool observe(std::shared_ptr<link::TickObserver> observer);
+  /// Waits for the tick in progress.
+  void stopObserving(const std::shared_ptr<link::TickObserver>& observer);
+
   /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
   const link::ScenarioRobot* robot(RobotId id) const;
 
  signals:
+  void ending();             ///< the match goes now: its observers see it for the last time
   void scenarioChanged();    ///< another match is being opened, or none; `restarted` follows
   void opened();             ///< it is there, or failed
   void transportChanged();   ///< paused, speed, or whether there is a match
@@ -145,6 +161,7 @@ class MatchController : public FrameSource {
   friend class RemoveRobotsCommand;
   friend class PlacementCommand;
   friend class BallCommand;
+  friend class TeamCommand;
 
   struct Opening;            ///< what the worker made
   void poll();
@@ -161,6 +178,7 @@ class MatchController : public FrameSource {
                    std::function<void()> onFailure = {});
   void insertRobot(const link::ScenarioRobot& robot);
   void eraseRobot(RobotId id);
+  void changeIdentities(const std::vector<sim::RobotIdentity>& identities);
   void placeRobots(const std::vector<RobotPlacement>& placements, bool back);
   void placeBall(Point position);
 
@@ -173,6 +191,8 @@ class MatchController : public FrameSource {
   FramePtr m_frame;
   std::shared_ptr<MatchRows> m_rows;
   std::shared_ptr<link::MatchSampler> m_sampler;
+  std::shared_ptr<link::StateArchive> m_archive;
+  mutable std::unique_ptr<link::RecordedFrames> m_past;   // rebuilds frames; made when asked for
   int m_everyNth = 1;
   double m_speed = 1.0;
   bool m_paused = false;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_menu.h"
 
-#include <robotlink/cognitive_process.h>
-#include <robotlink/scenario.h>
 #include <ui/theme.h>
 
 #include <QMenu>
@@ -10,14 +8,11 @@
 #include <array>
 #include <numbers>
 
+#include "shell/robot_menus.h"
+#include "shell/robot_words.h"
+
 namespace pitchboard::ui {
 namespace {
-
-QString capitalised(std::string_view text) {
-  QString words = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-  if (!words.isEmpty()) words[0] = words[0].toUpper();
-  return words;
-}
 
 void addPlaces(QMenu* menu, FieldScene* scene, MatchController* controller,
                const QPointF& metres) {
@@ -48,16 +43,8 @@ void addRobotActions(QMenu* menu, MatchController* controller, const std::vector
       for (const RobotId id : ids) controller->commandAction(id, action);
     });
   }
-  QMenu* behaviour = menu->addMenu(QObject::tr("Behaviour"));
-  const auto addBehaviour = [&](std::string_view name) {
-    const QString text = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-    behaviour->addAction(capitalised(name), controller, [controller, ids, text] {
-      for (const RobotId id : ids) controller->setBehaviour(id, text);
-    });
-  };
-  for (const link::BehaviourInfo& info : link::behaviours()) addBehaviour(info.name);
-  behaviour->addSeparator();
-  addBehaviour(link::noBehaviour);
+  addBehaviourMenu(menu, controller, ids);
+  addTeamMenu(menu, controller, ids);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "pose_difference.h"
 #include "robot_item.h"
 #include "sector_items.h"
+#include "thought_items.h"
 #include "trail_item.h"
 #include "view_wedge_item.h"
 
@@ -21,8 +22,8 @@ namespace pitchboard::ui {
 namespace {
 
 // From the ground up.
-enum Height { wedgeHeight, sectorHeight, trailHeight, beliefHeight, ballHeight, robotHeight,
-              toolHeight };
+enum Height { wedgeHeight, sectorHeight, trailHeight, particleHeight, beliefHeight, pathHeight,
+              ballHeight, robotHeight, toolHeight };
 
 constexpr double hitMargin_px = 3.0;
 
@@ -74,10 +75,12 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
 struct FieldScene::Robot {
   Robot(FieldScene* scene, RobotId id)
       : body(&scene->m_style, id), belief(&scene->m_style), trail(&scene->m_style),
-        wedge(&scene->m_style), other(&scene->m_style) {
+        wedge(&scene->m_style), other(&scene->m_style), particles(&scene->m_style),
+        path(&scene->m_style) {
     const std::pair<QGraphicsItem*, Height> items[] = {
         {&body, robotHeight}, {&belief, beliefHeight}, {&trail, trailHeight},
-        {&wedge, wedgeHeight}, {&other, beliefHeight}};
+        {&wedge, wedgeHeight}, {&other, beliefHeight}, {&particles, particleHeight},
+        {&path, pathHeight}};
     for (const auto& [item, height] : items) {
       item->setZValue(height);
       scene->addItem(item);
@@ -89,6 +92,8 @@ struct FieldScene::Robot {
   TrailItem trail;
   ViewWedgeItem wedge;
   OtherPoseItem other;
+  ParticlesItem particles;
+  PlannedPathItem path;
 };
 
 FieldScene::FieldScene(QObject* parent)
@@ -123,6 +128,8 @@ void FieldScene::styleChanged() {
     robot->trail.styleChanges();
     robot->wedge.styleChanges();
     robot->other.styleChanges();
+    robot->particles.styleChanges();
+    robot->path.styleChanges();
   }
   m_teamBall->styleChanges();
   m_ball->styleChanges();
@@ -159,7 +166,25 @@ void FieldScene::showFrame(const FramePtr& frame) {
               known ? &frame->boards[i] : nullptr, heard ? &frame->health[i] : nullptr,
               snapshot.time);
   }
+  showThoughts();
   showSelected();
+}
+
+// Of the selected robots, or of all while none is selected: six clouds at once hide each other.
+void FieldScene::showThoughts() {
+  if (!m_frame) return;
+  for (auto& [id, robot] : m_robots) {
+    const bool chosen = m_selection.empty() ||
+        std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+    const auto told = std::find_if(m_frame->thoughts.begin(), m_frame->thoughts.end(),
+                                   [&](const auto& one) { return one.robot == id; });
+    const bool any = chosen && told != m_frame->thoughts.end();
+    const TeamColor team = robot->body.look().team;
+    robot->particles.setVisible(any && m_style.shows(FieldLayer::Particles));
+    robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
+    if (robot->particles.isVisible()) robot->particles.setCloud(told->cloud, team);
+    if (robot->path.isVisible()) robot->path.setPath(told->path, team);
+  }
 }
 
 void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
@@ -271,6 +296,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
                             (look.selected || m_style.wedgeForAll));
     robot->wedge.styleChanges();
   }
+  showThoughts();
   showSelected();
   emit selectionChangedTo(m_selection);
 }
@@ -290,7 +316,7 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
   double least = robotReach;
   for (const auto& [id, robot] : m_robots) {
     const double away = distance(toScene(robot->body.look().pose.position), metres);
-    if (away > least) continue;
+    if (away > least || !robot->body.isVisible()) continue;
     least = away;
     nearest = {FieldHit::Kind::Robot, id};
   }
@@ -307,7 +333,10 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
 std::vector<RobotId> FieldScene::robotsIn(const QRectF& metres) const {
   std::vector<RobotId> inside;
   for (const auto& [id, robot] : m_robots) {
-    if (metres.contains(toScene(robot->body.look().pose.position))) inside.push_back(id);
+    const RobotItem& body = robot->body;
+    if (body.isVisible() && metres.contains(toScene(body.look().pose.position))) {
+      inside.push_back(id);
+    }
   }
   return inside;
 }

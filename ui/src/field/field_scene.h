@@ -81,6 +81,7 @@ class FieldScene : public QGraphicsScene {
   void showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
                  const link::RobotBoardView* board, const link::RobotHealth* health, double time);
   void showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown);
+  void showThoughts();
   void showSelected();
   void setSelection(std::vector<RobotId> ids);
 

@@ -29,7 +29,8 @@ struct FieldStyle {
   int eopraGranularity = 4;       ///< m = 4 or 6
   sim::FieldSpec field;
   std::array<bool, fieldLayerCount> layers{true,  true,  true,  true,  true,
-                                           true,  false, false, false, false};
+                                           true,  false, false, false, false,
+                                           false, false};
 
   bool shows(FieldLayer layer) const { return layers[static_cast<std::size_t>(layer)]; }
   /// A length that is at least so many pixels on the screen, metres.

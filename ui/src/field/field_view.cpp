@@ -39,7 +39,9 @@ constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "
                                                              {"Coordinate grid", ""},
                                                              {"Landmarks", "F9"},
                                                              {"EOPRA sectors", "F7"},
-                                                             {"StarVars sectors", "F8"}}};
+                                                             {"StarVars sectors", "F8"},
+                                                             {"Particles of localization", ""},
+                                                             {"Planned path", ""}}};
 
 struct ToolText {
   FieldTool tool;

@@ -10,12 +10,12 @@
 
 #include "linked_time.h"
 #include "time_gestures.h"
+#include "time_ruler.h"
 #include "value_chart.h"
 
 namespace pitchboard::ui {
 namespace {
-constexpr int pixelsPerValueStep = 24;   // px of the mock
-constexpr int pixelsPerTimeStep = 64;
+constexpr int pixelsPerValueStep = 18;   // px of the mock
 constexpr int lowestChart = 40;
 }  // namespace
 
@@ -25,6 +25,7 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_chart->setMinimumHeight(scaled(this, lowestChart));
   m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
+  connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
   connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {
     const ValueScale scale = valueScale();
     const double anchor = scale.toValue(y);
@@ -90,14 +91,15 @@ void ChartPane::draw() {
     any = true;
   }
   const int steps = std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep),
-                               1, 12);
-  ValueLimits limits = m_spec.values;
-  if (m_spec.autoValues) limits = any ? niceLimits(low, high, steps) : ValueLimits{};
-  const double span = range.end - range.begin;
-  const int times = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerTimeStep));
+                               2, 12);
+  NiceLimits nice{m_spec.values, niceStep(m_spec.values.high - m_spec.values.low, steps)};
+  if (m_spec.autoValues) nice = any ? niceLimits(low, high, steps) : niceLimits(0.0, 1.0, steps);
+  const std::vector<AxisTick> ticks = ticksOf(timeScale(), *m_feed, this);
+  const bool divided = ticks.size() > 1;
   const int before = wantedLeft();
-  m_chart->setAxes({range.begin, range.end}, niceTimeStep(span, times), limits,
-                   niceStep(limits.high - limits.low, steps));
+  m_chart->setAxes({range.begin, range.end}, divided ? ticks[1].time - ticks[0].time : range.end - range.begin,
+                   nice.limits, nice.step,
+                   ticks.empty() ? range.begin : ticks[0].time);
   m_chart->setTitles({}, m_spec.valueTitle);
   m_chart->redraw();
   if (wantedLeft() != before) emit leftChanged();
@@ -106,10 +108,13 @@ void ChartPane::draw() {
 void ChartPane::paintCurves(QPainter& painter) {
   const TimeScale time = timeScale();
   const ValueScale values = valueScale();
+  std::size_t points = 0;
+  for (const CurveTrace& trace : m_traces) points += trace.samples.size() + trace.columns.size();
   for (std::size_t i = 0; i < m_traces.size() && i < m_curves.size(); ++i) {
     const CurveSpec& spec = m_curves[i].spec();
     paintTrace(painter, m_traces[i], time, values,
-               {m_curves[i].color(), spec.style, spec.width * scaled(this, 100) / 100.0});
+               {m_curves[i].color(), spec.style, spec.width * scaled(this, 100) / 100.0,
+                points > manyPoints});
   }
 }
 

@@ -14,8 +14,10 @@ using telemetry::SeriesBucket;
 using telemetry::TimeRange;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// As many samples as this for a pixel column are drawn one by one.
-constexpr std::size_t samplesPerColumn = 2;
+// A tall pixel column is filled; lower ones are corners of a smooth line.
+constexpr double tall = 2.0;   // px
+// Qt strokes a wide line as one area: its cost grows faster than its length.
+constexpr qsizetype strokedAtOnce = 24;   // points
 // Single samples get a dot only where dots do not run into each other.
 constexpr double dotDistance = 6.0;   // px
 // Far outside of the picture Qt's line clipping loses precision.
@@ -60,7 +62,7 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
   view.group->buckets(view.column, {begin, begin + static_cast<double>(count) * width}, buckets);
   std::size_t samples = 0;
   for (const SeriesBucket& bucket : buckets) samples += bucket.samples;
-  if (samples <= samplesPerColumn * count) {
+  if (samples <= count) {
     takeSamples(trace, view, range);
     return trace;
   }
@@ -117,8 +119,7 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
     if (!std::isfinite(column.min)) continue;
     if (std::isnan(column.first)) end();
     const double x = time.toX(column.time);
-    if (std::abs(values.toY(column.min) - values.toY(column.max)) < 1.0) {
-      // Within a pixel a single point draws the same line.
+    if (std::abs(values.toY(column.min) - values.toY(column.max)) < tall) {
       point(x, (column.min + column.max) / 2);
     } else {
       const bool rising = std::isnan(column.first) || std::isnan(column.last) ||
@@ -132,6 +133,65 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
   return lines;
 }
 
+namespace {
+
+/// Columns are rectangles where they are tall, and a thin line where they are flat: both are fast.
+void paintColumns(QPainter& painter, const std::vector<QPolygonF>& lines, const QColor& color) {
+  const double pixel = 1.0 / painter.device()->devicePixelRatioF();
+  QList<QRectF> rects;
+  for (const QPolygonF& line : lines) {
+    QPolygonF flat;
+    const auto draw = [&] {
+      if (flat.size() > 1) painter.drawPolyline(flat);
+      flat.clear();
+    };
+    double top = 0.0, bottom = 0.0;   // of the column before
+    for (qsizetype i = 0; i < line.size(); ++i) {
+      const QPointF& at = line[i];
+      const bool column = i + 1 < line.size() && line[i + 1].x() == at.x();
+      double y0 = at.y(), y1 = column ? line[++i].y() : at.y();
+      if (y0 > y1) std::swap(y0, y1);
+      const bool first = i < 2 && flat.isEmpty() && line[0].x() == at.x();
+      // What leaves a gap to the column before reaches for it.
+      const double from = first ? y0 : std::min(y0, bottom);
+      const double to = first ? y1 : std::max(y1, top);
+      if (to - from < tall) {
+        flat << QPointF(at.x(), (y0 + y1) / 2);
+      } else {
+        // Rectangles side by side touch; only a flat stretch is led up to them.
+        if (flat.size() > 1) flat << QPointF(at.x(), (y0 + y1) / 2);
+        draw();
+        const double x = std::floor(at.x() / pixel) * pixel;
+        rects << QRectF(x, std::floor(from / pixel) * pixel, pixel,
+                        std::ceil((to - from) / pixel) * pixel);
+        flat << QPointF(at.x(), (y0 + y1) / 2);
+      }
+      top = y0;
+      bottom = y1;
+    }
+    draw();
+  }
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  painter.drawRects(rects);
+  painter.restore();
+}
+
+void paintLine(QPainter& painter, const QPolygonF& line, bool thin) {
+  if (thin) {
+    painter.drawPolyline(line);
+    return;
+  }
+  for (qsizetype i = 0; i + 1 < line.size(); i += strokedAtOnce) {
+    painter.drawPolyline(line.constData() + i,
+                         static_cast<int>(std::min(strokedAtOnce + 1, line.size() - i)));
+  }
+}
+
+}  // namespace
+
 void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& time,
                 const ValueScale& values, const TraceLook& look) {
   const bool steps = look.style == CurveStyle::Steps;
@@ -140,13 +200,13 @@ void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& tim
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.setBrush(Qt::NoBrush);
   if (look.style != CurveStyle::Points || !trace.exact) {
-    // Qt strokes a wide line of thousands of corners twenty times slower than a thin one.
-    QPen pen(look.color, trace.exact ? look.width : 0.0, Qt::SolidLine, Qt::FlatCap,
-             Qt::BevelJoin);
-    pen.setCosmetic(!trace.exact);
+    const bool thin = look.thin || !trace.exact;
+    QPen pen(look.color, thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
     painter.setPen(pen);
-    for (const QPolygonF& line : lines) {
-      if (line.size() > 1) painter.drawPolyline(line);
+    if (trace.exact) {
+      for (const QPolygonF& line : lines) paintLine(painter, line, thin);
+    } else {
+      paintColumns(painter, lines, look.color);
     }
   }
   const double distance = trace.samples.empty()

@@ -71,7 +71,11 @@ struct TraceLook {
   QColor color;
   CurveStyle style = CurveStyle::Line;
   double width = 1.5;   ///< px
+  /// So many points that wide lines would take too long: they are one pixel wide.
+  bool thin = false;
 };
+/// Points of all curves of a plot from which lines are thin.
+inline constexpr std::size_t manyPoints = 2500;
 void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& time,
                 const ValueScale& values, const TraceLook& look);
 

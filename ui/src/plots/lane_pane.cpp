@@ -93,6 +93,7 @@ class LanePane::Lanes : public QWidget {
     QPainter painter(this);
     m_pane->paintLanes(painter);
   }
+  void resizeEvent(QResizeEvent*) override { m_pane->draw(); }
   void contextMenuEvent(QContextMenuEvent* event) override {
     emit m_pane->menuRequested(m_pane->laneAt(event->pos().y()), event->globalPos());
   }
@@ -106,6 +107,7 @@ LanePane::LanePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   setSurface(m_lanes);
   m_gestures = new TimeGestures(m_lanes, feed->time(), [this] { return timeScale(); });
   m_gestures->setHasValues(false);
+  fitHeight();
 }
 
 QWidget* LanePane::surface() const { return m_lanes; }
@@ -116,10 +118,16 @@ int LanePane::laneAt(double y) const {
   return lane < static_cast<int>(m_curves.size()) ? lane : -1;
 }
 
-void LanePane::draw() {
+void LanePane::fitHeight() {
   const int height = scaled(this, nameHeight + laneHeight + gap) *
                      std::max(1, static_cast<int>(m_curves.size()));
-  if (height != minimumHeight() || height != maximumHeight()) setFixedHeight(height);
+  if (height == minimumHeight() && height == maximumHeight()) return;
+  setFixedHeight(height);
+  emit leftChanged();
+}
+
+void LanePane::draw() {
+  fitHeight();
   const TimeScale scale = timeScale();
   const int columns = std::max(1, static_cast<int>((scale.right - scale.left) *
                                                    devicePixelRatioF()));
@@ -130,7 +138,6 @@ void LanePane::draw() {
   m_lanes->update();
 }
 
-QWidget* LanePane::surface() const { return m_lanes; }
 
 void LanePane::paintLanes(QPainter& painter) const {
   const ThemeColors& colors = theme();

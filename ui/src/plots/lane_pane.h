@@ -39,6 +39,7 @@ class LanePane : public PlotPane {
  private:
   class Lanes;
   void paintLanes(QPainter& painter) const;
+  void fitHeight();
   int laneAt(double y) const;
 
   Lanes* m_lanes;

@@ -60,7 +60,7 @@ void LegendBar::arrange() {
     const int value = entry.value.isEmpty() ? 0 : qMax(room, textWidth(font, entry.value)) +
                                                       scaled(this, 6);
     const int wide = scaled(this, strokeLength + gapAfterStroke) + textWidth(font, entry.text) +
-                     value;
+                     value + scaled(this, 4);
     if (x > m_left && x + wide > limit) {
       x = m_left;
       y += height;

@@ -11,41 +11,39 @@
 
 #include <ui/theme.h>
 
-#include "axis_ticks.h"
 #include "linked_time.h"
 #include "marks_model.h"
 #include "plot_pane.h"
 #include "shell/table_style.h"
+#include "timeline/timeline.h"
 
 namespace pitchboard::ui {
 namespace {
 constexpr int mostEventsNamed = 3;
 }
 
-QString eventsBetween(const std::deque<PlotEvent>& events, double a, double b) {
+QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
+                      const PlotFeed& feed) {
   if (a > b) std::swap(a, b);
   const auto first = std::lower_bound(events.begin(), events.end(), a,
-                                      [](const PlotEvent& e, double t) { return e.time < t; });
+                                      [](const TimelineEvent& e, double t) { return e.time < t; });
   const auto last = std::upper_bound(first, events.end(), b,
-                                     [](double t, const PlotEvent& e) { return t < e.time; });
-  const auto count = last - first;
-  if (count == 0) return {};
+                                     [](double t, const TimelineEvent& e) { return t < e.time; });
+  if (first == last) return {};
   QStringList named;
   for (auto event = first; event != last && named.size() < mostEventsNamed; ++event) {
     named << QCoreApplication::translate("MarksPanel", "%1 at %2")
-                 .arg(event->text, momentText(event->time, 2));
+                 .arg(sentenceOf(*event), feed.timeText(event->time, 2));
   }
-  QString text = named.join(QStringLiteral(", "));
-  if (count > named.size()) {
-    text += QCoreApplication::translate("MarksPanel", " and %1 more").arg(count - named.size());
-  }
-  text[0] = text[0].toUpper();
-  return count == 1 ? QCoreApplication::translate("MarksPanel", "%1 lies between A and B.").arg(text)
-                    : QCoreApplication::translate("MarksPanel", "%1 lie between A and B.").arg(text);
+  const auto more = (last - first) - named.size();
+  const QString all = named.join(QStringLiteral(", "));
+  return more > 0 ? QCoreApplication::translate("MarksPanel", "Between A and B: %1 and %2 more.")
+                        .arg(all).arg(more)
+                  : QCoreApplication::translate("MarksPanel", "Between A and B: %1.").arg(all);
 }
 
-MarksPanel::MarksPanel(PlotFeed* feed, QWidget* parent)
-    : QWidget(parent), m_feed(feed), m_model(new MarksModel(this)), m_times(new QLabel(this)),
+MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
+    : QWidget(parent), m_feed(feed), m_timeline(timeline), m_model(new MarksModel(this)), m_times(new QLabel(this)),
       m_difference(new QLabel(this)), m_table(new QTableView(this)), m_events(new QLabel(this)) {
   setObjectName(QStringLiteral("marksPanel"));
   setBackgroundRole(QPalette::Base);
@@ -59,7 +57,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, QWidget* parent)
   m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
   m_table->setColumnWidth(MarksModel::Name, scaled(this, 130));
   for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
-    m_table->setColumnWidth(c, scaled(this, 58));
+    m_table->setColumnWidth(c, scaled(this, 60));
   }
   m_times->setTextFormat(Qt::RichText);
   m_difference->setFont(themeFont(TypeRole::Secondary, true));
@@ -101,7 +99,7 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   const double a = *time->mark(TimeMark::A);
   const double b = *time->mark(TimeMark::B);
   m_times->setText(QStringLiteral("<b>A</b> %1 &nbsp;&nbsp; <b>B</b> %2")
-                       .arg(momentText(a, 3), momentText(b, 3)));
+                       .arg(m_feed->timeText(a, 3), m_feed->timeText(b, 3)));
   m_difference->setText(QStringLiteral("Δt %1 s").arg(QString::number(b - a, 'f', 3).replace(
       QLatin1Char('-'), QStringLiteral("\u2212"))));
   QList<MarksRow> rows;
@@ -110,7 +108,9 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
     for (const Curve& curve : pane->curves()) rows << marksRow(curve, a, b);
   }
   m_model->setRows(std::move(rows));
-  m_events->setText(eventsBetween(m_feed->events(), a, b));
+  m_events->setText(m_timeline != nullptr ? eventsBetween(m_timeline->events()->events(), a, b,
+                                                      *m_feed)
+                                          : QString());
 }
 
 }  // namespace pitchboard::ui

@@ -4,8 +4,10 @@
 // Beside the plots: the times of A and B, the table between them, and what happened there.
 
 #include <QWidget>
+#include <deque>
 
 #include "plot_feed.h"
+#include "timeline/timeline_event.h"
 
 class QLabel;
 class QTableView;
@@ -14,11 +16,13 @@ namespace pitchboard::ui {
 
 class MarksModel;
 class PlotPane;
+class Timeline;
 
 class MarksPanel : public QWidget {
   Q_OBJECT
  public:
-  MarksPanel(PlotFeed* feed, QWidget* parent);
+  /// Without a timeline nothing is said of events.
+  MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent);
 
   MarksModel* model() const { return m_model; }
   /// What the curves of these plots are at and between the marks. Hidden without marks.
@@ -28,6 +32,7 @@ class MarksPanel : public QWidget {
 
  private:
   PlotFeed* m_feed;
+  Timeline* m_timeline;
   MarksModel* m_model;
   QLabel* m_times;
   QLabel* m_difference;
@@ -35,8 +40,9 @@ class MarksPanel : public QWidget {
   QLabel* m_events;
 };
 
-/// "Kick at 05:04.60 lies between A and B.", "3 kicks, 1 fall lie between A and B." Times in s; the
-/// marks in either order.
-QString eventsBetween(const std::deque<PlotEvent>& events, double a, double b);
+/// "Between A and B: B1 kicks at 05:04.60, goal for BLUE at 05:06.10 and 2 more." Events in order
+/// of time, written as the feed writes it; the marks (s) in either order. Empty when there are none.
+QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
+                      const PlotFeed& feed);
 
 }  // namespace pitchboard::ui

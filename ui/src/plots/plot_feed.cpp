@@ -4,20 +4,15 @@
 #include <QTimer>
 
 #include "linked_time.h"
-#include "shell/log_model.h"
-#include "shell/robot_words.h"
+#include "timeline/time_axis.h"
 
 namespace pitchboard::ui {
-namespace {
-constexpr std::size_t mostEvents = 20'000;
-}
 
 PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
     : QObject(parent), m_source(source), m_time(time), m_timer(new QTimer(this)) {
   m_timer->setInterval(refreshMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
-  connect(source, &FrameSource::eventsReceived, this, &PlotFeed::noteEvents);
 }
 
 void PlotFeed::setRunning(bool on) {
@@ -33,7 +28,6 @@ void PlotFeed::setRunning(bool on) {
 }
 
 void PlotFeed::forget() {
-  m_events.clear();
   m_found.clear();
   m_views.clear();
   m_store.reset();
@@ -72,6 +66,13 @@ ColumnView PlotFeed::find(const QString& name) {
   return {view, known->second.column};
 }
 
+QString PlotFeed::timeText(double time, int decimals) const {
+  if (!m_clock) return momentText(time, decimals);
+  const QDateTime moment = m_clock->addMSecs(qRound64(time * 1000.0));
+  return moment.toString(decimals > 0 ? QStringLiteral("HH:mm:ss.zzz")
+                                      : QStringLiteral("HH:mm:ss"));
+}
+
 QStringList PlotFeed::names() const {
   QStringList all;
   if (!m_store) return all;
@@ -84,24 +85,6 @@ QStringList PlotFeed::names() const {
     }
   }
   return all;
-}
-
-void PlotFeed::noteEvents(const std::vector<sim::Event>& events) {
-  const FramePtr frame = m_source->frame();
-  const double rate = frame ? frame->tickRate : 60.0;
-  for (const sim::Event& event : events) {
-    QString robot;
-    if (frame) {
-      for (const auto& known : frame->snapshot.robots) {
-        if (known.identity.id == event.robot) robot = robotName(known.identity);
-      }
-    }
-    const link::LogLine line = eventLine(event, robot, rate);
-    // A source that was put back in time tells the later part anew.
-    while (!m_events.empty() && m_events.back().time > line.time) m_events.pop_back();
-    m_events.push_back({line.time, QString::fromStdString(line.text)});
-    if (m_events.size() > mostEvents) m_events.pop_front();
-  }
 }
 
 }  // namespace pitchboard::ui

@@ -2,10 +2,10 @@
 #pragma once
 
 // What plots read: one consistent look at a source's rows, renewed on a timer while somebody
-// watches, and the events of the source by time. UI thread only.
+// watches. UI thread only.
 
+#include <QDateTime>
 #include <QObject>
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,12 +29,6 @@ struct ColumnView {
   bool isCoded() const { return info().kind != telemetry::ColumnKind::Number; }
 };
 
-/// An event of the source, in words.
-struct PlotEvent {
-  double time = 0.0;   ///< s
-  QString text;        ///< "Kick", "Goal for blue"
-};
-
 class PlotFeed : public QObject {
   Q_OBJECT
  public:
@@ -49,10 +43,13 @@ class PlotFeed : public QObject {
   ColumnView find(const QString& name);
   /// Every variable there is, `GROUP/COLUMN`.
   QStringList names() const;
+  /// Wall clock at second 0, where the source has one (Live): then times are written as time of day.
+  const std::optional<QDateTime>& clock() const { return m_clock; }
+  void setClock(const std::optional<QDateTime>& clock) { m_clock = clock; }
+  /// "05:03.250", or the time of day; s of the source.
+  QString timeText(double time, int decimals) const;
   /// Grows when variables came or went: what find() said before is void.
   quint64 generation() const { return m_generation; }
-  /// In order of time, oldest first.
-  const std::deque<PlotEvent>& events() const { return m_events; }
 
   /// Refreshes by itself while on; plots that cannot be seen cost nothing.
   void setRunning(bool on);
@@ -64,7 +61,6 @@ class PlotFeed : public QObject {
   void refreshed();
 
  private:
-  void noteEvents(const std::vector<sim::Event>& events);
   void forget();
 
   FrameSource* m_source;
@@ -73,9 +69,9 @@ class PlotFeed : public QObject {
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;
+  std::optional<QDateTime> m_clock;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<QString, telemetry::SeriesId> m_found;
-  std::deque<PlotEvent> m_events;
 };
 
 }  // namespace pitchboard::ui

@@ -34,15 +34,15 @@ QStringList draggedVariables(const QMimeData* data) {
   return names;
 }
 
-PlotPage::PlotPage(PlotFeed* feed, const PageSpec& spec, QWidget* parent)
+PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent)
     : QWidget(parent), m_feed(feed), m_name(spec.name), m_stack(new QWidget(this)),
       m_panes(new QSplitter(Qt::Vertical, m_stack)), m_empty(new QLabel(m_stack)),
-      m_marks(new MarksPanel(feed, this)) {
+      m_marks(new MarksPanel(feed, timeline, this)) {
   setObjectName(QStringLiteral("plotPage"));
   setAcceptDrops(true);
   const auto scale = [this] { return timeScale(); };
   m_heads = new MarkHeads(feed->time(), scale, m_stack);
-  m_ruler = new TimeRuler(feed->time(), scale, m_stack);
+  m_ruler = new TimeRuler(feed, scale, m_stack);
   m_lines = new TimeLines(feed->time(), scale, m_stack);
   m_stack->setBackgroundRole(QPalette::Base);
   m_stack->setAutoFillBackground(true);
@@ -272,6 +272,7 @@ void PlotPage::align() {
   }
   m_left = left;
   for (PlotPane* pane : panes()) pane->setLeft(left);
+  giveLanesTheirHeight();
   const bool empty = m_panes->count() == 0;
   m_empty->setVisible(empty);
   m_panes->setVisible(!empty);
@@ -280,6 +281,28 @@ void PlotPage::align() {
   placeLines();
   m_ruler->update();
   m_heads->update();
+}
+
+// A splitter does not take back what a plot of fixed height cannot use.
+void PlotPage::giveLanesTheirHeight() {
+  QList<int> sizes = m_panes->sizes();
+  const QList<PlotPane*> all = panes();
+  bool wrong = false;
+  int freed = 0, charts = 0;
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    if (all[i]->kind() != PaneKind::Lane) {
+      ++charts;
+      continue;
+    }
+    wrong = wrong || sizes[i] != all[i]->maximumHeight();
+    freed += sizes[i] - all[i]->maximumHeight();
+    sizes[i] = all[i]->maximumHeight();
+  }
+  if (!wrong || charts == 0) return;
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    if (all[i]->kind() != PaneKind::Lane) sizes[i] = qMax(1, sizes[i] + freed / charts);
+  }
+  m_panes->setSizes(sizes);
 }
 
 TimeScale PlotPage::timeScale() const {

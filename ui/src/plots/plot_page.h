@@ -10,6 +10,7 @@
 #include "plot_pane.h"
 
 class QLabel;
+class QMimeData;
 class QSplitter;
 
 namespace pitchboard::ui {
@@ -19,12 +20,14 @@ class MarkHeads;
 class MarksPanel;
 class TimeLines;
 class TimeRuler;
+class Timeline;
 struct DropHint;
 
 class PlotPage : public QWidget {
   Q_OBJECT
  public:
-  PlotPage(PlotFeed* feed, const PageSpec& spec, QWidget* parent = nullptr);
+  /// `timeline` knows the events; it may be null.
+  PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent = nullptr);
 
   PageSpec spec() const;
   void setName(const QString& name);
@@ -75,6 +78,7 @@ class PlotPage : public QWidget {
   bool isCoded(const QString& name) const;
   void align();
   void placeLines();
+  void giveLanesTheirHeight();
   TimeScale timeScale() const;
 
   PlotFeed* m_feed;

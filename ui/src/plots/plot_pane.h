@@ -61,7 +61,7 @@ class PlotPane : public QWidget {
 
  signals:
   void changed();          ///< something that a preset holds
-  void leftChanged();      ///< wantedLeft() did
+  void leftChanged();      ///< wantedLeft() or a fixed height did
   void menuRequested(int curve, const QPoint& globalPosition);   ///< curve: -1 for the plot
   void editRequested(int curve);
 

@@ -20,7 +20,9 @@
 #include "plot_menus.h"
 #include "plot_page.h"
 #include "plot_target.h"
+#include "shell/notice_bar.h"
 #include "shell/source_switch.h"
+#include "timeline/timeline.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -50,15 +52,16 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 }  // namespace
 
 PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
-    : QWidget(parent), m_context(context),
+    : QWidget(parent), m_context(context), m_time(context.time),
       m_feed(new PlotFeed(context.source, context.time, this)), m_tabs(new QTabWidget(this)),
-      m_window(new QComboBox(this)) {
+      m_notices(new NoticeBar(this)), m_window(new QComboBox(this)) {
   setObjectName(QStringLiteral("plots"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(m_tabs);
+  column->setSpacing(0);
+  column->addWidget(m_notices);
+  column->addWidget(m_tabs, 1);
   m_tabs->setDocumentMode(true);
-  m_tabs->setTabsClosable(true);
   m_tabs->setMovable(true);
   m_tabs->tabBar()->setFont(themeFont(TypeRole::Secondary));
   m_tabs->tabBar()->setExpanding(false);
@@ -70,7 +73,6 @@ PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
   m_saveSoon.setInterval(saveMilliseconds);
   connect(&m_draw, &QTimer::timeout, this, &PlotsDock::drawNow);
   connect(&m_saveSoon, &QTimer::timeout, this, &PlotsDock::save);
-  connect(m_tabs, &QTabWidget::tabCloseRequested, this, &PlotsDock::closePage);
   connect(m_tabs, &QTabWidget::tabBarDoubleClicked, this, &PlotsDock::renamePage);
   connect(m_tabs, &QTabWidget::currentChanged, this, &PlotsDock::scheduleDraw);
   connect(m_feed, &PlotFeed::refreshed, this, &PlotsDock::takeRows);
@@ -79,6 +81,9 @@ PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
   }
   if (context.plots != nullptr) {
     connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
+  }
+  if (context.timeline != nullptr) {
+    connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
   }
   PlotLayout layout;
   if (context.settings != nullptr) {
@@ -131,7 +136,7 @@ void PlotsDock::makeTools() {
   connect(time, &LinkedTime::marksChanged, m_marks,
           [this, time] { m_marks->setChecked(time->hasMarks()); });
 
-  m_box = new QAction(themedIcon(QStringLiteral("zoom-select")), tr("Zoom into a box"), this);
+  m_box = new QAction(themedIcon(QStringLiteral("select-rectangular")), tr("Zoom into a box"), this);
   m_box->setToolTip(tr("Drag a box to zoom into it (also Shift-drag)"));
   m_box->setCheckable(true);
   connect(m_box, &QAction::toggled, this, [this](bool on) {
@@ -189,9 +194,18 @@ QList<PlotPage*> PlotsDock::pages() const {
 }
 
 PlotPage* PlotsDock::addPage(const PageSpec& spec) {
-  auto* page = new PlotPage(m_feed, spec, m_tabs);
+  auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_tabs);
   page->setBoxTool(m_box->isChecked());
-  m_tabs->addTab(page, spec.name);
+  const int index = m_tabs->addTab(page, spec.name);
+  auto* close = new QToolButton(m_tabs->tabBar());
+  close->setIcon(themedIcon(QStringLiteral("window-close")));
+  close->setIconSize(QSize(scaled(this, 10), scaled(this, 10)));
+  close->setFixedSize(scaled(this, 16), scaled(this, 16));
+  close->setAutoRaise(true);
+  close->setFocusPolicy(Qt::NoFocus);
+  close->setToolTip(tr("Close this tab"));
+  connect(close, &QToolButton::clicked, this, [this, page] { closePage(m_tabs->indexOf(page)); });
+  m_tabs->tabBar()->setTabButton(index, QTabBar::RightSide, close);
   connect(page, &PlotPage::changed, this, [this, page] {
     m_tabs->setTabText(m_tabs->indexOf(page), page->name());
     if (!m_restoring) m_saveSoon.start();
@@ -251,8 +265,10 @@ void PlotsDock::save() {
   if (m_context.settings == nullptr) return;
   m_context.settings->setValue(
       layoutKey, QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
-  m_context.settings->setValue(windowKey, m_context.time->window());
+  if (m_time) m_context.settings->setValue(windowKey, m_time->window());
 }
+
+void PlotsDock::showNotice(const QString& sentence) { m_notices->show(sentence); }
 
 void PlotsDock::plotVariables(const QStringList& names) {
   m_feed->refresh();
@@ -285,6 +301,7 @@ void PlotsDock::scheduleDraw() {
 
 void PlotsDock::drawNow() {
   m_draw.stop();
+  if (m_context.timeline != nullptr) m_feed->setClock(m_context.timeline->clock());
   if (PlotPage* page = currentPage(); page != nullptr && isVisible()) page->refresh();
 }
 

@@ -4,12 +4,14 @@
 // The plots: tabs of plots over one linked time, their tool row, and what is kept of them between
 // runs. UI thread only.
 
+#include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <optional>
 
 #include <telemetry/series_store.h>
 
+#include "linked_time.h"
 #include "plot_layout.h"
 #include "shell/dock_list.h"
 
@@ -20,7 +22,7 @@ class QTabWidget;
 
 namespace pitchboard::ui {
 
-class LinkedTime;
+class NoticeBar;
 class PlotFeed;
 class PlotPage;
 class PlotPane;
@@ -38,9 +40,14 @@ class PlotsDock : public QWidget {
   QList<PlotPage*> pages() const;
   PlotPage* addPage(const PageSpec& spec);
   void closePage(int index);
+  void renamePage(int index);
 
   PlotLayout layoutSpec() const;
   void setLayoutSpec(const PlotLayout& layout);
+
+  const StudioContext& context() const { return m_context; }
+  /// Says what went wrong, above the plots.
+  void showNotice(const QString& sentence);
 
   /// Adds to the page in front, and brings it there.
   void plotVariables(const QStringList& names);
@@ -56,12 +63,13 @@ class PlotsDock : public QWidget {
   void drawNow();
   void takeRows();
   void save();
-  void renamePage(int index);
   void showWindow();
 
   StudioContext m_context;
+  QPointer<LinkedTime> m_time;   // the window deletes it before its docks
   PlotFeed* m_feed;
   QTabWidget* m_tabs;
+  NoticeBar* m_notices;
   QComboBox* m_window;
   QAction* m_follow;
   QAction* m_marks;

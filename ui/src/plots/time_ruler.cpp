@@ -7,8 +7,6 @@
 
 #include <ui/theme.h>
 
-#include "axis_ticks.h"
-#include "linked_time.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -19,8 +17,14 @@ constexpr int pixelsPerStep = 64;
 constexpr TimeMark bothMarks[] = {TimeMark::A, TimeMark::B};
 }  // namespace
 
-TimeRuler::TimeRuler(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent)
-    : QWidget(parent), m_time(time), m_scale(std::move(scale)) {
+std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed,
+                              const QWidget* widget) {
+  return axisTicks({scale.range, scale.left, scale.right - scale.left},
+                   scaled(widget, pixelsPerStep), feed.clock());
+}
+
+TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWidget* parent)
+    : QWidget(parent), m_feed(feed), m_scale(std::move(scale)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 }
 
@@ -31,17 +35,10 @@ void TimeRuler::paintEvent(QPaintEvent*) {
   painter.setFont(themeFont(TypeRole::Small));
   painter.setPen(theme().secondaryText);
   const TimeScale scale = m_scale();
-  const double span = scale.range.end - scale.range.begin;
-  const int most = std::max(1, static_cast<int>(scale.right - scale.left) /
-                                   scaled(this, pixelsPerStep));
-  const double step = niceTimeStep(span, most);
-  const int decimals = decimalsOf(step);
-  const double half = scaled(this, pixelsPerStep) / 2.0;
-  for (double k = std::ceil(scale.range.begin / step - 1e-9);
-       k * step <= scale.range.end + step * 1e-9; ++k) {
-    const double x = scale.toX(k * step);
-    painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter,
-                     momentText(k * step, decimals));
+  const double half = scaled(this, pixelsPerStep);
+  for (const AxisTick& tick : ticksOf(scale, *m_feed, this)) {
+    const double x = scale.toX(tick.time);
+    painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }
 }
 

@@ -9,24 +9,25 @@
 #include <optional>
 
 #include "curve_trace.h"
+#include "linked_time.h"
+#include "timeline/time_axis.h"
 
 namespace pitchboard::ui {
 
-class LinkedTime;
 class TimeGestures;
 
 /// Numbers of the linked time axis; below the lowest plot.
 class TimeRuler : public QWidget {
   Q_OBJECT
  public:
-  TimeRuler(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent);
+  TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWidget* parent);
   QSize sizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  LinkedTime* m_time;
+  const PlotFeed* m_feed;
   std::function<TimeScale()> m_scale;
 };
 
@@ -56,6 +57,9 @@ struct DropHint {
   QString words;   ///< "add to this plot", "new plot"
   bool operator==(const DropHint&) const = default;
 };
+
+/// Round times of the axis, for its numbers and for the grid above them.
+std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed, const QWidget* widget);
 
 /// Lines of marks and cursor over all plots; lets the mouse through.
 class TimeLines : public QWidget {

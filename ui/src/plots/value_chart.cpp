@@ -24,15 +24,15 @@ class ValueChart::Layer : public QGraphicsItem {
   explicit Layer(QGraphicsItem* parent) : QGraphicsItem(parent) {}
 
   QRectF boundingRect() const override { return area; }
-  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget* widget) override {
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override {
     if (!curves || area.isEmpty()) return;
     if (painter->paintEngine()->type() != QPaintEngine::Raster) {
       painter->setClipRect(area);
       curves(*painter);
       return;
     }
-    const double ratio = widget != nullptr ? widget->devicePixelRatioF() : 1.0;
-    if (stale || picture.devicePixelRatio() != ratio) {
+    const double ratio = painter->device()->devicePixelRatioF();
+    if (stale || !qFuzzyCompare(picture.devicePixelRatio(), ratio)) {
       const QSize size = (area.size() * ratio).toSize();
       if (picture.size() != size) picture = QImage(size, QImage::Format_ARGB32_Premultiplied);
       picture.setDevicePixelRatio(ratio);
@@ -66,12 +66,15 @@ ValueChart::ValueChart(QWidget* parent)
   setRubberBand(NoRubberBand);
   setAcceptDrops(false);   // the page takes drops for all its plots
   viewport()->setAcceptDrops(false);
+  setContextMenuPolicy(Qt::NoContextMenu);   // the plot has one
+  viewport()->setContextMenuPolicy(Qt::NoContextMenu);
   setMinimumSize(0, 0);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setOptimizationFlag(DontSavePainterState);
   setViewportUpdateMode(QGraphicsView::MinimalViewportUpdate);
   chart()->legend()->hide();
+  chart()->setDropShadowEnabled(false);
   chart()->setMargins({});
   chart()->setBackgroundRoundness(0);
   chart()->setPlotAreaBackgroundVisible(true);
@@ -122,6 +125,7 @@ void ValueChart::setMargins(int left, int top, int right, int bottom) {
 void ValueChart::resizeEvent(QResizeEvent* event) {
   QChartView::resizeEvent(event);
   place();
+  emit resized();
 }
 
 void ValueChart::place() {
@@ -133,7 +137,8 @@ void ValueChart::place() {
   redraw();
 }
 
-void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep) {
+void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep,
+                         double xAnchor) {
   const auto put = [](QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
                       double toStep) {
     if (now == to && step == toStep) return;
@@ -144,6 +149,7 @@ void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double ySte
     now = to;
     step = toStep;
   };
+  if (xAnchor != m_axisX->tickAnchor()) m_axisX->setTickAnchor(xAnchor);
   put(m_axisX, m_x, x, m_stepX, xStep);
   put(m_axisY, m_y, y, m_stepY, yStep);
 }
@@ -176,6 +182,8 @@ void ValueChart::redraw() {
 
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
   if (m_area.isEmpty() || !(m_stepY > 0.0)) return;
+  painter->setPen(theme().innerLine);
+  painter->drawRect(m_area);
   painter->setFont(themeFont(TypeRole::Small));
   painter->setPen(theme().secondaryText);
   const QFontMetricsF metrics(painter->font());

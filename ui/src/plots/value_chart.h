@@ -25,8 +25,8 @@ class ValueChart : public QChartView {
   /// Where the curves are, in the view.
   QRectF plotArea() const { return m_area; }
   void setMargins(int left, int top, int right, int bottom);
-  /// Grid lines on multiples of the steps.
-  void setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep);
+  /// Grid lines on multiples of the steps; those of x counted from `xAnchor`.
+  void setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor = 0.0);
   ValueLimits xLimits() const { return m_x; }
   ValueLimits yLimits() const { return m_y; }
   void setTitles(const QString& x, const QString& y);
@@ -39,6 +39,9 @@ class ValueChart : public QChartView {
   /// The curves have changed: paint them anew at the next opportunity.
   void redraw();
   void applyTheme();
+
+ signals:
+  void resized();
 
  protected:
   void drawForeground(QPainter* painter, const QRectF& rect) override;

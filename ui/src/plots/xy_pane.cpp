@@ -66,6 +66,7 @@ XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_chart->setLabelsX(true);
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
   m_chart->viewport()->installEventFilter(this);
+  connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
 }
 
 QWidget* XyPane::surface() const { return m_chart->viewport(); }
@@ -97,8 +98,8 @@ void XyPane::draw() {
   const int stepsX = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerStepX));
   const int stepsY = std::max(1, static_cast<int>(area.height()) / scaled(this, pixelsPerStepY));
   if (m_fits) {
-    m_x = niceLimits(x.low, x.high, stepsX);
-    m_y = m_spec.autoValues ? niceLimits(y.low, y.high, stepsY) : m_spec.values;
+    m_x = niceLimits(x.low, x.high, stepsX).limits;
+    m_y = m_spec.autoValues ? niceLimits(y.low, y.high, stepsY).limits : m_spec.values;
     if (m_spec.equalScales) equalize(m_x, m_y, area.size());
   }
   m_chart->setAxes(m_x, niceStep(m_x.high - m_x.low, stepsX), m_y,

@@ -10,6 +10,7 @@
 
 #include "blackboard_window.h"
 #include "robots_dock.h"
+#include "shell/robot_menus.h"
 #include "shell/source_switch.h"
 
 namespace pitchboard::ui {
@@ -52,19 +53,9 @@ void RobotsDock::setParts(const CardParts& parts) {
 void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   const RobotId id = card->state().id;
   MatchController* controller = m_context.controller;
-  const link::ScenarioRobot* robot = controller->robot(id);
-  if (robot == nullptr) return;
-  QMenu* behaviour = menu.addMenu(tr("Behaviour"));
-  const auto offer = [&](std::string_view name, const QString& text) {
-    const QString key = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
-    QAction* action = behaviour->addAction(text.isEmpty() ? key : text);
-    action->setCheckable(true);
-    action->setChecked(robot->behaviour == name);
-    connect(action, &QAction::triggered, controller,
-            [controller, id, key] { controller->setBehaviour(id, key); });
-  };
-  for (const link::BehaviourInfo& known : link::behaviours()) offer(known.name, {});
-  offer(link::noBehaviour, tr("none (your own process)"));
+  if (controller->robot(id) == nullptr) return;
+  addBehaviourMenu(&menu, controller, {id});
+  addTeamMenu(&menu, controller, {id});
   menu.addAction(tr("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();
   });

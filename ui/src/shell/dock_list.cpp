@@ -15,8 +15,8 @@ namespace pitchboard::ui {
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, makeRobotsDock},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 330, makeVariablesDock},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 330, makeNoiseDock},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, makeVariablesDock},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, makeNoiseDock},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, makePlotsDock},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, makeBadMessagesDock},

@@ -82,6 +82,18 @@ void RemoveRobotsCommand::redo() {
   for (const link::ScenarioRobot& robot : m_robots) m_controller->eraseRobot(robot.identity.id);
 }
 
+TeamCommand::TeamCommand(MatchController* controller, std::vector<sim::RobotIdentity> before,
+                         std::vector<sim::RobotIdentity> after)
+    : m_controller(controller), m_before(std::move(before)), m_after(std::move(after)) {
+  const std::string_view team = info(m_after.front().team).name;
+  setText(QStringLiteral("Put %1 in team %2")
+              .arg(subject(m_before.size(), robotName(m_before.front())),
+                   QString::fromUtf8(team.data(), static_cast<qsizetype>(team.size()))));
+}
+
+void TeamCommand::redo() { m_controller->changeIdentities(m_after); }
+void TeamCommand::undo() { m_controller->changeIdentities(m_before); }
+
 void RemoveRobotsCommand::undo() {
   for (const link::ScenarioRobot& robot : m_robots) m_controller->insertRobot(robot);
 }

@@ -62,4 +62,16 @@ class RemoveRobotsCommand : public QUndoCommand {
   std::vector<link::ScenarioRobot> m_robots;   // with the poses they had
 };
 
+class TeamCommand : public QUndoCommand {
+ public:
+  TeamCommand(MatchController* controller, std::vector<sim::RobotIdentity> before,
+              std::vector<sim::RobotIdentity> after);
+  void redo() override;
+  void undo() override;
+
+ private:
+  MatchController* m_controller;
+  std::vector<sim::RobotIdentity> m_before, m_after;
+};
+
 }  // namespace pitchboard::ui

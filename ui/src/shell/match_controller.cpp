@@ -56,7 +56,7 @@ MatchController::~MatchController() {
 struct MatchController::Opening {
   std::shared_ptr<link::MatchRunner> runner;
   link::Cognition cognition = link::Cognition::Inline;
-  std::shared_ptr<link::TickObserver> sampler;   // that the match was started with
+  std::shared_ptr<link::TickObserver> sampler, archive;   // that the match was started with
   QString error;   // of a match that plays otherwise than asked for, or not at all
 
   void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
@@ -68,13 +68,13 @@ void MatchController::Opening::start(const link::Scenario& scenario,
                                      CatalogPtr catalog) {
   const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
   cognition = options.cognition;
-  auto made = link::MatchRunner::start(scenario, options, paused, *catalog, {sampler});
+  auto made = link::MatchRunner::start(scenario, options, paused, *catalog, {sampler, archive});
   if (!made && options.cognition != link::Cognition::Inline) {
     const Error reason = made.error();
     link::MatchOptions inside = options;
     inside.cognition = cognition = link::Cognition::Inline;
     inside.systemV = false;
-    made = link::MatchRunner::start(scenario, inside, paused, *catalog, {sampler});
+    made = link::MatchRunner::start(scenario, inside, paused, *catalog, {sampler, archive});
     if (made) {
       error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
                  "instead, and other programs cannot see their blackboards. Close the other "
@@ -112,6 +112,7 @@ QString MatchController::emptyText() const {
 }
 
 std::shared_ptr<link::MatchRunner> MatchController::retire() {
+  if (m_runner) emit ending();
   ++m_generation;
   m_timer->stop();
   m_opening = false;
@@ -120,6 +121,8 @@ std::shared_ptr<link::MatchRunner> MatchController::retire() {
   m_frame.reset();
   m_rows.reset();
   m_sampler.reset();
+  m_archive.reset();
+  m_past.reset();
   m_undoStack->clear();
   return std::move(m_runner);
 }
@@ -156,17 +159,20 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
   m_catalog = m_nextCatalog;
   m_rows = std::make_shared<MatchRows>();
   m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
+  m_archive = std::make_shared<link::StateArchive>();
   for (const link::ScenarioRobot& entry : scenario.robots) {
     m_robots.emplace(entry.identity.id, entry);
   }
   m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
                   options = m_options, catalog = m_catalog, sampler = m_sampler,
+                  archive = m_archive,
                   generation = m_generation.load()]() mutable {
     old.reset();
     if (between) between();
     if (generation != m_generation) return;
     const auto opening = std::make_shared<Opening>();
     opening->sampler = sampler;
+    opening->archive = archive;
     opening->start(scenario, options, paused, catalog);
     QMetaObject::invokeMethod(this, [this, opening, generation] {
       if (generation == m_generation) take(*opening);

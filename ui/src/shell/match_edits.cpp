@@ -76,6 +76,40 @@ void MatchController::removeRobots(const std::vector<RobotId>& ids) {
   if (!leaving.empty()) m_undoStack->push(new RemoveRobotsCommand(this, std::move(leaving)));
 }
 
+void MatchController::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
+  if (!m_runner) return;
+  std::set<int> numbers;
+  for (const auto& [id, entry] : m_robots) {
+    if (entry.identity.team == team) numbers.insert(entry.identity.number);
+  }
+  std::vector<sim::RobotIdentity> before, after;
+  for (const RobotId id : ids) {
+    const link::ScenarioRobot* known = robot(id);
+    if (known == nullptr || known->identity.team == team) continue;
+    const int number = smallestFree(numbers);
+    numbers.insert(number);
+    before.push_back(known->identity);
+    after.push_back({id, team, number, info(team).facesLeft});
+  }
+  if (!after.empty()) {
+    m_undoStack->push(new TeamCommand(this, std::move(before), std::move(after)));
+  }
+}
+
+void MatchController::changeIdentities(const std::vector<sim::RobotIdentity>& identities) {
+  for (const sim::RobotIdentity& identity : identities) {
+    const auto known = m_robots.find(identity.id);
+    if (known == m_robots.end()) continue;
+    const sim::RobotIdentity before = std::exchange(known->second.identity, identity);
+    postChecked(tr("%1 stays in its team").arg(robotName(before)),
+                [identity](link::SimulatedMatch& match) { return match.setIdentity(identity); },
+                [this, before] {
+                  const auto still = m_robots.find(before.id);
+                  if (still != m_robots.end()) still->second.identity = before;
+                });
+  }
+}
+
 void MatchController::insertRobot(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
   postChecked(tr("%1 cannot be added").arg(robotName(entry.identity)),

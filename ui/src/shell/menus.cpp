@@ -16,6 +16,9 @@
 
 #include "help_windows.h"
 #include "live/live_overlay.h"
+#include "live/live_settings_dialog.h"
+#include "plots/plot_menus.h"
+#include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
 #include "source_switch.h"
@@ -40,6 +43,7 @@ void StudioMenus::make() {
   makeView();
   makeSimulation();
   makeTimeline();
+  makePlots();
   makeHelp();
 }
 
@@ -146,6 +150,9 @@ void StudioMenus::makeView() {
   m_window.m_overlayAction = overlay;
   overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_window.m_overlay, &LiveOverlay::setOn);
+  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [this_ = &m_window] {
+    showLiveSettings(this_->m_live, this_->m_settings, this_);
+  });
   menu->addSeparator();
   makeThemes(menu->addMenu(QObject::tr("&Theme")));
   menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
@@ -177,6 +184,12 @@ void StudioMenus::makeSimulation() {
 
 void StudioMenus::makeTimeline() {
   m_window.m_timelineActions->fill(m_window.menuBar()->addMenu(QObject::tr("&Timeline")));
+}
+
+void StudioMenus::makePlots() {
+  if (auto* plots = m_window.findChild<PlotsDock*>()) {
+    m_window.menuBar()->addMenu(makePlotsMenu(plots));
+  }
 }
 
 void StudioMenus::makeHelp() {

@@ -21,6 +21,7 @@ class StudioMenus {
   void makeThemes(QMenu* menu);
   void makeSimulation();
   void makeTimeline();
+  void makePlots();
   void makeHelp();
   /// Greyed while another source than the simulation is shown.
   void onlyWhenSimulating(QAction* action);

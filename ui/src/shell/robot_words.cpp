@@ -19,6 +19,12 @@ QString actionText(int code) {
   return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
 }
 
+QString capitalised(std::string_view text) {
+  QString words = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+  if (!words.isEmpty()) words[0] = words[0].toUpper();
+  return words;
+}
+
 QString numberText(double value, int decimals) {
   QString text = QString::number(std::abs(value), 'f', decimals);
   // −0.00 would make the sign flicker around zero.

@@ -4,6 +4,7 @@
 // How robots and numbers are written on the screen.
 
 #include <QString>
+#include <string_view>
 
 #include <simcore/world_state.h>
 
@@ -13,6 +14,8 @@ namespace pitchboard::ui {
 QString robotName(const sim::RobotIdentity& identity);
 /// "walk forward, slow", or "action 42" for a code that nobody knows.
 QString actionText(int code);
+/// "Blue" from "blue".
+QString capitalised(std::string_view text);
 /// With a real minus sign and fixed decimals.
 QString numberText(double value, int decimals);
 /// "05:12", hours when there are any.

@@ -32,6 +32,7 @@ void SourceSwitch::follow() {
     else emit frameReceived(frame);
   });
   connect(m_current, &FrameSource::eventsReceived, this, &FrameSource::eventsReceived);
+  connect(m_current, &FrameSource::eventsRecorded, this, &FrameSource::eventsRecorded);
   connect(m_current, &FrameSource::logReceived, this, &FrameSource::logReceived);
   connect(m_current, &FrameSource::restarted, this, [this] {
     forgetPast();

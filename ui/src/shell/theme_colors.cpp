@@ -129,8 +129,12 @@ QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
 QToolButton:pressed, QToolButton:checked { background: @row; border-color: @accent; }
-QToolButton#mode { border-color: @line; background: @button; padding: @4 @12; }
-QToolButton#mode:checked { background: @fill; border-color: @fill; color: white; }
+QToolButton#changedOnly, QToolButton#favouritesOnly {
+  border-color: @line; background: @button; }
+QToolButton#changedOnly:checked, QToolButton#favouritesOnly:checked {
+  background: @row; border-color: @accent; }
+QToolButton#mode, QToolButton#live { border-color: @line; background: @button; padding: @4 @12; }
+QToolButton#mode:checked, QToolButton#live:checked { background: @fill; border-color: @fill; color: white; }
 QToolButton::menu-indicator { image: none; }
 QStatusBar { border-top: 1px solid @edge; }
 QStatusBar::item { border: none; }
@@ -152,9 +156,11 @@ QScrollBar::handle:horizontal { min-width: @24; }
 QScrollBar::handle:hover { background: @secondary; }
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: none; }
-QDockWidget QDoubleSpinBox, QLineEdit#logFilter { background: @view; color: @text;
+QDockWidget QDoubleSpinBox, QDockWidget QSpinBox, QLineEdit#logFilter,
+QLineEdit#variablesFilter { background: @view; color: @text;
   border: 1px solid @line; border-radius: 3px; padding: @2 @4; }
-QDockWidget QDoubleSpinBox:focus, QLineEdit#logFilter:focus { border-color: @accent; }
+QDockWidget QDoubleSpinBox:focus, QDockWidget QSpinBox:focus, QLineEdit#logFilter:focus,
+QLineEdit#variablesFilter:focus { border-color: @accent; }
 QTableView::item { padding: 0 @5; border: none; }
 QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <session/session_events.h>
 #include <shell/robot_words.h>
 #include <shell/scoreboard.h>
 
@@ -21,13 +22,14 @@ QString nameOf(const link::MatchFrame* frame, RobotId id) {
 QString teamOf(const link::MatchFrame* frame, int side) {
   if (frame == nullptr) return {};
   const ScoreboardState board = scoreboardOf(*frame);
-  const std::string_view name = info(side == 0 ? board.leftTeam : board.rightTeam).name;
-  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
+  return side == 0 ? board.leftName : board.rightName;
 }
 
 }  // namespace
 
 QString refereeWord(const link::MatchFrame& frame) {
+  if (frame.referee) return QString::fromStdString(frame.referee->state);
+  if (frame.origin == link::FrameOrigin::Live) return {};
   if (frame.finished) return QStringLiteral("FINISHED");
   return frame.snapshot.clockRunning ? QStringLiteral("PLAYING") : QStringLiteral("CLOCK STOPPED");
 }
@@ -36,6 +38,17 @@ EventCollector::EventCollector(FrameSource* source)
     : QObject(source), m_source(source), m_list(new EventList(this)) {
   connect(source, &FrameSource::frameReceived, this, &EventCollector::take);
   connect(source, &FrameSource::eventsReceived, this, &EventCollector::takeEvents);
+  connect(source, &FrameSource::eventsRecorded, this,
+          [this](const std::vector<telemetry::SessionEvent>& events) {
+            std::vector<TimelineEvent> taken;
+            for (const telemetry::SessionEvent& event : events) {
+              // As in a match: getting up follows every fall.
+              if (event.kind != "got-up" && event.kind != "unknown-action") {
+                taken.push_back(timelineEventOf(event));
+              }
+            }
+            m_list->add(std::move(taken));
+          });
   connect(source, &FrameSource::restarted, this, &EventCollector::forget);
   if (const FramePtr frame = source->frame()) take(frame);
 }
@@ -43,6 +56,7 @@ EventCollector::EventCollector(FrameSource* source)
 void EventCollector::forget() {
   m_children.clear();
   m_everRan.clear();
+  m_health.clear();
   m_referee.clear();
   m_time = 0.0;
   m_list->clear();
@@ -55,6 +69,7 @@ void EventCollector::take(const FramePtr& frame) {
   m_time = time;
   compareReferee(*frame);
   compareProcesses(*frame);
+  compareHealth(*frame);
 }
 
 void EventCollector::takeEvents(const std::vector<sim::Event>& events) {
@@ -93,7 +108,24 @@ void EventCollector::compareReferee(const link::MatchFrame& frame) {
   const QString word = refereeWord(frame);
   if (word == m_referee) return;
   m_referee = word;
+  if (word.isEmpty()) return;
   m_list->add({frame.snapshot.time, EventType::Referee, {}, word});
+}
+
+void EventCollector::compareHealth(const link::MatchFrame& frame) {
+  for (const link::RobotHealth& robot : frame.health) {
+    Health& known = m_health[robot.id];
+    const QString name = nameOf(&frame, robot.id);
+    if (robot.timedOut != known.timedOut) {
+      m_list->add({frame.snapshot.time,
+                   robot.timedOut ? EventType::Timeout : EventType::Recovery, name, {}});
+    }
+    if (robot.penalty && !known.penalised) {
+      m_list->add({frame.snapshot.time, EventType::Warning, name,
+                   tr("penalised: %1").arg(QString::fromStdString(robot.penalty->words))});
+    }
+    known = {robot.timedOut, robot.penalty.has_value()};
+  }
 }
 
 void EventCollector::compareProcesses(const link::MatchFrame& frame) {

@@ -25,16 +25,22 @@ class EventCollector : public QObject {
   void takeEvents(const std::vector<sim::Event>& events);
   void compareProcesses(const link::MatchFrame& frame);
   void compareReferee(const link::MatchFrame& frame);
+  void compareHealth(const link::MatchFrame& frame);
   void forget();
 
   struct Child {
     link::ChildState state = link::ChildState::Running;
     pid_t pid = 0;
   };
+  struct Health {
+    bool timedOut = false;
+    bool penalised = false;
+  };
   FrameSource* m_source;
   EventList* m_list;
   std::map<int, Child> m_children;                       // by handle
   std::set<std::pair<RobotId, std::string>> m_everRan;   // robot, process
+  std::map<RobotId, Health> m_health;
   QString m_referee;
   double m_time = 0.0;
 };

@@ -3,7 +3,7 @@
 
 #include <QHBoxLayout>
 #include <QMenu>
-#include <QPushButton>
+#include <QToolButton>
 
 #include <ui/theme.h>
 
@@ -19,9 +19,10 @@ class TimelineDock : public QWidget {
   TimelineDock(const StudioContext& context, QWidget* parent)
       : QWidget(parent), m_timeline(context.timeline),
         m_strip(new TimelineStrip(context.timeline, context.time, this)),
-        m_live(new QPushButton(tr("Live"), this)) {
+        m_live(new QToolButton(this)) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     m_live->setObjectName(QStringLiteral("live"));
+    m_live->setText(tr("Live"));
     m_live->setCheckable(true);
     m_live->setFocusPolicy(Qt::NoFocus);
     m_live->setFixedWidth(scaled(this, 48));
@@ -31,13 +32,11 @@ class TimelineDock : public QWidget {
     row->setSpacing(0);
     row->addWidget(m_strip, 1);
     row->addWidget(m_live);
-    connect(m_live, &QPushButton::clicked, this, [this] {
+    connect(m_live, &QToolButton::clicked, this, [this] {
       m_timeline->goLive();
       showLive();
     });
-    for (const auto changed : {&Timeline::lookingBackChanged}) {
-      connect(m_timeline, changed, this, &TimelineDock::showLive);
-    }
+    connect(m_timeline, &Timeline::lookingBackChanged, this, &TimelineDock::showLive);
     connect(m_timeline, &Timeline::sourceChanged, this, &TimelineDock::showLive);
     connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
             &TimelineStrip::editNote);
@@ -59,7 +58,7 @@ class TimelineDock : public QWidget {
 
   Timeline* m_timeline;
   TimelineStrip* m_strip;
-  QPushButton* m_live;
+  QToolButton* m_live;
 };
 
 }  // namespace

@@ -30,8 +30,8 @@ void ValueWriter::write(const QModelIndex& index, double value) {
   if (column == nullptr || robot == attributes.end()) return;
   const RobotId id{QString::fromStdString(robot->second).toInt()};
   const auto series = m_model->store()->find(group->info().name, column->name);
-  const auto before = series ? m_model->store()->view(series->group)->latest(series->column)
-                             : std::nullopt;
+  const auto view = series ? m_model->store()->view(series->group) : nullptr;
+  const auto before = view ? view->latest(series->column) : std::nullopt;
   const QString name = QString::fromStdString(column->name);
   m_message->clear();
   m_pending.push_back({id, {QString::fromStdString(group->info().name), name,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "variables_dock.h"
 
-#include <QActionGroup>
 #include <QApplication>
 #include <QHeaderView>
 #include <QLabel>
@@ -114,8 +113,6 @@ class VariablesDock : public QWidget {
     m_changed = makeButton("changedOnly", nullptr, QString());
     m_changed->setText(tr("Changed"));
     m_changed->setCheckable(true);
-    m_changed->setMenu(makeChangedMenu());
-    m_changed->setPopupMode(QToolButton::MenuButtonPopup);
     connect(m_changed, &QToolButton::toggled, this, [this] { applyChanged(); });
     m_lock = makeButton("editValues", "object-locked", QString());
     m_lock->setCheckable(true);
@@ -133,15 +130,13 @@ class VariablesDock : public QWidget {
     return row;
   }
 
-  QMenu* makeChangedMenu() {
-    auto* menu = new QMenu(this);
-    auto* group = new QActionGroup(menu);
+  void fillChanged(QMenu* menu) {
+    menu->clear();
     for (const int seconds : {1, 5, 15, 60}) {
       QAction* action = menu->addAction(
           seconds == 1 ? tr("Within the last second") : tr("Within the last %1 s").arg(seconds));
       action->setCheckable(true);
-      action->setData(seconds);
-      group->addAction(action);
+      action->setChecked(seconds == m_changedWithin);
       connect(action, &QAction::triggered, this, [this, seconds] {
         m_changedWithin = seconds;
         if (m_context.settings) m_context.settings->setValue(changedKey, seconds);
@@ -149,12 +144,6 @@ class VariablesDock : public QWidget {
         else m_changed->setChecked(true);
       });
     }
-    connect(menu, &QMenu::aboutToShow, this, [this, group] {
-      for (QAction* action : group->actions()) {
-        action->setChecked(action->data().toInt() == m_changedWithin);
-      }
-    });
-    return menu;
   }
 
   QMenu* makeMenu(QWidget* parent) {
@@ -163,6 +152,8 @@ class VariablesDock : public QWidget {
     connect(columns, &QMenu::aboutToShow, this, [this, columns] {
       m_view->columns()->fillColumns(columns);
     });
+    QMenu* changed = menu->addMenu(tr("Changed means"));
+    connect(changed, &QMenu::aboutToShow, this, [this, changed] { fillChanged(changed); });
     QMenu* sampling = menu->addMenu(tr("Sampling"));
     connect(sampling, &QMenu::aboutToShow, this, [this, sampling] { fillSampling(sampling); });
     menu->addSeparator();
@@ -174,8 +165,8 @@ class VariablesDock : public QWidget {
     QAction* attach = menu->addAction(tr("Attach blackboard…"), this, [this] { m_attach->open(); });
     attach->setObjectName(QStringLiteral("attachBlackboard"));
     menu->addSeparator();
-    menu->addAction(tr("Open all"), this, [this] { m_view->expandAll(); });
-    menu->addAction(tr("Close all"), this, [this] { m_view->collapseAll(); });
+    menu->addAction(tr("Open all"), this, [this] { m_view->openAll(); });
+    menu->addAction(tr("Close all"), this, [this] { m_view->closeAll(); });
     connect(menu, &QMenu::aboutToShow, this, [this, reset, attach] {
       const bool simulated = m_context.source->kind() == SourceKind::Simulate;
       attach->setEnabled(simulated);
@@ -247,13 +238,17 @@ class VariablesDock : public QWidget {
 
   void detach(int key) {
     m_boards->detach(key);
-    m_model->setNote(AttachedBoards::groupName(key), tr("detached"));
+    m_model->setNote(AttachedBoards::groupName(key), {tr("detached"), {}, 0.0});
   }
 
   void showBoards() {
     for (const auto& [key, status] : m_boards->status()) {
       const QString group = AttachedBoards::groupName(key);
-      m_model->setNote(group, status.attached ? QString() : tr("removed, waiting"));
+      m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
+                               status.missed == 0 ? QString()
+                                                  : tr("%1 samples were left out, because the "
+                                                       "computer was busy.").arg(status.missed),
+                               status.attached ? status.rate : 0.0});
       if (!status.attached && m_removed.insert(key).second) {
         m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
       } else if (status.attached) {

@@ -34,9 +34,9 @@ VariablesHeader::VariablesHeader(QWidget* parent) : QHeaderView(Qt::Horizontal, 
 void VariablesHeader::reset() {
   setMinimumSectionSize(scaled(this, 24));
   setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
-  const std::pair<int, int> widths[] = {{VariablesModel::Value, 62}, {VariablesModel::Unit, 44},
+  const std::pair<int, int> widths[] = {{VariablesModel::Value, 56}, {VariablesModel::Unit, 40},
                                         {VariablesModel::Rate, 66}, {VariablesModel::Age, 56},
-                                        {VariablesModel::Spark, 72}};
+                                        {VariablesModel::Spark, 68}};
   for (const auto& [column, width] : widths) resizeSection(column, scaled(this, width));
   setSectionHidden(VariablesModel::Rate, true);
   setSectionHidden(VariablesModel::Age, true);

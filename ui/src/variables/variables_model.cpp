@@ -51,10 +51,11 @@ void VariablesModel::setStore(std::shared_ptr<const telemetry::SeriesStore> stor
   updateGroups();
 }
 
-std::unique_ptr<VariableNode> VariablesModel::makeGroup(GroupId id) const {
+std::unique_ptr<VariableNode> VariablesModel::makeGroup(
+    GroupId id, std::shared_ptr<const telemetry::GroupView> view) const {
   auto group = std::make_unique<VariableNode>();
   group->group = id;
-  group->view = m_store->view(id);
+  group->view = std::move(view);
   const GroupInfo& info = group->view->info();
   group->name = group->path = QString::fromStdString(info.name);
   group->rank = groupRank(info);
@@ -117,8 +118,10 @@ void VariablesModel::updateGroups() {
   for (GroupId id = 0; id < count; ++id) {
     const bool shown = std::any_of(m_groups.begin(), m_groups.end(),
                                    [id](const auto& group) { return group->group == id; });
-    if (shown || m_store->findGroup(m_store->view(id)->info().name) != id) continue;
-    auto group = makeGroup(id);
+    if (shown) continue;
+    auto view = m_store->view(id);
+    if (!view) continue;   // replaced by a later one
+    auto group = makeGroup(id, std::move(view));
     const auto place = std::find_if(m_groups.begin(), m_groups.end(), [&group](const auto& other) {
       return std::pair(group->rank, group->group) < std::pair(other->rank, other->group);
     });
@@ -160,10 +163,10 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
   emit favouritesChanged();
 }
 
-void VariablesModel::setNote(const QString& group, const QString& sentence) {
-  if (m_notes.value(group) == sentence) return;
-  if (sentence.isEmpty()) m_notes.remove(group);
-  else m_notes.insert(group, sentence);
+void VariablesModel::setNote(const QString& group, const GroupNote& note) {
+  if (m_notes.value(group) == note) return;
+  if (note == GroupNote{}) m_notes.remove(group);
+  else m_notes.insert(group, note);
   const QModelIndex row = find(group);
   if (row.isValid()) emit dataChanged(row, row.siblingAtColumn(columns - 1));
 }

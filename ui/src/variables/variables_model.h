@@ -11,6 +11,7 @@
 #include <QSet>
 #include <QStringList>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <telemetry/series_store.h>
@@ -19,6 +20,13 @@
 namespace pitchboard::ui {
 
 struct VariableNode;
+
+struct GroupNote {
+  QString trouble;              ///< stands in the row
+  QString detail;               ///< in its tool tip
+  std::optional<double> rate;   ///< samples a second by the wall clock, instead of the source's
+  bool operator==(const GroupNote&) const = default;
+};
 
 class VariablesModel : public QAbstractItemModel {
   Q_OBJECT
@@ -51,8 +59,8 @@ class VariablesModel : public QAbstractItemModel {
   /// Looks only when each variable changed last; for a filter.
   void refreshChanges();
 
-  /// A sentence that is shown with a group's row, marked as trouble; empty takes it away.
-  void setNote(const QString& group, const QString& sentence);
+  /// What is known of a group beside its rows; an empty note takes it away.
+  void setNote(const QString& group, const GroupNote& note);
 
   /// Seconds that a sparkline covers.
   double sparkSeconds() const { return m_kind == SourceKind::Live ? 60.0 : 15.0; }
@@ -107,10 +115,12 @@ class VariablesModel : public QAbstractItemModel {
  private:
   static VariableNode* node(const QModelIndex& index);
   QModelIndex indexOf(const VariableNode* node, int column) const;
-  std::unique_ptr<VariableNode> makeGroup(telemetry::GroupId id) const;
+  std::unique_ptr<VariableNode> makeGroup(
+      telemetry::GroupId id, std::shared_ptr<const telemetry::GroupView> view) const;
   void renumber();
   bool read(VariableNode& variable, int sparkPixels) const;
   void lookAt(VariableNode& group);
+  double rateOf(const VariableNode& group) const;
   QVariant display(const VariableNode& node, int column) const;
   QVariant sortValue(const VariableNode& node, int column) const;
   QString toolTip(const QModelIndex& index) const;
@@ -120,7 +130,7 @@ class VariablesModel : public QAbstractItemModel {
   std::uint64_t m_revision = 0;
   std::vector<std::unique_ptr<VariableNode>> m_groups;
   QSet<QString> m_favourites;
-  QHash<QString, QString> m_notes;   // by group
+  QHash<QString, GroupNote> m_notes;   // by group
   double m_now = 0.0;
   std::uint64_t m_round = 0;
   bool m_editingAllowed = false;

@@ -44,7 +44,8 @@ QString shownAge(double seconds) {
 void VariablesModel::lookAt(VariableNode& group) {
   if (group.round == m_round) return;
   group.round = m_round;
-  group.view = m_store->view(group.group);
+  // Null once the group was replaced: its last rows stand until updateGroups().
+  if (auto view = m_store->view(group.group)) group.view = std::move(view);
   group.rowsPerSecond = group.view->rate();
   if (const auto range = group.view->range()) group.newest = range->end;
 }
@@ -144,16 +145,19 @@ void VariablesModel::refreshChanges() {
   }
 }
 
+double VariablesModel::rateOf(const VariableNode& group) const {
+  return m_notes.value(group.name).rate.value_or(group.rowsPerSecond);
+}
+
 QVariant VariablesModel::display(const VariableNode& row, int column) const {
   if (column == Name) {
-    const QString note = row.kind == Kind::Group ? m_notes.value(row.name) : QString();
+    const QString note = row.kind == Kind::Group ? m_notes.value(row.name).trouble : QString();
     return note.isEmpty() ? row.name : row.name + QStringLiteral(" · ") + note;
   }
   if (row.kind == Kind::Group) {
-    if (column == Value && row.rowsPerSecond > 0) {
-      return QString::number(row.rowsPerSecond, 'f', row.rowsPerSecond < 10 ? 1 : 0);
-    }
-    return column == Unit && row.rowsPerSecond > 0 ? tr("/s") : QString();
+    const double rate = rateOf(row);
+    if (column == Value && rate > 0) return QString::number(rate, 'f', rate < 10 ? 1 : 0);
+    return column == Unit && rate > 0 ? tr("/s") : QString();
   }
   if (row.kind == Kind::Heading) return {};
   switch (column) {
@@ -201,13 +205,16 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
   if (row.kind == Kind::Heading) return {};
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
-    if (m_notes.contains(row.name)) lines << m_notes.value(row.name);
     for (const auto& [key, value] : row.view->info().attributes) {
       lines << QString::fromStdString(key) + QStringLiteral(": ") + QString::fromStdString(value);
     }
-    lines << (row.rowsPerSecond > 0
+    const GroupNote note = m_notes.value(row.name);
+    for (const QString& text : {note.trouble, note.detail}) {
+      if (!text.isEmpty()) lines << text;
+    }
+    lines << (rateOf(row) > 0
                   ? tr("Sampled %1 times a second. Changes between two samples cannot be seen.")
-                        .arg(row.rowsPerSecond, 0, 'f', 1)
+                        .arg(rateOf(row), 0, 'f', 1)
                   : tr("No sample within the last second."));
     return lines.join(QLatin1Char('\n'));
   }
@@ -254,7 +261,9 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
     case Qt::ForegroundRole: {
       // Nothing has come for a while: what stands there is history.
       constexpr double silence = 10.0;
-      if (row.kind == Kind::Group && m_notes.contains(row.name)) return theme().warningText;
+      if (row.kind == Kind::Group && !m_notes.value(row.name).trouble.isEmpty()) {
+        return theme().warningText;
+      }
       if (m_now - row.owner()->newest > silence) return theme().disabledText;
       if (index.column() == Unit || index.column() == Age || index.column() == Rate ||
           (row.kind == Kind::Group && index.column() != Name)) {

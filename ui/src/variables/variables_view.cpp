@@ -35,7 +35,8 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   setEditTriggers(NoEditTriggers);
   setDragEnabled(true);
   setDragDropMode(DragOnly);
-  setIndentation(scaled(this, 12));
+  setIndentation(scaled(this, 10));
+  setTextElideMode(Qt::ElideMiddle);   // names differ at both ends
   setAnimated(false);
   setExpandsOnDoubleClick(true);
   setItemDelegate(new VariablesDelegate(this));
@@ -82,6 +83,26 @@ void VariablesView::selectionChanged(const QItemSelection& selected, const QItem
 
 void VariablesView::followFilter() {
   m_closedWhileFiltering.clear();
+  restore();
+}
+
+// QTreeView's own expandAll() does not say what it opened.
+void VariablesView::openAll() {
+  m_closedWhileFiltering.clear();
+  for (int g = 0; g < m_model->rowCount(); ++g) {
+    const QModelIndex group = m_model->index(g, 0);
+    m_open.insert(group.data(VariablesModel::PathRole).toString());
+    for (int h = 0; h < m_model->rowCount(group); ++h) {
+      m_open.insert(m_model->index(h, 0, group).data(VariablesModel::PathRole).toString());
+    }
+  }
+  m_openedAtFirst = true;
+  restore();
+}
+
+void VariablesView::closeAll() {
+  m_open.clear();
+  m_openedAtFirst = true;
   restore();
 }
 

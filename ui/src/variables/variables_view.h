@@ -32,6 +32,8 @@ class VariablesView : public QTreeView {
   void copySelection() const;
   void requestFavourites() { emit favouriteRequested(selectedInModel()); }
   void editCurrent();
+  void openAll();
+  void closeAll();
   bool isEditing() const { return state() == EditingState; }
 
  signals:

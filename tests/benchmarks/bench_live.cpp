@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole studio in Live under the load of 16 senders: what is lost where, how often the window is
+// painted meanwhile, what it costs in memory (docs/PERFORMANCE.md). The senders are a process of their
+// own. Arguments: datagrams per second (50000), seconds (10).
+#include <QApplication>
+#include <QGraphicsView>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QThread>
+#include <QTimer>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <telemetry/series_store.h>
+#include <telemetry/text_protocol.h>
+#include <ui/field_view.h>
+#include <ui/live_controller.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+#include <ui/theme.h>
+
+using namespace pitchboard;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr int robots = 16;
+
+/// Sends at a steady rate, writes how many to the pipe, and ends.
+[[noreturn]] void sendLoad(int portBase, int perSecond, int seconds, int pipeEnd) {
+  std::vector<int> sockets;
+  for (int i = 0; i < robots; ++i) sockets.push_back(socket(AF_INET, SOCK_DGRAM, 0));
+  std::uint64_t sent = 0;
+  const auto begin = Clock::now();
+  constexpr auto slice = std::chrono::milliseconds(2);
+  const int perSlice = perSecond / 500;
+  for (auto next = begin; next < begin + std::chrono::seconds(seconds); next += slice) {
+    while (Clock::now() < next) usleep(200);
+    for (int i = 0; i < perSlice; ++i) {
+      const int robot = static_cast<int>(sent % robots);
+      telemetry::TextMessage m;
+      m.robot = robot + 1;
+      m.x = 100 + static_cast<int>(sent / robots % 700);
+      m.y = 30 + 35 * robot;
+      m.belief = 20.0F;
+      m.ballDist = 120.0F;
+      m.control = m.vision = m.localization = m.decision = m.imu = 1;
+      m.actionA = 8;
+      m.voltage = 165;
+      const std::string text = telemetry::encode(m);
+      sockaddr_in to{};
+      to.sin_family = AF_INET;
+      to.sin_port = htons(static_cast<std::uint16_t>(portBase + robot + 1));
+      to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      if (sendto(sockets[static_cast<std::size_t>(robot)], text.data(), text.size(), 0,
+                 reinterpret_cast<const sockaddr*>(&to), sizeof to) > 0) {
+        ++sent;
+      }
+    }
+  }
+  [[maybe_unused]] const auto written = write(pipeEnd, &sent, sizeof sent);
+  _exit(0);
+}
+
+double residentMib() {
+  std::ifstream statm("/proc/self/statm");
+  long total = 0, resident = 0;
+  statm >> total >> resident;
+  return static_cast<double>(resident) * 4 / 1024;
+}
+
+struct Paints : QObject {
+  int count = 0;
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::Paint) ++count;
+    return false;
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int perSecond = argc > 1 ? std::atoi(argv[1]) : 50'000;
+  const int seconds = argc > 2 ? std::atoi(argv[2]) : 10;
+  const int portBase = 10000 + static_cast<int>(getpid() % 900) * 20;
+  int pipes[2];
+  int go[2];
+  if (pipe(pipes) != 0 || pipe(go) != 0) return 1;
+  const pid_t child = fork();
+  if (child == 0) {
+    char byte = 0;
+    if (read(go[0], &byte, 1) != 1) _exit(1);
+    sendLoad(portBase, perSecond, seconds, pipes[1]);
+  }
+  if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+  QApplication application(argc, argv);
+  ui::setTheme(application, ui::ThemeChoice::Dark);
+  const QTemporaryDir folder;
+  QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
+  ui::MatchController controller{link::MatchOptions()};
+  ui::MainWindow window(&controller, &settings);
+  window.resize(1280, 800);
+  window.show();
+  link::LiveOptions options;
+  options.bind = {INADDR_LOOPBACK};
+  options.portBase = portBase;
+  options.refereePort = portBase + 19;
+  window.live()->setOptions(options);
+  window.showSource(ui::SourceKind::Live);
+  Paints paints;
+  window.field()->findChild<QGraphicsView*>()->viewport()->installEventFilter(&paints);
+  const auto spin = [&application](std::chrono::milliseconds time) {
+    QTimer::singleShot(time, &application, &QCoreApplication::quit);
+    QApplication::exec();
+  };
+  spin(std::chrono::seconds(1));
+  [[maybe_unused]] const auto told = write(go[1], "g", 1);
+  spin(std::chrono::seconds(2));   // everything has its size by then
+  const double early = residentMib();
+  const auto storeEarly = static_cast<double>(window.live()->series()->memoryBytes());
+  paints.count = 0;
+  const auto begin = Clock::now();
+  spin(std::chrono::seconds(seconds - 3));
+  const double painted =
+      paints.count / std::chrono::duration<double>(Clock::now() - begin).count();
+  const double late = residentMib();
+  const auto storeLate = static_cast<double>(window.live()->series()->memoryBytes());
+  spin(std::chrono::seconds(2));
+  std::uint64_t sent = 0;
+  if (read(pipes[0], &sent, sizeof sent) != sizeof sent) return 1;
+  waitpid(child, nullptr, 0);
+  spin(std::chrono::milliseconds(500));
+  const link::LiveDetails details = window.live()->details();
+  constexpr double mib = 1024.0 * 1024.0;
+  std::printf("sent %llu, received %llu, decoded %llu, lost in the kernel %llu, lost here %llu, bad %llu\n",
+              static_cast<unsigned long long>(sent),
+              static_cast<unsigned long long>(details.network.datagrams()),
+              static_cast<unsigned long long>(details.team.datagrams),
+              static_cast<unsigned long long>(details.network.kernelDrops()),
+              static_cast<unsigned long long>(details.network.queueDrops),
+              static_cast<unsigned long long>(details.team.errors.total()));
+  std::printf("field painted %.1f times a second\n", painted);
+  std::printf("memory grew by %.1f MiB, of which %.1f MiB are rows (bounded by the store's budget)\n",
+              late - early, (storeLate - storeEarly) / mib);
+  return 0;
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Milliseconds for one frame while a plot with 10 curves of a million samples each is panned or
+// zoomed, by software rendering: the data, the axes and the painting of the whole page.
+
+#include <benchmark/benchmark.h>
+
+#include <QApplication>
+#include <QImage>
+
+#include <plots/linked_time.h>
+#include <plots/plot_feed.h>
+#include <plots/plot_page.h>
+#include <plots/plot_target.h>
+#include <plots/plots_dock.h>
+#include <shell/source_switch.h>
+#include <telemetry/series_store.h>
+#include <ui/theme.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+constexpr int rows = 1'000'000;
+constexpr int curves = 10;
+constexpr double rate = 60.0;
+
+class StoredSource : public FrameSource {
+ public:
+  StoredSource() : m_store(std::make_shared<telemetry::SeriesStore>()) {
+    telemetry::GroupInfo info;
+    info.name = "B1";
+    for (int c = 0; c < curves; ++c) {
+      telemetry::ColumnInfo column;
+      column.name = "V" + std::to_string(c);
+      info.columns.push_back(column);
+    }
+    const telemetry::GroupId group = m_store->addGroup(info);
+    std::mt19937 engine(1);
+    std::normal_distribution<double> noise;
+    std::vector<double> values(curves);
+    for (int i = 0; i < rows; ++i) {
+      for (int c = 0; c < curves; ++c) {
+        values[std::size_t(c)] = 10.0 * c + 4.0 * std::sin(i * 1e-4 * (c + 1)) + noise(engine);
+      }
+      m_store->append(group, {i / rate, {}, values});
+    }
+  }
+  SourceKind kind() const override { return SourceKind::Simulate; }
+  FramePtr frame() const override { return {}; }
+  std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_store; }
+  QString emptyText() const override { return {}; }
+
+ private:
+  std::shared_ptr<telemetry::SeriesStore> m_store;
+};
+
+struct Bench {
+  SourceSwitch sources;
+  LinkedTime time;
+  PlotTarget target;
+  std::unique_ptr<PlotsDock> dock;
+
+  explicit Bench(StoredSource* source, QSize size) : sources(source) {
+    StudioContext context;
+    context.source = &sources;
+    context.time = &time;
+    context.plots = &target;
+    dock = std::make_unique<PlotsDock>(context, nullptr);
+    dock->resize(size);
+    dock->show();
+    dock->feed()->refresh();
+    QStringList names;
+    for (int c = 0; c < curves; ++c) names << QStringLiteral("B1/V%1").arg(c);
+    dock->currentPage()->addVariables(names);
+    QCoreApplication::processEvents();
+  }
+};
+
+StoredSource& source() {
+  static StoredSource stored;
+  return stored;
+}
+
+/// `span`: seconds visible; all rows are rows / rate = 16 667 s.
+void frames(benchmark::State& state, bool zoom) {
+  Bench bench(&source(), {int(state.range(0)), int(state.range(1))});
+  const double span = double(state.range(2));
+  bench.time.setRange({0.0, span});
+  QImage screen(bench.dock->size(), QImage::Format_RGB32);
+  int i = 0;
+  for (auto _ : state) {
+    if (zoom) bench.time.zoom(i++ % 20 < 10 ? 0.95 : 1 / 0.95, span / 3);
+    else bench.time.pan(span / 300 * (i++ % 200 < 100 ? 1 : -1));
+    bench.dock->currentPage()->refresh();
+    bench.dock->render(&screen);
+  }
+  state.counters["fps"] = benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void pan(benchmark::State& state) { frames(state, false); }
+void zoom(benchmark::State& state) { frames(state, true); }
+
+void cases(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"width", "height", "seconds"})->Unit(benchmark::kMillisecond)->UseRealTime();
+  // All of it; a part in columns; about two samples a pixel; few samples.
+  for (const int seconds : {16'000, 1'000, 50, 15}) {
+    benchmark->Args({1280, 400, seconds})->Args({1920, 1000, seconds});
+  }
+}
+
+BENCHMARK(pan)->Apply(cases);
+BENCHMARK(zoom)->Apply(cases);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+  QApplication application(argc, argv);
+  setTheme(application, ThemeChoice::Dark);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Simulated robots and Live on one computer: an independent program plays a match, whose
+// communication processes send telemetry as a team's own would; Live sees all of them where they
+// believe they are.
+#include <QFile>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <cmath>
+#include <netinet/in.h>
+#include <unistd.h>
+
+#include <robotlink/live_watch.h>
+#include <robotlink/robot_variables.h>
+#include <robotlink/system_v.h>
+
+using namespace pitchboard;
+
+class TestLiveMatch : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  const int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+  const int m_portBase = 21000 + static_cast<int>(getpid() % 400) * 20;
+
+  /// The robots' program with telemetry ports of this test.
+  QString robotProgram() {
+    const QString path = m_folder.filePath(QStringLiteral("robot.sh"));
+    QFile file(path);
+    if (!file.open(QIODevice::WriteOnly)) return {};
+    file.write(QStringLiteral("#!/bin/sh\nexec '%1' \"$@\" --telemetry-port-base %2\n")
+                   .arg(QStringLiteral(PITCHBOARD_BIN "/pitchboard-robot"))
+                   .arg(m_portBase)
+                   .toUtf8());
+    file.close();
+    file.setPermissions(QFile::ReadOwner | QFile::ExeOwner | QFile::WriteOwner);
+    return path;
+  }
+
+ private slots:
+  void cleanup() {
+    for (const auto& segment : link::SystemVSegments::list(m_keyBase)) {
+      (void)link::SystemVSegments::remove(segment.key);
+    }
+  }
+
+  void liveSeesAMatchThatAnotherProgramPlays() {
+    QProcess match;
+    match.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
+                {QStringLiteral("simulate"), QStringLiteral("--scenario"),
+                 QStringLiteral("match-3v3"), QStringLiteral("--cognition"),
+                 QStringLiteral("external"), QStringLiteral("--speed"), QStringLiteral("1"),
+                 QStringLiteral("--duration"), QStringLiteral("60"), QStringLiteral("--key-base"),
+                 QString::number(m_keyBase), QStringLiteral("--robot-program"), robotProgram()});
+    QVERIFY(match.waitForStarted());
+    link::LiveOptions options;
+    options.bind = {INADDR_LOOPBACK};
+    options.portBase = m_portBase;
+    options.refereePort = m_portBase + 18;
+    link::LiveWatch live(options);
+    QTRY_VERIFY_WITH_TIMEOUT(live.latest() && live.latest()->health.size() == 6, 30000);
+    // Where the telemetry says that a robot believes to be is what stands on its blackboard: robots
+    // move on between the message and the look, so a step of a second is allowed.
+    int agree = 0;
+    const auto compare = [&] {
+      agree = 0;
+      const auto frame = live.latest();
+      for (std::size_t i = 0; i < frame->health.size(); ++i) {
+        const int key = m_keyBase + 100 * frame->health[i].id.value;
+        const auto board = link::SystemVSegments::open(key, link::AttachMode::ReadOnly);
+        if (!board) continue;
+        const link::RobotVariables variables;
+        const int x = board->read(variables.localizationX);
+        const int y = board->read(variables.localizationY);
+        const double away = std::hypot(x - frame->boards[i].localizationX,
+                                       y - frame->boards[i].localizationY);
+        if (away < 60.0 && frame->health[i].poseKnown) ++agree;
+      }
+      return agree == 6;
+    };
+    QTRY_VERIFY2_WITH_TIMEOUT(compare(), qPrintable(QString::number(agree)), 20000);
+    const auto details = live.details();
+    QCOMPARE(details.team.errors.total(), std::uint64_t(0));
+    QTRY_VERIFY_WITH_TIMEOUT(live.latest()->health[0].messages >= 3, 20000);
+    QVERIFY(live.latest()->health[0].rate > 0.3);
+    match.terminate();
+    QVERIFY(match.waitForFinished(15000));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveMatch)
+#include "tst_live_match.moc"

@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plots' dock with real drops, wheels and drags, against values computed here.
+
+#include <QAbstractItemModelTester>
+#include <QDropEvent>
+#include <QMimeData>
+#include <QtTest>
+
+#include <plots/chart_pane.h>
+#include <plots/lane_pane.h>
+#include <plots/legend_bar.h>
+#include <plots/marks_model.h>
+#include <plots/marks_panel.h>
+#include <plots/plot_page.h>
+#include <plots/plots_dock.h>
+#include <plots/time_ruler.h>
+#include <plots/xy_pane.h>
+#include <ui/theme.h>
+
+#include "plot_source.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+void dropOn(QWidget* page, const QStringList& names, const QPoint& at) {
+  QMimeData data;
+  data.setData(variablesMimeType, names.join('\n').toUtf8());
+  QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QApplication::sendEvent(page, &enter);
+  QVERIFY(enter.isAccepted());
+  QDragMoveEvent move(at, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QApplication::sendEvent(page, &move);
+  QVERIFY(move.isAccepted());
+  QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, {});
+  QApplication::sendEvent(page, &drop);
+  QVERIFY(drop.isAccepted());
+}
+
+void wheel(QWidget* at, const QPoint& position, int notches, Qt::KeyboardModifiers keys = {}) {
+  QWheelEvent event(position, at->mapToGlobal(position), {}, {0, 120 * notches}, Qt::NoButton,
+                    keys, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(at, &event);
+}
+
+void drag(QWidget* at, QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
+  QTest::mousePress(at, Qt::LeftButton, keys, from);
+  for (int i = 1; i <= 4; ++i) {
+    QMouseEvent move(QEvent::MouseMove, from + (to - from) * i / 4,
+                     at->mapToGlobal(from + (to - from) * i / 4), Qt::NoButton, Qt::LeftButton,
+                     keys);
+    QApplication::sendEvent(at, &move);
+  }
+  QTest::mouseRelease(at, Qt::LeftButton, keys, to);
+}
+
+/// A dock on the screen with a source of 30 s of B1.
+struct Shown : PlotBench {
+  explicit Shown(double seconds = 30.0) {
+    if (seconds > 0) source.fill("B1", seconds);
+    dock = std::make_unique<PlotsDock>(context(), nullptr);
+    dock->resize(1000, 400);
+    dock->show();
+    QVERIFY2(QTest::qWaitForWindowExposed(dock.get()), "the dock is not on the screen");
+    dock->feed()->refresh();
+  }
+  PlotPage* page() const { return dock->currentPage(); }
+  PlotPane* pane(int i = 0) const { return page()->panes().value(i); }
+  QPoint middleOf(const QWidget* widget) const {
+    return widget->mapTo(page(), widget->rect().center());
+  }
+  /// Adds by a drop on the empty page.
+  PlotPane* dropped(const QStringList& names) {
+    dropOn(page(), names, page()->rect().center());
+    QTest::qWait(1);
+    return page()->panes().last();
+  }
+  std::unique_ptr<PlotsDock> dock;
+};
+
+}  // namespace
+
+class TestPlots : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aDropMakesACurveWithTheData() {
+    Shown s;
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    QVERIFY(chart);
+    QCOMPARE(chart->curves().size(), std::size_t(1));
+    QCOMPARE(chart->curves()[0].unit(), QStringLiteral("cm"));
+    s.time.setRange({10.0, 11.0});
+    QTRY_COMPARE(chart->traces().size(), std::size_t(1));
+    QTRY_VERIFY(chart->traces()[0].exact && chart->traces()[0].samples.size() >= 61);
+    for (const auto& sample : chart->traces()[0].samples) {
+      QCOMPARE(sample.value, PlotSource::distanceAt(sample.time));
+    }
+    // On the plot: one more curve. At the lower edge: a plot of its own.
+    dropOn(s.page(), {"B1/ANGLE"}, s.middleOf(chart));
+    QCOMPARE(s.page()->panes().size(), 1);
+    QCOMPARE(chart->curves().size(), std::size_t(2));
+    QVERIFY(chart->curves()[0].color() != chart->curves()[1].color());
+    dropOn(s.page(), {"B1/NOISY"}, QPoint(100, s.page()->height() - 3));
+    QCOMPARE(s.page()->panes().size(), 2);
+    // Twice the same is one curve.
+    dropOn(s.page(), {"B1/ANGLE"}, s.middleOf(chart));
+    QCOMPARE(chart->curves().size(), std::size_t(2));
+  }
+
+  void foreignDropsAreRefused() {
+    Shown s;
+    QMimeData data;
+    data.setText("B1/DIST");
+    QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &data, Qt::LeftButton, {});
+    enter.ignore();
+    QApplication::sendEvent(s.page(), &enter);
+    QVERIFY(!enter.isAccepted());
+    QMimeData odd;
+    odd.setData(variablesMimeType, "\n  \nnogroup\n/x\nB1/DIST\nB1/DIST\n\xff\xfe/\n");
+    QCOMPARE(draggedVariables(&odd).first(), QStringLiteral("B1/DIST"));
+    QVERIFY(draggedVariables(nullptr).isEmpty());
+  }
+
+  void otherDocksCanSendVariables() {
+    Shown s;
+    s.target.plotVariables({"B1/DIST", "B1/ACTION", "B1/ANGLE"});
+    QCOMPARE(s.page()->panes().size(), 2);
+    QCOMPARE(s.pane(0)->curves().size(), std::size_t(2));
+    QCOMPARE(s.pane(1)->kind(), PaneKind::Lane);
+  }
+
+  void liveCurvesFollow() {
+    Shown s(5.0);
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    QVERIFY(s.time.isFollowing());
+    const telemetry::GroupId group = *s.source.store->findGroup("B1");
+    for (int i = 301; i <= 40 * 60; ++i) s.source.append(group, i / 60.0, 1, 77.0);
+    QTRY_COMPARE(s.time.range().end, 40.0);
+    QCOMPARE(s.time.span(), LinkedTime::defaultWindow);
+    QTRY_COMPARE(chart->legend()->entries().value(0).value, QStringLiteral("77.00"));
+    // A window by hand; following goes on.
+    s.time.setWindow(5.0);
+    QCOMPARE(s.time.range().begin, 35.0);
+  }
+
+  void theWheelZoomsAtTheCursor() {
+    Shown s;
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    s.time.setRange({0.0, 20.0});
+    const TimeScale scale = chart->timeScale();
+    const QPoint at(int(scale.left + 0.25 * (scale.right - scale.left)), 30);
+    const double anchor = scale.toTime(at.x());
+    wheel(chart->surface(), at, 1);
+    QCOMPARE(s.time.span(), 16.0);
+    QVERIFY(std::abs(chart->timeScale().toTime(at.x()) - anchor) < 1e-9);
+    QVERIFY(!s.time.isFollowing());
+    // With Ctrl the values, around the pointer.
+    s.dock->grab();
+    const ValueScale before = chart->valueScale();
+    const double value = before.toValue(at.y());
+    wheel(chart->surface(), at, 1, Qt::ControlModifier);
+    const ValueScale after = chart->valueScale();
+    QCOMPARE(s.time.span(), 16.0);
+    QVERIFY(std::abs(after.toValue(at.y()) - value) < 1e-9);
+    QVERIFY(after.limits.high - after.limits.low < before.limits.high - before.limits.low);
+    QVERIFY(!chart->spec().autoValues);
+    // While following, the newest moment stays at the right.
+    s.time.setFollowing(true);
+    wheel(chart->surface(), at, -1);
+    QCOMPARE(s.time.range().end, 30.0);
+    QVERIFY(s.time.isFollowing());
+  }
+
+  void draggingMovesAndABoxZooms() {
+    Shown s;
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    s.time.setRange({5.0, 15.0});
+    const TimeScale scale = chart->timeScale();
+    const double perPixel = 10.0 / (scale.right - scale.left);
+    drag(chart->surface(), {400, 40}, {300, 40});
+    QVERIFY(std::abs(s.time.range().begin - (5.0 + 100 * perPixel)) < 1e-6);
+    QVERIFY(std::abs(s.time.span() - 10.0) < 1e-9);
+    s.dock->grab();
+    const TimeScale now = chart->timeScale();
+    const ValueScale values = chart->valueScale();
+    drag(chart->surface(), {200, 30}, {500, 90}, Qt::ShiftModifier);
+    QVERIFY(std::abs(s.time.range().begin - now.toTime(200)) < 1e-6);
+    QVERIFY(std::abs(s.time.range().end - now.toTime(500)) < 1e-6);
+    QVERIFY(std::abs(chart->spec().values.low - values.toValue(90)) < 1e-6);
+    QVERIFY(std::abs(chart->spec().values.high - values.toValue(30)) < 1e-6);
+    // A double click shows everything again.
+    QTest::mouseDClick(chart->surface(), Qt::LeftButton, {}, {300, 40});
+    QCOMPARE(s.time.range().begin, 0.0);
+    QCOMPARE(s.time.range().end, 30.0);
+    QVERIFY(chart->spec().autoValues);
+  }
+
+  void theLegendTellsTheValueAtTheCursor() {
+    Shown s;
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    s.time.setRange({0.0, 10.0});
+    const TimeScale scale = chart->timeScale();
+    const int x = int(scale.toX(4.0));
+    QTest::mouseMove(chart->surface(), {x, 40});
+    QMouseEvent move(QEvent::MouseMove, QPoint(x, 40), chart->surface()->mapToGlobal(QPoint(x, 40)),
+                     Qt::NoButton, Qt::NoButton, {});
+    QApplication::sendEvent(chart->surface(), &move);
+    QVERIFY(s.time.cursor().has_value());
+    const double tick = std::floor(*s.time.cursor() * 60.0 + 1e-9) / 60.0;
+    QCOMPARE(chart->legend()->entries()[0].value, valueText(PlotSource::distanceAt(tick)));
+    QEvent leave(QEvent::Leave);
+    QApplication::sendEvent(chart->surface(), &leave);
+    QCOMPARE(chart->legend()->entries()[0].value, valueText(PlotSource::distanceAt(30.0)));
+  }
+
+  void marksMeasure() {
+    Shown s;
+    s.dropped({"B1/DIST"});
+    s.time.setMark(TimeMark::A, 4.0);
+    s.time.setMark(TimeMark::B, 10.0);
+    MarksModel* model = s.page()->marksPanel()->model();
+    QTRY_COMPARE(model->rowCount(), 1);
+    // Independently, from the definition.
+    double sum = 0, squares = 0, low = 1e9, high = -1e9;
+    int count = 0;
+    for (int i = 4 * 60; i <= 10 * 60; ++i) {
+      const double value = PlotSource::distanceAt(i / 60.0);
+      sum += value;
+      squares += value * value;
+      low = std::min(low, value);
+      high = std::max(high, value);
+      ++count;
+    }
+    const double mean = sum / count;
+    const MarksRow& row = model->rows()[0];
+    QCOMPARE(row.between.samples, std::uint64_t(count));
+    QVERIFY(std::abs(row.between.mean - mean) < 1e-9);
+    QVERIFY(std::abs(row.between.sigma - std::sqrt(squares / count - mean * mean)) < 1e-6);
+    QVERIFY(std::abs(row.between.rms - std::sqrt(squares / count)) < 1e-9);
+    QCOMPARE(row.between.min, low);
+    QCOMPARE(row.between.max, high);
+    QCOMPARE(*row.a, PlotSource::distanceAt(4.0));
+    QCOMPARE(*row.b, PlotSource::distanceAt(10.0));
+    const double delta = PlotSource::distanceAt(10.0) - PlotSource::distanceAt(4.0);
+    QCOMPARE(model->index(0, MarksModel::Delta).data().toString(),
+             (delta > 0 ? QStringLiteral("+") : QString()) + valueText(delta));
+    QVERIFY(model->text().startsWith(QStringLiteral("Curve\tA\tB")));
+  }
+
+  void headsOfMarksCanBeDragged() {
+    Shown s;
+    s.dropped({"B1/DIST"});
+    s.time.setRange({0.0, 20.0});
+    s.time.showMarks(true);
+    auto* heads = s.page()->findChild<MarkHeads*>();
+    QTRY_VERIFY(heads->isVisible() && heads->height() > 5);
+    QTest::qWait(30);
+    const QPoint from = heads->headRect(TimeMark::A).center().toPoint();
+    const double before = *s.time.mark(TimeMark::A);
+    drag(heads, from, from + QPoint(50, 0));
+    QVERIFY(*s.time.mark(TimeMark::A) > before);
+    QVERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - (from.x() + 50)) < 1.5);
+    // The line itself, over a plot.
+    QWidget* surface = s.pane()->surface();
+    const int x = int(std::lround(s.pane()->timeScale().toX(*s.time.mark(TimeMark::B))));
+    drag(surface, {x, 30}, {x - 60, 30});
+    QVERIFY(std::abs(s.pane()->timeScale().toX(*s.time.mark(TimeMark::B)) - (x - 60)) < 1.5);
+    s.time.showMarks(false);
+    QVERIFY(!heads->isVisible());
+  }
+
+  void nanAndSilenceBreakTheLine() {
+    PlotSource source;
+    const telemetry::GroupId group = source.addRobot("B1");
+    for (int i = 0; i < 60; ++i) source.append(group, i / 60.0, 0, i == 30 ? std::nan("") : 1.0);
+    for (int i = 0; i < 60; ++i) source.append(group, 30.0 + i / 60.0, 0, 1.0);
+    const ColumnView view{source.store->view(group), 1};
+    for (const int columns : {2000, 20}) {   // samples one by one; in columns
+      const CurveTrace trace = traceOf(view, {0.0, columns == 20 ? 60.0 : 32.0}, columns);
+      const auto lines = polylines(trace, {{0.0, 32.0}, 0, 800}, {{0.0, 2.0}, 0, 100}, false);
+      QCOMPARE(lines.size(), std::size_t(columns == 20 ? 2 : 3));
+    }
+  }
+
+  void aThinnedCurveKeepsItsExtremes() {
+    PlotSource source;
+    const telemetry::GroupId group = source.addRobot("B1");
+    constexpr int rows = 200'000;
+    for (int i = 0; i < rows; ++i) {
+      source.append(group, i * 0.001, 0, i == 123'456 ? 500.0 : i == 7'777 ? -300.0 : 1.0);
+    }
+    const CurveTrace trace = traceOf({source.store->view(group), 1}, {0.0, rows * 0.001}, 1000);
+    QVERIFY(!trace.exact);
+    QVERIFY(trace.columns.size() <= 1003);
+    QCOMPARE(trace.low, -300.0);
+    QCOMPARE(trace.high, 500.0);
+    std::size_t points = 0;
+    for (const QPolygonF& line : polylines(trace, {{0.0, 200.0}, 0, 1000}, {{-300, 500}, 0, 100},
+                                           false)) {
+      points += std::size_t(line.size());
+    }
+    QVERIFY(points <= 2 * trace.columns.size());
+  }
+
+  void codesAreLanesInWords() {
+    Shown s(9.0);
+    auto* lane = qobject_cast<LanePane*>(s.dropped({"B1/ACTION"}));
+    QVERIFY(lane);
+    s.time.setRange({0.0, 9.0});
+    QTRY_COMPARE(lane->stretches(0).size(), std::size_t(9));
+    for (int i = 0; i < 9; ++i) {
+      const LaneStretch& stretch = lane->stretches(0)[std::size_t(i)];
+      QVERIFY(std::abs(stretch.begin - i) < 0.02);
+      QCOMPARE(stretch.value, double(i % 3));
+      QVERIFY(!stretch.mixed);
+    }
+    QCOMPARE(lane->curves()[0].codeText(1), QStringLiteral("walk forward, fast"));
+    QCOMPARE(lane->curves()[0].codeText(99), QStringLiteral("99"));
+    // Far out the changes are too close to be told apart, which is said.
+    s.time.setRange({-5000.0, 5000.0});
+    QTRY_VERIFY(!lane->stretches(0).empty() && lane->stretches(0).size() < 9);
+  }
+
+  void oneVariableOverAnother() {
+    Shown s;
+    QTest::qWait(1);
+    dropOn(s.page(), {"B1/DIST", "B1/ANGLE"}, QPoint(s.page()->width() - 20, 200));
+    auto* xy = qobject_cast<XyPane*>(s.pane());
+    QVERIFY(xy);
+    s.time.setRange({0.0, 2.0});
+    QTRY_COMPARE(xy->points().at(0).size(), std::size_t(121));
+    for (int i = 0; i <= 120; ++i) {
+      QCOMPARE(xy->points()[0][std::size_t(i)],
+               QPointF(PlotSource::distanceAt(i / 60.0), 90.0 * (i / 60.0)));
+    }
+    QVERIFY(xy->xLimits().low <= 100.0 && xy->xLimits().high >= 145.0);
+    const double before = xy->xLimits().high - xy->xLimits().low;
+    wheel(xy->surface(), xy->surface()->rect().center(), 2);
+    QVERIFY(xy->xLimits().high - xy->xLimits().low < before);
+    QTest::mouseDClick(xy->surface(), Qt::LeftButton, {}, {300, 60});
+    QCOMPARE(xy->xLimits().high - xy->xLimits().low, before);
+  }
+
+  void variablesThatAreNotThereYetAreWaitedFor() {
+    Shown s(0.0);
+    s.page()->addVariables({"B2/DIST"});
+    auto* chart = qobject_cast<ChartPane*>(s.pane());
+    QVERIFY(chart->curves()[0].isWaiting());
+    QCOMPARE(chart->legend()->entries()[0].text, QStringLiteral("waiting for B2/DIST"));
+    QVERIFY(chart->legend()->entries()[0].muted);
+    s.source.fill("B2", 5.0);
+    QTRY_VERIFY(!chart->curves()[0].isWaiting());
+    QTRY_VERIFY(!chart->legend()->entries()[0].muted);
+    // Another match: the curve waits again, and is found again.
+    s.source.restart();
+    QTRY_VERIFY(chart->curves()[0].isWaiting());
+    s.source.fill("B2", 2.0);
+    QTRY_COMPARE(chart->curves()[0].valueAt({}), std::optional(PlotSource::distanceAt(2.0)));
+  }
+
+  void theLayoutIsKept() {
+    PlotBench bench;
+    bench.source.fill("B1", 3.0);
+    PlotLayout before;
+    {
+      PlotsDock dock(bench.context(), nullptr);
+      dock.resize(900, 400);
+      dock.show();
+      dock.currentPage()->addVariables({"B1/DIST", "B1/ACTION", "B9/NEVER"});
+      dock.currentPage()->setName("approach");
+      dock.addPage({"second", {}});
+      before = dock.layoutSpec();
+    }
+    PlotsDock dock(bench.context(), nullptr);
+    const PlotLayout after = dock.layoutSpec();
+    QCOMPARE(after.pages.size(), 2);
+    QCOMPARE(after.pages[0].name, QStringLiteral("approach"));
+    QCOMPARE(after.pages[0].panes.size(), before.pages[0].panes.size());
+    QCOMPARE(after.pages[0].panes[0].curves, before.pages[0].panes[0].curves);
+    // A layout that cannot be read does not keep the plots from opening.
+    bench.settings.setValue("plots/layout", "{\"pitchboardPlots\": 99");
+    PlotsDock fresh(bench.context(), nullptr);
+    QCOMPARE(fresh.pages().size(), 1);
+  }
+
+  void aFilledDockIsDrawnInBothThemes_data() {
+    QTest::addColumn<bool>("dark");
+    QTest::addColumn<QSize>("size");
+    QTest::addColumn<double>("ratio");
+    QTest::newRow("dark-1280") << true << QSize(1280, 260) << 1.0;
+    QTest::newRow("light-1280") << false << QSize(1280, 260) << 1.0;
+    QTest::newRow("dark-1920") << true << QSize(1920, 360) << 1.0;
+    QTest::newRow("light-200") << false << QSize(1280, 260) << 2.0;
+  }
+  /// With PITCHBOARD_PICTURES=FOLDER the pictures are kept, to be looked at.
+  void aFilledDockIsDrawnInBothThemes() {
+    QFETCH(bool, dark);
+    QFETCH(QSize, size);
+    QFETCH(double, ratio);
+    setTheme(*qApp, dark ? ThemeChoice::Dark : ThemeChoice::Light);
+    const auto back = qScopeGuard([] { setTheme(*qApp, ThemeChoice::Dark); });
+    Shown s(30.0);
+    const telemetry::GroupId second = s.source.addRobot("B2");
+    for (int i = 0; i <= 30 * 60; ++i) {
+      const double time = i / 60.0;
+      const bool lost = time > 20.2 && time < 22.3;
+      s.source.append(second, time, 0, lost ? std::nan("") : 210 + 30 * std::tanh((time - 23) / 2) +
+                                                2 * std::sin(i * 1.3),
+                      85.0 * time + 6 * std::sin(time * 3));
+    }
+    s.dock->resize(size);
+    PageSpec page{"approach", {}};
+    PaneSpec chart, heading, lane;
+    chart.curves << variableCurve("B1/DIST") << variableCurve("B2/DIST");
+    heading.curves << variableCurve("B1/ANGLE") << variableCurve("B2/ANGLE")
+                   << variableCurve("R7/NOT_THERE_YET");
+    for (PaneSpec* pane : {&chart, &heading}) {
+      for (int i = 0; i < pane->curves.size(); ++i) {
+        pane->curves[i].colorNumber = i + (pane == &heading ? 2 : 0);
+      }
+    }
+    heading.curves[0].title = "heading true B1";
+    heading.curves[1].title = "heading believed B1";
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve("B1/ACTION");
+    page.panes << chart << heading << lane;
+    s.dock->setLayoutSpec({{page, {"localization", {}}}, 0});
+    s.time.setMark(TimeMark::A, 21.0);
+    s.time.setMark(TimeMark::B, 27.0);
+    QTest::qWait(150);
+    QPixmap picture(size * ratio);
+    picture.setDevicePixelRatio(ratio);
+    s.dock->render(&picture);
+    const QImage image = picture.toImage().convertToFormat(QImage::Format_RGB32);
+    // A pixel of each curve's colour somewhere, over the right ground.
+    for (const int number : {0, 1, 2, 3}) {
+      const QColor wanted = curveColor(number);
+      bool found = false;
+      for (int y = 0; y < image.height() && !found; ++y) {
+        for (int x = 0; x < image.width() * 7 / 10 && !found; ++x) {
+          const QColor is = image.pixelColor(x, y);
+          found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
+                      std::abs(is.blue() - wanted.blue()) < 24;
+        }
+      }
+      QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));
+    }
+    const QString folder = qEnvironmentVariable("PITCHBOARD_PICTURES");
+    if (!folder.isEmpty()) {
+      QVERIFY(image.save(QStringLiteral("%1/plots-%2.png").arg(folder, QTest::currentDataTag())));
+    }
+  }
+
+  void theMarksModelIsAModel() {
+    MarksModel model;
+    const QAbstractItemModelTester tester(&model,
+                                          QAbstractItemModelTester::FailureReportingMode::QtTest);
+    MarksRow row;
+    row.name = "x";
+    model.setRows({row, row});
+    row.a = 1.0;
+    model.setRows({row, row});
+    model.setRows({row});
+    model.setRows({});
+    QCOMPARE(model.rowCount(), 0);
+  }
+
+  void eventsBetweenTheMarksAreNamed() {
+    std::deque<TimelineEvent> events;
+    for (const double time : {1.0, 2.0, 3.0, 4.0, 9.0}) {
+      events.push_back({time, EventType::Kick, "B1", {}});
+    }
+    PlotBench bench;
+    PlotFeed feed(&bench.source, &bench.time);
+    QCOMPARE(eventsBetween(events, 5.0, 8.0, feed), QString());
+    QVERIFY(eventsBetween(events, 3.5, 1.5, feed).contains(QStringLiteral("00:02.00")));
+    QVERIFY(eventsBetween(events, 0.0, 10.0, feed).endsWith(QStringLiteral("and 2 more.")));
+  }
+};
+
+QTEST_MAIN(TestPlots)
+#include "tst_plots.moc"

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The timeline as a person uses it: real mouse and keys on a source that goes on.
+#include <QLineEdit>
+#include <QToolButton>
+#include <QWheelEvent>
+#include <QtTest>
+
+#include <plots/linked_time.h>
+#include <shell/source_switch.h>
+#include <timeline/looking_back_sign.h>
+#include <timeline/playback.h>
+#include <timeline/timeline.h>
+#include <timeline/timeline_actions.h>
+#include <timeline/timeline_dock.h>
+#include <timeline/timeline_strip.h>
+#include <ui/theme.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+/// Robot R2 stands at x = time; memory holds everything since `oldest`.
+class TestSource : public FrameSource {
+ public:
+  double oldest = 0.0;
+  FramePtr made(double time) const {
+    auto frame = std::make_shared<link::MatchFrame>();
+    frame->snapshot.time = time;
+    frame->snapshot.clockRunning = true;
+    sim::RobotSnapshot robot;
+    robot.identity.id = RobotId{7};
+    robot.identity.team = TeamColor::Red;
+    robot.identity.number = 2;
+    robot.pose.position.x = time;
+    frame->snapshot.robots.push_back(robot);
+    return frame;
+  }
+  void goTo(double time) {
+    const telemetry::RowView row{time, {}, {}};
+    m_store->append(m_group, row);
+    m_frame = made(time);
+    emit frameReceived(m_frame);
+  }
+  void happen(double time, sim::EventKind kind, int value = 0) {
+    emit eventsReceived({{kind, static_cast<std::uint64_t>(time * 60), RobotId{7}, value}});
+  }
+  SourceKind kind() const override { return SourceKind::Live; }
+  FramePtr frame() const override { return m_frame; }
+  std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_store; }
+  QString emptyText() const override { return {}; }
+  FramePtr frameAt(double time) const override { return time < oldest ? nullptr : made(time); }
+
+ private:
+  std::shared_ptr<telemetry::SeriesStore> m_store = std::make_shared<telemetry::SeriesStore>();
+  telemetry::GroupId m_group = m_store->addGroup({"match", {}, {}});
+  FramePtr m_frame;
+};
+
+struct Bench {
+  TestSource source;
+  SourceSwitch shown{&source};
+  LinkedTime plots;
+  Timeline timeline{&shown};
+  TimelineActions actions{&timeline, &plots, nullptr};
+  QWidget window;
+  QWidget* dock = nullptr;
+  TimelineStrip* strip = nullptr;
+  QToolButton* live = nullptr;
+  Bench() {
+    StudioContext context;
+    context.source = &shown;
+    context.time = &plots;
+    context.timeline = &timeline;
+    context.timelineActions = &actions;
+    dock = makeTimelineDock(context, &window);
+    strip = dock->findChild<TimelineStrip*>();
+    live = dock->findChild<QToolButton*>(QStringLiteral("live"));
+    window.resize(1000, 120);
+    dock->setGeometry(0, 0, 1000, dock->sizeHint().height());
+    window.show();
+    for (int i = 0; i <= 100; ++i) source.goTo(i);
+  }
+  QPoint above(double time) const {
+    return {qRound(strip->axis().pixel(time)), 20};
+  }
+  QPoint inBand(double time) const {
+    return {qRound(strip->axis().pixel(time)), strip->bandRect().center().y()};
+  }
+  double x() const { return shown.frame()->snapshot.robots[0].pose.position.x; }
+  void drag(QPoint from, QPoint to, Qt::MouseButton button = Qt::LeftButton,
+            Qt::KeyboardModifiers keys = {}) const {
+    QTest::mousePress(strip, button, keys, from);
+    for (const double part : {0.3, 0.7, 1.0}) {
+      const QPointF at = QPointF(from) + part * QPointF(to - from);
+      QMouseEvent move(QEvent::MouseMove, at, strip->mapToGlobal(at), Qt::NoButton, button, keys);
+      QApplication::sendEvent(strip, &move);
+    }
+    QTest::mouseRelease(strip, button, keys, to);
+  }
+  void wheel(QPointF at, int notches, Qt::KeyboardModifiers keys = {}) const {
+    QWheelEvent event(at, strip->mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, keys,
+                      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(strip, &event);
+  }
+};
+
+constexpr double onePixel = 0.2;   // s, at this size
+
+}  // namespace
+
+class TestTimeline : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aClickLooksBackAndLiveReturns() {
+    Bench b;
+    QVERIFY(b.live->isChecked());
+    QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.above(40));
+    QVERIFY(b.timeline.isLookingBack());
+    QVERIFY(std::abs(b.x() - 40) <= onePixel);
+    QVERIFY(!b.live->isChecked());
+    // The source goes on unseen.
+    const double seen = b.x();
+    b.source.goTo(101);
+    QCOMPARE(b.x(), seen);
+    QCOMPARE(b.timeline.now(), 101.0);
+    QTest::mouseClick(b.live, Qt::LeftButton);
+    QVERIFY(!b.timeline.isLookingBack());
+    QCOMPARE(b.x(), 101.0);
+    QVERIFY(b.live->isChecked());
+    b.source.goTo(102);
+    QCOMPARE(b.x(), 102.0);
+  }
+
+  void aDragScrubs() {
+    Bench b;
+    QSignalSpy frames(&b.shown, &FrameSource::frameReceived);
+    b.drag(b.above(20), b.above(70));
+    QVERIFY(frames.size() >= 3);
+    QVERIFY(std::abs(b.x() - 70) <= onePixel);
+    // Dragged beyond now: now.
+    b.drag(b.above(20), b.above(150));
+    QVERIFY(!b.timeline.isLookingBack());
+  }
+
+  void theSignSaysWhen() {
+    Bench b;
+    LookingBackSign sign(&b.timeline, &b.window);
+    QVERIFY(!sign.isVisible());
+    b.timeline.seek(62.5);
+    QVERIFY(sign.isVisible());
+    QCOMPARE(sign.text(), QStringLiteral("Looking back: 00:01:02 (live goes on)"));
+    b.timeline.goLive();
+    QVERIFY(!sign.isVisible());
+  }
+
+  void eventsAreMarkedAndJumpedTo() {
+    Bench b;
+    b.source.happen(30, sim::EventKind::Goal, 1);
+    b.source.happen(60, sim::EventKind::Fall);
+    QCOMPARE(b.timeline.events()->rowCount(), 3);   // the first is the state of the game
+    QCOMPARE(b.strip->marks().size(), std::size_t(3));
+    QCOMPARE(b.strip->marks()[1].label, QStringLiteral("goal RED"));
+    // On the mark's icon: exactly its time.
+    QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.above(30) + QPoint(3, -6));
+    QCOMPARE(b.x(), 30.0);
+    b.actions.next()->trigger();
+    QCOMPARE(b.x(), 60.0);
+    b.actions.next()->trigger();
+    QCOMPARE(b.x(), 60.0);
+    b.actions.previous()->trigger();
+    QCOMPARE(b.x(), 30.0);
+  }
+
+  void aBookmarkIsWrittenInItsPlace() {
+    Bench b;
+    QSignalSpy told(&b.timeline, &Timeline::bookmarked);
+    b.timeline.seek(50);
+    b.actions.bookmark()->trigger();
+    auto* note = b.strip->findChild<QLineEdit*>(QStringLiteral("bookmarkNote"));
+    QVERIFY(note && note->isVisible());
+    QTest::keyClicks(note, QStringLiteral("slipped turn"));
+    QTest::keyClick(note, Qt::Key_Return);
+    const EventList* list = b.timeline.events();
+    QCOMPARE(list->event(1).text, QStringLiteral("slipped turn"));
+    QCOMPARE(list->event(1).time, 50.0);
+    QCOMPARE(told.last().at(1).toString(), QStringLiteral("slipped turn"));
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    // Again by double-click; Escape keeps what was.
+    QTest::mouseDClick(b.strip, Qt::LeftButton, {}, b.above(50) - QPoint(0, 8));
+    note = b.strip->findChild<QLineEdit*>(QStringLiteral("bookmarkNote"));
+    QVERIFY(note);
+    QTest::keyClicks(note, QStringLiteral("x"));
+    QTest::keyClick(note, Qt::Key_Escape);
+    QCOMPARE(list->event(1).text, QStringLiteral("slipped turn"));
+  }
+
+  void theWindowOfThePlotsIsDragged() {
+    Bench b;
+    b.plots.setData(telemetry::TimeRange{0, 100});
+    b.plots.setRange({40, 60});
+    QVERIFY(b.strip->windowRect());
+    b.drag(b.inBand(50), b.inBand(30));
+    QVERIFY(std::abs(b.plots.range().begin - 20) < 2 * onePixel);
+    QVERIFY(std::abs(b.plots.span() - 20) < 1e-6);
+    // By its edge it becomes longer.
+    b.drag(b.inBand(b.plots.range().end), b.inBand(70));
+    QVERIFY(std::abs(b.plots.range().end - 70) < 3 * onePixel);
+    QVERIFY(std::abs(b.plots.range().begin - 20) < 2 * onePixel);
+    QVERIFY(!b.timeline.isLookingBack());
+    // A click in it looks back.
+    QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.inBand(45));
+    QVERIFY(b.timeline.isLookingBack());
+  }
+
+  void aRangeIsChosenAndLooped() {
+    Bench b;
+    b.drag(b.above(20), b.above(30), Qt::LeftButton, Qt::ShiftModifier);
+    QVERIFY(b.timeline.selection());
+    QVERIFY(std::abs(b.timeline.selection()->begin - 20) <= onePixel);
+    QVERIFY(!b.timeline.isLookingBack());
+    b.actions.loop()->trigger();
+    QVERIFY(b.timeline.isLooping());
+    QVERIFY(std::abs(b.x() - 20) <= onePixel);
+    b.timeline.togglePlay();
+    b.timeline.playback()->setSpeed(16);
+    b.timeline.playback()->advance(0.5);
+    QVERIFY(b.x() > 27 && b.x() < 29);
+    b.timeline.playback()->advance(0.25);
+    QVERIFY2(b.x() > 21 && b.x() < 23, qPrintable(QString::number(b.x())));
+    b.strip->setFocus();
+    QTest::keyClick(b.strip, Qt::Key_Escape);
+    QVERIFY(!b.timeline.selection());
+    QVERIFY(!b.timeline.isLooping());
+    QTest::keyClick(b.strip, Qt::Key_Escape);
+    QVERIFY(!b.timeline.isLookingBack());
+  }
+
+  void thePastPlaysUntilItHasCaughtUp() {
+    Bench b;
+    b.timeline.seek(90);
+    b.timeline.playback()->setSpeed(2);
+    b.timeline.togglePlay();
+    b.timeline.playback()->advance(1);
+    QCOMPARE(b.x(), 92.0);
+    b.timeline.playback()->advance(10);
+    QVERIFY(!b.timeline.isLookingBack());
+    QCOMPARE(b.x(), 100.0);
+  }
+
+  void keysStepAndMove() {
+    Bench b;
+    b.strip->setFocus();
+    QTest::keyClick(b.strip, Qt::Key_Left);
+    QVERIFY(b.timeline.isLookingBack());
+    QVERIFY(std::abs(b.x() - (100 - 1 / 60.0)) < 1e-9);
+    QTest::keyClick(b.strip, Qt::Key_Left);
+    QVERIFY(std::abs(b.x() - (100 - 2 / 60.0)) < 1e-9);
+    QTest::keyClick(b.strip, Qt::Key_Left, Qt::ShiftModifier);
+    QVERIFY(std::abs(b.x() - (99 - 2 / 60.0)) < 1e-9);
+    QTest::keyClick(b.strip, Qt::Key_Home);
+    QCOMPARE(b.x(), 0.0);
+    QTest::keyClick(b.strip, Qt::Key_End);
+    QVERIFY(!b.timeline.isLookingBack());
+  }
+
+  void theWheelZoomsAtTheCursorAndPans() {
+    Bench b;
+    const double under = b.strip->axis().time(300);
+    b.wheel({300, 20}, 5);
+    QVERIFY(!b.strip->showsAll());
+    QVERIFY(b.strip->shown().end - b.strip->shown().begin < 50);
+    QVERIFY(std::abs(b.strip->axis().time(300) - under) < 1e-6);
+    const double begin = b.strip->shown().begin;
+    b.wheel({300, 20}, -1, Qt::ShiftModifier);
+    QVERIFY(b.strip->shown().begin > begin);
+    b.drag({300, 20}, {400, 20}, Qt::MiddleButton);
+    QVERIFY(b.strip->shown().begin < begin + 5);
+    QTest::mouseDClick(b.strip, Qt::LeftButton, {}, {500, b.strip->height() - 3});
+    QVERIFY(b.strip->showsAll());
+    // However often: the axis stays sane.
+    for (int i = 0; i < 400; ++i) b.wheel({300, 20}, 1);
+    QVERIFY(b.strip->shown().end - b.strip->shown().begin >= 0.04);
+    for (int i = 0; i < 800; ++i) b.wheel({300, 20}, -1);
+    QVERIFY(std::isfinite(b.strip->shown().end));
+    b.strip->grab();
+  }
+
+  void whatLeavesMemoryIsNotShown() {
+    Bench b;
+    b.source.oldest = 1000;
+    QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.above(40));
+    QVERIFY(!b.timeline.isLookingBack());
+    QCOMPARE(b.x(), 100.0);
+  }
+
+  void anotherMatchForgetsThePast() {
+    Bench b;
+    b.source.happen(30, sim::EventKind::Goal, 1);
+    b.timeline.seek(40);
+    b.timeline.setSelection(telemetry::TimeRange{10, 20});
+    emit b.source.restarted();
+    QVERIFY(!b.timeline.isLookingBack());
+    QVERIFY(!b.timeline.selection());
+    QCOMPARE(b.timeline.events()->rowCount(), 0);
+  }
+
+  void eventsOfASourceThatIsNotShownAreKept() {
+    Bench b;
+    TestSource other;
+    b.timeline.watch(&other);
+    b.shown.choose(&other);
+    QCOMPARE(b.timeline.events()->rowCount(), 0);
+    b.source.happen(70, sim::EventKind::Kick);
+    QCOMPARE(b.timeline.events()->rowCount(), 0);
+    b.shown.choose(&b.source);
+    QCOMPARE(b.timeline.events()->rowCount(), 2);
+  }
+
+  void aSecondSessionHasARowOfItsOwn() {
+    Bench b;
+    EventList other;
+    other.add({5, EventType::Goal, QStringLiteral("RED"), {}});
+    const int before = b.strip->sizeHint().height();
+    b.strip->setCompared(&other, 20.0);
+    QVERIFY(b.strip->sizeHint().height() > before);
+    const QImage with = b.strip->grab().toImage();
+    other.clear();
+    QVERIFY(b.strip->grab().toImage() != with);
+  }
+};
+
+QTEST_MAIN(TestTimeline)
+#include "tst_timeline.moc"

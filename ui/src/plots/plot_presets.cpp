@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plot_presets.h"
+
+#include <QFile>
+#include <QJsonDocument>
+#include <QSaveFile>
+#include <QSettings>
+
+namespace pitchboard::ui {
+namespace {
+const QString presetsKey = QStringLiteral("plots/presets");
+constexpr qint64 largestFile = 4 << 20;   // bytes; a layout has some kilobytes
+}  // namespace
+
+QJsonObject PlotPresets::all() const {
+  if (m_settings == nullptr) return {};
+  return QJsonDocument::fromJson(m_settings->value(presetsKey).toByteArray()).object();
+}
+
+QStringList PlotPresets::names() const { return all().keys(); }
+
+void PlotPresets::save(const QString& name, const PlotLayout& layout) {
+  if (m_settings == nullptr) return;
+  QJsonObject presets = all();
+  presets[name] = toJson(layout);
+  m_settings->setValue(presetsKey, QJsonDocument(presets).toJson(QJsonDocument::Compact));
+}
+
+Result<PlotLayout> PlotPresets::load(const QString& name) const {
+  const QJsonObject presets = all();
+  if (!presets.contains(name)) {
+    return failure(ErrorCode::NotFound, "There is no layout of this name.", name.toStdString());
+  }
+  return layoutFromJson(presets[name].toObject());
+}
+
+void PlotPresets::remove(const QString& name) {
+  if (m_settings == nullptr) return;
+  QJsonObject presets = all();
+  presets.remove(name);
+  m_settings->setValue(presetsKey, QJsonDocument(presets).toJson(QJsonDocument::Compact));
+}
+
+Result<void> PlotPresets::writeFile(const QString& path, const PlotLayout& layout) {
+  QSaveFile file(path);
+  const QByteArray bytes = QJsonDocument(toJson(layout)).toJson();
+  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
+    return failure(ErrorCode::SystemError,
+                   "The layout could not be written: " + file.errorString().toStdString() + ".",
+                   path.toStdString());
+  }
+  return {};
+}
+
+Result<PlotLayout> PlotPresets::readFile(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) {
+    return failure(ErrorCode::NotFound,
+                   "The layout could not be read: " + file.errorString().toStdString() + ".",
+                   path.toStdString());
+  }
+  if (file.size() > largestFile) {
+    return failure(ErrorCode::ParseError, "The file is too large to be a layout of plots.",
+                   path.toStdString());
+  }
+  QJsonParseError error;
+  const QJsonDocument document = QJsonDocument::fromJson(file.readAll(), &error);
+  if (!document.isObject()) {
+    return failure(ErrorCode::ParseError,
+                   "The file is not a layout of plots: " + error.errorString().toStdString() +
+                       " at byte " + std::to_string(error.offset) + ".",
+                   path.toStdString());
+  }
+  auto layout = layoutFromJson(document.object());
+  if (!layout) {
+    Error where = layout.error();
+    where.context = path.toStdString() + ", " + where.context;
+    return tl::unexpected<Error>(where);
+  }
+  return layout;
+}
+
+}  // namespace pitchboard::ui
