@@ -33,21 +33,21 @@ std::string refereeToJson(const RefereeView& r, double time) {
   Json json{{"time", time},
             {"version", r.version},
             {"sender", r.sender},
-            {"state", r.state},
-            {"set_play", r.setPlay},
-            {"phase", r.phase},
-            {"first_half", r.firstHalf},
-            {"stopped", r.stopped},
-            {"seconds_left", r.secondsLeft},
-            {"our_team", r.ourTeam}};
-  if (r.secondaryTime) json["secondary_time"] = *r.secondaryTime;
-  if (r.kickOffTeam) json["kick_off_team"] = *r.kickOffTeam;
+            {"stateName", r.state},
+            {"setPlayName", r.setPlay},
+            {"gamePhaseName", r.phase},
+            {"firstHalf", r.firstHalf},
+            {"stopped", r.stopped ? 1 : 0},
+            {"secsRemaining", r.secondsLeft},
+            {"ourTeam", r.ourTeam}};
+  if (r.secondaryTime) json["secondaryTime"] = *r.secondaryTime;
+  if (r.kickOffTeam) json["kickOffTeamNumber"] = *r.kickOffTeam;
   json["teams"] = Json::array();
   for (const RefereeTeamView& team : r.teams) {
     json["teams"].push_back({{"number", team.number},
-                             {"colour", team.colour},
+                             {"colourName", team.colour},
                              {"score", team.score},
-                             {"players_left", team.playersLeft}});
+                             {"playersLeft", team.playersLeft}});
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -55,25 +55,32 @@ std::string refereeToJson(const RefereeView& r, double time) {
 std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
   const Json json = Json::parse(
       bytes, [](int depth, Json::parse_event_t, Json&) { return depth <= 8; }, false);
-  if (!json.is_object() || text(json, "state").empty()) return {};
+  if (!json.is_object() || text(json, "stateName").empty()) return {};
   RefereeView r;
   r.version = whole(json, "version");
   r.sender = text(json, "sender");
-  r.state = text(json, "state");
-  r.setPlay = text(json, "set_play");
-  r.phase = text(json, "phase");
-  r.firstHalf = flag(json, "first_half", true);
-  r.stopped = flag(json, "stopped");
-  r.secondsLeft = whole(json, "seconds_left");
-  r.ourTeam = whole(json, "our_team");
-  if (json.contains("secondary_time")) r.secondaryTime = whole(json, "secondary_time");
-  if (json.contains("kick_off_team")) r.kickOffTeam = whole(json, "kick_off_team");
+  r.state = text(json, "stateName");
+  r.setPlay = text(json, "setPlayName");
+  r.phase = text(json, "gamePhaseName");
+  r.firstHalf = flag(json, "firstHalf", true);
+  r.stopped = whole(json, "stopped") != 0;
+  r.secondsLeft = whole(json, "secsRemaining");
+  r.ourTeam = whole(json, "ourTeam");
+  const auto optional = [&json](const char* key) -> std::optional<int> {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number_integer()) return {};
+    return whole(json, key);
+  };
+  r.secondaryTime = optional("secondaryTime");
+  r.kickOffTeam = optional("kickOffTeamNumber");
   const auto teams = json.find("teams");
   for (std::size_t i = 0; teams != json.end() && teams->is_array() && i < r.teams.size() && i < teams->size(); ++i) {
     const Json& team = (*teams)[i];
     if (!team.is_object()) continue;
-    r.teams[i] = {whole(team, "number"), text(team, "colour"), whole(team, "score"),
-                  whole(team, "players_left")};
+    std::string colour = text(team, "colourName");
+    if (colour.empty()) colour = telemetry::colourWords(whole(team, "colour", -1));
+    r.teams[i] = {whole(team, "number"), std::move(colour), whole(team, "score"),
+                  whole(team, "playersLeft")};
   }
   return r;
 }

@@ -379,6 +379,23 @@ class TestMoments : public QObject {
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
   }
 
+  void aPacketAsTheCommandLineWritesItIsRead() {
+    const auto view = refereeFromJson(
+        R"({"header":"RGme","version":12,"stateName":"SET","state":2,"firstHalf":false,"stopped":1,
+            "kickOffTeamNumber":null,"secsRemaining":-7,"time":3.5,
+            "teams":[{"number":5,"colour":0,"score":2,"players":[]},{"number":6,"colour":1,"score":1}]})");
+    QVERIFY(view);
+    QCOMPARE(view->state, std::string("SET"));
+    QVERIFY(!view->firstHalf && view->stopped && !view->kickOffTeam);
+    QCOMPARE(view->secondsLeft, -7);
+    QCOMPARE(view->teams[0].score, 2);
+    QVERIFY(!view->teams[0].colour.empty());
+    for (const char* bad : {"", "[]", "{", "{\"stateName\":3}", "{\"stateName\":\"x\",\"teams\":[1]}"}) {
+      const auto read = refereeFromJson(bad);
+      QVERIFY(!read || read->state == "x");
+    }
+  }
+
   void liveIsRecordedAndSeenAgain() {
     const std::string path = m_folder.filePath("live.mcap").toStdString();
     LiveOptions live;

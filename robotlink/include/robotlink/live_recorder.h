@@ -15,7 +15,8 @@
 
 namespace pitchboard::link {
 
-/// How the referee stands in a session: one JSON object with "time" and what RefereeView has.
+/// How the referee stands in a session: one JSON object with "time" and what RefereeView has, under
+/// the names of docs/LIVE.md; what `pitchboard-cli record --live` writes is read too.
 std::string refereeToJson(const RefereeView& referee, double time);
 /// Nothing when the text is not of that form; what is missing stays at its default.
 std::optional<RefereeView> refereeFromJson(std::string_view json);
