@@ -29,7 +29,9 @@ class TestLiveMatch : public QObject {
     const QString path = m_folder.filePath(QStringLiteral("robot.sh"));
     QFile file(path);
     if (!file.open(QIODevice::WriteOnly)) return {};
-    file.write(QStringLiteral("#!/bin/sh\nexec '%1' \"$@\" --telemetry-port-base %2\n")
+    file.write(QStringLiteral("#!/bin/sh\nlast=\nfor word do\n  shift\n"
+                              "  [ \"$last\" = --telemetry-port-base ] && word=%2\n"
+                              "  set -- \"$@\" \"$word\"\n  last=$word\ndone\nexec '%1' \"$@\"\n")
                    .arg(QStringLiteral(PITCHBOARD_BIN "/pitchboard-robot"))
                    .arg(m_portBase)
                    .toUtf8());

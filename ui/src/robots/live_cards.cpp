@@ -48,7 +48,9 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
   } else if (robot.conflict) {
     put(TagKind::Error, QStringLiteral("number sent twice"));
   } else if (robot.penalty) {
-    const QString words = QString::fromStdString(robot.penalty->words);
+    // "pickup or incapable": the seconds must not be cut off.
+    const QString words =
+        QString::fromStdString(robot.penalty->words).section(QStringLiteral(" or "), 0, 0);
     put(TagKind::Warning, robot.penalty->secondsLeft > 0
                               ? QStringLiteral("%1 %2 s").arg(words).arg(robot.penalty->secondsLeft)
                               : words);
