@@ -280,6 +280,9 @@ class TestSessions : public QObject {
     QSignalSpy opened(s.window.replay(), &ReplayController::opened);
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(path)});
+    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&s.window, &enter);
+    QVERIFY(enter.isAccepted());
     QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
     QApplication::sendEvent(&s.window, &drop);
     QTRY_COMPARE(opened.size(), 1);
