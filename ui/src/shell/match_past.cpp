@@ -13,9 +13,13 @@ FramePtr MatchController::frameAt(double time) const {
   const auto rows = series();
   if (!rows || !m_frame || !rows->range()) return nullptr;
   if (!m_past) {
-    m_past = std::make_unique<link::RecordedFrames>(link::FrameBackdrop{
-        m_frame->field, m_frame->noise, m_frame->physics, m_frame->seed, m_frame->tickRate,
-        std::nullopt});
+    link::FrameBackdrop backdrop;
+    backdrop.field = m_frame->field;
+    backdrop.noise = m_frame->noise;
+    backdrop.physics = m_frame->physics;
+    backdrop.seed = m_frame->seed;
+    backdrop.tickRate = m_frame->tickRate;
+    m_past = std::make_unique<link::RecordedFrames>(std::move(backdrop));
   }
   auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
   if (past->snapshot.robots.empty() && !m_frame->snapshot.robots.empty() &&
