@@ -5,7 +5,7 @@
 
 #include <robotlink/match_recorder.h>
 #include <robotlink/recorded_frame.h>
-#include <timeline/playback.h>
+#include "timeline/playback.h"
 
 namespace pitchboard::ui {
 namespace {

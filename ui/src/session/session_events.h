@@ -4,7 +4,7 @@
 // Events of the timeline as a session file keeps them, and back.
 
 #include <telemetry/session_types.h>
-#include <timeline/timeline_event.h>
+#include "timeline/timeline_event.h"
 
 namespace pitchboard::ui {
 

@@ -6,10 +6,10 @@
 #include <QFileInfo>
 #include <QMimeData>
 
-#include <shell/notice_bar.h>
-#include <shell/source_switch.h>
+#include "shell/notice_bar.h"
+#include "shell/source_switch.h"
 #include <telemetry/session_repair.h>
-#include <timeline/timeline.h>
+#include "timeline/timeline.h"
 #include <ui/match_controller.h>
 #include <ui/replay_controller.h>
 

@@ -9,8 +9,8 @@
 
 #include <robotlink/live_recorder.h>
 #include <robotlink/scenario.h>
-#include <shell/source_switch.h>
-#include <timeline/timeline.h>
+#include "shell/source_switch.h"
+#include "timeline/timeline.h"
 #include <ui/live_controller.h>
 #include <ui/match_controller.h>
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include <session/session_events.h>
-#include <shell/robot_words.h>
-#include <shell/scoreboard.h>
+#include "session/session_events.h"
+#include "shell/robot_words.h"
+#include "shell/scoreboard.h"
 
 namespace pitchboard::ui {
 namespace {

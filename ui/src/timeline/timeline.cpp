@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <shell/source_switch.h>
+#include "shell/source_switch.h"
 
 #include "event_collector.h"
 #include "playback.h"

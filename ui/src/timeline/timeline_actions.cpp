@@ -4,7 +4,7 @@
 #include <QAction>
 #include <QMenu>
 
-#include <plots/linked_time.h>
+#include "plots/linked_time.h"
 #include <ui/theme.h>
 
 #include "playback.h"

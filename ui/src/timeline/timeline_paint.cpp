@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plots/linked_time.h>
+#include "plots/linked_time.h"
 #include <ui/theme.h>
 
 #include "event_list.h"

@@ -120,7 +120,8 @@ void VariablesModel::updateGroups() {
                                    [id](const auto& group) { return group->group == id; });
     if (shown) continue;
     auto view = m_store->view(id);
-    if (!view) continue;   // replaced by a later one
+    // One that was replaced stays in the store, without rows.
+    if (!view || m_store->findGroup(view->info().name) != id) continue;
     auto group = makeGroup(id, std::move(view));
     const auto place = std::find_if(m_groups.begin(), m_groups.end(), [&group](const auto& other) {
       return std::pair(group->rank, group->group) < std::pair(other->rank, other->group);
