@@ -102,10 +102,8 @@ void MatchRunner::execute(const Command& command) {
   done.wait();
 }
 
-void MatchRunner::observe(std::shared_ptr<TickObserver> observer) {
-  post([shared = m_shared.get(), observer = std::move(observer)](SimulatedMatch&) {
-    shared->loop->observe(observer);
-  });
+void MatchRunner::observe(const std::shared_ptr<TickObserver>& observer) {
+  execute([this, &observer](SimulatedMatch&) { m_shared->loop->observe(observer); });
 }
 
 void MatchRunner::stopObserving(const std::shared_ptr<TickObserver>& observer) {

@@ -65,9 +65,9 @@ class MatchRunner {
   /// The same, and waits for it. Not from within a command.
   void execute(const Command& command);
 
-  /// From the next tick on, until stopObserving(); the present moment is shown at once.
-  void observe(std::shared_ptr<TickObserver> observer);
-  /// Waits until the observer is not called any more. Not from within a command.
+  /// Shows it the present moment and every tick from now on, until stopObserving(). Waits for the
+  /// tick in progress; so does stopObserving(). Neither from within a command.
+  void observe(const std::shared_ptr<TickObserver>& observer);
   void stopObserving(const std::shared_ptr<TickObserver>& observer);
 
   /// The newest frame, or nothing when `knownSerial` is already the newest.
