@@ -54,17 +54,29 @@ QLabel* StudioStatusBar::addLabel(const char* name, bool atRight) {
   label->setFont(themeFont(TypeRole::Secondary));
   label->setForegroundRole(QPalette::PlaceholderText);
   label->setContentsMargins(scaled(this, 8), 0, scaled(this, 8), 0);
-  // Labels at the right may be empty: no lines between nothings.
-  if (m_labels++ > 0 && !atRight) {
-    auto* line = new QWidget(this);
-    line->setFixedSize(1, scaled(this, 14));
-    line->setBackgroundRole(QPalette::Mid);
-    line->setAutoFillBackground(true);
-    addWidget(line);
+  if (atRight) {
+    addPermanentWidget(label);
+    return label;
   }
-  if (atRight) addPermanentWidget(label);
-  else addWidget(label);
+  auto* line = new QWidget(this);
+  line->setFixedSize(1, scaled(this, 14));
+  line->setBackgroundRole(QPalette::Mid);
+  line->setAutoFillBackground(true);
+  addWidget(line);
+  addWidget(label);
+  m_parts.push_back({line, label});
   return label;
+}
+
+// No lines between nothings.
+void StudioStatusBar::hideEmpty() {
+  bool first = true;
+  for (const Part& part : m_parts) {
+    const bool shown = !part.label->text().isEmpty();
+    part.label->setVisible(shown);
+    part.line->setVisible(shown && !first);
+    first = first && !shown;
+  }
 }
 
 void StudioStatusBar::setCursor(QPointF metres, bool valid) {
@@ -83,6 +95,11 @@ void StudioStatusBar::copyStateHash() {
 }
 
 void StudioStatusBar::refresh() {
+  showSource();
+  hideEmpty();
+}
+
+void StudioStatusBar::showSource() {
   const FramePtr frame = m_context.source->frame();
   showMemory();
   if (m_context.source->kind() == SourceKind::Live) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The line at the bottom: how the simulation runs or the network is heard, where the cursor is, what is
-// selected. Numbers
-// change five times a second, so that they can be read.
+// The line at the bottom: how the simulation runs or the network is heard, what is recorded, where the
+// cursor is, what is selected. Numbers change five times a second, so that they can be read.
 
 #include <QElapsedTimer>
 #include <QPointF>
 #include <QStatusBar>
+#include <vector>
 
 #include "dock_list.h"
 #include "live/live_status.h"
@@ -24,7 +24,15 @@ class StudioStatusBar : public QStatusBar {
   void copyStateHash();
 
  private:
+  /// A label at the left and the line before it.
+  struct Part {
+    QWidget* line;
+    QLabel* label;
+  };
+
   void refresh();
+  void showSource();
+  void hideEmpty();
   void showMatch(const link::MatchFrame& frame);
   void showMemory();
   void showLive(const link::MatchFrame* frame);
@@ -34,7 +42,7 @@ class StudioStatusBar : public QStatusBar {
   StudioContext m_context;
   LiveStatus m_live;
   QElapsedTimer m_clock;
-  int m_labels = 0;
+  std::vector<Part> m_parts;
   QLabel* m_pace;
   QLabel* m_world;
   QLabel* m_processes;

@@ -223,6 +223,7 @@ void TransportBar::showTransport() {
     action->setEnabled(there && shown);
   }
   m_speedAction->setVisible(shown);
+  m_recordSeparator->setVisible(shown);
   const std::span<const double> speeds =
       past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
   const double speed = past != nullptr ? past->speed() : controller.speed();

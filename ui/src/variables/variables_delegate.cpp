@@ -61,6 +61,13 @@ QSize VariablesDelegate::sizeHint(const QStyleOptionViewItem& option,
   return size;
 }
 
+void VariablesDelegate::initStyleOption(QStyleOptionViewItem* option,
+                                        const QModelIndex& index) const {
+  QStyledItemDelegate::initStyleOption(option, index);
+  // Words of a code begin with what matters: "walk forward, fast".
+  if (index.column() == VariablesModel::Unit) option->textElideMode = Qt::ElideRight;
+}
+
 void VariablesDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
                               const QModelIndex& index) const {
   QStyledItemDelegate::paint(painter, option, index);

@@ -25,6 +25,7 @@ class VariablesDelegate : public QStyledItemDelegate {
                             const QModelIndex& index) const override;
 
  protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
