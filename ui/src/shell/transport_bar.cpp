@@ -140,7 +140,6 @@ void TransportBar::addTransport() {
   for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
     connect(past, &Playback::changed, this, &TransportBar::showTransport);
   }
-  showTransport();
 }
 
 void TransportBar::addRecord() {
