@@ -27,72 +27,78 @@ struct Extremes {
   T min, max;   ///< NaN where there is no other value
 };
 
-/// The part of a search for minimum and maximum that is done several values at a time; what is left
-/// begins at `values`. The compiler may not do it by itself, because of NaN.
+/// Running minimum and maximum that pass over NaN. Without branches: it begins with limits that any
+/// value replaces, and comparisons with NaN are false.
 template <class T>
-void scanLanes(const T*& values, std::size_t count, T& low, T& high) {
+struct MinMax {
+  T min = highest(), max = lowest();
+
+  static constexpr T highest() {
+    if constexpr (std::is_floating_point_v<T>) return std::numeric_limits<T>::infinity();
+    return std::numeric_limits<T>::max();
+  }
+  static constexpr T lowest() {
+    if constexpr (std::is_floating_point_v<T>) return -std::numeric_limits<T>::infinity();
+    return std::numeric_limits<T>::min();
+  }
+
+  bool any() const { return min <= max; }
+  Extremes<T> extremes() const {
+    T none{};
+    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
+    return {any() ? min : none, any() ? max : none};
+  }
+  void add(const Extremes<T>& other) { add(other.min, other.max); }
+  void add(T low, T high) {
+    min = low < min ? low : min;
+    max = high > max ? high : max;
+  }
+
+  void scan(const T* values, std::size_t count) {
+    const T* const end = values + count;
 #ifdef __SSE2__
-  const auto scan = [&](auto lows, const auto& load, const auto& min, const auto& max) {
-    constexpr std::size_t width = sizeof lows / sizeof(T);
-    auto highs = lows;
+    // The compiler may not do several values at a time by itself, because of NaN.
+    if constexpr (std::is_same_v<T, float>) {
+      scanLanes<__m128>(values, count, [](const float* v) { return _mm_loadu_ps(v); },
+                        [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
+                        [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
+    } else if constexpr (std::is_same_v<T, double>) {
+      scanLanes<__m128d>(values, count, [](const double* v) { return _mm_loadu_pd(v); },
+                         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
+                         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+    }
+#endif
+    for (; values != end; ++values) add(*values, *values);
+  }
+
+ private:
+  /// Leaves `values` at what is less than a register.
+  template <class Lanes>
+  void scanLanes(const T*& values, std::size_t count, const auto& load, const auto& least,
+                 const auto& greatest) {
+    constexpr std::size_t width = sizeof(Lanes) / sizeof(T);
+    if (count < 2 * width) return;
+    Lanes lows, highs;
+    {
+      const std::array<T, width> l = filled<width>(min), h = filled<width>(max);
+      std::memcpy(&lows, l.data(), sizeof lows);
+      std::memcpy(&highs, h.data(), sizeof highs);
+    }
     for (; count >= width; count -= width, values += width) {
-      const auto next = load(values);
-      lows = min(next, lows);   // gives the second where one is NaN
-      highs = max(next, highs);
+      const Lanes next = load(values);
+      lows = least(next, lows);   // gives the second where one is NaN
+      highs = greatest(next, highs);
     }
     std::array<T, width> l, h;
     std::memcpy(l.data(), &lows, sizeof lows);
     std::memcpy(h.data(), &highs, sizeof highs);
-    low = *std::ranges::min_element(l);
-    high = *std::ranges::max_element(h);
-  };
-  if constexpr (std::is_same_v<T, float>) {
-    scan(_mm_set1_ps(low), [](const float* v) { return _mm_loadu_ps(v); },
-         [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
-         [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
-  } else if constexpr (std::is_same_v<T, double>) {
-    scan(_mm_set1_pd(low), [](const double* v) { return _mm_loadu_pd(v); },
-         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
-         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+    for (std::size_t i = 0; i < width; ++i) add(l[i], h[i]);
   }
-#endif
-}
-
-/// Running minimum and maximum that pass over NaN.
-template <class T>
-struct MinMax {
-  T min{}, max{};
-  bool any = false;
-
-  Extremes<T> extremes() const {
-    T none{};
-    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
-    return {any ? min : none, any ? max : none};
-  }
-  void add(const Extremes<T>& other) { add(other.min, other.max); }
-  void add(T low, T high) {
-    if constexpr (std::is_floating_point_v<T>) {
-      if (std::isnan(low)) return;   // both are then
-    }
-    min = any ? std::min(min, low) : low;
-    max = any ? std::max(max, high) : high;
-    any = true;
-  }
-
-  /// Comparisons with NaN are false, so NaN changes nothing once there is a first value.
-  void scan(const T* values, std::size_t count) {
-    if constexpr (std::is_floating_point_v<T>) {
-      for (; count > 0 && std::isnan(*values); --count) ++values;
-    }
-    if (count == 0) return;
-    T low = *values, high = *values;
-    const T* const end = values + count;
-    scanLanes(values, count, low, high);
-    for (; values != end; ++values) {
-      low = *values < low ? *values : low;
-      high = *values > high ? *values : high;
-    }
-    add(low, high);
+  template <std::size_t width>
+  static std::array<T, width> filled(T value) {
+    std::array<T, width> all;
+    all.fill(value);
+    return all;
   }
 };
 
@@ -118,7 +124,7 @@ class Column {
       MinMax<T> part;
       part.scan(values + sub * subRows, subRows);
       reinterpret_cast<Extremes<T>*>(raw + blockRows)[sub] = part.extremes();
-      if (part.any) all.add(part.min, part.max);
+      all.add(part.min, part.max);
     }
     out.setSummary<T>(0, all);
     return out;
@@ -154,10 +160,10 @@ class Column {
         range.add(value, value);
         out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {value, value};   // its bits, also where it is NaN
       }
-      if (range.any) super.add(range.min, range.max);
+      super.add(range.min, range.max);
       if ((b + 1) % superBlocks == 0) {
         out.setSummary<T>(1 + b / superBlocks, super);
-        if (super.any) all.add(super.min, super.max);
+        all.add(super.min, super.max);
         super = {};
       }
     }

@@ -9,11 +9,13 @@
 #include <QPainter>
 #include <QResizeEvent>
 #include <QValueAxis>
+#include <algorithm>
 #include <cmath>
 
 #include <ui/theme.h>
 
 #include "shell/robot_words.h"
+#include "side_by_side.h"
 
 namespace pitchboard::ui {
 
@@ -36,10 +38,7 @@ class ValueChart::Layer : public QGraphicsItem {
       const QSize size = (area.size() * ratio).toSize();
       if (picture.size() != size) picture = QImage(size, QImage::Format_ARGB32_Premultiplied);
       picture.setDevicePixelRatio(ratio);
-      picture.fill(Qt::transparent);
-      QPainter inner(&picture);
-      inner.translate(-area.topLeft());
-      curves(inner);
+      paintPicture(ratio);
       stale = false;
     }
     painter->drawImage(area.topLeft(), picture);
@@ -53,9 +52,30 @@ class ValueChart::Layer : public QGraphicsItem {
 
   QRectF area;
   Painter curves;
+  Painting painting = Painting::Whole;
   bool stale = true;
 
  private:
+  void paintPicture(double ratio) {
+    // More parts than cores, because the curves may be in some of them only.
+    const int parts = painting == Painting::Whole ? 1 : std::clamp(picture.width() / leastPart, 1, 8);
+    const int height = picture.height();
+    const auto row = picture.bytesPerLine();
+    uchar* const bits = picture.bits();
+    sideBySide(parts, [&, width = picture.width()](int number) {
+      const int left = width * number / parts, right = width * (number + 1) / parts;
+      QImage part(bits + std::ptrdiff_t{left} * 4, right - left, height, row, picture.format());
+      part.setDevicePixelRatio(ratio);
+      part.fill(Qt::transparent);
+      QPainter inner(&part);
+      inner.translate(-area.left() - left / ratio, -area.top());
+      inner.setClipRect(QRectF(area.left() + left / ratio, area.top(), (right - left) / ratio,
+                               height / ratio));
+      curves(inner);
+    });
+  }
+
+  static constexpr int leastPart = 150;   // px
   QImage picture;
 };
 
@@ -173,8 +193,9 @@ int ValueChart::wantedLeft() const {
   return widest + scaled(this, 10) + title;
 }
 
-void ValueChart::setCurvePainter(Painter painter) {
+void ValueChart::setCurvePainter(Painter painter, Painting painting) {
   m_layer->curves = std::move(painter);
+  m_layer->painting = painting;
   redraw();
 }
 
