@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve_trace.h"
 
+#include <QImage>
+#include <QPaintEngine>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
@@ -187,7 +189,40 @@ void paintColumns(QPainter& painter, Stretch line, QList<QRectF>& rects) {
   draw();
 }
 
+/// Fills rectangles on whole pixels. Qt's painter needs longer for a row of one pixel than for its
+/// colour, and there are millions of rows.
+void fillPixels(QImage& image, const QRect& within, const QTransform& toDevice,
+                const QList<QRectF>& rects, QRgb color) {
+  auto* const bits = reinterpret_cast<QRgb*>(image.bits());
+  const qsizetype stride = image.bytesPerLine() / qsizetype{sizeof(QRgb)};
+  const int right = within.x() + within.width(), bottom = within.y() + within.height();
+  for (const QRectF& rect : rects) {
+    const QRectF at = toDevice.mapRect(rect);
+    const int x0 = std::max(qRound(at.left()), within.x());
+    const int x1 = std::min(qRound(at.right()), right);
+    const int y0 = static_cast<int>(std::max<double>(std::round(at.top()), within.y()));
+    const int y1 = static_cast<int>(std::min<double>(std::round(at.bottom()), bottom));
+    for (int x = x0; x < x1; ++x) {
+      QRgb* pixel = bits + y0 * stride + x;
+      for (int y = y0; y < y1; ++y, pixel += stride) *pixel = color;
+    }
+  }
+}
+
 void paintRects(QPainter& painter, const QList<QRectF>& rects, const QColor& color) {
+  const bool onImage = painter.paintEngine()->type() == QPaintEngine::Raster &&
+                       painter.device()->devType() == QInternal::Image && color.alpha() == 255;
+  if (auto* image = onImage ? static_cast<QImage*>(painter.device()) : nullptr;
+      image != nullptr && (image->format() == QImage::Format_ARGB32_Premultiplied ||
+                           image->format() == QImage::Format_RGB32)) {
+    const QTransform toDevice = painter.deviceTransform();
+    QRect within = image->rect();
+    if (painter.hasClipping()) {
+      within &= toDevice.mapRect(painter.clipBoundingRect()).toAlignedRect();
+    }
+    fillPixels(*image, within, toDevice, rects, color.rgba());
+    return;
+  }
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setPen(Qt::NoPen);

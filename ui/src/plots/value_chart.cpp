@@ -11,6 +11,7 @@
 #include <QValueAxis>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <ui/theme.h>
 
@@ -34,14 +35,16 @@ class ValueChart::Layer : public QGraphicsItem {
       return;
     }
     const double ratio = painter->device()->devicePixelRatioF();
-    if (stale || !qFuzzyCompare(picture.devicePixelRatio(), ratio)) {
-      const QSize size = (area.size() * ratio).toSize();
-      if (picture.size() != size) picture = QImage(size, QImage::Format_ARGB32_Premultiplied);
-      picture.setDevicePixelRatio(ratio);
-      paintPicture(ratio);
+    const QSize size = (area.size() * ratio).toSize();
+    if (size.isEmpty()) return;
+    if (stale || ratio != paintedRatio) {
+      paintParts(size, ratio);
+      paintedRatio = ratio;
       stale = false;
     }
-    painter->drawImage(area.topLeft(), picture);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      painter->drawImage(area.topLeft() + QPointF(leftOf(i, size) / ratio, 0.0), parts[i]);
+    }
   }
 
   void setArea(const QRectF& to) {
@@ -56,27 +59,33 @@ class ValueChart::Layer : public QGraphicsItem {
   bool stale = true;
 
  private:
-  void paintPicture(double ratio) {
-    // More parts than cores, because the curves may be in some of them only.
-    const int parts = painting == Painting::Whole ? 1 : std::clamp(picture.width() / leastPart, 1, 8);
-    const int height = picture.height();
-    const auto row = picture.bytesPerLine();
-    uchar* const bits = picture.bits();
-    sideBySide(parts, [&, width = picture.width()](int number) {
-      const int left = width * number / parts, right = width * (number + 1) / parts;
-      QImage part(bits + std::ptrdiff_t{left} * 4, right - left, height, row, picture.format());
+  // Parts stand side by side. They are narrow so that one stays in a core's cache while it is painted.
+  static constexpr int partWidth = 120;   // px
+
+  int leftOf(std::size_t part, const QSize& size) const {
+    return static_cast<int>(static_cast<std::size_t>(size.width()) * part / parts.size());
+  }
+  void paintParts(const QSize& size, double ratio) {
+    const int wanted = painting == Painting::Whole ? 1 : std::max(1, size.width() / partWidth);
+    parts.resize(static_cast<std::size_t>(wanted));
+    sideBySide(wanted, [&](int number) {
+      const auto i = static_cast<std::size_t>(number);
+      const int left = leftOf(i, size);
+      const QSize own(leftOf(i + 1, size) - left, size.height());
+      QImage& part = parts[i];
+      if (part.size() != own) part = QImage(own, QImage::Format_ARGB32_Premultiplied);
       part.setDevicePixelRatio(ratio);
       part.fill(Qt::transparent);
+      const QPointF from = area.topLeft() + QPointF(left / ratio, 0.0);
       QPainter inner(&part);
-      inner.translate(-area.left() - left / ratio, -area.top());
-      inner.setClipRect(QRectF(area.left() + left / ratio, area.top(), (right - left) / ratio,
-                               height / ratio));
+      inner.translate(-from);
+      inner.setClipRect(QRectF(from, QSizeF(own) / ratio));
       curves(inner);
     });
   }
 
-  static constexpr int leastPart = 150;   // px
-  QImage picture;
+  std::vector<QImage> parts;
+  double paintedRatio = 0.0;
 };
 
 ValueChart::ValueChart(QWidget* parent)
