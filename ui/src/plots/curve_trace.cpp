@@ -196,12 +196,14 @@ void fillPixels(QImage& image, const QRect& within, const QTransform& toDevice,
   auto* const bits = reinterpret_cast<QRgb*>(image.bits());
   const qsizetype stride = image.bytesPerLine() / qsizetype{sizeof(QRgb)};
   const int right = within.x() + within.width(), bottom = within.y() + within.height();
+  // Halves go one way, also those that are a little less by rounding: else there would be gaps.
+  const auto whole = [](double at) { return std::floor(at + 0.501); };
   for (const QRectF& rect : rects) {
     const QRectF at = toDevice.mapRect(rect);
-    const int x0 = std::max(qRound(at.left()), within.x());
-    const int x1 = std::min(qRound(at.right()), right);
-    const int y0 = static_cast<int>(std::max<double>(std::round(at.top()), within.y()));
-    const int y1 = static_cast<int>(std::min<double>(std::round(at.bottom()), bottom));
+    const auto x0 = static_cast<int>(std::max<double>(whole(at.left()), within.x()));
+    const auto x1 = static_cast<int>(std::min<double>(whole(at.right()), right));
+    const auto y0 = static_cast<int>(std::max<double>(whole(at.top()), within.y()));
+    const auto y1 = static_cast<int>(std::min<double>(whole(at.bottom()), bottom));
     for (int x = x0; x < x1; ++x) {
       QRgb* pixel = bits + y0 * stride + x;
       for (int y = y0; y < y1; ++y, pixel += stride) *pixel = color;
