@@ -3,7 +3,7 @@
 
 // One column of one chunk. A column that does not change costs 24 bytes; otherwise every block of
 // 64 rows that does not change costs its value only, the others are kept raw. Minimum and maximum
-// are kept for 16 (of raw blocks), 64, 512 and 4096 rows. Private to the library; immutable once made.
+// are kept for 64, 512 and 4096 rows, of doubles for 16 too. Private to the library; immutable once made.
 
 #include <algorithm>
 #include <array>
@@ -27,72 +27,78 @@ struct Extremes {
   T min, max;   ///< NaN where there is no other value
 };
 
-/// The part of a search for minimum and maximum that is done several values at a time; what is left
-/// begins at `values`. The compiler may not do it by itself, because of NaN.
+/// Running minimum and maximum that pass over NaN. Without branches: it begins with limits that any
+/// value replaces, and comparisons with NaN are false.
 template <class T>
-void scanLanes(const T*& values, std::size_t count, T& low, T& high) {
+struct MinMax {
+  T min = highest(), max = lowest();
+
+  static constexpr T highest() {
+    if constexpr (std::is_floating_point_v<T>) return std::numeric_limits<T>::infinity();
+    return std::numeric_limits<T>::max();
+  }
+  static constexpr T lowest() {
+    if constexpr (std::is_floating_point_v<T>) return -std::numeric_limits<T>::infinity();
+    return std::numeric_limits<T>::min();
+  }
+
+  bool any() const { return min <= max; }
+  Extremes<T> extremes() const {
+    T none{};
+    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
+    return {any() ? min : none, any() ? max : none};
+  }
+  void add(const Extremes<T>& other) { add(other.min, other.max); }
+  void add(T low, T high) {
+    min = low < min ? low : min;
+    max = high > max ? high : max;
+  }
+
+  void scan(const T* values, std::size_t count) {
+    const T* const end = values + count;
 #ifdef __SSE2__
-  const auto scan = [&](auto lows, const auto& load, const auto& min, const auto& max) {
-    constexpr std::size_t width = sizeof lows / sizeof(T);
-    auto highs = lows;
+    // The compiler may not do several values at a time by itself, because of NaN.
+    if constexpr (std::is_same_v<T, float>) {
+      scanLanes<__m128>(values, count, [](const float* v) { return _mm_loadu_ps(v); },
+                        [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
+                        [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
+    } else if constexpr (std::is_same_v<T, double>) {
+      scanLanes<__m128d>(values, count, [](const double* v) { return _mm_loadu_pd(v); },
+                         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
+                         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+    }
+#endif
+    for (; values != end; ++values) add(*values, *values);
+  }
+
+ private:
+  /// Leaves `values` at what is less than a register.
+  template <class Lanes>
+  void scanLanes(const T*& values, std::size_t count, const auto& load, const auto& least,
+                 const auto& greatest) {
+    constexpr std::size_t width = sizeof(Lanes) / sizeof(T);
+    if (count < 2 * width) return;
+    Lanes lows, highs;
+    {
+      const std::array<T, width> l = filled<width>(min), h = filled<width>(max);
+      std::memcpy(&lows, l.data(), sizeof lows);
+      std::memcpy(&highs, h.data(), sizeof highs);
+    }
     for (; count >= width; count -= width, values += width) {
-      const auto next = load(values);
-      lows = min(next, lows);   // gives the second where one is NaN
-      highs = max(next, highs);
+      const Lanes next = load(values);
+      lows = least(next, lows);   // gives the second where one is NaN
+      highs = greatest(next, highs);
     }
     std::array<T, width> l, h;
     std::memcpy(l.data(), &lows, sizeof lows);
     std::memcpy(h.data(), &highs, sizeof highs);
-    low = *std::ranges::min_element(l);
-    high = *std::ranges::max_element(h);
-  };
-  if constexpr (std::is_same_v<T, float>) {
-    scan(_mm_set1_ps(low), [](const float* v) { return _mm_loadu_ps(v); },
-         [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
-         [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
-  } else if constexpr (std::is_same_v<T, double>) {
-    scan(_mm_set1_pd(low), [](const double* v) { return _mm_loadu_pd(v); },
-         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
-         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+    for (std::size_t i = 0; i < width; ++i) add(l[i], h[i]);
   }
-#endif
-}
-
-/// Running minimum and maximum that pass over NaN.
-template <class T>
-struct MinMax {
-  T min{}, max{};
-  bool any = false;
-
-  Extremes<T> extremes() const {
-    T none{};
-    if constexpr (std::is_floating_point_v<T>) none = std::numeric_limits<T>::quiet_NaN();
-    return {any ? min : none, any ? max : none};
-  }
-  void add(const Extremes<T>& other) { add(other.min, other.max); }
-  void add(T low, T high) {
-    if constexpr (std::is_floating_point_v<T>) {
-      if (std::isnan(low)) return;   // both are then
-    }
-    min = any ? std::min(min, low) : low;
-    max = any ? std::max(max, high) : high;
-    any = true;
-  }
-
-  /// Comparisons with NaN are false, so NaN changes nothing once there is a first value.
-  void scan(const T* values, std::size_t count) {
-    if constexpr (std::is_floating_point_v<T>) {
-      for (; count > 0 && std::isnan(*values); --count) ++values;
-    }
-    if (count == 0) return;
-    T low = *values, high = *values;
-    const T* const end = values + count;
-    scanLanes(values, count, low, high);
-    for (; values != end; ++values) {
-      low = *values < low ? *values : low;
-      high = *values > high ? *values : high;
-    }
-    add(low, high);
+  template <std::size_t width>
+  static std::array<T, width> filled(T value) {
+    std::array<T, width> all;
+    all.fill(value);
+    return all;
   }
 };
 
@@ -117,8 +123,10 @@ class Column {
     for (std::uint32_t sub = 0; sub < blockRows / subRows; ++sub) {
       MinMax<T> part;
       part.scan(values + sub * subRows, subRows);
-      reinterpret_cast<Extremes<T>*>(raw + blockRows)[sub] = part.extremes();
-      if (part.any) all.add(part.min, part.max);
+      if constexpr (hasSubs<T>) {
+        reinterpret_cast<Extremes<T>*>(raw + blockRows)[sub] = part.extremes();
+      }
+      all.add(part.min, part.max);
     }
     out.setSummary<T>(0, all);
     return out;
@@ -147,17 +155,17 @@ class Column {
       MinMax<T> range;
       if (blocks[b]->m_bytes) {
         range.add(blocks[b]->summary<T>(0).min, blocks[b]->summary<T>(0).max);
-        values = std::copy_n(blocks[b]->array<T>() + 2, rawValues, values);
+        values = std::copy_n(blocks[b]->array<T>() + 2, rawValues<T>, values);
         out.setSummary<T>(ofBlocks(chunkBlocks) + b, range);
       } else {
         const T value = blocks[b]->constant<T>();
         range.add(value, value);
         out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {value, value};   // its bits, also where it is NaN
       }
-      if (range.any) super.add(range.min, range.max);
+      super.add(range.min, range.max);
       if ((b + 1) % superBlocks == 0) {
         out.setSummary<T>(1 + b / superBlocks, super);
-        if (super.any) all.add(super.min, super.max);
+        all.add(super.min, super.max);
         super = {};
       }
     }
@@ -187,7 +195,7 @@ class Column {
   const T* raw(std::uint32_t block, std::uint32_t blocks) const {
     const std::uint64_t before = m_raw & ((std::uint64_t{1} << block) - 1);
     return array<T>() + 2 * std::size_t{summaries(blocks)} +
-           static_cast<std::size_t>(std::popcount(before)) * rawValues;
+           static_cast<std::size_t>(std::popcount(before)) * rawValues<T>;
   }
 
   /// Minimum and maximum of the rows [begin, end).
@@ -195,25 +203,25 @@ class Column {
   void range(std::uint32_t begin, std::uint32_t end, std::uint32_t blocks, MinMax<T>& out) const {
     if (begin >= end) return;
     if (!m_bytes) return out.add(constant<T>(), constant<T>());
-    const Extremes<T>* kept = array<Extremes<T>>();
-    std::uint32_t row = begin;
-    while (row < end) {
-      const std::uint32_t block = row / blockRows, left = end - row;
-      if (row % chunkRows == 0 && left >= chunkRows) {
-        out.add(kept[0]);
-        row += chunkRows;
-      } else if (row % (superBlocks * blockRows) == 0 && left >= superBlocks * blockRows) {
-        out.add(kept[1 + block / superBlocks]);
-        row += superBlocks * blockRows;
-      } else if ((row % blockRows == 0 && left >= blockRows) || !isRaw(block)) {
-        out.add(kept[ofBlocks(blocks) + block]);
-        row = (block + 1) * blockRows;
-      } else {
-        const std::uint32_t stop = std::min(end, (block + 1) * blockRows);
-        rangeOfRaw(raw<T>(block, blocks), row % blockRows, stop - block * blockRows, out);
-        row = stop;
-      }
+    const std::uint32_t last = (end - 1) / blockRows;
+    std::uint32_t from = begin / blockRows, to = end / blockRows;   // whole blocks
+    if (begin % blockRows != 0) {
+      rangeOfBlock(from, begin % blockRows, from == last ? end - last * blockRows : blockRows, blocks, out);
+      if (from == last) return;
+      ++from;
     }
+    if (to == last) rangeOfBlock(last, 0, end - last * blockRows, blocks, out);
+    const Extremes<T>* kept = array<Extremes<T>>();
+    if (to - from == chunkBlocks) return out.add(kept[0]);
+    const auto add = [&out](const Extremes<T>* at, std::uint32_t count) {
+      for (; count > 0; --count) out.add(*at++);
+    };
+    const Extremes<T>* ofBlock = kept + ofBlocks(blocks);
+    const std::uint32_t superFrom = (from + superBlocks - 1) / superBlocks, superTo = to / superBlocks;
+    if (superFrom >= superTo) return add(ofBlock + from, to - from);
+    add(ofBlock + from, superFrom * superBlocks - from);
+    add(kept + 1 + superFrom, superTo - superFrom);
+    add(ofBlock + superTo * superBlocks, to - superTo * superBlocks);
   }
 
   /// Prefetch what a bucket needs that covers the chunk, and around a row where one ends.
@@ -229,32 +237,45 @@ class Column {
     __builtin_prefetch(array<Extremes<T>>() + ofBlocks(blocks) + block);
     if (!isRaw(block)) return;
     const T* values = raw<T>(block, blocks);
-    __builtin_prefetch(values + blockRows);
-    const T* part = values + row % blockRows / subRows * subRows;
-    for (std::uint32_t i = 0; i < subRows; i += 64 / sizeof(T)) __builtin_prefetch(part + i);
-    __builtin_prefetch(part + subRows - 1);   // the memory may not begin with a cache line
+    constexpr std::uint32_t read = hasSubs<T> ? subRows : blockRows;
+    if (hasSubs<T>) __builtin_prefetch(values + blockRows);
+    const T* part = values + row % blockRows / read * read;
+    for (std::uint32_t i = 0; i < read; i += 64 / sizeof(T)) __builtin_prefetch(part + i);
+    __builtin_prefetch(part + read - 1);   // the memory may not begin with a cache line
   }
 
   template <class T>
   std::size_t heapBytes(std::uint32_t blocks) const {
     if (!m_bytes) return 0;
     return sizeof(T) * (2 * std::size_t{summaries(blocks)} +
-                        static_cast<std::size_t>(std::popcount(m_raw)) * rawValues);
+                        static_cast<std::size_t>(std::popcount(m_raw)) * rawValues<T>);
   }
 
  private:
-  /// A raw block: its values, then minimum and maximum of each 16 of them.
-  static constexpr std::uint32_t rawValues = blockRows + 2 * (blockRows / subRows);
-
-  /// Of the values [begin, end) of a raw block.
+  /// Eight-byte values have minimum and maximum of each 16 rows too: to read 64 of them at every
+  /// border of a bucket takes longer. For four-byte values that gains nothing and costs memory.
   template <class T>
-  static void rangeOfRaw(const T* values, std::uint32_t begin, std::uint32_t end, MinMax<T>& out) {
-    const auto* subs = reinterpret_cast<const Extremes<T>*>(values + blockRows);
-    while (begin < end) {
-      const std::uint32_t stop = std::min(end, (begin / subRows + 1) * subRows);
-      if (stop - begin == subRows) out.add(subs[begin / subRows]);
-      else out.scan(values + begin, stop - begin);
-      begin = stop;
+  static constexpr bool hasSubs = sizeof(T) == 8;
+  /// A raw block: its values, then minimum and maximum of each 16 of them where they are kept.
+  template <class T>
+  static constexpr std::uint32_t rawValues = blockRows + (hasSubs<T> ? 2 * (blockRows / subRows) : 0);
+
+  /// Of the rows [begin, end) of one block, not all of it.
+  template <class T>
+  void rangeOfBlock(std::uint32_t block, std::uint32_t begin, std::uint32_t end, std::uint32_t blocks,
+                    MinMax<T>& out) const {
+    if (!isRaw(block)) return out.add(summary<T>(ofBlocks(blocks) + block));
+    const T* values = raw<T>(block, blocks);
+    if constexpr (hasSubs<T>) {
+      const auto* subs = reinterpret_cast<const Extremes<T>*>(values + blockRows);
+      while (begin < end) {
+        const std::uint32_t stop = std::min(end, (begin / subRows + 1) * subRows);
+        if (stop - begin == subRows) out.add(subs[begin / subRows]);
+        else out.scan(values + begin, stop - begin);
+        begin = stop;
+      }
+    } else {
+      out.scan(values + begin, end - begin);
     }
   }
 
@@ -267,7 +288,7 @@ class Column {
   template <class T>
   void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
     m_bytes = std::make_unique_for_overwrite<std::byte[]>(
-        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * rawValues));
+        sizeof(T) * (2 * std::size_t{summaries(blocks)} + std::size_t{rawBlocks} * rawValues<T>));
   }
   template <class T>
   void setSummary(std::uint32_t at, const MinMax<T>& range) {

@@ -38,7 +38,7 @@ void View::buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket
       bucket.last = static_cast<double>(value<T>(column, end - 1));
       MinMax<T> found;
       minMax<T>(column, begin, end, found);
-      if (found.any) {
+      if (found.any()) {
         bucket.min = static_cast<double>(found.min);
         bucket.max = static_cast<double>(found.max);
       }

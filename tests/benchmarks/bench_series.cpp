@@ -13,6 +13,8 @@
 #include <robotlink/match_sampler.h>
 #include <telemetry/series_store.h>
 
+#include "frame_times.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -73,11 +75,15 @@ void buckets(benchmark::State& state) {
   std::vector<SeriesBucket> out(1500);
   const double length = 9'900'000 / 60.0;
   double begin = 0.0;
+  FrameTimes times(1e-6);
   for (auto _ : state) {
+    times.begin();
     view->buckets(static_cast<std::uint32_t>(state.range(0)), {begin, begin + length}, out);
+    times.end();
     begin = begin > 1600.0 ? 0.0 : begin + 7.31;
     benchmark::DoNotOptimize(out.data());
   }
+  times.report(state);
 }
 BENCHMARK(buckets)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 

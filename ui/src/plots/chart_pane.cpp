@@ -9,6 +9,7 @@
 #include <ui/theme.h>
 
 #include "linked_time.h"
+#include "side_by_side.h"
 #include "time_gestures.h"
 #include "time_ruler.h"
 #include "value_chart.h"
@@ -24,7 +25,8 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   setSurface(m_chart);
   m_chart->setMinimumHeight(scaled(this, lowestChart));
   m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
-  m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
+  m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); },
+                           ValueChart::Painting::Parts);
   connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
   connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {
     const ValueScale scale = valueScale();
@@ -80,11 +82,14 @@ void ChartPane::draw() {
   const telemetry::TimeRange range = m_feed->time()->range();
   const int columns = std::max(1, static_cast<int>(area.width() * devicePixelRatioF()));
   m_traces.clear();
+  m_traces.resize(m_curves.size());
+  sideBySide(static_cast<int>(m_curves.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    m_traces[i] = traceOf(m_curves[i].view(), range, columns);
+  });
   bool any = false;
   double low = 0.0, high = 0.0;
-  for (const Curve& curve : m_curves) {
-    m_traces.push_back(traceOf(curve.view(), range, columns));
-    const CurveTrace& trace = m_traces.back();
+  for (const CurveTrace& trace : m_traces) {
     if (!trace.any) continue;
     low = any ? std::min(low, trace.low) : trace.low;
     high = any ? std::max(high, trace.high) : trace.high;
@@ -101,20 +106,32 @@ void ChartPane::draw() {
                    nice.limits, nice.step,
                    ticks.empty() ? range.begin : ticks[0].time);
   m_chart->setTitles({}, m_spec.valueTitle);
+  shape();
   m_chart->redraw();
   if (wantedLeft() != before) emit leftChanged();
 }
 
-void ChartPane::paintCurves(QPainter& painter) {
-  const TimeScale time = timeScale();
-  const ValueScale values = valueScale();
+void ChartPane::shape() {
   std::size_t points = 0;
   for (const CurveTrace& trace : m_traces) points += trace.samples.size() + trace.columns.size();
-  for (std::size_t i = 0; i < m_traces.size() && i < m_curves.size(); ++i) {
-    const CurveSpec& spec = m_curves[i].spec();
-    paintTrace(painter, m_traces[i], time, values,
-               {m_curves[i].color(), spec.style, spec.width * scaled(this, 100) / 100.0,
-                points > manyPoints});
+  m_shapes.clear();
+  m_shapedFor = timeScale();
+  const ValueScale values = valueScale();
+  for (const Curve& curve : m_curves) {
+    const CurveSpec& spec = curve.spec();
+    m_shapes.push_back({{}, {curve.color(), spec.style, spec.width * scaled(this, 100) / 100.0,
+                             points > manyPoints}});
+  }
+  sideBySide(static_cast<int>(m_shapes.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    m_shapes[i].lines = polylines(m_traces[i], m_shapedFor, values,
+                                  m_shapes[i].look.style == CurveStyle::Steps);
+  });
+}
+
+void ChartPane::paintCurves(QPainter& painter) const {
+  for (std::size_t i = 0; i < m_shapes.size(); ++i) {
+    paintTrace(painter, m_traces[i], m_shapes[i].lines, m_shapedFor, m_shapes[i].look);
   }
 }
 

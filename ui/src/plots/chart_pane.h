@@ -28,12 +28,20 @@ class ChartPane : public PlotPane {
   void restyle() override;
 
  private:
-  void paintCurves(QPainter& painter);
+  void paintCurves(QPainter& painter) const;
+  void shape();
   void setValues(ValueLimits limits);
 
   ValueChart* m_chart;
   TimeGestures* m_gestures;
+  // What is painted, complete before painting begins: it is done on several threads.
+  struct Shape {
+    std::vector<QPolygonF> lines;
+    TraceLook look;
+  };
   std::vector<CurveTrace> m_traces;
+  std::vector<Shape> m_shapes;     // of the traces
+  TimeScale m_shapedFor;
 };
 
 }  // namespace pitchboard::ui

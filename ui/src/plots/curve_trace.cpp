@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve_trace.h"
 
+#include <QImage>
+#include <QPaintEngine>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace pitchboard::ui {
 namespace {
@@ -135,41 +138,92 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
 
 namespace {
 
+/// Neighbouring points of a line.
+using Stretch = std::span<const QPointF>;
+
+/// The points of a line, ascending in x, that can be seen between two places; some more at both
+/// sides, which the first and last to be seen are joined to.
+Stretch visiblePart(const QPolygonF& line, double left, double right) {
+  constexpr std::ptrdiff_t more = 4;
+  const auto before = [](const QPointF& point, double x) { return point.x() < x; };
+  const Stretch all(line.constData(), static_cast<std::size_t>(line.size()));
+  const auto first = std::lower_bound(all.begin(), all.end(), left, before) - all.begin();
+  const auto last = std::lower_bound(all.begin(), all.end(), right, before) - all.begin();
+  const auto begin = std::max<std::ptrdiff_t>(first - more, 0);
+  const auto end = std::min(last + more, std::ssize(all));
+  return all.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+}
+
 /// Columns are rectangles where they are tall, and a thin line where they are flat: both are fast.
-void paintColumns(QPainter& painter, const std::vector<QPolygonF>& lines, const QColor& color) {
+void paintColumns(QPainter& painter, Stretch line, QList<QRectF>& rects) {
   const double pixel = 1.0 / painter.device()->devicePixelRatioF();
-  QList<QRectF> rects;
-  for (const QPolygonF& line : lines) {
-    QPolygonF flat;
-    const auto draw = [&] {
-      if (flat.size() > 1) painter.drawPolyline(flat);
-      flat.clear();
-    };
-    double top = 0.0, bottom = 0.0;   // of the column before
-    for (qsizetype i = 0; i < line.size(); ++i) {
-      const QPointF& at = line[i];
-      const bool column = i + 1 < line.size() && line[i + 1].x() == at.x();
-      double y0 = at.y(), y1 = column ? line[++i].y() : at.y();
-      if (y0 > y1) std::swap(y0, y1);
-      const bool first = i < 2 && flat.isEmpty() && line[0].x() == at.x();
-      // What leaves a gap to the column before reaches for it.
-      const double from = first ? y0 : std::min(y0, bottom);
-      const double to = first ? y1 : std::max(y1, top);
-      if (to - from < tall) {
-        flat << QPointF(at.x(), (y0 + y1) / 2);
-      } else {
-        // Rectangles side by side touch; only a flat stretch is led up to them.
-        if (flat.size() > 1) flat << QPointF(at.x(), (y0 + y1) / 2);
-        draw();
-        const double x = std::floor(at.x() / pixel) * pixel;
-        rects << QRectF(x, std::floor(from / pixel) * pixel, pixel,
-                        std::ceil((to - from) / pixel) * pixel);
-        flat << QPointF(at.x(), (y0 + y1) / 2);
-      }
-      top = y0;
-      bottom = y1;
+  QPolygonF flat;
+  const auto draw = [&] {
+    if (flat.size() > 1) painter.drawPolyline(flat);
+    flat.clear();
+  };
+  double top = 0.0, bottom = 0.0;   // of the column before
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const QPointF& at = line[i];
+    const bool first = i == 0;
+    const bool column = i + 1 < line.size() && line[i + 1].x() == at.x();
+    double y0 = at.y(), y1 = column ? line[++i].y() : at.y();
+    if (y0 > y1) std::swap(y0, y1);
+    // What leaves a gap to the column before reaches for it.
+    const double from = first ? y0 : std::min(y0, bottom);
+    const double to = first ? y1 : std::max(y1, top);
+    if (to - from < tall) {
+      flat << QPointF(at.x(), (y0 + y1) / 2);
+    } else {
+      // Rectangles side by side touch; only a flat stretch is led up to them.
+      if (flat.size() > 1) flat << QPointF(at.x(), (y0 + y1) / 2);
+      draw();
+      const double x = std::floor(at.x() / pixel) * pixel;
+      rects << QRectF(x, std::floor(from / pixel) * pixel, pixel,
+                      std::ceil((to - from) / pixel) * pixel);
+      flat << QPointF(at.x(), (y0 + y1) / 2);
     }
-    draw();
+    top = y0;
+    bottom = y1;
+  }
+  draw();
+}
+
+/// Fills rectangles on whole pixels. Qt's painter needs longer for a row of one pixel than for its
+/// colour, and there are millions of rows.
+void fillPixels(QImage& image, const QRect& within, const QTransform& toDevice,
+                const QList<QRectF>& rects, QRgb color) {
+  auto* const bits = reinterpret_cast<QRgb*>(image.bits());
+  const qsizetype stride = image.bytesPerLine() / qsizetype{sizeof(QRgb)};
+  const int right = within.x() + within.width(), bottom = within.y() + within.height();
+  // Halves go one way, also those that are a little less by rounding: else there would be gaps.
+  const auto whole = [](double at) { return std::floor(at + 0.501); };
+  for (const QRectF& rect : rects) {
+    const QRectF at = toDevice.mapRect(rect);
+    const auto x0 = static_cast<int>(std::max<double>(whole(at.left()), within.x()));
+    const auto x1 = static_cast<int>(std::min<double>(whole(at.right()), right));
+    const auto y0 = static_cast<int>(std::max<double>(whole(at.top()), within.y()));
+    const auto y1 = static_cast<int>(std::min<double>(whole(at.bottom()), bottom));
+    for (int x = x0; x < x1; ++x) {
+      QRgb* pixel = bits + y0 * stride + x;
+      for (int y = y0; y < y1; ++y, pixel += stride) *pixel = color;
+    }
+  }
+}
+
+void paintRects(QPainter& painter, const QList<QRectF>& rects, const QColor& color) {
+  const bool onImage = painter.paintEngine()->type() == QPaintEngine::Raster &&
+                       painter.device()->devType() == QInternal::Image && color.alpha() == 255;
+  if (auto* image = onImage ? static_cast<QImage*>(painter.device()) : nullptr;
+      image != nullptr && (image->format() == QImage::Format_ARGB32_Premultiplied ||
+                           image->format() == QImage::Format_RGB32)) {
+    const QTransform toDevice = painter.deviceTransform();
+    QRect within = image->rect();
+    if (painter.hasClipping()) {
+      within &= toDevice.mapRect(painter.clipBoundingRect()).toAlignedRect();
+    }
+    fillPixels(*image, within, toDevice, rects, color.rgba());
+    return;
   }
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, false);
@@ -179,46 +233,53 @@ void paintColumns(QPainter& painter, const std::vector<QPolygonF>& lines, const 
   painter.restore();
 }
 
-void paintLine(QPainter& painter, const QPolygonF& line, bool thin) {
-  if (thin) {
-    painter.drawPolyline(line);
-    return;
-  }
+void paintWide(QPainter& painter, const QPolygonF& line, double left, double right) {
   for (qsizetype i = 0; i + 1 < line.size(); i += strokedAtOnce) {
-    painter.drawPolyline(line.constData() + i,
-                         static_cast<int>(std::min(strokedAtOnce + 1, line.size() - i)));
+    const qsizetype count = std::min(strokedAtOnce + 1, line.size() - i);
+    if (line[i].x() > right || line[i + count - 1].x() < left) continue;
+    painter.drawPolyline(line.constData() + i, static_cast<int>(count));
   }
 }
 
 }  // namespace
 
-void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& time,
-                const ValueScale& values, const TraceLook& look) {
-  const bool steps = look.style == CurveStyle::Steps;
-  const std::vector<QPolygonF> lines = polylines(trace, time, values, steps);
+void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QPolygonF>& lines,
+                const TimeScale& time, const TraceLook& look) {
   const bool dots = look.style == CurveStyle::Points || look.style == CurveStyle::LineAndPoints;
+  const double radius = std::max(1.8, look.width * 1.2);
+  const QRectF clip = painter.hasClipping() ? painter.clipBoundingRect()
+                                            : QRectF(-farAway, -farAway, 2 * farAway, 2 * farAway);
+  const double reach = std::max(radius, look.width) + 2.0;
+  const double left = clip.left() - reach, right = clip.right() + reach;
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.setBrush(Qt::NoBrush);
   if (look.style != CurveStyle::Points || !trace.exact) {
     painter.setPen(QPen(look.color, look.thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap,
                         Qt::BevelJoin));
-    if (look.thin && !trace.exact) {
-      paintColumns(painter, lines, look.color);
-    } else {
-      for (const QPolygonF& line : lines) paintLine(painter, line, look.thin);
+    QList<QRectF> rects;
+    for (const QPolygonF& line : lines) {
+      if (!look.thin) {
+        paintWide(painter, line, left, right);
+        continue;
+      }
+      const Stretch part = visiblePart(line, left, right);
+      if (!trace.exact) paintColumns(painter, part, rects);
+      else painter.drawPolyline(part.data(), static_cast<int>(part.size()));
     }
+    if (!rects.isEmpty()) paintRects(painter, rects, look.color);
   }
   const double distance = trace.samples.empty()
                               ? 0.0
                               : (time.right - time.left) / double(trace.samples.size());
   painter.setPen(Qt::NoPen);
   painter.setBrush(look.color);
-  const double radius = std::max(1.8, look.width * 1.2);
   for (const QPolygonF& line : lines) {
     const bool lonely = line.size() == 1;
     if (!lonely && !(dots && trace.exact)) continue;
     if (!lonely && look.style == CurveStyle::LineAndPoints && distance < dotDistance) continue;
-    for (const QPointF& at : line) painter.drawEllipse(at, radius, radius);
+    for (const QPointF& at : visiblePart(line, left, right)) {
+      painter.drawEllipse(at, radius, radius);
+    }
   }
 }
 

@@ -76,7 +76,9 @@ struct TraceLook {
 };
 /// Points of all curves of a plot from which lines are thin.
 inline constexpr std::size_t manyPoints = 2500;
-void paintTrace(QPainter& painter, const CurveTrace& trace, const TimeScale& time,
-                const ValueScale& values, const TraceLook& look);
+/// `lines`: polylines() of the trace. Only what lies in the painter's clip is painted, so parts of one
+/// picture can be painted side by side. `time` is for the distance of dots. Any thread.
+void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QPolygonF>& lines,
+                const TimeScale& time, const TraceLook& look);
 
 }  // namespace pitchboard::ui

@@ -9,11 +9,14 @@
 #include <QPainter>
 #include <QResizeEvent>
 #include <QValueAxis>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <ui/theme.h>
 
 #include "shell/robot_words.h"
+#include "side_by_side.h"
 
 namespace pitchboard::ui {
 
@@ -32,17 +35,16 @@ class ValueChart::Layer : public QGraphicsItem {
       return;
     }
     const double ratio = painter->device()->devicePixelRatioF();
-    if (stale || !qFuzzyCompare(picture.devicePixelRatio(), ratio)) {
-      const QSize size = (area.size() * ratio).toSize();
-      if (picture.size() != size) picture = QImage(size, QImage::Format_ARGB32_Premultiplied);
-      picture.setDevicePixelRatio(ratio);
-      picture.fill(Qt::transparent);
-      QPainter inner(&picture);
-      inner.translate(-area.topLeft());
-      curves(inner);
+    const QSize size = (area.size() * ratio).toSize();
+    if (size.isEmpty()) return;
+    if (stale || ratio != paintedRatio) {
+      paintParts(size, ratio);
+      paintedRatio = ratio;
       stale = false;
     }
-    painter->drawImage(area.topLeft(), picture);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      painter->drawImage(area.topLeft() + QPointF(leftOf(i, size) / ratio, 0.0), parts[i]);
+    }
   }
 
   void setArea(const QRectF& to) {
@@ -53,10 +55,37 @@ class ValueChart::Layer : public QGraphicsItem {
 
   QRectF area;
   Painter curves;
+  Painting painting = Painting::Whole;
   bool stale = true;
 
  private:
-  QImage picture;
+  // Parts stand side by side. They are narrow so that one stays in a core's cache while it is painted.
+  static constexpr int partWidth = 120;   // px
+
+  int leftOf(std::size_t part, const QSize& size) const {
+    return static_cast<int>(static_cast<std::size_t>(size.width()) * part / parts.size());
+  }
+  void paintParts(const QSize& size, double ratio) {
+    const int wanted = painting == Painting::Whole ? 1 : std::max(1, size.width() / partWidth);
+    parts.resize(static_cast<std::size_t>(wanted));
+    sideBySide(wanted, [&](int number) {
+      const auto i = static_cast<std::size_t>(number);
+      const int left = leftOf(i, size);
+      const QSize own(leftOf(i + 1, size) - left, size.height());
+      QImage& part = parts[i];
+      if (part.size() != own) part = QImage(own, QImage::Format_ARGB32_Premultiplied);
+      part.setDevicePixelRatio(ratio);
+      part.fill(Qt::transparent);
+      const QPointF from = area.topLeft() + QPointF(left / ratio, 0.0);
+      QPainter inner(&part);
+      inner.translate(-from);
+      inner.setClipRect(QRectF(from, QSizeF(own) / ratio));
+      curves(inner);
+    });
+  }
+
+  std::vector<QImage> parts;
+  double paintedRatio = 0.0;
 };
 
 ValueChart::ValueChart(QWidget* parent)
@@ -173,8 +202,9 @@ int ValueChart::wantedLeft() const {
   return widest + scaled(this, 10) + title;
 }
 
-void ValueChart::setCurvePainter(Painter painter) {
+void ValueChart::setCurvePainter(Painter painter, Painting painting) {
   m_layer->curves = std::move(painter);
+  m_layer->painting = painting;
   redraw();
 }
 

@@ -19,6 +19,9 @@ class ValueChart : public QChartView {
   Q_OBJECT
  public:
   using Painter = std::function<void(QPainter&)>;
+  /// Parts: the painter is called on several threads at once, each with a clip of its own, and paints
+  /// what lies in that; the chart's thread waits meanwhile.
+  enum class Painting { Whole, Parts };
 
   explicit ValueChart(QWidget* parent = nullptr);
 
@@ -35,7 +38,7 @@ class ValueChart : public QChartView {
   /// Room for the numbers of the y axis and its title, px.
   int wantedLeft() const;
 
-  void setCurvePainter(Painter painter);
+  void setCurvePainter(Painter painter, Painting painting = Painting::Whole);
   /// The curves have changed: paint them anew at the next opportunity.
   void redraw();
   void applyTheme();
