@@ -6,13 +6,13 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "blackboard_target.h"
+#include "interrupt.h"
 
 namespace pitchboard::cli {
 
@@ -77,8 +77,6 @@ int wordIndex(const Variable& variable) {
 }
 
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
 
 std::uint32_t wordOf(const Words& words, const Variable& variable) {
   return words[static_cast<std::size_t>(wordIndex(variable))];
@@ -223,10 +221,7 @@ Result<void> watch(WatchOptions& options) {
   const auto opened = SystemVSegments::info(board->key());
   if (!opened) return tl::unexpected(opened.error());
 
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  const InterruptGuard signals;
 
   Words before{};
   board->copyWords(before);
@@ -235,7 +230,7 @@ Result<void> watch(WatchOptions& options) {
   const auto end = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
                                             std::chrono::duration<double>(options.duration));
   auto nextCheck = SteadyClock::now();
-  for (long long printed = 0; interrupted == 0;) {
+  for (long long printed = 0; !interrupted;) {
     Words now{};
     board->copyWords(now);
     for (const Variable& variable : *variables) {

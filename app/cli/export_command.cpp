@@ -32,6 +32,10 @@ int run(const Options& options) {
   if (*format == ExportFormat::Mcap && options.output.empty()) {
     return reportError({ErrorCode::InvalidArgument, "A session needs a file; add -o FILE.", {}});
   }
+  ExportSelection selection;
+  selection.range.begin = options.from.value_or(selection.range.begin);
+  selection.range.end = options.to.value_or(selection.range.end);
+  if (const auto good = checkRange(selection.range); !good) return reportError(good.error());
   const InterruptGuard signals;
   Progress progress("exporting", options.progress);
   McapReaderOptions reading;
@@ -39,15 +43,10 @@ int run(const Options& options) {
   const auto session = SessionReader::open(options.file, reading);
   if (!session) return reportError(session.error());
   if (asReport) {
-    const SessionRange all{-1e300, 1e300};
-    const auto done = exportReport(*session, {options.from.value_or(all.begin),
-                                              options.to.value_or(all.end)}, options.output);
+    const auto done = exportReport(*session, selection.range, options.output);
     for (const std::string& note : session->notes()) std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
   }
-  ExportSelection selection;
-  selection.range.begin = options.from.value_or(selection.range.begin);
-  selection.range.end = options.to.value_or(selection.range.end);
   selection.robots = options.robots;
   selection.variables = options.variables;
   selection.messages = !options.rowsOnly;

@@ -5,6 +5,7 @@
 
 #include <telemetry/datagram.h>
 #include <telemetry/gamecontroller.h>
+#include <telemetry/referee_json.h>
 #include <telemetry/text_decoder.h>
 
 #include <nlohmann/json.hpp>
@@ -20,8 +21,6 @@ Json telemetryJson(const telemetry::TextDecoder& decoder, const telemetry::Decod
 std::string telemetryLine(const telemetry::TextDecoder& decoder,
                           const telemetry::DecodedText& message, std::string_view datagram);
 
-/// The names of tests/data/gamecontroller (docs/LIVE.md lists them).
-Json refereeJson(const telemetry::RefereePacket& packet);
 std::string refereeLine(const telemetry::RefereePacket& packet);
 
 /// Text of any bytes: what is not UTF-8 is replaced.

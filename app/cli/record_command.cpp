@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/match_recorder.h>
-#include <telemetry/gamecontroller.h>
-#include <telemetry/live_rows.h>
+#include <robotlink/live_recorder.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "commands.h"
 #include "interrupt.h"
 #include "listen_options.h"
-#include "live_json.h"
 #include "progress.h"
 
 namespace pitchboard::cli {
@@ -21,7 +19,7 @@ using namespace telemetry;
 using Clock = std::chrono::steady_clock;
 
 constexpr double defaultDuration = 60.0;  // s simulated
-constexpr auto reportInterval = std::chrono::milliseconds(250);
+constexpr auto pollInterval = std::chrono::milliseconds(20);
 constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
 
 struct Options {
@@ -32,13 +30,11 @@ struct Options {
   ListenOptions network;
 };
 
-int ended(SessionWriter& writer) {
-  const auto finished = writer.finish();
-  const SessionStatus status = writer.status();
+int ended(const std::string& path, const SessionStatus& status, const Result<void>& finished) {
   if (!finished) {
     return reportError({finished.error().code, status.problem, finished.error().context});
   }
-  std::printf("%s: %.3f s, %llu rows, %llu messages, %.3f MB", writer.path().c_str(), status.seconds,
+  std::printf("%s: %.3f s, %llu rows, %llu messages, %.3f MB", path.c_str(), status.seconds,
               static_cast<unsigned long long>(status.rows),
               static_cast<unsigned long long>(status.messages), static_cast<double>(status.bytes) / 1e6);
   if (status.dropped > 0) {
@@ -76,6 +72,7 @@ int recordMatch(const Options& options) {
   const std::shared_ptr<SessionWriter> writer = std::move(*created);
   link::attachMatch(*writer, match->scenario(), link::VariableCatalog::published());
   link::MatchRecorder recorder(writer);
+  Result<void> finished;
   {
     Progress progress("recording", options.progress);
     recorder.ticked(*match, {});
@@ -87,87 +84,56 @@ int recordMatch(const Options& options) {
       recorder.ticked(*match, spent);
       progress.say(statusText(writer->status()));
     }
-    (void)recorder.finish();   // its error is told below
+    finished = recorder.finish();
   }
-  return ended(*writer);
+  return ended(writer->path(), writer->status(), finished);
 }
-
-/// What arrives, as rows and as it came.
-class LiveRecorder {
- public:
-  LiveRecorder(std::shared_ptr<SessionWriter> writer, ListenSetup setup, WallTime zero, int refereePort)
-      : m_writer(std::move(writer)),
-        m_monitor(std::move(setup.profile), std::move(setup.monitor)),
-        m_rows(m_writer, {zero, {}}),
-        m_zero(zero),
-        m_refereePort(static_cast<std::uint16_t>(refereePort)) {}
-
-  void take(const DatagramBatch& batch) {
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const DatagramView datagram = batch[i];
-      const double time = std::chrono::duration<double>(datagram.time - m_zero).count();
-      const bool referee = datagram.localPort == m_refereePort;
-      if (!m_monitor.options().senders.allows(datagram.sender.address)) continue;
-      m_writer->append(referee ? SessionStream::RefereeRaw : SessionStream::Telemetry,
-                       {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
-      if (referee) {
-        if (const auto packet = decodeReferee(datagram.payload)) {
-          Json json = refereeJson(*packet);
-          json["time"] = time;
-          m_writer->appendJson(SessionStream::Referee, time, dump(json));
-        }
-      } else if (m_monitor.take(datagram) == TeamMonitor::Verdict::Used) {
-        m_rows.take(datagram, m_monitor.decoded(), m_monitor.decoder());
-      }
-    }
-  }
-
-  void report() { m_rows.report(m_monitor.status(wallNow())); }
-
- private:
-  std::shared_ptr<SessionWriter> m_writer;
-  TeamMonitor m_monitor;
-  LiveRows m_rows;
-  WallTime m_zero;
-  std::uint16_t m_refereePort;
-};
 
 int recordLive(const Options& options) {
   auto setup = listenSetup(options.network);
   if (!setup) return reportError(setup.error());
-  auto network = UdpReceiver::start(setup->receiver);
-  if (!network) return reportError(network.error());
-  SessionInfo info;
-  info.program = program;
-  info.source = "live";
-  info.title = "live";
-  info.start = info.created = wallNow();
-  auto created = SessionWriter::create(options.output, info);
-  if (!created) return reportError(created.error());
-  const std::shared_ptr<SessionWriter> writer = std::move(*created);
-  LiveRecorder recorder(writer, std::move(*setup), info.start, options.network.refereePort);
+  link::LiveOptions live;
+  live.bind = setup->receiver.bind;
+  live.portBase = options.network.portBase;
+  live.robots = options.network.robots;
+  live.refereePort = options.network.refereePort;
+  live.profile = std::move(setup->profile);
+  live.team.senders = std::move(setup->monitor.senders);
+  link::LiveWatch watch(live);
+  link::LiveDetails details = watch.details();
+  for (; details.network.ports.empty(); details = watch.details()) {
+    if (!details.networkProblem.empty()) {
+      return reportError({ErrorCode::SystemError, details.networkProblem, {}});
+    }
+    std::this_thread::sleep_for(pollInterval);
+  }
+  const auto& ports = details.network.ports;
+  if (std::none_of(ports.begin(), ports.end(), [](const PortStatus& port) { return port.bound; })) {
+    return reportError({ErrorCode::SystemError, ports.front().problem, {}});
+  }
+  link::RecorderOptions recording;
+  recording.program = program;
+  const auto recorder = link::LiveRecorder::create(options.output, live, watch.began(), recording);
+  if (!recorder) return reportError(recorder.error());
+  watch.observe(*recorder);
   sayListening(options.network);
   {
     Progress progress("recording", options.progress);
     std::map<std::size_t, std::string> told;
-    DatagramBatch batch;
     const auto begin = Clock::now();
-    auto nextReport = begin;
-    while (!interrupted && writer->status().recording) {
-      const auto now = Clock::now();
-      if (options.duration && now - begin >= std::chrono::duration<double>(*options.duration)) break;
-      if (now >= nextReport) {
-        reportPorts((*network)->status(), told);
-        recorder.report();
-        nextReport = now + reportInterval;
-      }
-      if ((*network)->take(batch, std::chrono::milliseconds(50))) recorder.take(batch);
-      progress.say(statusText(writer->status()));
+    const auto isOver = [&] {
+      return options.duration &&
+             Clock::now() - begin >= std::chrono::duration<double>(*options.duration);
+    };
+    while (!interrupted && !isOver() && (*recorder)->status().recording) {
+      reportPorts(watch.details().network, told);
+      progress.say(statusText((*recorder)->status()));
+      std::this_thread::sleep_for(pollInterval);
     }
-    (*network)->stop();
-    if ((*network)->take(batch)) recorder.take(batch);
   }
-  return ended(*writer);
+  watch.stopObserving(*recorder);
+  const auto finished = (*recorder)->finish();
+  return ended((*recorder)->path(), (*recorder)->status(), finished);
 }
 
 int run(Options& options) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +15,7 @@
 #include <robotlink/simulated_match.h>
 
 #include "commands.h"
+#include "interrupt.h"
 #include "output_file.h"
 #include "simulate_report.h"
 #include "trace_writer.h"
@@ -31,16 +30,6 @@ constexpr double defaultDuration = 60.0;   // s simulated
 constexpr auto longestBatch = 10ms;
 constexpr auto pollInterval = 50ms;
 constexpr auto progressInterval = 500ms;
-
-std::atomic<bool> interrupted{false};
-
-void onSignal(int) { interrupted = true; }
-
-void handleSignals() {
-  struct sigaction action {};
-  action.sa_handler = onSignal;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
-}
 
 struct Arguments {
   std::string scenario = "match-3v3";
@@ -266,7 +255,7 @@ Result<void> simulate(const Arguments& arguments) {
   options.keyBase = arguments.keyBase;
   options.robotProgram = arguments.robotProgram.empty() ? besideThisProgram("pitchboard-robot")
                                                         : arguments.robotProgram;
-  handleSignals();
+  const InterruptGuard signals;
   auto match = link::SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());
   if (recorded) {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include <telemetry/referee_json.h>
+
 namespace pitchboard::link {
 namespace {
 
@@ -29,25 +31,26 @@ bool flag(const Json& object, const char* key, bool fallback = false) {
 
 }  // namespace
 
-std::string refereeToJson(const RefereeView& r, double time) {
-  Json json{{"time", time},
-            {"version", r.version},
-            {"sender", r.sender},
-            {"stateName", r.state},
-            {"setPlayName", r.setPlay},
-            {"gamePhaseName", r.phase},
-            {"firstHalf", r.firstHalf},
-            {"stopped", r.stopped ? 1 : 0},
-            {"secsRemaining", r.secondsLeft},
-            {"ourTeam", r.ourTeam}};
+std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& r,
+                          double time) {
+  Json json{{"time", time}};
+  json.update(telemetry::refereeJson(packet));
+  json.update(Json{{"version", r.version},
+                   {"sender", r.sender},
+                   {"stateName", r.state},
+                   {"setPlayName", r.setPlay},
+                   {"gamePhaseName", r.phase},
+                   {"firstHalf", r.firstHalf},
+                   {"stopped", r.stopped ? 1 : 0},
+                   {"secsRemaining", r.secondsLeft},
+                   {"ourTeam", r.ourTeam}});
   if (r.secondaryTime) json["secondaryTime"] = *r.secondaryTime;
   if (r.kickOffTeam) json["kickOffTeamNumber"] = *r.kickOffTeam;
-  json["teams"] = Json::array();
-  for (const RefereeTeamView& team : r.teams) {
-    json["teams"].push_back({{"number", team.number},
-                             {"colourName", team.colour},
-                             {"score", team.score},
-                             {"playersLeft", team.playersLeft}});
+  for (std::size_t i = 0; i < r.teams.size(); ++i) {
+    json["teams"][i].update(Json{{"number", r.teams[i].number},
+                                 {"colourName", r.teams[i].colour},
+                                 {"score", r.teams[i].score},
+                                 {"playersLeft", r.teams[i].playersLeft}});
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -99,12 +102,13 @@ Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& pa
   auto writer = telemetry::SessionWriter::create(path, info, options.writer);
   if (!writer) return tl::unexpected(writer.error());
   (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
-  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero));
+  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero, live.refereePort));
 }
 
-LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero)
+LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
+                           int refereePort)
     : m_writer(std::move(writer)),
-      m_zero(zero),
+      m_refereePort(refereePort),
       m_rows(m_writer, {zero, {}}) {}
 
 LiveRecorder::~LiveRecorder() = default;
@@ -114,15 +118,21 @@ void LiveRecorder::heard(RobotId /*id*/, double time, const telemetry::DatagramV
                          const telemetry::DecodedText& decoded) {
   m_writer->append(telemetry::SessionStream::Telemetry,
                    {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
-  const std::lock_guard lock(m_mutex);
   m_rows.take(datagram, decoded, decoder);
 }
 
 void LiveRecorder::refereeHeard(double time, const telemetry::DatagramView& datagram,
-                                const telemetry::RefereeState& /*state*/) {
+                                const telemetry::RefereeState& state) {
   m_writer->append(telemetry::SessionStream::RefereeRaw,
                    {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
-  m_refereeNews = true;
+  m_refereeNews = state;
+}
+
+void LiveRecorder::unusedHeard(double time, const telemetry::DatagramView& datagram) {
+  const bool ofRobot = datagram.localPort != m_refereePort &&
+                       datagram.localPort != telemetry::robotStatesPort;
+  m_writer->append(ofRobot ? telemetry::SessionStream::Telemetry : telemetry::SessionStream::RefereeRaw,
+                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
 }
 
 void LiveRecorder::happened(const sim::Event& event, double time) {
@@ -136,16 +146,17 @@ void LiveRecorder::logged(const LogLine& line) {
 }
 
 void LiveRecorder::frameMade(const MatchFrame& frame) {
-  if (!frame.referee || !std::exchange(m_refereeNews, false)) return;
+  const auto news = std::exchange(m_refereeNews, std::nullopt);
+  if (!frame.referee || !news) return;
   const double time = frame.snapshot.time;
-  m_writer->appendJson(telemetry::SessionStream::Referee, time, refereeToJson(*frame.referee, time));
+  m_writer->appendJson(telemetry::SessionStream::Referee, time,
+                       refereeToJson(*news, *frame.referee, time));
   if (std::exchange(m_refereeState, frame.referee->state) != frame.referee->state) {
     m_writer->append(telemetry::SessionEvent{time, "referee", {}, "referee: " + frame.referee->state});
   }
 }
 
-void LiveRecorder::report(const telemetry::TeamStatus& team) {
-  const std::lock_guard lock(m_mutex);
+void LiveRecorder::reported(const telemetry::TeamStatus& team) {
   m_rows.report(team);
 }
 

@@ -108,6 +108,7 @@ struct LiveWatch::Impl {
   void takeReferee(const DatagramView& datagram) {
     if (!options.team.senders.allows(datagram.sender.address)) return;
     const auto packet = telemetry::decodeReferee(datagram.payload);
+    if (!packet || !std::holds_alternative<RefereeState>(*packet)) unused(datagram);
     if (!packet) {
       ++unknownReferee;
       unknownReason = packet.error().message;
@@ -124,6 +125,12 @@ struct LiveWatch::Impl {
     }
   }
 
+  void unused(const DatagramView& datagram) {
+    for (const auto& observer : observers) {
+      observer->unusedHeard(arrival(datagram.time), datagram);
+    }
+  }
+
   void takeAll(const DatagramBatch& batch) {
     const std::lock_guard lock(mutex);
     for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -131,7 +138,13 @@ struct LiveWatch::Impl {
       if (datagram.localPort == options.refereePort ||
           (options.monitor && datagram.localPort == telemetry::robotStatesPort)) {
         takeReferee(datagram);
-      } else if (monitor.take(datagram) == TeamMonitor::Verdict::Used && !observers.empty()) {
+        continue;
+      }
+      const auto verdict = monitor.take(datagram);
+      if (observers.empty() || verdict == TeamMonitor::Verdict::SenderRefused) continue;
+      if (verdict != TeamMonitor::Verdict::Used) {
+        unused(datagram);
+      } else {
         const RobotId id = identities.idOf(monitor.decoded().robot, monitor.usedSerial());
         for (const auto& observer : observers) {
           observer->heard(id, arrival(datagram.time), datagram, monitor.decoder(),

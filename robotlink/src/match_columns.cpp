@@ -19,6 +19,14 @@ using telemetry::ColumnType;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double centimetres = 100.0;
 
+// What a session keeps of values that nothing is entered again from (that is done from checkpoints,
+// which keep every bit), or that follow from columns that are kept in full.
+constexpr double derived = 1.0 / 256;        // 0.04 mm, 0.004°
+constexpr double speed_mps = 1.0 / (1 << 17);   // 8 µm/s
+constexpr double place_m = 1.0 / (1 << 17);     // 8 µm
+constexpr double angle_deg = 1.0 / (1 << 12);   // 0.0002°
+constexpr double microseconds = 1.0 / 8;
+
 /// What the columns of a robot are computed from.
 struct Robot {
   const sim::Snapshot& snapshot;
@@ -33,6 +41,7 @@ struct RobotColumn {
   const char *name, *unit, *heading;
   double (*read)(const Robot&);
   ColumnKind kind = ColumnKind::Number;
+  double resolution = 0.0;
 };
 
 double beliefError(const Robot& r, double (*error)(const Pose& belief, const Pose& truth)) {
@@ -47,9 +56,12 @@ const std::array robotColumns{
     RobotColumn{"TRUE_YAW", "°", truth,
                 [](const Robot& r) { return degreesFromRadians(r.truth.pose.yaw); }},
     RobotColumn{"HEAD_YAW", "°", truth,
-                [](const Robot& r) { return degreesFromRadians(r.truth.headYaw); }},
-    RobotColumn{"VX", "m/s", truth, [](const Robot& r) { return r.truth.velocity.x; }},
-    RobotColumn{"VY", "m/s", truth, [](const Robot& r) { return r.truth.velocity.y; }},
+                [](const Robot& r) { return degreesFromRadians(r.truth.headYaw); },
+                ColumnKind::Number, angle_deg},
+    RobotColumn{"VX", "m/s", truth, [](const Robot& r) { return r.truth.velocity.x; },
+                ColumnKind::Number, speed_mps},
+    RobotColumn{"VY", "m/s", truth, [](const Robot& r) { return r.truth.velocity.y; },
+                ColumnKind::Number, speed_mps},
     RobotColumn{"ACTION", "", truth, [](const Robot& r) { return double(r.truth.action); },
                 ColumnKind::Enumeration},
     RobotColumn{"FALLEN", "", truth, [](const Robot& r) { return r.truth.fallen ? 1.0 : 0.0; },
@@ -63,16 +75,21 @@ const std::array robotColumns{
     RobotColumn{"LAST_UNKNOWN_ACTION", "", truth,
                 [](const Robot& r) { return double(r.truth.statistics.lastUnknownAction); }},
     RobotColumn{"TRUE_BALL_DIST", "cm", truth,
-                [](const Robot& r) { return r.trueBallDistance * centimetres; }},
+                [](const Robot& r) { return r.trueBallDistance * centimetres; },
+                ColumnKind::Number, derived},
     RobotColumn{"TRUE_BALL_ANGLE", "°", truth,
-                [](const Robot& r) { return degreesFromRadians(r.trueBallBearing); }},
+                [](const Robot& r) { return degreesFromRadians(r.trueBallBearing); },
+                ColumnKind::Number, derived},
 
     RobotColumn{"BELIEF_X", "m", belief,
-                [](const Robot& r) { return r.belief ? r.belief->position.x : unknown; }},
+                [](const Robot& r) { return r.belief ? r.belief->position.x : unknown; },
+                ColumnKind::Number, place_m},
     RobotColumn{"BELIEF_Y", "m", belief,
-                [](const Robot& r) { return r.belief ? r.belief->position.y : unknown; }},
+                [](const Robot& r) { return r.belief ? r.belief->position.y : unknown; },
+                ColumnKind::Number, place_m},
     RobotColumn{"BELIEF_YAW", "°", belief,
-                [](const Robot& r) { return r.belief ? degreesFromRadians(r.belief->yaw) : unknown; }},
+                [](const Robot& r) { return r.belief ? degreesFromRadians(r.belief->yaw) : unknown; },
+                ColumnKind::Number, angle_deg},
 
     RobotColumn{"BELIEF_ERROR", "cm", errors,
                 [](const Robot& r) {
@@ -80,13 +97,15 @@ const std::array robotColumns{
                     return centimetres * std::hypot(b.position.x - t.position.x,
                                                     b.position.y - t.position.y);
                   });
-                }},
+                },
+                ColumnKind::Number, derived},
     RobotColumn{"BELIEF_ERROR_YAW", "°", errors,
                 [](const Robot& r) {
                   return beliefError(r, [](const Pose& b, const Pose& t) {
                     return degreesFromRadians(wrapToPi(b.yaw - t.yaw));
                   });
-                }},
+                },
+                ColumnKind::Number, derived},
     // Between the ball as seen from the true pose and the true ball: vision's own error.
     RobotColumn{"BALL_ERROR", "cm", errors,
                 [](const Robot& r) {
@@ -95,23 +114,27 @@ const std::array robotColumns{
                   return centimetres *
                          std::hypot(r.seenBallDistance * std::cos(across) - r.trueBallDistance,
                                     r.seenBallDistance * std::sin(across));
-                }},
+                },
+                ColumnKind::Number, derived},
     RobotColumn{"BALL_DIST_ERROR", "cm", errors,
                 [](const Robot& r) {
                   return r.ballSeen ? centimetres * (r.seenBallDistance - r.trueBallDistance)
                                     : unknown;
-                }},
+                },
+                ColumnKind::Number, derived},
     RobotColumn{"BALL_ANGLE_ERROR", "°", errors,
                 [](const Robot& r) {
                   return r.ballSeen
                              ? degreesFromRadians(wrapToPi(r.seenBallBearing - r.trueBallBearing))
                              : unknown;
-                }}};
+                },
+                ColumnKind::Number, derived}};
 
 struct MatchColumn {
   const char *name, *unit, *heading;
   double (*read)(const sim::Snapshot&);
   ColumnKind kind = ColumnKind::Number;
+  double resolution = 0.0;
 };
 
 constexpr const char *game = "Match", *timing = "Timing";
@@ -120,8 +143,10 @@ const std::array theMatchColumns{
     MatchColumn{"TICK", "", timing, [](const sim::Snapshot& s) { return double(s.tick); }},
     MatchColumn{"BALL_X", "m", truth, [](const sim::Snapshot& s) { return s.ball.x; }},
     MatchColumn{"BALL_Y", "m", truth, [](const sim::Snapshot& s) { return s.ball.y; }},
-    MatchColumn{"BALL_VX", "m/s", truth, [](const sim::Snapshot& s) { return s.ballVelocity.x; }},
-    MatchColumn{"BALL_VY", "m/s", truth, [](const sim::Snapshot& s) { return s.ballVelocity.y; }},
+    MatchColumn{"BALL_VX", "m/s", truth, [](const sim::Snapshot& s) { return s.ballVelocity.x; },
+                ColumnKind::Number, speed_mps},
+    MatchColumn{"BALL_VY", "m/s", truth, [](const sim::Snapshot& s) { return s.ballVelocity.y; },
+                ColumnKind::Number, speed_mps},
     MatchColumn{"CLOCK", "s", game, [](const sim::Snapshot& s) { return s.clock; }},
     MatchColumn{"CLOCK_RUNNING", "", game,
                 [](const sim::Snapshot& s) { return s.clockRunning ? 1.0 : 0.0; }, ColumnKind::Flag},
@@ -134,7 +159,8 @@ const std::array theMatchColumns{
 std::vector<ColumnInfo> truthColumns() {
   std::vector<ColumnInfo> out;
   for (const RobotColumn& column : robotColumns) {
-    out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {}});
+    out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {},
+                   column.resolution});
     if (column.kind == ColumnKind::Enumeration) out.back().labels = telemetry::actionLabels();
   }
   return out;
@@ -167,9 +193,11 @@ void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
 std::vector<ColumnInfo> matchColumns() {
   std::vector<ColumnInfo> out;
   for (const MatchColumn& column : theMatchColumns) {
-    out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {}});
+    out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {},
+                   column.resolution});
   }
-  out.push_back({"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {}});
+  out.push_back({"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {},
+                 microseconds});
   return out;
 }
 

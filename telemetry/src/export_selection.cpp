@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -52,8 +53,17 @@ std::string_view fileExtension(ExportFormat format) {
   return formats[static_cast<std::size_t>(format)].extension;
 }
 
+Result<void> checkRange(SessionRange range) {
+  if (range.begin <= range.end) return {};
+  char text[120];
+  std::snprintf(text, sizeof text, "The range ends before it begins: from %g s until %g s.", range.begin,
+                range.end);
+  return failure(ErrorCode::InvalidArgument, text);
+}
+
 Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session,
                                                     const ExportSelection& selection) {
+  if (const auto range = checkRange(selection.range); !range) return tl::unexpected(range.error());
   std::vector<SelectedGroup> out(session.groups().size());
   for (const std::string& robot : selection.robots) {
     bool found = false;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <base/result.h>
 #include <telemetry/mcap_records.h>
@@ -42,15 +43,26 @@ std::string rowTopic(const GroupInfo& group);
 std::string rowSchemaName(const GroupInfo& group);
 std::string rowSchema(const GroupInfo& group);
 
-/// Where the parts of a row stand in its bytes.
+/// A Float64 column that is kept as single precision.
+inline bool isSingle(const ColumnInfo& column) {
+  return column.type == ColumnType::Float64 && column.resolution > 0.0;
+}
+
+/// Where the parts of a row stand in its bytes: time, words, singles, doubles.
 struct RowLayout {
   std::size_t words = 0, values = 0;
   static constexpr std::size_t timeAt = 4, wordsAt = 12;
-  std::size_t valuesAt = 0, size = 0;
+  std::size_t singlesAt = 0, doublesAt = 0, size = 0;
+  struct Single {
+    std::size_t place;   ///< among the values
+    double resolution;
+  };
+  std::vector<Single> singles;
+  std::vector<std::size_t> doubles;   ///< places among the values
 
   RowLayout() = default;
   explicit RowLayout(const GroupInfo& group);
-  /// `to` has `size` bytes; a row that is too short is filled up with zeros.
+  /// `to` has `size` bytes; a row that is too short is filled up with zeros. Singles are rounded.
   void write(char* to, const RowView& row) const;
   /// False when the bytes are not a row of this layout. `words` and `values` are reused.
   bool read(std::string_view bytes, double& time, std::vector<std::uint32_t>& wordsOut,

@@ -156,6 +156,7 @@ std::string groupToJson(const GroupInfo& group) {
     if (column.kind != ColumnKind::Number) {
       json["kind"] = kindNames[static_cast<std::size_t>(column.kind)];
     }
+    if (isSingle(column)) json["resolution"] = column.resolution;
     for (const auto& [code, word] : column.labels) json["labels"][std::to_string(code)] = word;
     columns.push_back(std::move(json));
   }
@@ -185,6 +186,10 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
     if (column.type != ColumnType::Float64 && !group.columns.empty() &&
         group.columns.back().type == ColumnType::Float64) {
       return std::nullopt;
+    }
+    if (entry.contains("resolution")) {
+      column.resolution = number(entry, "resolution").value_or(0.0);
+      if (!isSingle(column)) return std::nullopt;
     }
     column.unit = text(entry, "unit");
     column.heading = text(entry, "heading");

@@ -64,6 +64,12 @@ const char* typeName(ColumnType type) {
   return "float64";
 }
 
+/// NaN and infinity stay what they are.
+float rounded(double value, double resolution) {
+  const double whole = std::nearbyint(value / resolution) * resolution;
+  return static_cast<float>(std::isfinite(whole) ? whole : value);
+}
+
 }  // namespace
 
 std::vector<std::string> fieldNames(const GroupInfo& group) {
@@ -93,32 +99,53 @@ std::string rowSchemaName(const GroupInfo& group) {
 
 std::string rowSchema(const GroupInfo& group) {
   const std::vector<std::string> names = fieldNames(group);
-  std::string out = "float64 source_time  # seconds of the source\n";
+  std::string words, singles, doubles;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    out += std::string(typeName(group.columns[i].type)) + " " + names[i] + "  # " +
-           comment(group.columns[i]) + "\n";
+    const ColumnInfo& column = group.columns[i];
+    const bool single = isSingle(column);
+    std::string& part = column.type != ColumnType::Float64 ? words : single ? singles : doubles;
+    part += std::string(typeName(single ? ColumnType::Float32 : column.type)) + " " + names[i] +
+            "  # " + comment(column) + "\n";
   }
-  return out;
+  return "float64 source_time  # seconds of the source\n" + words + singles + doubles;
 }
 
 RowLayout::RowLayout(const GroupInfo& group) {
   for (const ColumnInfo& column : group.columns) {
-    ++(column.type == ColumnType::Float64 ? values : words);
+    if (column.type != ColumnType::Float64) {
+      ++words;
+    } else if (const std::size_t place = values++; isSingle(column)) {
+      singles.push_back({place, column.resolution});
+    } else {
+      doubles.push_back(place);
+    }
   }
+  singlesAt = wordsAt + words * 4;
   // CDR aligns 8-byte numbers to 8, counted from behind the 4 bytes of the head.
-  valuesAt = wordsAt + words * 4 + (values > 0 && words % 2 == 1 ? 4 : 0);
-  size = valuesAt + values * 8;
+  const bool odd = (words + singles.size()) % 2 == 1;
+  doublesAt = singlesAt + singles.size() * 4 + (odd && !doubles.empty() ? 4 : 0);
+  size = doublesAt + doubles.size() * 8;
 }
 
 void RowLayout::write(char* to, const RowView& row) const {
   std::memcpy(to, littleEndianCdr.data(), littleEndianCdr.size());
   std::memcpy(to + timeAt, &row.time, 8);
   const std::size_t wordCount = std::min(words, row.words.size());
-  const std::size_t valueCount = std::min(values, row.values.size());
   if (wordCount > 0) std::memcpy(to + wordsAt, row.words.data(), wordCount * 4);
-  std::memset(to + wordsAt + wordCount * 4, 0, valuesAt - wordsAt - wordCount * 4);
-  if (valueCount > 0) std::memcpy(to + valuesAt, row.values.data(), valueCount * 8);
-  std::memset(to + valuesAt + valueCount * 8, 0, (values - valueCount) * 8);
+  std::memset(to + wordsAt + wordCount * 4, 0, size - wordsAt - wordCount * 4);
+  char* single = to + singlesAt;
+  for (const auto& [place, resolution] : singles) {
+    if (place >= row.values.size()) break;
+    const float value = rounded(row.values[place], resolution);
+    std::memcpy(single, &value, 4);
+    single += 4;
+  }
+  char* number = to + doublesAt;
+  for (const std::size_t place : doubles) {
+    if (place >= row.values.size()) break;
+    std::memcpy(number, &row.values[place], 8);
+    number += 8;
+  }
 }
 
 bool RowLayout::read(std::string_view bytes, double& time, std::vector<std::uint32_t>& wordsOut,
@@ -131,7 +158,18 @@ bool RowLayout::read(std::string_view bytes, double& time, std::vector<std::uint
   valuesOut.resize(values);
   std::memcpy(&time, bytes.data() + timeAt, 8);
   if (words > 0) std::memcpy(wordsOut.data(), bytes.data() + wordsAt, words * 4);
-  if (values > 0) std::memcpy(valuesOut.data(), bytes.data() + valuesAt, values * 8);
+  const char* single = bytes.data() + singlesAt;
+  for (const Single& one : singles) {
+    float value = 0.0F;
+    std::memcpy(&value, single, 4);
+    valuesOut[one.place] = static_cast<double>(value);
+    single += 4;
+  }
+  const char* number = bytes.data() + doublesAt;
+  for (const std::size_t place : doubles) {
+    std::memcpy(&valuesOut[place], number, 8);
+    number += 8;
+  }
   return std::isfinite(time);
 }
 

@@ -6,7 +6,7 @@
 // waits for the disk (SessionWriter).
 
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <string>
 
 #include <robotlink/live_watch.h>
@@ -15,9 +15,10 @@
 
 namespace pitchboard::link {
 
-/// How the referee stands in a session: one JSON object with "time" and what RefereeView has, under
-/// the names of docs/LIVE.md; what `pitchboard-cli record --live` writes is read too.
-std::string refereeToJson(const RefereeView& referee, double time);
+/// How the referee stands in a session: one JSON object with "time", the packet (names: docs/LIVE.md)
+/// and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft", ...).
+std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& referee,
+                          double time);
 /// Nothing when the text is not of that form; what is missing stays at its default.
 std::optional<RefereeView> refereeFromJson(std::string_view json);
 
@@ -36,13 +37,13 @@ class LiveRecorder : public LiveObserver {
              const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
   void refereeHeard(double time, const telemetry::DatagramView& datagram,
                     const telemetry::RefereeState& state) override;
+  void unusedHeard(double time, const telemetry::DatagramView& datagram) override;
   void happened(const sim::Event& event, double time) override;
   void logged(const LogLine& line) override;
+  void reported(const telemetry::TeamStatus& team) override;
   void frameMade(const MatchFrame& frame) override;
 
   // Any thread.
-  /// A few times a second: how well the robots are heard (LiveWatch::details().team).
-  void report(const telemetry::TeamStatus& team);
   telemetry::SessionStatus status() const { return m_writer->status(); }
   const std::string& path() const { return m_writer->path(); }
   void append(const telemetry::SessionEvent& event) { m_writer->append(event); }
@@ -50,13 +51,13 @@ class LiveRecorder : public LiveObserver {
   Result<void> finish() { return m_writer->finish(); }
 
  private:
-  LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero);
+  LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
+               int refereePort);
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
-  const telemetry::WallTime m_zero;
-  std::mutex m_mutex;                 // guards m_rows
+  const int m_refereePort;
   telemetry::LiveRows m_rows;
-  bool m_refereeNews = false;
+  std::optional<telemetry::RefereeState> m_refereeNews;   // not in a frame yet
   std::string m_refereeState;         // as last recorded, for events
 };
 

@@ -67,6 +67,8 @@ class LiveObserver {
                      const telemetry::TextDecoder&, const telemetry::DecodedText&) {}
   virtual void refereeHeard(double /*time*/, const telemetry::DatagramView&,
                             const telemetry::RefereeState&) {}
+  /// A datagram of an allowed sender that was not used: it could not be decoded, or is no state.
+  virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
   virtual void happened(const sim::Event&, double /*time*/) {}
   virtual void logged(const LogLine&) {}
   /// How everybody is heard, a few times a second.

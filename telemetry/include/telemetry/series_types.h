@@ -33,6 +33,9 @@ struct ColumnInfo {
   std::string heading;   ///< "Vision", "Truth": where lists put it
   ColumnKind kind = ColumnKind::Number;
   std::map<std::int32_t, std::string> labels;  ///< words for codes: 1 → "walk forward, fast"
+  /// Of a Float64 column: what is worth keeping of its values, a power of two. A session file keeps
+  /// them as single precision, rounded to it. 0: every bit.
+  double resolution = 0.0;
   bool operator==(const ColumnInfo&) const = default;
 };
 

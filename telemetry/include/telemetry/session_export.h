@@ -42,7 +42,9 @@ struct ExportReport {
 /// Part done, 0 to 1; false stops.
 using ExportProgress = std::function<bool(double)>;
 
-/// Error NotFound when a robot or a variable is not in the session.
+/// Error InvalidArgument when it ends before it begins.
+Result<void> checkRange(SessionRange range);
+/// Error NotFound when a robot or a variable is not in the session; also as checkRange().
 Result<void> checkSelection(const SessionReader& session, const ExportSelection& selection);
 
 /// Text formats into a sink that takes some 100 kB at a time; when it says false the export ends with

@@ -120,7 +120,6 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
                   [recorder] { return recorder->status(); },
                   [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
                   [this, recorder] { m_controller->stopObserving(recorder); },
-                  {},
                   [recorder] { return recorder->finish(); }};
 }
 
@@ -138,7 +137,6 @@ Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& p
                   [recorder] { return recorder->status(); },
                   [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
                   [this, recorder] { m_live->stopObserving(recorder); },
-                  [this, recorder] { recorder->report(m_live->details().team); },
                   [recorder] { return recorder->finish(); }};
 }
 
@@ -191,7 +189,6 @@ telemetry::SessionStatus SessionRecording::status() const {
 
 void SessionRecording::checkHealth() {
   if (!m_recorder) return;
-  if (m_recorder->refresh) m_recorder->refresh();
   QString problem = QString::fromStdString(m_recorder->status().problem);
   // A file that was removed goes on being written, to nowhere.
   if (problem.isEmpty() && !QFile::exists(m_path)) {

@@ -65,7 +65,6 @@ class SessionRecording : public QObject {
     std::function<telemetry::SessionStatus()> status;
     std::function<void(const telemetry::SessionEvent&)> append;
     std::function<void()> detach;           ///< nothing reaches it any more
-    std::function<void()> refresh;          ///< twice a second; may be empty
     std::function<Result<void>()> finish;   ///< any thread, once detached
   };
   Result<Recorder> recordMatch(const QString& path);

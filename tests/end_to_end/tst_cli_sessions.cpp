@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// record, inspect, export and repair as people run them; what comes out is compared with the rows
+// that the session holds.
+#include <QtTest>
+
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <map>
+
+#include <telemetry/session_reader.h>
+
+#include "../telemetry/test_socket.h"
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+
+namespace {
+
+const QString program = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
+constexpr SessionRange always{-1e9, 1e9};
+
+struct Run {
+  int exitCode = -1;
+  QByteArray out, err;
+};
+
+Run cli(const QStringList& arguments) {
+  QProcess process;
+  process.start(program, arguments);
+  if (!process.waitForFinished(120'000)) return {};
+  return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
+          process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+QByteArray contents(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+/// A float is written with as few digits as give its 32 bits back.
+bool same(double a, double b) {
+  if (const auto single = static_cast<float>(b); double(single) == b) return static_cast<float>(a) == single;
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+/// As the exports write numbers; nan for what is none.
+double numberOf(const QByteArray& text) { return std::strtod(text.constData(), nullptr); }
+
+double valueOf(const GroupInfo& info, const RowView& row, std::size_t column) {
+  std::size_t words = 0, values = 0;
+  for (std::size_t i = 0; i < column; ++i) {
+    ++(info.columns[i].type == ColumnType::Float64 ? values : words);
+  }
+  switch (info.columns[column].type) {
+    case ColumnType::Int32: return std::bit_cast<std::int32_t>(row.words[words]);
+    case ColumnType::Float32: return double(std::bit_cast<float>(row.words[words]));
+    case ColumnType::Float64: break;
+  }
+  return row.values[values];
+}
+
+std::size_t columnOf(const GroupInfo& info, const std::string& name) {
+  for (std::size_t i = 0; i < info.columns.size(); ++i) {
+    if (info.columns[i].name == name) return i;
+  }
+  qFatal("there is no column %s", name.c_str());
+}
+
+/// By time, robot and variable.
+using Values = std::map<std::tuple<double, std::string, std::string>, double>;
+
+Values valuesOf(const QString& path, SessionRange range, const std::vector<std::string>& robots = {},
+                const std::vector<std::string>& variables = {}) {
+  Values out;
+  const auto session = SessionReader::open(path.toStdString());
+  if (!session) return out;
+  const auto wanted = [](const std::vector<std::string>& names, const std::string& name) {
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  };
+  session->rows(range, {}, [&](GroupId id, const RowView& row) {
+    const GroupInfo& info = session->groups()[id].info;
+    if (!wanted(robots, info.name)) return true;
+    for (std::size_t i = 0; i < info.columns.size(); ++i) {
+      if (!wanted(variables, info.columns[i].name)) continue;
+      out[{row.time, info.name, info.columns[i].name}] = valueOf(info, row, i);
+    }
+    return true;
+  });
+  return out;
+}
+
+void compare(const Values& found, const Values& wanted) {
+  QCOMPARE(found.size(), wanted.size());
+  for (auto a = found.begin(), b = wanted.begin(); a != found.end(); ++a, ++b) {
+    const auto& [time, robot, name] = b->first;
+    QVERIFY2(a->first == b->first && same(a->second, b->second),
+             qPrintable(QString("%1 s %2.%3: %4, not %5").arg(time).arg(robot.c_str(), name.c_str())
+                            .arg(a->second).arg(b->second)));
+  }
+}
+
+}  // namespace
+
+class TestCliSessions : public QObject {
+  Q_OBJECT
+  QTemporaryDir m_folder;
+  QString m_session;
+  int m_files = 0;
+
+  QString newPath(const char* ending) { return m_folder.filePath(QString::number(++m_files) + ending); }
+
+ private slots:
+  void initTestCase() {
+    m_session = m_folder.filePath("match.mcap");
+    const Run run = cli({"record", "--scenario", "match-3v3", "--duration", "10", "--noise", "realistic",
+                         "--seed", "7", "-o", m_session});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY2(run.out.contains("10.000 s, 4207 rows"), run.out.constData());
+  }
+
+  void inspectSaysWhatIsInIt() {
+    const Run run = cli({"inspect", m_session, "--json", "--events", "--check"});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const QJsonObject json = QJsonDocument::fromJson(run.out).object();
+    const auto session = SessionReader::open(m_session.toStdString());
+    QVERIFY(json["complete"].toBool());
+    QCOMPARE(json["source"].toString(), QStringLiteral("simulation"));
+    QCOMPARE(json["seed"].toInt(), 7);
+    QCOMPARE(json["from"].toDouble(), 0.0);
+    QVERIFY(std::abs(json["until"].toDouble() - 10.0) < 1e-6);
+    QCOMPARE(json["bytes"].toInteger(), QFileInfo(m_session).size());
+    const QJsonArray groups = json["groups"].toArray();
+    QCOMPARE(groups.size(), 7);
+    for (const QJsonValue& group : groups) QCOMPARE(group["rows"].toInt(), 601);
+    QCOMPARE(json["events"].toArray().size(), static_cast<qsizetype>(session->events().size()));
+    QVERIFY(json["messages"]["checkpoints"].toInt() >= 10);
+    QCOMPARE(json["attachments"].toArray().size(), 2);
+    QVERIFY(json["notes"].toArray().isEmpty());
+  }
+
+  void wideCsvHasEveryValue() {
+    const QString path = newPath(".csv");
+    const Run run = cli({"export", m_session, "--to", "csv-wide", "-o", path});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    Values found;
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const QByteArray& line : contents(path).split('\n')) {
+      const QList<QByteArray> cells = line.split(',');
+      if (names.empty()) {
+        for (const QByteArray& cell : cells) {
+          const auto dot = cell.indexOf('.');
+          names.emplace_back(cell.left(dot).toStdString(), cell.mid(dot + 1).toStdString());
+        }
+        continue;
+      }
+      if (line.isEmpty()) continue;
+      QCOMPARE(cells.size(), static_cast<qsizetype>(names.size()));
+      for (qsizetype i = 1; i < cells.size(); ++i) {
+        const auto& [robot, name] = names[static_cast<std::size_t>(i)];
+        if (!cells[i].isEmpty()) found[{numberOf(cells[0]), robot, name}] = numberOf(cells[i]);
+      }
+    }
+    compare(found, valuesOf(m_session, always));
+  }
+
+  void longCsvHasWhatWasAskedFor() {
+    const QString path = newPath(".csv");
+    const Run run = cli({"export", m_session, "--to", "csv-long", "--robots", "B1,R2", "--variables",
+                         "TRUE_X,VISION_BALL_DIST,BELIEF_ERROR", "--from", "2", "--until", "5", "-o", path});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    Values found;
+    const QList<QByteArray> lines = contents(path).split('\n');
+    QCOMPARE(lines.first(), QByteArray("time,robot,variable,value"));
+    for (const QByteArray& line : lines.mid(1)) {
+      const QList<QByteArray> cells = line.split(',');
+      if (cells.size() == 4) {
+        found[{numberOf(cells[0]), cells[1].toStdString(), cells[2].toStdString()}] = numberOf(cells[3]);
+      }
+    }
+    QCOMPARE(found.size(), std::size_t{181 * 2 * 3});
+    compare(found, valuesOf(m_session, {2, 5}, {"B1", "R2"}, {"TRUE_X", "VISION_BALL_DIST", "BELIEF_ERROR"}));
+  }
+
+  void jsonLinesHaveRowsAndMessages() {
+    const Run run = cli({"export", m_session, "--to", "jsonl", "--robots", "match", "--until", "4"});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    Values found;
+    int events = 0;
+    for (const QByteArray& line : run.out.split('\n')) {
+      if (line.isEmpty()) continue;
+      const QJsonObject json = QJsonDocument::fromJson(line).object();
+      QVERIFY2(json["time"].isDouble(), line.constData());
+      if (json["stream"] == "events") ++events;
+      const QJsonObject values = json["values"].toObject();
+      for (auto value = values.begin(); value != values.end(); ++value) {
+        found[{json["time"].toDouble(), json["robot"].toString().toStdString(),
+               value.key().toStdString()}] = value->isNull() ? std::nan("") : value->toDouble();
+      }
+    }
+    compare(found, valuesOf(m_session, {-1, 4}, {"match"}));
+    const auto all = SessionReader::open(m_session.toStdString())->events();
+    QCOMPARE(events, static_cast<int>(std::count_if(all.begin(), all.end(), [](const auto& event) {
+      return event.time <= 4.0;
+    })));
+  }
+
+  void aClipIsASession() {
+    const QString path = newPath(".mcap");
+    const Run run = cli({"export", m_session, "--to", "mcap", "--from", "3", "--until", "6", "--robots",
+                         "B2,match", "-o", path});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    compare(valuesOf(path, always), valuesOf(m_session, {3, 6}, {"B2", "match"}));
+    QCOMPARE(cli({"inspect", path, "--check"}).exitCode, 0);
+  }
+
+  void aCutFileIsRepaired() {
+    const QString broken = newPath(".mcap"), whole = newPath(".mcap");
+    const QByteArray bytes = contents(m_session);
+    QFile file(broken);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes.left(bytes.size() * 7 / 10)) > 0);
+    file.close();
+    const Run look = cli({"inspect", broken});
+    QCOMPARE(look.exitCode, 1);
+    QVERIFY2(look.out.contains("pitchboard-cli repair"), look.out.constData());
+    const Run run = cli({"repair", broken, whole});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QCOMPARE(contents(broken).size(), bytes.size() * 7 / 10);
+    QCOMPARE(cli({"inspect", whole, "--check"}).exitCode, 0);
+    const Values kept = valuesOf(whole, always);
+    QVERIFY(kept.size() > 1000);
+    compare(kept, valuesOf(m_session, {-1, std::get<0>(kept.rbegin()->first)}));
+    QCOMPARE(cli({"repair", broken, whole}).exitCode, 2);
+  }
+
+  void liveRobotsAreRecorded() {
+    TestSocket robot;
+    int base = 0, referee = 0;
+    {
+      const TestSocket first, second;
+      base = first.port() - 1;
+      referee = second.port() == base + 2 ? base + 3 : second.port();
+    }
+    const QString path = newPath(".mcap");
+    QProcess process;
+    process.start(program, {"record", "--live", "--bind", "127.0.0.1", "--robots", "2", "--port-base",
+                            QString::number(base), "--gamecontroller-port", QString::number(referee),
+                            "-o", path});
+    QByteArray err;
+    QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"), 10'000);
+    const auto robotPort = static_cast<std::uint16_t>(base + 1);
+    const auto refereePort = static_cast<std::uint16_t>(referee);
+    const QByteArray packet = contents(QStringLiteral(PITCHBOARD_TEST_DATA) +
+                                       QStringLiteral("/gamecontroller/v11hl592_FINISHED.bin"));
+    QVERIFY(!packet.isEmpty());
+    for (int i = 0; i < 40; ++i) {
+      const std::string text = "1 " + std::to_string(400 + i) + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT";
+      QVERIFY(robot.send(robotPort, text));
+      QTest::qWait(5);
+    }
+    QVERIFY(robot.send(robotPort, "hello\xff there"));
+    QVERIFY(robot.send(refereePort, std::string_view(packet.constData(), std::size_t(packet.size()))));
+    QVERIFY(robot.send(refereePort, "no packet"));
+    // A chunk is on the disk after a second: seen from outside while it goes on.
+    QTRY_VERIFY_WITH_TIMEOUT([&] {
+      const auto session = SessionReader::open(path.toStdString());
+      return session && session->count(SessionStream::Telemetry) == 41 &&
+             session->count(SessionStream::RefereeRaw) == 2;
+    }(), 5000);
+    process.terminate();
+    QVERIFY(process.waitForFinished(10'000));
+    err += process.readAllStandardError();
+    QVERIFY2(process.exitCode() == 0, err.constData());
+
+    const auto session = SessionReader::open(path.toStdString());
+    QVERIFY(session && session->complete() && session->notes().empty());
+    QCOMPARE(session->info().source, std::string("live"));
+    QCOMPARE(session->groups().size(), std::size_t{1});
+    const GroupInfo& info = session->groups()[0].info;
+    std::vector<double> places;
+    session->rows(always, {}, [&](GroupId, const RowView& row) {
+      const double x = valueOf(info, row, columnOf(info, "X"));
+      if (places.empty() || places.back() != x) places.push_back(x);
+      return true;
+    });
+    QCOMPARE(places.size(), std::size_t{40});
+    QCOMPARE(places.front(), 400.0);
+    QCOMPARE(places.back(), 439.0);
+    std::vector<std::string> payloads;
+    session->messages(SessionStream::Telemetry, always, [&](double, std::string_view json) {
+      if (const auto datagram = sessionDatagram(json)) payloads.push_back(datagram->payload);
+      return true;
+    });
+    QCOMPARE(payloads.size(), std::size_t{41});
+    QCOMPARE(payloads.back(), std::string("hello\xff there"));
+    QByteArray state;
+    session->messages(SessionStream::Referee, always, [&](double, std::string_view json) {
+      state = QByteArray(json.data(), qsizetype(json.size()));
+      return true;
+    });
+    const QJsonObject referees = QJsonDocument::fromJson(state).object();
+    QVERIFY2(!referees["stateName"].toString().isEmpty(), state.constData());
+    QVERIFY(referees["teams"][0]["players"].isArray() && referees["teams"][1].toObject().contains("playersLeft"));
+    QVERIFY(!session->attachment("profile.json")->empty());
+  }
+
+  void badRequestsAreSentences_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("words");
+    const QString nowhere = m_folder.filePath("nowhere.mcap"), there = m_session;
+    const QString fresh = m_folder.filePath("fresh"), text = m_folder.filePath("text.mcap");
+    QFile file(text);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write("time,robot\n1,2\n") > 0);
+    for (const char* command : {"inspect", "export"}) {
+      QTest::addRow("%s: no file", command) << QStringList{command, nowhere} << "nowhere.mcap";
+      QTest::addRow("%s: no session", command) << QStringList{command, text} << "text.mcap";
+      QTest::addRow("%s: a folder", command) << QStringList{command, m_folder.path()} << m_folder.path();
+    }
+    QTest::newRow("repair: no file") << QStringList{"repair", nowhere, fresh} << "nowhere.mcap";
+    QTest::newRow("repair: over a file") << QStringList{"repair", there, there} << there;
+    QTest::newRow("record: over a file") << QStringList{"record", "-o", there} << there;
+    QTest::newRow("record: no folder") << QStringList{"record", "-o", "/no/such/x.mcap"} << "/no/such";
+    QTest::newRow("record: no scenario") << QStringList{"record", "--scenario", "chess", "-o", fresh} << "chess";
+    QTest::newRow("record: no duration") << QStringList{"record", "--duration", "-1", "-o", fresh} << "duration";
+    QTest::newRow("record live: over a file")
+        << QStringList{"record", "--live", "--bind", "127.0.0.1", "--robots", "1", "--port-base", "40501",
+                       "--gamecontroller-port", "40511", "-o", there} << there;
+    QTest::newRow("record live: no address") << QStringList{"record", "--live", "--bind", "home", "-o", fresh} << "home";
+    QTest::newRow("record live: foreign address")
+        << QStringList{"record", "--live", "--bind", "192.0.2.1", "-o", fresh} << "192.0.2.1";
+    QTest::newRow("export: over a file") << QStringList{"export", there, "-o", there} << there;
+    QTest::newRow("export: no robot") << QStringList{"export", there, "--robots", "B9"} << "B9";
+    QTest::newRow("export: no variable") << QStringList{"export", there, "--variables", "NOTHING_*"} << "NOTHING_*";
+    QTest::newRow("export: backwards") << QStringList{"export", there, "--from", "6", "--until", "3"} << "before";
+    QTest::newRow("report: backwards")
+        << QStringList{"export", there, "--to", "report", "--from", "6", "--until", "3", "-o", fresh} << "before";
+    QTest::newRow("export: no form") << QStringList{"export", there, "--to", "xls"} << "xls";
+    QTest::newRow("export: clip to nowhere") << QStringList{"export", there, "--to", "mcap"} << "-o FILE";
+  }
+  void badRequestsAreSentences() {
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, words);
+    const QByteArray before = contents(m_session);
+    const Run run = cli(arguments);
+    QVERIFY2(run.exitCode == 2, run.out.left(200) + run.err);
+    const QList<QByteArray> lines = run.err.trimmed().split('\n');
+    QVERIFY2(lines[0].startsWith("error: ") && lines[0].contains(words.toUtf8()), run.err.constData());
+    QVERIFY2(lines.size() == 1 || (lines.size() == 2 && lines[1].startsWith("Run with --help")),
+             run.err.constData());
+    QVERIFY(contents(m_session) == before);
+    QVERIFY(!QFile::exists(m_folder.filePath("fresh")));
+  }
+
+  void anInterruptedRecordingIsWhole() {
+    const QString path = newPath(".mcap");
+    QProcess process;
+    process.start(program, {"record", "--duration", "1e8", "-o", path});
+    QTRY_VERIFY_WITH_TIMEOUT(QFileInfo(path).size() > 1'000'000, 20'000);
+    ::kill(static_cast<pid_t>(process.processId()), SIGINT);
+    QVERIFY(process.waitForFinished(20'000));
+    QCOMPARE(process.exitCode(), 0);
+    QCOMPARE(cli({"inspect", path}).exitCode, 0);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestCliSessions)
+#include "tst_cli_sessions.moc"
