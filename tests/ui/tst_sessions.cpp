@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recording, looking back and replay in the window: real files of a real match.
+#include <QGraphicsView>
+#include <QMenu>
 #include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
@@ -8,12 +10,15 @@
 #include <QToolButton>
 #include <QtTest>
 
+#include <field/compared_item.h>
+#include <session/compared_session.h>
 #include <session/session_files.h>
 #include <session/session_recording.h>
 #include <shell/notice_bar.h>
 #include <telemetry/session_reader.h>
 #include <timeline/playback.h>
 #include <timeline/timeline.h>
+#include <timeline/timeline_strip.h>
 #include <ui/field_view.h>
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
@@ -55,18 +60,27 @@ class TestSessions : public QObject {
       return window.findChild<QAction*>(QLatin1String(name));
     }
     QString notice() const { return window.notices()->text(); }
-    /// Records the next `ticks` of the match; the file.
+    /// Records the next `ticks` of the match, with a bookmark; the file.
     QString recorded(std::uint64_t ticks) {
       QSignalSpy saved(window.recording(), &SessionRecording::saved);
       QTest::mouseClick(record(), Qt::LeftButton, {}, {8, 8});
       const std::uint64_t to = controller.frame()->snapshot.tick + ticks;
       controller.runTo(to);
       if (!QTest::qWaitFor([this, to] { return played(to); }, 20'000)) return {};
+      window.timeline()->addBookmark(QStringLiteral("recorded"));
       QTest::mouseClick(record(), Qt::LeftButton, {}, {8, 8});
       if (!QTest::qWaitFor([&saved] { return saved.size() == 1; }, 20'000)) return {};
       return saved.at(0).at(0).toString();
     }
   };
+
+  static int ghostsOf(FieldView* field) {
+    const auto* view = field->findChild<QGraphicsView*>();
+    for (QGraphicsItem* item : view->scene()->items()) {
+      if (const auto* compared = dynamic_cast<ComparedItem*>(item)) return compared->robots();
+    }
+    return -1;
+  }
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
@@ -271,6 +285,84 @@ class TestSessions : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(opened.size(), 2, 20'000);
     QVERIFY(!s.window.replay()->isBroken());
     QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
+  }
+
+  void aSecondSessionIsCompared() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QVERIFY(!path.isEmpty());
+    ComparedSession* compared = s.window.compared();
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    QVERIFY(!s.action("stopComparing")->isEnabled());
+    const auto ghosts = [&s] { return ghostsOf(s.window.field()); };
+    QSignalSpy changed(compared, &ComparedSession::changed);
+    // In Simulate: the match has gone on to where the session begins, and on.
+    compared->open(path);
+    QTRY_COMPARE(changed.size(), 1);
+    QVERIFY(!s.window.timeline()->isRecording());
+    QVERIFY(strip->comparedRect().isValid());
+    s.window.timeline()->seek(12.0);
+    QTRY_COMPARE(ghosts(), 6);
+    s.window.timeline()->seek(2.0);
+    QTRY_COMPARE(ghosts(), 0);
+    // By events: what stands at 11 s there stands at 3 s here.
+    compared->alignThere(11.0);
+    QCOMPARE(compared->offset(), 0.0);
+    compared->alignHere(3.0);
+    QCOMPARE(compared->offset(), -8.0);
+    QVERIFY2(compared->caption().contains(QStringLiteral("8.00 s")), qPrintable(compared->caption()));
+    QTRY_COMPARE(ghosts(), 6);
+    // In Replay, of itself: ghosts stand where the robots stand.
+    compared->alignByTime();
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    s.window.timeline()->seek(11.0);
+    QTRY_COMPARE(ghosts(), 6);
+    // In Live there is nothing at these times; nothing breaks.
+    s.window.showSource(SourceKind::Live);
+    QVERIFY(compared->isOn());
+    s.window.showSource(SourceKind::Replay);
+    QVERIFY(s.action("stopComparing")->isEnabled());
+    s.action("stopComparing")->trigger();
+    QCOMPARE(ghosts(), 0);
+    QVERIFY(!compared->isOn());
+    QVERIFY(!strip->comparedRect().isValid());
+  }
+
+  void eventsOfTheTimelineAreAlignedFromItsMenu() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QSignalSpy changed(s.window.compared(), &ComparedSession::changed);
+    s.window.compared()->open(path);
+    QTRY_COMPARE(changed.size(), 1);
+    s.window.timeline()->seek(2.0);
+    s.window.timeline()->addBookmark(QStringLiteral("mine"));
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    const auto align = [&](QPoint at) {
+      bool found = false;
+      QTimer::singleShot(0, &s.window, [&found] {
+        auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+        if (menu == nullptr) return;
+        if (auto* action = menu->findChild<QAction*>(QStringLiteral("alignHere"))) {
+          found = true;
+          action->trigger();
+        }
+        menu->close();
+      });
+      QContextMenuEvent event(QContextMenuEvent::Mouse, at, strip->mapToGlobal(at));
+      QApplication::sendEvent(strip, &event);
+      return found;
+    };
+    QVERIFY(align({qRound(strip->axis().pixel(2.0)), 13}));
+    QVERIFY(s.window.compared()->here());
+    const double here = *s.window.compared()->here();
+    const auto theirs = strip->comparedMarks();
+    QVERIFY(!theirs.empty());
+    QVERIFY(align({qRound(theirs.front().x), strip->comparedRect().center().y()}));
+    QVERIFY(s.window.compared()->there());
+    QCOMPARE(s.window.compared()->offset(), here - *s.window.compared()->there());
   }
 
   void aDroppedFileOpens() {

@@ -324,7 +324,7 @@ class TestTimeline : public QObject {
     EventList other;
     other.add({5, EventType::Goal, QStringLiteral("RED"), {}});
     const int before = b.strip->sizeHint().height();
-    b.strip->setCompared(&other, 20.0);
+    b.strip->setCompared(&other, 20.0, QStringLiteral("other"));
     QVERIFY(b.strip->sizeHint().height() > before);
     const QImage with = b.strip->grab().toImage();
     other.clear();

@@ -35,6 +35,8 @@ class FieldView : public QWidget {
   void showFrame(const FramePtr& frame);
   /// Another source's view of the same robots, drawn beside them with the difference; null: none.
   void showOther(const FramePtr& frame);
+  /// A moment of another session, drawn over this one; null: none.
+  void showCompared(const FramePtr& frame);
 
   std::vector<RobotId> selection() const;
   void select(const std::vector<RobotId>& ids);

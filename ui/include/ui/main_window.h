@@ -21,6 +21,7 @@ struct Scenario;
 
 namespace pitchboard::ui {
 
+class ComparedSession;
 class FieldView;
 class LinkedTime;
 class LiveController;
@@ -52,6 +53,7 @@ class MainWindow : public QMainWindow {
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
   SessionFiles* sessions() const { return m_sessions; }
+  ComparedSession* compared() const { return m_compared; }
   SessionRecording* recording() const { return m_recording; }
   ReplayController* replay() const { return m_replay; }
   LiveController* live() const { return m_live; }
@@ -95,6 +97,7 @@ class MainWindow : public QMainWindow {
   TimelineActions* m_timelineActions;
   FieldView* m_field;
   LiveOverlay* m_overlay;
+  ComparedSession* m_compared;
   QAction* m_overlayAction = nullptr;   // of the View menu
   NoticeBar* m_notices;
   TransportBar* m_bar;

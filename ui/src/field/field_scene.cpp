@@ -9,6 +9,7 @@
 
 #include "ball_item.h"
 #include "belief_item.h"
+#include "compared_item.h"
 #include "live_items.h"
 #include "overlay_items.h"
 #include "pose_difference.h"
@@ -100,6 +101,7 @@ FieldScene::FieldScene(QObject* parent)
     : QGraphicsScene(parent),
       m_ball(new BallItem(&m_style)),
       m_teamBall(new TeamBallItem(&m_style)),
+      m_compared(new ComparedItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
       m_ruler(new RulerItem(&m_style)),
@@ -108,6 +110,7 @@ FieldScene::FieldScene(QObject* parent)
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {{m_ball, ballHeight},
                                                      {m_teamBall, ballHeight},
+                                                     {m_compared, beliefHeight},
                                                      {m_eopra, sectorHeight},
                                                      {m_starVars, sectorHeight},
                                                      {m_ruler, toolHeight},
@@ -132,6 +135,7 @@ void FieldScene::styleChanged() {
     robot->path.styleChanges();
   }
   m_teamBall->styleChanges();
+  m_compared->styleChanges();
   m_ball->styleChanges();
   m_eopra->styleChanges();
   m_starVars->styleChanges();
@@ -240,6 +244,8 @@ void FieldScene::showOther(const FramePtr& frame) {
   m_other = frame;
   if (m_frame) showFrame(m_frame);
 }
+
+void FieldScene::showCompared(const FramePtr& frame) { m_compared->setFrame(frame); }
 
 void FieldScene::showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown) {
   const auto difference =

@@ -17,6 +17,7 @@ namespace pitchboard::ui {
 
 class BallItem;
 class BeliefItem;
+class ComparedItem;
 class OtherPoseItem;
 class RobotItem;
 class RubberBandItem;
@@ -51,6 +52,8 @@ class FieldScene : public QGraphicsScene {
   const FramePtr& frame() const { return m_frame; }
   /// Another source's view of the same robots, drawn beside this one's; null: none.
   void showOther(const FramePtr& frame);
+  /// A moment of another session, drawn over this one; null: none.
+  void showCompared(const FramePtr& frame);
 
   const std::vector<RobotId>& selection() const { return m_selection; }
   /// Robots that are not there are left out.
@@ -94,6 +97,7 @@ class FieldScene : public QGraphicsScene {
   std::optional<RobotId> m_followed;
   BallItem* m_ball;
   TeamBallItem* m_teamBall;
+  ComparedItem* m_compared;
   SectorItem* m_eopra;
   SectorItem* m_starVars;
   RulerItem* m_ruler;

@@ -394,6 +394,7 @@ void FieldView::showFrame(const FramePtr& frame) {
 }
 
 void FieldView::showOther(const FramePtr& frame) { d->scene->showOther(frame); }
+void FieldView::showCompared(const FramePtr& frame) { d->scene->showCompared(frame); }
 
 std::vector<RobotId> FieldView::selection() const { return d->scene->selection(); }
 void FieldView::select(const std::vector<RobotId>& ids) { d->scene->select(ids); }

@@ -71,9 +71,12 @@ SessionFiles::~SessionFiles() {
 void SessionFiles::open(const QString& path) { m_replay->open(path); }
 
 void SessionFiles::askAndOpen() {
-  const QString path = QFileDialog::getOpenFileName(m_window, tr("Open session"), {},
-                                                    tr("Sessions (*.mcap);;All files (*)"));
+  const QString path = askForFile(tr("Open session"));
   if (!path.isEmpty()) open(path);
+}
+
+QString SessionFiles::askForFile(const QString& title) {
+  return QFileDialog::getOpenFileName(m_window, title, {}, tr("Sessions (*.mcap);;All files (*)"));
 }
 
 void SessionFiles::repair(const QString& path) {

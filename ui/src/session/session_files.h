@@ -30,6 +30,8 @@ class SessionFiles : public QObject {
   /// Shows Replay once the file is open.
   void open(const QString& path);
   void askAndOpen();
+  /// Empty when no file was chosen.
+  QString askForFile(const QString& title);
   /// Into a new file beside it, which is opened.
   void repair(const QString& path);
   /// The moment shown as a scenario that is played from there: the mode becomes Simulate.

@@ -13,6 +13,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class ComparedSession;
 class FieldView;
 class LinkedTime;
 class LiveController;
@@ -42,6 +43,7 @@ struct StudioContext {
   SessionRecording* recording = nullptr;
   LiveController* live = nullptr;         ///< listens once it was asked to
   LiveOverlay* overlay = nullptr;         ///< the other source drawn beside the shown one
+  ComparedSession* compared = nullptr;    ///< a second session drawn over the shown one
 };
 
 struct DockInfo {

@@ -30,6 +30,7 @@
 #include "scenario_chooser.h"
 #include "source_switch.h"
 #include "status_bar.h"
+#include "session/compared_session.h"
 #include "session/export_dialog.h"
 #include "session/session_files.h"
 #include "session/session_recording.h"
@@ -74,6 +75,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_notices = new NoticeBar(centre);
   m_field = new FieldView(m_source, controller, centre);
   m_overlay = new LiveOverlay(controller, m_live, m_source, m_field, this);
+  m_compared = new ComparedSession(m_timeline, m_field, this);
+  connect(m_compared, &ComparedSession::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
   column->addWidget(m_notices);
   column->addWidget(m_field, 1);
   setCentralWidget(centre);
@@ -125,7 +129,7 @@ MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
   return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
-          m_timelineActions, m_replay, m_recording, m_live, m_overlay};
+          m_timelineActions, m_replay, m_recording, m_live, m_overlay, m_compared};
 }
 
 void MainWindow::openSession(const QString& path) { m_sessions->open(path); }

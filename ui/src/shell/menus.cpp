@@ -23,6 +23,7 @@
 #include "plots/plots_dock.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
+#include "session/compared_session.h"
 #include "session/session_files.h"
 #include "session/session_recording.h"
 #include "source_switch.h"
@@ -216,6 +217,24 @@ void StudioMenus::makeTimeline() {
   QObject::connect(timeline, &Timeline::lookingBackChanged, goOn, refresh);
   QObject::connect(timeline, &Timeline::sourceChanged, goOn, refresh);
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
+  menu->addSeparator();
+  ComparedSession* compared = m_window.m_compared;
+  QAction* compare = menu->addAction(
+      QObject::tr("Co&mpare with session…"), sessions, [sessions, compared] {
+        const QString path = sessions->askForFile(QObject::tr("Compare with session"));
+        if (!path.isEmpty()) compared->open(path);
+      });
+  QAction* byTime = menu->addAction(QObject::tr("Align compared session by &time"), compared,
+                                    &ComparedSession::alignByTime);
+  QAction* stop = menu->addAction(QObject::tr("Stop c&omparing"), compared, &ComparedSession::stop);
+  compare->setObjectName(QStringLiteral("compareSession"));
+  stop->setObjectName(QStringLiteral("stopComparing"));
+  const auto showCompared = [byTime, stop, compared] {
+    stop->setEnabled(compared->isOn());
+    byTime->setEnabled(compared->isOn() && compared->offset() != 0.0);
+  };
+  QObject::connect(compared, &ComparedSession::changed, stop, showCompared);
+  showCompared();
   menu->addSeparator();
   SessionRecording* recording = m_window.m_recording;
   QAction* exportAction = menu->addAction(

@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QToolButton>
 
+#include <session/compared_session.h>
 #include <ui/theme.h>
 
 #include "timeline.h"
@@ -40,15 +41,38 @@ class TimelineDock : public QWidget {
     connect(m_timeline, &Timeline::sourceChanged, this, &TimelineDock::showLive);
     connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
             &TimelineStrip::editNote);
-    connect(m_strip, &TimelineStrip::menuRequested, this, [context](QPoint at, double) {
-      QMenu menu;
+    connect(m_strip, &TimelineStrip::menuRequested, this,
+            [this, context](QPoint at, const TimelineEvent* event, bool compared) {
+      QMenu menu(this);
+      menu.setObjectName(QStringLiteral("timelineMenu"));
+      addAlignment(&menu, context.compared, event, compared);
       context.timelineActions->fill(&menu);
       menu.exec(at);
+    });
+    connect(context.compared, &ComparedSession::changed, this, [this, compared = context.compared] {
+      m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
     });
     showLive();
   }
 
  private:
+  static void addAlignment(QMenu* menu, ComparedSession* session, const TimelineEvent* event,
+                           bool compared) {
+    if (!session->isOn()) return;
+    if (event != nullptr) {
+      const double time = event->time;
+      QAction* align = menu->addAction(tr("&Align at this event: %1").arg(sentenceOf(*event)), session,
+                                       [session, time, compared] {
+        if (compared) session->alignThere(time);
+        else session->alignHere(time);
+      });
+      align->setObjectName(QStringLiteral("alignHere"));
+    }
+    QAction* byTime = menu->addAction(tr("Align by &time"), session, &ComparedSession::alignByTime);
+    byTime->setEnabled(session->offset() != 0.0 || session->here() || session->there());
+    menu->addAction(tr("St&op comparing"), session, &ComparedSession::stop);
+    menu->addSeparator();
+  }
   void showLive() {
     m_live->setVisible(!m_timeline->isRecording());
     m_live->setChecked(!m_timeline->isLookingBack());

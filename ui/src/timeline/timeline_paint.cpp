@@ -129,14 +129,18 @@ void TimelineStrip::paintMarks(QPainter& painter) {
   row(marks(), m_timeline->events()->events(), scaled(this, 13),
       m_compared != nullptr ? marksRect().bottom() : stemEnd, 1.0);
   if (m_compared == nullptr) return;
-  TimeAxis moved = m_axis;
-  moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
   const QRect place = comparedRect();
   painter.setPen(QPen(theme().innerLine, 1));
   painter.drawLine(place.topLeft(), place.topRight());
-  row(layOutMarks(m_compared->events(), moved, {double(scaled(this, 10)), gap},
-                  QFontMetrics(small)),
-      m_compared->events(), place.center().y(), stemEnd, 0.75);
+  row(comparedMarks(), m_compared->events(), place.center().y(), stemEnd, 0.75);
+  const QFontMetrics metrics(small);
+  const QString caption =
+      metrics.elidedText(m_comparedCaption, Qt::ElideMiddle, place.width() / 3);
+  QRect room(0, 0, metrics.horizontalAdvance(caption) + scaled(this, 12), place.height() - 2);
+  room.moveTopRight(place.topRight() + QPoint(0, 1));
+  painter.fillRect(room, theme().window);
+  painter.setPen(theme().secondaryText);
+  painter.drawText(room, Qt::AlignRight | Qt::AlignVCenter, caption);
 }
 
 void TimelineStrip::paintMoment(QPainter& painter) const {

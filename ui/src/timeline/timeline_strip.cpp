@@ -3,7 +3,6 @@
 
 #include <QContextMenuEvent>
 #include <QHelpEvent>
-#include <QLineEdit>
 #include <QMouseEvent>
 #include <QToolTip>
 #include <algorithm>
@@ -55,13 +54,14 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
 
 TimelineStrip::~TimelineStrip() = default;
 
-void TimelineStrip::setCompared(const EventList* events, double offset) {
+void TimelineStrip::setCompared(const EventList* events, double offset, const QString& caption) {
   if (m_compared != nullptr) m_compared->disconnect(this);
   m_compared = events;
   m_comparedOffset = offset;
+  m_comparedCaption = caption;
   if (events != nullptr) {
     connect(events, &EventList::changed, this, qOverload<>(&QWidget::update));
-    connect(events, &QObject::destroyed, this, [this] { setCompared(nullptr, 0.0); });
+    connect(events, &QObject::destroyed, this, [this] { setCompared(nullptr, 0.0, {}); });
   }
   updateGeometry();
   update();
@@ -170,18 +170,30 @@ const std::vector<EventMark>& TimelineStrip::marks() {
   return m_marks;
 }
 
-const EventMark* TimelineStrip::markAt(QPointF at) {
-  if (!marksRect().contains(at.toPoint())) return nullptr;
-  const EventMark* nearest = nullptr;
+std::vector<EventMark> TimelineStrip::comparedMarks() const {
+  if (m_compared == nullptr) return {};
+  TimeAxis moved = m_axis;
+  moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
+  return layOutMarks(m_compared->events(), moved,
+                     {double(scaled(this, 10)), double(scaled(this, 9))},
+                     QFontMetrics(themeFont(TypeRole::Small)));
+}
+
+const EventMark* TimelineStrip::nearest(const std::vector<EventMark>& marks, double x) const {
+  const EventMark* found = nullptr;
   double distance = scaled(this, markReach);
-  for (const EventMark& mark : marks()) {
-    const double away = std::abs(mark.x - at.x());
+  for (const EventMark& mark : marks) {
+    const double away = std::abs(mark.x - x);
     if (away <= distance) {
       distance = away;
-      nearest = &mark;
+      found = &mark;
     }
   }
-  return nearest;
+  return found;
+}
+
+const EventMark* TimelineStrip::markAt(QPointF at) {
+  return marksRect().contains(at.toPoint()) ? nearest(marks(), at.x()) : nullptr;
 }
 
 TimelineStrip::Grab TimelineStrip::grabAt(QPointF at, Qt::KeyboardModifiers keys) const {
@@ -332,7 +344,19 @@ void TimelineStrip::keyPressEvent(QKeyEvent* event) {
 }
 
 void TimelineStrip::contextMenuEvent(QContextMenuEvent* event) {
-  emit menuRequested(event->globalPos(), m_axis.time(event->pos().x()));
+  const QPointF at = event->pos();
+  if (const EventMark* mark = markAt(at)) {
+    emit menuRequested(event->globalPos(), &m_timeline->events()->event(mark->row), false);
+    return;
+  }
+  if (comparedRect().contains(event->pos())) {
+    const std::vector<EventMark> all = comparedMarks();
+    if (const EventMark* mark = nearest(all, at.x())) {
+      emit menuRequested(event->globalPos(), &m_compared->event(mark->row), true);
+      return;
+    }
+  }
+  emit menuRequested(event->globalPos(), nullptr, false);
 }
 
 QString TimelineStrip::tipAt(QPointF at) {
@@ -359,46 +383,5 @@ bool TimelineStrip::event(QEvent* event) {
 }
 
 void TimelineStrip::resizeEvent(QResizeEvent*) { fitAxis(); }
-
-void TimelineStrip::editNote(int row) {
-  finishNote(true);
-  const EventList* list = m_timeline->events();
-  if (row < 0 || row >= list->rowCount()) return;
-  m_noteTime = list->event(row).time;
-  m_note = new QLineEdit(list->event(row).text, this);
-  m_note->setObjectName(QStringLiteral("bookmarkNote"));
-  m_note->setFont(themeFont(TypeRole::Secondary));
-  m_note->setMaxLength(EventList::maxNote);
-  m_note->setPlaceholderText(tr("Note, then Enter"));
-  const int wide = std::min(scaled(this, 200), width());
-  const int x = std::clamp(static_cast<int>(m_axis.pixel(m_noteTime)) + scaled(this, 8), 0,
-                           width() - wide);
-  m_note->setGeometry(x, 0, wide, scaled(this, 22));
-  m_note->show();
-  m_note->selectAll();
-  m_note->setFocus();
-  connect(m_note, &QLineEdit::editingFinished, this, [this] { finishNote(true); });
-  m_note->installEventFilter(this);
-}
-
-bool TimelineStrip::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == m_note && event->type() == QEvent::KeyPress &&
-      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-    finishNote(false);
-    return true;
-  }
-  return QWidget::eventFilter(watched, event);
-}
-
-void TimelineStrip::finishNote(bool keep) {
-  if (m_note == nullptr) return;
-  QLineEdit* note = std::exchange(m_note, nullptr);
-  note->removeEventFilter(this);
-  const bool hadFocus = note->hasFocus();
-  if (keep) m_timeline->setNote(m_noteTime, note->text());
-  note->hide();
-  note->deleteLater();
-  if (hadFocus) setFocus();
-}
 
 }  // namespace pitchboard::ui

@@ -27,8 +27,9 @@ class TimelineStrip : public QWidget {
   TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* parent = nullptr);
   ~TimelineStrip() override;
 
-  /// A second session's events in a row of their own; its second 0 stands at `offset`. Null: none.
-  void setCompared(const EventList* events, double offset);
+  /// A second session's events in a row of their own, under this caption; its second 0 stands at
+  /// `offset`. Null: none.
+  void setCompared(const EventList* events, double offset, const QString& caption);
 
   telemetry::TimeRange shown() const { return m_axis.shown; }
   /// Shows this much; ends following.
@@ -43,7 +44,9 @@ class TimelineStrip : public QWidget {
   // Where things are, for tests and for the menu.
   const TimeAxis& axis() const { return m_axis; }
   const std::vector<EventMark>& marks();
+  std::vector<EventMark> comparedMarks() const;
   QRect bandRect() const;
+  QRect comparedRect() const;   ///< empty while nothing is compared
   std::optional<QRectF> windowRect() const;
 
   QSize sizeHint() const override;
@@ -63,7 +66,8 @@ class TimelineStrip : public QWidget {
   void contextMenuEvent(QContextMenuEvent* event) override;
 
  signals:
-  void menuRequested(QPoint global, double time);
+  /// On this event, of the compared session or not; null: on none.
+  void menuRequested(QPoint global, const pitchboard::ui::TimelineEvent* event, bool compared);
 
  private:
   enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View };
@@ -71,11 +75,11 @@ class TimelineStrip : public QWidget {
   void clampShown(telemetry::TimeRange& range) const;
   Grab grabAt(QPointF at, Qt::KeyboardModifiers keys) const;
   const EventMark* markAt(QPointF at);
+  const EventMark* nearest(const std::vector<EventMark>& marks, double x) const;
   void showCursorAt(QPointF at, Qt::KeyboardModifiers keys);
   QString tipAt(QPointF at);
   void finishNote(bool keep);
   QRect marksRect() const;
-  QRect comparedRect() const;
   void paintBand(QPainter& painter) const;
   void paintWindow(QPainter& painter) const;
   void paintRange(QPainter& painter) const;
@@ -87,6 +91,7 @@ class TimelineStrip : public QWidget {
   LinkedTime* m_plots;
   const EventList* m_compared = nullptr;
   double m_comparedOffset = 0.0;
+  QString m_comparedCaption;
   TimeAxis m_axis;
   bool m_showsAll = true;
   Grab m_grab = Grab::Nothing;
