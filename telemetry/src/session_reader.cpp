@@ -109,7 +109,7 @@ void SessionReader::Impl::takeChannels() {
     }
     const auto stream = std::find_if(
         session::streams.begin(), session::streams.end(),
-        [&](const session::StreamInfo& known) { return known.topic == channel.topic; });
+        [&topic = channel.topic](const session::StreamInfo& known) { return known.topic == topic; });
     if (stream != session::streams.end() && channel.messageEncoding == "json") {
       const auto place = static_cast<std::size_t>(stream - session::streams.begin());
       channelsOfStream[place].push_back(id);
