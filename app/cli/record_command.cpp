@@ -109,7 +109,7 @@ int recordLive(const Options& options) {
   }
   const auto& ports = details.network.ports;
   if (std::none_of(ports.begin(), ports.end(), [](const PortStatus& port) { return port.bound; })) {
-    return reportError({ErrorCode::SystemError, ports.front().problem, {}});
+    return reportError({ErrorCode::SystemError, ports.front().problem, options.network.bind});
   }
   link::RecorderOptions recording;
   recording.program = program;

@@ -5,6 +5,7 @@
 // little-endian, plain, version 1) by a ros2msg definition made from the columns.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,7 +46,8 @@ std::string rowSchema(const GroupInfo& group);
 
 /// A Float64 column that is kept as single precision.
 inline bool isSingle(const ColumnInfo& column) {
-  return column.type == ColumnType::Float64 && column.resolution > 0.0;
+  return column.type == ColumnType::Float64 && column.resolution > 0.0 &&
+         column.resolution < std::numeric_limits<double>::infinity();
 }
 
 /// Where the parts of a row stand in its bytes: time, words, singles, doubles.

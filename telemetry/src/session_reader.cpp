@@ -1,71 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/session_reader.h>
-
 #include <algorithm>
 #include <limits>
-#include <list>
-#include <set>
 
-#include "session_format.h"
+#include "session_reader_impl.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
 constexpr std::size_t keptChunks = 4;
-constexpr std::size_t mostNotes = 200;
-constexpr int noGroup = -1;
 
 }  // namespace
-
-struct SessionReader::Impl {
-  McapReader file;
-  SessionInfo info;
-  bool described = false;  ///< by metadata of ours that are whole
-  std::vector<SessionGroup> groups;
-  std::vector<session::RowLayout> layouts;
-  struct Use {
-    int group = noGroup;
-    SessionStream stream = SessionStream::Events;
-  };
-  std::vector<Use> useOfChannel;  ///< by channel id
-  std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
-  /// Chunks by their start, and the latest end among the first n.
-  std::vector<std::size_t> byStart;
-  std::vector<std::uint64_t> latestEnd;
-
-  mutable std::vector<std::string> notes;
-  mutable std::set<std::size_t> damaged;
-  struct Kept {
-    std::size_t chunk;
-    std::string body;
-  };
-  mutable std::list<Kept> kept;  ///< newest first
-
-  explicit Impl(McapReader f) : file(std::move(f)) {}
-
-  void note(std::string sentence) const {
-    if (notes.size() < mostNotes) notes.push_back(std::move(sentence));
-  }
-  void takeMetadata();
-  void takeChannels();
-  void takeChunks();
-  void findStart();
-  std::string_view body(std::size_t chunk) const;
-  /// `wanted` in order. False: the visitor or the progress said so.
-  template <class Visit>
-  bool walk(std::uint64_t begin, std::uint64_t end, const std::vector<std::uint16_t>& wanted,
-            const Visit& visit, const std::function<bool(double)>& progress) const;
-  static bool mayHold(const McapChunkInfo& chunk, std::uint16_t channel) {
-    return chunk.channels.empty() ||
-           std::binary_search(chunk.channels.begin(), chunk.channels.end(), channel);
-  }
-  /// The session's time of a row or message that says `source` of itself.
-  static double time(double source, const McapMessage& message) {
-    if (message.logTime == message.publishTime) return source;
-    return source + static_cast<double>(static_cast<std::int64_t>(message.logTime -
-                                                                   message.publishTime)) / 1e9;
-  }
-};
 
 SessionReader::SessionReader(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 SessionReader::SessionReader(SessionReader&&) noexcept = default;
@@ -137,7 +81,7 @@ void SessionReader::Impl::findStart() {
       if (kind != McapCursor::Kind::Message) continue;
       const int group = useOfChannel[cursor.message().channel].group;
       SessionRow row;
-      if (group == noGroup || !layouts[static_cast<std::size_t>(group)].read(
+      if (group == Impl::noGroup || !layouts[static_cast<std::size_t>(group)].read(
                                   cursor.message().data, row.time, row.words, row.values)) {
         continue;
       }
@@ -165,7 +109,7 @@ void SessionReader::Impl::takeChannels() {
     }
     const auto stream = std::find_if(
         session::streams.begin(), session::streams.end(),
-        [&](const session::StreamInfo& known) { return known.topic == channel.topic; });
+        [&topic = channel.topic](const session::StreamInfo& known) { return known.topic == topic; });
     if (stream != session::streams.end() && channel.messageEncoding == "json") {
       const auto place = static_cast<std::size_t>(stream - session::streams.begin());
       channelsOfStream[place].push_back(id);
@@ -248,162 +192,6 @@ double SessionReader::seconds(std::uint64_t logTime) const {
 
 std::uint64_t SessionReader::logTime(double time) const {
   return session::nanoseconds(m_impl->info.start, time);
-}
-
-void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
-  const Impl& impl = *m_impl;
-  out.resize(impl.groups.size());
-  for (SessionRow& row : out) row.present = false;
-  const std::uint64_t until = logTime(time);
-  std::vector<std::uint64_t> best(impl.groups.size(), 0);
-  std::vector<std::string_view> found(impl.groups.size());
-  const auto& chunks = impl.file.chunks();
-  auto at = static_cast<std::size_t>(
-      std::upper_bound(impl.byStart.begin(), impl.byStart.end(), until,
-                       [&](std::uint64_t value, std::size_t chunk) {
-                         return value < chunks[chunk].start;
-                       }) -
-      impl.byStart.begin());
-  while (at-- > 0) {
-    const McapChunkInfo& chunk = chunks[impl.byStart[at]];
-    bool needed = false, settled = true;
-    for (std::size_t g = 0; g < impl.groups.size(); ++g) {
-      const bool done = out[g].present && best[g] > impl.latestEnd[at];
-      if (done) continue;
-      settled = false;
-      needed = needed || (Impl::mayHold(chunk, impl.groups[g].channel) &&
-                          (!out[g].present || best[g] <= chunk.end));
-    }
-    if (settled) break;
-    if (!needed) continue;
-    std::fill(found.begin(), found.end(), std::string_view());
-    McapCursor cursor(impl.body(impl.byStart[at]));
-    std::vector<McapMessage> last(impl.groups.size());
-    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message || cursor.message().logTime > until) continue;
-      const int group = impl.useOfChannel[cursor.message().channel].group;
-      if (group == noGroup) continue;
-      const auto g = static_cast<std::size_t>(group);
-      if (cursor.message().logTime < best[g] ||
-          (out[g].present && found[g].empty() && cursor.message().logTime == best[g])) {
-        continue;
-      }
-      best[g] = cursor.message().logTime;
-      found[g] = cursor.message().data;
-      last[g] = cursor.message();
-    }
-    for (std::size_t g = 0; g < impl.groups.size(); ++g) {
-      if (found[g].empty() ||
-          !impl.layouts[g].read(found[g], out[g].time, out[g].words, out[g].values)) {
-        continue;
-      }
-      out[g].time = Impl::time(out[g].time, last[g]);
-      out[g].present = true;
-    }
-  }
-}
-
-template <class Visit>
-bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
-                               const std::vector<std::uint16_t>& wanted, const Visit& visit,
-                               const std::function<bool(double)>& progress) const {
-  const auto& chunks = file.chunks();
-  SessionItem item;
-  SessionRow row;
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    const McapChunkInfo& chunk = chunks[i];
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
-      return false;
-    }
-    if (chunk.end < begin || chunk.start > end ||
-        std::none_of(wanted.begin(), wanted.end(),
-                     [&](std::uint16_t channel) { return mayHold(chunk, channel); })) {
-      continue;
-    }
-    McapCursor cursor(body(i));
-    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message) continue;
-      const McapMessage& message = cursor.message();
-      if (message.logTime < begin || message.logTime > end ||
-          !std::binary_search(wanted.begin(), wanted.end(), message.channel)) {
-        continue;
-      }
-      const Use use = useOfChannel[message.channel];
-      item.message = &message;
-      item.isRow = use.group != noGroup;
-      if (item.isRow) {
-        const auto g = static_cast<std::size_t>(use.group);
-        if (!layouts[g].read(message.data, row.time, row.words, row.values)) continue;
-        row.time = item.time = time(row.time, message);
-        item.group = static_cast<GroupId>(g);
-        item.row = row.view();
-      } else {
-        const auto source = session::timeFromJson(message.data);
-        if (!source) continue;
-        item.time = time(*source, message);
-        item.stream = use.stream;
-      }
-      if (!visit(item)) return false;
-    }
-  }
-  return true;
-}
-
-bool SessionReader::walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
-                         const std::function<bool(double)>& progress) const {
-  std::vector<std::uint16_t> wanted;
-  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
-  for (const auto& channels : m_impl->channelsOfStream) {
-    wanted.insert(wanted.end(), channels.begin(), channels.end());
-  }
-  std::sort(wanted.begin(), wanted.end());
-  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
-}
-
-bool SessionReader::walkRows(SessionRange range,
-                             const std::function<bool(const SessionItem&)>& visit,
-                             const std::function<bool(double)>& progress) const {
-  std::vector<std::uint16_t> wanted;
-  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
-  std::sort(wanted.begin(), wanted.end());
-  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
-}
-
-void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
-                         const std::function<bool(GroupId, const RowView&)>& visit) const {
-  std::vector<std::uint16_t> wanted;
-  for (std::size_t g = 0; g < m_impl->groups.size(); ++g) {
-    if (groups.empty() || std::find(groups.begin(), groups.end(), g) != groups.end()) {
-      wanted.push_back(m_impl->groups[g].channel);
-    }
-  }
-  std::sort(wanted.begin(), wanted.end());
-  m_impl->walk(logTime(range.begin), logTime(range.end), wanted,
-               [&](const SessionItem& item) { return visit(item.group, item.row); }, {});
-}
-
-void SessionReader::messages(
-    SessionStream stream, SessionRange range,
-    const std::function<bool(double, std::string_view)>& visit) const {
-  m_impl->walk(logTime(range.begin), logTime(range.end),
-               m_impl->channelsOfStream[static_cast<std::size_t>(stream)],
-               [&](const SessionItem& item) { return visit(item.time, item.message->data); }, {});
-}
-
-std::vector<SessionEvent> SessionReader::events() const {
-  std::vector<SessionEvent> out;
-  const auto all = range();
-  if (!all) return out;
-  messages(SessionStream::Events, *all, [&](double time, std::string_view json) {
-    if (auto event = session::eventFromJson(json)) {
-      event->time = time;
-      out.push_back(std::move(*event));
-    }
-    return true;
-  });
-  std::stable_sort(out.begin(), out.end(),
-                   [](const auto& a, const auto& b) { return a.time < b.time; });
-  return out;
 }
 
 const std::vector<McapAttachmentInfo>& SessionReader::attachments() const {

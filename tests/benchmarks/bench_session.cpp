@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sessions: what writing rows costs, how large an hour of a match is, how fast that file opens, shows a
-// moment and becomes CSV. The hour is recorded once, into the folder of TMPDIR.
+// moment and becomes CSV. An hour and two hours are recorded once, into the folder of TMPDIR.
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <random>
 
 #include <robotlink/match_recorder.h>
+#include <robotlink/recorded_frame.h>
 #include <telemetry/session_export.h>
 
 namespace pitchboard::telemetry {
@@ -79,29 +82,30 @@ void writeRows(benchmark::State& state) {
 }
 BENCHMARK(writeRows)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// An hour of six robots at 60 Hz, with checkpoints and events.
+/// Six robots at 60 Hz, with checkpoints and events, played at full speed.
+std::string recorded(const char* name, double seconds) {
+  const std::string file = place(name);
+  std::remove(file.c_str());
+  auto match = makeMatch();
+  SessionWriterOptions options;
+  options.waitWhenFull = true;
+  options.sync = false;
+  std::shared_ptr<SessionWriter> writer =
+      SessionWriter::create(file, link::sessionInfo(match, "benchmark", WallTime{}), options).value();
+  link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
+  link::MatchRecorder recorder(writer);
+  recorder.ticked(match, {});
+  for (int tick = 0; tick < static_cast<int>(seconds * 60); ++tick) {
+    match.tick();
+    recorder.happened(match.simulation().events());
+    recorder.ticked(match, std::chrono::microseconds(20));
+  }
+  (void)recorder.finish();
+  return file;
+}
+
 const std::string& hourFile() {
-  static const std::string path = [] {
-    std::string file = place("bench_hour.mcap");
-    std::remove(file.c_str());
-    auto match = makeMatch();
-    SessionWriterOptions options;
-    options.waitWhenFull = true;
-    options.sync = false;
-    std::shared_ptr<SessionWriter> writer =
-        SessionWriter::create(file, link::sessionInfo(match, "benchmark", WallTime{}), options).value();
-    link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
-    link::MatchRecorder recorder(writer);
-    recorder.ticked(match, {});
-    for (int tick = 0; tick < static_cast<int>(hour * 60); ++tick) {
-      match.tick();
-      recorder.happened(match.simulation().events());
-      recorder.ticked(match, {});
-    }
-    (void)recorder.finish();
-    (void)writer->finish();
-    return file;
-  }();
+  static const std::string path = recorded("bench_hour.mcap", hour);
   return path;
 }
 
@@ -109,24 +113,32 @@ void openAndFirstFrame(benchmark::State& state) {
   const std::string& path = hourFile();
   for (auto _ : state) {
     const auto session = SessionReader::open(path);
-    std::vector<SessionRow> rows;
-    session->rowsAt(session->range()->begin, rows);
-    benchmark::DoNotOptimize(rows.data());
+    link::RecordedFrames frames(link::backdropOf(*session));
+    const link::MatchFrame frame = frames.frameAt(*session, session->range()->begin);
+    if (frame.snapshot.robots.size() != 6) state.SkipWithError("not six robots");
   }
   state.counters["MB of an hour"] = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
 }
 BENCHMARK(openAndFirstFrame)->Unit(benchmark::kMillisecond);
 
-void seek(benchmark::State& state) {
-  const auto session = SessionReader::open(hourFile());
-  std::vector<SessionRow> rows;
+/// A frame at random moments; the slowest counts too.
+void seekInTwoHours(benchmark::State& state) {
+  const std::string path = recorded("bench_two_hours.mcap", 2 * hour);
+  const auto session = SessionReader::open(path);
+  link::RecordedFrames frames(link::backdropOf(*session));
   std::mt19937 random(1);
+  double slowest = 0.0;
   for (auto _ : state) {
-    session->rowsAt(std::uniform_real_distribution<double>(0.0, hour)(random), rows);
-    benchmark::DoNotOptimize(rows.data());
+    const auto begin = std::chrono::steady_clock::now();
+    const double time = std::uniform_real_distribution<double>(0.0, 2 * hour)(random);
+    benchmark::DoNotOptimize(frames.frameAt(*session, time));
+    slowest = std::max(slowest, std::chrono::duration<double, std::milli>(
+                                    std::chrono::steady_clock::now() - begin).count());
   }
+  state.counters["slowest, ms"] = slowest;
+  std::remove(path.c_str());
 }
-BENCHMARK(seek)->Unit(benchmark::kMillisecond);
+BENCHMARK(seekInTwoHours)->Unit(benchmark::kMillisecond)->Iterations(300);
 
 void exportCsv(benchmark::State& state, ExportFormat format) {
   const auto session = SessionReader::open(hourFile());

@@ -124,6 +124,31 @@ class TestMcapReaders : public QObject {
                                "float32:vision_ball_dist float64:truth_x float64:truth_yaw"));
   }
 
+  /// Columns with a resolution are single precision there, behind the words and before the doubles.
+  void roundedColumns() {
+    const std::string path = m_folder.filePath("rounded.mcap").toStdString();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    QVERIFY(writer);
+    const GroupInfo group{"match",
+                          {{"COUNT", ColumnType::Int32, "", "", ColumnKind::Number, {}},
+                           {"EXACT", ColumnType::Float64, "m", "", ColumnKind::Number, {}},
+                           {"SPEED", ColumnType::Float64, "m/s", "", ColumnKind::Number, {}, 1.0 / 1024},
+                           {"ERROR", ColumnType::Float64, "cm", "", ColumnKind::Number, {}, 1.0 / 4}},
+                          {}};
+    const auto id = (*writer)->addGroup(group);
+    const std::uint32_t count = 5;
+    const std::array values{0.1, 0.1, -7.3};
+    (*writer)->append(id, {0.25, {&count, 1}, values});
+    QVERIFY((*writer)->finish());
+    const Output out = readOfficially(path);
+    QVERIFY2(out.code == 0, out.error.constData());
+    QVERIFY(out.lines.contains("schema /match/row pitchboard_msgs/msg/Rowmatch ros2msg "
+                               "float64:source_time int32:count float32:speed float32:error float64:exact"));
+    QCOMPARE(ofKind(out.lines, "row"),
+             QList<QByteArray>{"row /match/row 0 " + times(0.25) + " " + hexOf(0.25) + " " + hexOf(5) + " " +
+                               hexOf(102.0 / 1024) + " " + hexOf(-7.25) + " " + hexOf(0.1)});
+  }
+
   void repaired() {
     const std::string whole = bytesOf(m_path);
     const std::string broken = m_folder.filePath("broken.mcap").toStdString();
