@@ -77,6 +77,28 @@ class TestStudioProcess : public QObject {
     QCOMPARE(segments(), std::size_t(0));
   }
 
+  void aSessionFromAShellIsShownInReplay_data() {
+    QTest::addColumn<QString>("file");
+    QTest::newRow("whole") << QStringLiteral("small.mcap");
+    QTest::newRow("broken off") << QStringLiteral("plain_broken_off.mcap");
+    QTest::newRow("not there") << QStringLiteral("no-such.mcap");
+  }
+  void aSessionFromAShellIsShownInReplay() {
+    QFETCH(QString, file);
+    const QString shot = m_folder.filePath(QStringLiteral("replay.png"));
+    QProcess studio;
+    launch(studio, {QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/") + file,
+                    QStringLiteral("--screenshot-to"), shot, QStringLiteral("--after"),
+                    QStringLiteral("1"), QStringLiteral("--size"), QStringLiteral("1280x800")});
+    QVERIFY(studio.waitForFinished(30000));
+    QCOMPARE(studio.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(studio.exitCode(), 0);
+    QCOMPARE(QImage(shot).size(), QSize(1280, 800));
+    // A session starts no robots.
+    QCOMPARE(robotProcesses(), 0);
+    QCOMPARE(segments(), std::size_t(0));
+  }
+
   void nothingIsLeftAfter_data() {
     QTest::addColumn<int>("signal");
     QTest::addColumn<bool>("clean");
