@@ -88,18 +88,24 @@ std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
   return r;
 }
 
-Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& path,
-                                                           const LiveOptions& live,
-                                                           telemetry::WallTime zero,
-                                                           const RecorderOptions& options) {
+telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,
+                                       const std::string& program) {
   telemetry::SessionInfo info;
-  info.program = options.program;
+  info.program = program;
   info.source = "live";
   info.title = "Live";
   info.start = zero;
   info.created = std::chrono::system_clock::now();
   info.more["field"] = live.field.name;
-  auto writer = telemetry::SessionWriter::create(path, info, options.writer);
+  return info;
+}
+
+Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& path,
+                                                           const LiveOptions& live,
+                                                           telemetry::WallTime zero,
+                                                           const RecorderOptions& options) {
+  auto writer = telemetry::SessionWriter::create(
+      path, liveSessionInfo(live, zero, options.program), options.writer);
   if (!writer) return tl::unexpected(writer.error());
   (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
   return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero, live.refereePort));

@@ -15,6 +15,7 @@ class TestStudioProcess : public QObject {
   Q_OBJECT
 
   QTemporaryDir m_folder;
+  QImage m_timeOfSession;   // the timeline of a window with a session
   int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
 
   QStringList withSettings(const QStringList& arguments) const {
@@ -74,6 +75,33 @@ class TestStudioProcess : public QObject {
     QVERIFY(studio.waitForFinished(30000));
     QCOMPARE(studio.exitCode(), 0);
     QCOMPARE(QImage(file).size(), QSize(800, 600));
+    QCOMPARE(segments(), std::size_t(0));
+  }
+
+  void aSessionFromAShellIsShownInReplay_data() {
+    QTest::addColumn<QString>("file");
+    QTest::newRow("whole") << QStringLiteral("small.mcap");
+    QTest::newRow("broken off") << QStringLiteral("plain_broken_off.mcap");
+    QTest::newRow("not there") << QStringLiteral("no-such.mcap");
+  }
+  void aSessionFromAShellIsShownInReplay() {
+    QFETCH(QString, file);
+    const QString shot = m_folder.filePath(QStringLiteral("replay.png"));
+    QProcess studio;
+    launch(studio, {QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/") + file,
+                    QStringLiteral("--screenshot-to"), shot, QStringLiteral("--after"),
+                    QStringLiteral("1"), QStringLiteral("--size"), QStringLiteral("1280x800")});
+    QVERIFY(studio.waitForFinished(30000));
+    QCOMPARE(studio.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(studio.exitCode(), 0);
+    const QImage picture(shot);
+    QCOMPARE(picture.size(), QSize(1280, 800));
+    // The timeline is below: without a session there is no time to show on it.
+    const QImage time = picture.copy(0, 690, 1200, 80);
+    if (file == QStringLiteral("no-such.mcap")) QVERIFY(time != m_timeOfSession);
+    else m_timeOfSession = time;
+    // A session starts no robots.
+    QCOMPARE(robotProcesses(), 0);
     QCOMPARE(segments(), std::size_t(0));
   }
 

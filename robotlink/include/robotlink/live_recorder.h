@@ -22,6 +22,10 @@ std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeVi
 /// Nothing when the text is not of that form; what is missing stays at its default.
 std::optional<RefereeView> refereeFromJson(std::string_view json);
 
+/// What a session of live robots says about itself; `zero` as in LiveRecorder::create().
+telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,
+                                       const std::string& program);
+
 class LiveRecorder : public LiveObserver {
  public:
   /// `zero`: the moment that counts as 0 s, as in LiveObserver's times. Errors as

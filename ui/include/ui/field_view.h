@@ -16,6 +16,8 @@ class QAction;
 
 namespace pitchboard::ui {
 
+struct FieldStyle;
+
 /// What can be shown or hidden on the field, in the order of the layers menu.
 enum class FieldLayer {
   FieldOfView, Belief, Ghost, PerceivedBall, Trails, Numbers, Grid, Landmarks, Eopra, StarVars,
@@ -54,6 +56,10 @@ class FieldView : public QWidget {
   bool isFlipped() const;
   /// The field as a picture without window, for files and documents.
   QImage picture(QSize size) const;
+  /// The same as an SVG document.
+  QByteArray svgPicture(QSize size) const;
+  /// Side and layers as they are shown, for pictures that are drawn elsewhere.
+  const FieldStyle& style() const;
 
  signals:
   void selectionChanged(const std::vector<pitchboard::RobotId>& ids);

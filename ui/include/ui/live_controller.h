@@ -34,6 +34,8 @@ class LiveController : public FrameSource {
   void setOurTeam(int number);
   /// Asks this referee for monitor mode, or nobody any more.
   void setMonitor(std::optional<telemetry::Address> referee);
+  /// Bytes that rows may take; the oldest leave first.
+  void setMemoryBudget(std::size_t bytes);
   /// Forgets robots, referee and counters, and goes on listening.
   void clear();
 
@@ -65,6 +67,7 @@ class LiveController : public FrameSource {
   std::vector<std::shared_ptr<link::LiveObserver>> m_observers;
   std::unique_ptr<link::LiveWatch> m_watch;
   FramePtr m_frame;
+  std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::deque<FramePtr> m_past;
   std::size_t m_pastRobots = 0;
   std::shared_ptr<link::LiveObserver> m_rows;

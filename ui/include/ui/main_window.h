@@ -59,8 +59,11 @@ class MainWindow : public QMainWindow {
   LiveController* live() const { return m_live; }
   /// A recorded session, in Replay; what is wrong with it is a notice.
   void openSession(const QString& path);
-  /// Offers to export from the session that Replay has open.
+  /// Offers to export from what is shown: the session, or what memory holds.
   void showExport();
+  /// Megabytes that the rows of one source may take in memory, 1 to 65536; kept in the settings.
+  int memoryBudget() const;
+  void setMemoryBudget(int megabytes);
   /// Shows this kind of source; Live begins to listen.
   void showSource(SourceKind kind);
   /// Simulated and heard robots side by side on the field.

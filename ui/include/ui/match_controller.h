@@ -135,6 +135,8 @@ class MatchController : public FrameSource {
   std::uint64_t stateHash();
 
   /// The exact states of the recent past; another one after `restarted`, null while there is no match.
+  /// Bytes that the rows of a match may take; the oldest leave first. At once and for matches to come.
+  void setMemoryBudget(std::size_t bytes);
   std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
   /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and what
   /// could be undone. `errorOccurred` when memory does not hold it any more.
@@ -189,6 +191,7 @@ class MatchController : public FrameSource {
   std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
   std::shared_ptr<link::MatchRunner> m_runner;   // keeps its catalog
   FramePtr m_frame;
+  std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<MatchRows> m_rows;
   std::shared_ptr<link::MatchSampler> m_sampler;
   std::shared_ptr<link::StateArchive> m_archive;

@@ -44,7 +44,8 @@ class ReplayController : public FrameSource {
   double loaded() const { return m_loaded; }
   /// Goes on without the rows that are not in memory yet: curves end there, moments do not.
   void stopLoading();
-  void setMemoryBudget(std::size_t bytes) { m_budget = bytes; }
+  /// Bytes that rows may take. Of a session that does not fit, the end is in memory: noted() says so.
+  void setMemoryBudget(std::size_t bytes);
 
  signals:
   void opened();
@@ -59,6 +60,7 @@ class ReplayController : public FrameSource {
   void wantMoment(double time);
   void readMoment();
   void load();
+  void noteWhatDoesNotFit();
 
   std::shared_ptr<File> m_file;
   QString m_path;

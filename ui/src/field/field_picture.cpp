@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_picture.h"
 
+#include <QBuffer>
 #include <QPainter>
+#include <QSvgGenerator>
 #include <algorithm>
 
 #include "field_background.h"
 
 namespace pitchboard::ui {
 
-QImage paintPicture(FieldScene& scene, QSize size) {
-  QImage image(size, QImage::Format_RGB32);
+namespace {
+
+void paintField(FieldScene& scene, QPainter& painter, QSize size) {
   const FieldStyle before = scene.style();
   const sim::FieldSpec& field = before.field;
   const double scale = std::min(size.width() / (field.length + 2 * field.border),
@@ -21,7 +24,6 @@ QImage paintPicture(FieldScene& scene, QSize size) {
     style.pixelsPerMetre = scale;
     style.ornaments = false;
   });
-  QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);
   paintFieldBackground(painter, scene.style(), toPicture, QRectF(QPointF(), QSizeF(size)));
   // QGraphicsScene::render() knows no mirrored target, so the source is mirrored by the painter.
@@ -32,7 +34,30 @@ QImage paintPicture(FieldScene& scene, QSize size) {
     style.pixelsPerMetre = before.pixelsPerMetre;
     style.ornaments = before.ornaments;
   });
+}
+
+}  // namespace
+
+QImage paintPicture(FieldScene& scene, QSize size) {
+  QImage image(size, QImage::Format_RGB32);
+  QPainter painter(&image);
+  paintField(scene, painter, size);
   return image;
+}
+
+QByteArray svgPicture(FieldScene& scene, QSize size) {
+  QByteArray text;
+  QBuffer buffer(&text);
+  QSvgGenerator generator;
+  generator.setOutputDevice(&buffer);
+  generator.setSize(size);
+  generator.setViewBox(QRect(QPoint(), size));
+  generator.setTitle(QObject::tr("The field"));
+  QPainter painter;
+  if (!painter.begin(&generator)) return {};
+  paintField(scene, painter, size);
+  painter.end();
+  return text;
 }
 
 }  // namespace pitchboard::ui

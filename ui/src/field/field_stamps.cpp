@@ -2,6 +2,7 @@
 #include "field_stamps.h"
 
 #include <QCache>
+#include <QPaintEngine>
 #include <QPixmap>
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,9 @@ void drawStamp(QPainter* painter, const QPointF& centre, const Stamp& stamp, con
                const std::function<void(QPainter&)>& paint) {
   const QTransform before = painter->worldTransform();
   const QPointF at = before.map(centre);
-  if (std::max(reach.width(), reach.height()) > largestReach) {
+  // Pictures for files keep shapes as shapes.
+  const bool shapes = painter->paintEngine()->type() == QPaintEngine::SVG;
+  if (shapes || std::max(reach.width(), reach.height()) > largestReach) {
     painter->setWorldTransform(QTransform::fromTranslate(at.x(), at.y()));
     paint(*painter);
     painter->setWorldTransform(before);

@@ -415,5 +415,7 @@ void FieldView::setFlipped(bool flipped) { d->flip->setChecked(flipped); }
 bool FieldView::isFlipped() const { return d->flip->isChecked(); }
 
 QImage FieldView::picture(QSize size) const { return paintPicture(*d->scene, size); }
+QByteArray FieldView::svgPicture(QSize size) const { return ui::svgPicture(*d->scene, size); }
+const FieldStyle& FieldView::style() const { return d->scene->style(); }
 
 }  // namespace pitchboard::ui

@@ -88,9 +88,14 @@ void LiveController::clear() {
   emit restarted();
 }
 
+void LiveController::setMemoryBudget(std::size_t bytes) {
+  m_memoryBudget = bytes;
+  if (m_series) m_series->setMemoryBudget(bytes);
+}
+
 void LiveController::keepRows() {
   if (m_rows) m_watch->stopObserving(m_rows);
-  m_series = std::make_shared<telemetry::SeriesStore>();
+  m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
   m_rows = std::make_shared<RowKeeper>(m_series, m_watch->began());
   m_watch->observe(m_rows);
 }

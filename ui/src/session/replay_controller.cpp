@@ -227,6 +227,7 @@ void ReplayController::load() {
         if (mine != m_generation) return;
         m_loaded = part;
         emit loadedChanged(part);
+        if (part >= 1.0) noteWhatDoesNotFit();
       }, Qt::QueuedConnection);
     };
     readRows(path, *rows, [this, mine, &tell](double part) {
@@ -235,6 +236,20 @@ void ReplayController::load() {
     });
     tell(1.0);
   });
+}
+
+void ReplayController::setMemoryBudget(std::size_t bytes) {
+  m_budget = bytes;
+  if (m_file) m_file->rows->setMemoryBudget(bytes);
+}
+
+void ReplayController::noteWhatDoesNotFit() {
+  constexpr double chunk = 1.0;   // s; groups do not begin all at once
+  const auto held = m_file ? m_file->rows->range() : std::nullopt;
+  if (!held || held->begin <= m_file->range.begin + chunk) return;
+  emit noted({tr("The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
+                 "can still be shown. Timeline > Memory for the past… gives it more.")
+                  .arg(m_budget >> 20).arg(held->end - held->begin, 0, 'f', 0)});
 }
 
 void ReplayController::stopLoading() {

@@ -53,7 +53,8 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
     m_notices->show(tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
                        "be made beside it.").arg(QFileInfo(m_replay->path()).fileName()),
                     {{tr("Repair into a new file"),
-                      [this, path = m_replay->path()] { repair(path); }}});
+                      [this, path = m_replay->path()] { repair(path); }},
+                     {tr("Not now"), {}}});
   });
   connect(replay, &ReplayController::noted, this, [this](const QStringList& sentences) {
     constexpr int most = 3;

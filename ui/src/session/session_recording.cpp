@@ -123,13 +123,15 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
                   [recorder] { return recorder->finish(); }};
 }
 
+telemetry::WallTime SessionRecording::zeroOfLive() const {
+  const auto clock = m_live->clock().value_or(QDateTime::currentDateTime());
+  return telemetry::WallTime(std::chrono::milliseconds(clock.toMSecsSinceEpoch()));
+}
+
 Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {
   link::RecorderOptions options;
   options.program = programName();
-  const auto clock = m_live->clock().value_or(QDateTime::currentDateTime());
-  auto made = link::LiveRecorder::create(
-      path.toStdString(), m_live->options(),
-      telemetry::WallTime(std::chrono::milliseconds(clock.toMSecsSinceEpoch())), options);
+  auto made = link::LiveRecorder::create(path.toStdString(), m_live->options(), zeroOfLive(), options);
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::LiveRecorder> recorder = *made;
   m_live->observe(recorder);
@@ -204,31 +206,51 @@ void SessionRecording::checkHealth() {
   emit changed();
 }
 
-void SessionRecording::saveLast(double seconds) {
+SessionMaker SessionRecording::recentPast(double seconds) const {
   const auto rows = m_source->series();
-  if (!rows || m_source->kind() != SourceKind::Simulate) {
-    emit failed(tr("There is nothing in memory to save yet."));
-    return;
-  }
-  const link::Scenario scenario = m_controller->scenario();
-  const QString path = newPath(QString::fromStdString(scenario.title) +
-                               tr(" last %1 s").arg(seconds));
-  if (path.isEmpty()) return;
+  const bool live = m_source->kind() == SourceKind::Live;
+  if (!rows || !rows->range() || m_source->kind() == SourceKind::Replay) return {};
   link::RecentPast past;
   for (const TimelineEvent& event : m_timeline->events()->events()) {
     past.events.push_back(sessionEventOf(event));
   }
-  past.log.assign(m_log.begin(), m_log.end());
-  past.scenario = link::scenarioToJson(scenario);
-  past.catalog = m_controller->catalog().toJson();
-  link::RecorderOptions options;
-  options.program = programName();
-  m_worker.start([this, path, seconds, past = std::move(past), rows,
-                  archive = m_controller->archive(),
-                  about = link::sessionInfo(scenario, options)]() mutable {
-    past.rows = rows.get();
-    past.archive = archive.get();
-    const auto done = link::saveRecent(path.toStdString(), seconds, past, about);
+  std::shared_ptr<const link::StateArchive> archive;
+  telemetry::SessionInfo about;
+  if (live) {
+    about = link::liveSessionInfo(m_live->options(), zeroOfLive(), programName());
+    past.profile = telemetry::profileText(m_live->options().profile);
+  } else {
+    link::RecorderOptions options;
+    options.program = programName();
+    about = link::sessionInfo(m_controller->scenario(), options);
+    past.log.assign(m_log.begin(), m_log.end());
+    past.scenario = link::scenarioToJson(m_controller->scenario());
+    past.catalog = m_controller->catalog().toJson();
+    archive = m_controller->archive();
+  }
+  return [past = std::move(past), rows, archive, about, seconds](const QString& path) -> Result<void> {
+    link::RecentPast all = past;
+    all.rows = rows.get();
+    all.archive = archive.get();
+    const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
+    if (!done) return tl::unexpected(done.error());
+    return {};
+  };
+}
+
+void SessionRecording::saveLast(double seconds) {
+  SessionMaker make = recentPast(seconds);
+  if (!make) {
+    emit failed(tr("There is nothing in memory to save yet."));
+    return;
+  }
+  const QString title = m_source->kind() == SourceKind::Live
+                            ? tr("live")
+                            : QString::fromStdString(m_controller->scenario().title);
+  const QString path = newPath(title + tr(" last %1 s").arg(seconds));
+  if (path.isEmpty()) return;
+  m_worker.start([this, path, make = std::move(make)] {
+    const auto done = make(path);
     QMetaObject::invokeMethod(this, [this, done, path] {
       if (done) emit saved(path);
       else emit failed(tr("Nothing was saved: %1").arg(words(done.error())));

@@ -26,6 +26,9 @@ class MatchController;
 class SourceSwitch;
 class Timeline;
 
+/// Writes a session to this path, which is not there yet.
+using SessionMaker = std::function<Result<void>(const QString& path)>;
+
 class SessionRecording : public QObject {
   Q_OBJECT
  public:
@@ -48,6 +51,9 @@ class SessionRecording : public QObject {
 
   /// What happened in the last `seconds`, from memory into a new file; `saved` follows.
   void saveLast(double seconds);
+  /// Writes the last `seconds` of the simulated match or of what was heard, on any thread; the past is
+  /// what it is now. Empty when nothing is in memory, or a session is shown.
+  SessionMaker recentPast(double seconds) const;
 
  signals:
   void changed();                          ///< started or stopped
@@ -58,6 +64,7 @@ class SessionRecording : public QObject {
   QString newPath(const QString& title);
   void checkHealth();
   void finish(bool matchEnds);
+  telemetry::WallTime zeroOfLive() const;
 
   /// What records a source of one kind.
   struct Recorder {

@@ -2,13 +2,15 @@
 #include <ui/main_window.h>
 
 #include <QAbstractScrollArea>
-#include <QBuffer>
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QScreen>
 #include <QSettings>
 #include <QUndoGroup>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <limits>
 
 #include <ui/field_view.h>
 #include <ui/live_controller.h>
@@ -45,6 +47,8 @@ namespace {
 // Raised when docks come or go in a way that older layouts cannot describe.
 constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
+const QString memoryKey = QStringLiteral("session/memoryMegabytes");
+constexpr int mostMemory = 65536;
 const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
 
@@ -87,7 +91,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
           [this](const QString& sentence) { m_notices->show(sentence); });
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
     m_notices->show(tr("Saved: %1").arg(path),
-                    {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }}});
+                    {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }},
+                     {tr("Close"), {}}});
   });
   connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
   const StudioContext context = this->context();
@@ -121,6 +126,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   const LiveSettings live = loadLiveSettings(*settings);
   m_live->setOptions(live.options);
   if (!live.problem.isEmpty()) m_notices->show(tr("Live: %1").arg(live.problem));
+  setMemoryBudget(memoryBudget());
   restoreLayout();
   m_field->setFocus();
 }
@@ -135,15 +141,44 @@ StudioContext MainWindow::context() const {
 void MainWindow::openSession(const QString& path) { m_sessions->open(path); }
 
 void MainWindow::showExport() {
-  const auto all = m_replay->isOpen() ? m_replay->playback()->range() : std::nullopt;
-  if (!all) return;
-  QByteArray picture;
-  QBuffer buffer(&picture);
-  m_field->picture({1040, 740}).save(&buffer, "PNG");
-  auto* dialog = new ExportDialog(m_replay->path(), m_timeline->selection().value_or(*all),
-                                  picture, this);
+  const auto all = m_timeline->available();
+  if (!all) {
+    m_notices->show(tr("There is nothing to export yet."));
+    return;
+  }
+  ExportSource source;
+  if (m_source->kind() == SourceKind::Replay) {
+    const QFileInfo file(m_replay->path());
+    source.session = m_replay->path();
+    source.folder = file.path();
+    source.name = file.completeBaseName() + tr(" part");
+  } else {
+    source.make = [this] { return m_recording->recentPast(std::numeric_limits<double>::infinity()); };
+    source.folder = m_recording->folder();
+    source.name = m_source->kind() == SourceKind::Live
+                      ? tr("live")
+                      : QString::fromStdString(m_controller->scenario().title);
+  }
+  auto* dialog = new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field,
+                                  this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->show();
+}
+
+int MainWindow::memoryBudget() const {
+  constexpr int usual = 1024;
+  bool good = false;
+  const int kept = m_settings->value(memoryKey, usual).toInt(&good);
+  return good && kept >= 1 && kept <= mostMemory ? kept : usual;
+}
+
+void MainWindow::setMemoryBudget(int megabytes) {
+  m_settings->setValue(memoryKey, std::clamp(megabytes, 1, mostMemory));
+  const std::size_t bytes = static_cast<std::size_t>(memoryBudget()) << 20;
+  m_controller->setMemoryBudget(bytes);
+  m_live->setMemoryBudget(bytes);
+  m_replay->setMemoryBudget(bytes);
+  m_compared->setMemoryBudget(bytes);
 }
 
 void MainWindow::showSource(SourceKind kind) {

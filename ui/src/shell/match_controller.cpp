@@ -85,6 +85,11 @@ void MatchController::Opening::start(const link::Scenario& scenario,
   else error = tr("The match cannot be played: %1").arg(words(made.error()));
 }
 
+void MatchController::setMemoryBudget(std::size_t bytes) {
+  m_memoryBudget = bytes;
+  if (m_rows) m_rows->setMemoryBudget(bytes);
+}
+
 std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const {
   return m_rows ? std::shared_ptr<const telemetry::SeriesStore>(m_rows, &m_rows->store()) : nullptr;
 }
@@ -157,7 +162,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
   m_paused = paused;
   m_opening = true;
   m_catalog = m_nextCatalog;
-  m_rows = std::make_shared<MatchRows>();
+  m_rows = std::make_shared<MatchRows>(m_memoryBudget);
   m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
   m_archive = std::make_shared<link::StateArchive>();
   for (const link::ScenarioRobot& entry : scenario.robots) {

@@ -16,12 +16,15 @@ namespace pitchboard::ui {
 
 class MatchRows : public telemetry::RowSink {
  public:
+  explicit MatchRows(std::size_t memoryBudget) : m_store({memoryBudget}) {}   ///< bytes
+
   // The match's thread.
   telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
   void append(telemetry::GroupId group, const telemetry::RowView& row) override;
 
   // Any thread.
   const telemetry::SeriesStore& store() const { return m_store; }
+  void setMemoryBudget(std::size_t bytes) { m_store.setMemoryBudget(bytes); }
 
   /// For what is sampled beside the match; keeps `rows`.
   static std::shared_ptr<telemetry::RowSink> beside(std::shared_ptr<MatchRows> rows);

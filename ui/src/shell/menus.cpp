@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QFileDialog>
+#include <QInputDialog>
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QSettings>
@@ -240,8 +241,16 @@ void StudioMenus::makeTimeline() {
   QAction* exportAction = menu->addAction(
       QObject::tr("&Export…"), &m_window, [this_ = &m_window] { this_->showExport(); });
   exportAction->setObjectName(QStringLiteral("exportSession"));
-  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, replay = m_window.m_replay] {
-    exportAction->setEnabled(replay->isOpen());
+  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, timeline] {
+    exportAction->setEnabled(timeline->available().has_value());
+  });
+  menu->addAction(QObject::tr("Memor&y for the past…"), &m_window, [this_ = &m_window] {
+    bool chosen = false;
+    const int megabytes = QInputDialog::getInt(
+        this_, QObject::tr("Memory for the past"),
+        QObject::tr("Rows of one match, of Live or of a session may take (MB):"),
+        this_->memoryBudget(), 16, 65536, 64, &chosen);
+    if (chosen) this_->setMemoryBudget(megabytes);
   });
   menu->addAction(QObject::tr("&Folder for recordings…"), recording, [this_ = &m_window, recording] {
     const QString chosen = QFileDialog::getExistingDirectory(

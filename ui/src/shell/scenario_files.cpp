@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QSaveFile>
+#include <QSaveFile>
 
 #include <ui/field_view.h>
 #include <ui/match_controller.h>
@@ -50,9 +51,17 @@ void ScenarioFiles::save(const QString& path) {
 
 void ScenarioFiles::exportPicture(const QString& path) {
   const QSize size = m_field->size() * m_window->devicePixelRatioF();
-  if (!m_field->picture(size).save(path)) {
+  bool written = false;
+  if (QFileInfo(path).suffix().toLower() == QStringLiteral("svg")) {
+    QSaveFile file(path);
+    written = file.open(QIODevice::WriteOnly) && file.write(m_field->svgPicture(size)) > 0 &&
+              file.commit();
+  } else {
+    written = m_field->picture(size).save(path);
+  }
+  if (!written) {
     emit failed(tr("The picture was not written to %1. Choose another folder, and a name that "
-                   "ends in .png.").arg(path));
+                   "ends in .png or .svg.").arg(path));
   }
 }
 
@@ -73,7 +82,7 @@ void ScenarioFiles::askAndSave() {
 
 void ScenarioFiles::askAndExportPicture() {
   QString path = QFileDialog::getSaveFileName(m_window, tr("Export a picture of the field"),
-                                              QStringLiteral("field.png"), tr("Pictures (*.png)"));
+                                              QStringLiteral("field.png"), tr("Pictures (*.png *.svg)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
   exportPicture(path);

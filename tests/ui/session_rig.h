@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The whole window with a real match and files in a folder of its own, for tests of sessions.
+
+#include <QAction>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QtTest>
+
+#include <session/session_recording.h>
+#include <shell/notice_bar.h>
+#include <timeline/timeline.h>
+#include <ui/main_window.h>
+#include <ui/match_controller.h>
+#include <ui/scenario_files.h>
+
+namespace session_rig {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+struct Studio {
+  QTemporaryDir folder;
+  QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+  MatchController controller;
+  MainWindow window;
+  explicit Studio(std::uint64_t playTo = 600)
+      : controller(options()), window(&controller, &settings) {
+    window.recording()->setFolder(folder.filePath(QStringLiteral("new/recordings")));
+    window.resize(1280, 800);
+    window.show();
+    if (playTo == 0) return;
+    controller.open(link::loadScenario("match-3v3").value(), true);
+    controller.runTo(playTo);
+  }
+  static link::MatchOptions options() {
+    link::MatchOptions made;
+    made.cognition = link::Cognition::Inline;
+    return made;
+  }
+  bool played(std::uint64_t tick) const {
+    return controller.frame() && controller.frame()->snapshot.tick >= tick;
+  }
+  QToolButton* record() const {
+    return window.findChild<QToolButton*>(QStringLiteral("record"));
+  }
+  QAction* action(const char* name) const {
+    return window.findChild<QAction*>(QLatin1String(name));
+  }
+  QString notice() const { return window.notices()->text(); }
+  /// Records the next `ticks` of the match, with a bookmark; the file.
+  QString recorded(std::uint64_t ticks) {
+    QSignalSpy saved(window.recording(), &SessionRecording::saved);
+    QTest::mouseClick(record(), Qt::LeftButton, {}, {8, 8});
+    const std::uint64_t to = controller.frame()->snapshot.tick + ticks;
+    controller.runTo(to);
+    if (!QTest::qWaitFor([this, to] { return played(to); }, 20'000)) return {};
+    window.timeline()->addBookmark(QStringLiteral("recorded"));
+    QTest::mouseClick(record(), Qt::LeftButton, {}, {8, 8});
+    if (!QTest::qWaitFor([&saved] { return saved.size() == 1; }, 20'000)) return {};
+    return saved.at(0).at(0).toString();
+  }
+};
+
+}  // namespace session_rig

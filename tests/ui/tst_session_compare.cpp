@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A second session beside the one that is shown.
+#include <QContextMenuEvent>
+#include <QGraphicsView>
+#include <QMenu>
+
+#include <field/compared_item.h>
+#include <session/compared_session.h>
+#include <timeline/timeline_strip.h>
+#include <ui/field_view.h>
+
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using session_rig::Studio;
+
+class TestSessionCompare : public QObject {
+  Q_OBJECT
+
+  static int ghostsOf(FieldView* field) {
+    const auto* view = field->findChild<QGraphicsView*>();
+    for (QGraphicsItem* item : view->scene()->items()) {
+      if (const auto* compared = dynamic_cast<ComparedItem*>(item)) return compared->robots();
+    }
+    return -1;
+  }
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aSecondSessionIsCompared() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QVERIFY(!path.isEmpty());
+    ComparedSession* compared = s.window.compared();
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    QVERIFY(!s.action("stopComparing")->isEnabled());
+    const auto ghosts = [&s] { return ghostsOf(s.window.field()); };
+    QSignalSpy changed(compared, &ComparedSession::changed);
+    // In Simulate: the match has gone on to where the session begins, and on.
+    compared->open(path);
+    QTRY_COMPARE(changed.size(), 1);
+    QVERIFY(!s.window.timeline()->isRecording());
+    QVERIFY(strip->comparedRect().isValid());
+    s.window.timeline()->seek(12.0);
+    QTRY_COMPARE(ghosts(), 6);
+    s.window.timeline()->seek(2.0);
+    QTRY_COMPARE(ghosts(), 0);
+    // By events: what stands at 11 s there stands at 3 s here.
+    compared->alignThere(11.0);
+    QCOMPARE(compared->offset(), 0.0);
+    compared->alignHere(3.0);
+    QCOMPARE(compared->offset(), -8.0);
+    QVERIFY2(compared->caption().contains(QStringLiteral("8.00 s")), qPrintable(compared->caption()));
+    QTRY_COMPARE(ghosts(), 6);
+    // In Replay, of itself: ghosts stand where the robots stand.
+    compared->alignByTime();
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    s.window.timeline()->seek(11.0);
+    QTRY_COMPARE(ghosts(), 6);
+    // In Live there is nothing at these times; nothing breaks.
+    s.window.showSource(SourceKind::Live);
+    QVERIFY(compared->isOn());
+    s.window.showSource(SourceKind::Replay);
+    QVERIFY(s.action("stopComparing")->isEnabled());
+    s.action("stopComparing")->trigger();
+    QCOMPARE(ghosts(), 0);
+    QVERIFY(!compared->isOn());
+    QVERIFY(!strip->comparedRect().isValid());
+  }
+
+  void eventsOfTheTimelineAreAlignedFromItsMenu() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QSignalSpy changed(s.window.compared(), &ComparedSession::changed);
+    s.window.compared()->open(path);
+    QTRY_COMPARE(changed.size(), 1);
+    s.window.timeline()->seek(2.0);
+    s.window.timeline()->addBookmark(QStringLiteral("mine"));
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    const auto align = [&](QPoint at) {
+      bool found = false;
+      QTimer::singleShot(0, &s.window, [&found] {
+        auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+        if (menu == nullptr) return;
+        if (auto* action = menu->findChild<QAction*>(QStringLiteral("alignHere"))) {
+          found = true;
+          action->trigger();
+        }
+        menu->close();
+      });
+      QContextMenuEvent event(QContextMenuEvent::Mouse, at, strip->mapToGlobal(at));
+      QApplication::sendEvent(strip, &event);
+      return found;
+    };
+    QVERIFY(align({qRound(strip->axis().pixel(2.0)), 13}));
+    QVERIFY(s.window.compared()->here());
+    const double here = *s.window.compared()->here();
+    const auto theirs = strip->comparedMarks();
+    QVERIFY(!theirs.empty());
+    QVERIFY(align({qRound(theirs.front().x), strip->comparedRect().center().y()}));
+    QVERIFY(s.window.compared()->there());
+    QCOMPARE(s.window.compared()->offset(), here - *s.window.compared()->there());
+  }
+
+  void aFileThatCannotBeComparedIsANotice() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    s.window.compared()->open(s.folder.filePath(QStringLiteral("none.mcap")));
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("none.mcap")), qPrintable(s.notice()));
+    QVERIFY(!s.window.compared()->isOn());
+  }
+};
+
+QTEST_MAIN(TestSessionCompare)
+#include "tst_session_compare.moc"

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Export through its dialog: from a session, and from memory.
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QSvgRenderer>
+
+#include <session/export_dialog.h>
+#include <telemetry/session_reader.h>
+#include <ui/field_view.h>
+#include <ui/replay_controller.h>
+
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using session_rig::Studio;
+
+class TestSessionExportDialog : public QObject {
+  Q_OBJECT
+
+  static ExportDialog* openDialog(Studio& s) {
+    s.action("exportSession")->trigger();
+    return s.window.findChild<ExportDialog*>(QStringLiteral("exportDialog"));
+  }
+  static void choose(ExportDialog* dialog, const QString& form) {
+    auto* box = dialog->findChild<QComboBox*>(QStringLiteral("exportFormat"));
+    for (int i = 0; i < box->count(); ++i) {
+      if (box->itemText(i).contains(form)) box->setCurrentIndex(i);
+    }
+    QVERIFY2(box->currentText().contains(form), qPrintable(form));
+  }
+  static QByteArray contents(const QString& path) {
+    QFile file(path);
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+  }
+  static QString message(ExportDialog* dialog) {
+    return dialog->findChild<QLabel*>(QStringLiteral("exportMessage"))->text();
+  }
+  /// Chooses the smallest size.
+  static void small(ExportDialog* dialog) {
+    auto* size = dialog->findChild<QComboBox*>(QStringLiteral("exportSize"));
+    size->setCurrentIndex(size->findData(QSize(640, 360)));
+  }
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void everyForm_data() {
+    QTest::addColumn<QString>("form");
+    QTest::addColumn<QString>("suffix");
+    QTest::addColumn<bool>("fromMemory");
+    for (const bool memory : {false, true}) {
+      const QByteArray of = memory ? " of memory" : " of a file";
+      QTest::newRow("csv" + of) << QStringLiteral("row per time") << QStringLiteral(".csv") << memory;
+      QTest::newRow("mcap" + of) << QStringLiteral("MCAP") << QStringLiteral(".mcap") << memory;
+      QTest::newRow("report" + of) << QStringLiteral("Report") << QStringLiteral(".html") << memory;
+      QTest::newRow("svg" + of) << QStringLiteral("(SVG)") << QStringLiteral(".svg") << memory;
+      QTest::newRow("png" + of) << QStringLiteral("(PNG)") << QStringLiteral(".png") << memory;
+      QTest::newRow("video" + of) << QStringLiteral("(MP4)") << QStringLiteral(".mp4") << memory;
+    }
+  }
+  void everyForm() {
+    QFETCH(QString, form);
+    QFETCH(QString, suffix);
+    QFETCH(bool, fromMemory);
+    const bool video = suffix == QStringLiteral(".mp4");
+    if (video && QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
+      QSKIP("ffmpeg is not installed");
+    }
+    Studio s(300);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
+    if (!fromMemory) {
+      const QString session = s.recorded(120);
+      QVERIFY(!session.isEmpty());
+      s.window.openSession(session);
+      QTRY_VERIFY(s.window.timeline()->isRecording());
+    }
+    ExportDialog* dialog = openDialog(s);
+    QVERIFY(dialog != nullptr);
+    choose(dialog, form);
+    QCOMPARE(dialog->suffix(), suffix);
+    small(dialog);
+    QSignalSpy written(dialog, &ExportDialog::written);
+    const QString path = s.folder.filePath(QStringLiteral("out") + suffix);
+    dialog->exportTo(path);
+    QTRY_VERIFY2_WITH_TIMEOUT(written.size() == 1, qPrintable(message(dialog)), 60'000);
+    const QByteArray bytes = contents(path);
+    QVERIFY(!bytes.isEmpty());
+    if (suffix == QStringLiteral(".csv")) {
+      QVERIFY2(bytes.left(2000).contains("B1."), bytes.left(200).constData());
+      QVERIFY(bytes.count('\n') > 100);
+    } else if (suffix == QStringLiteral(".mcap")) {
+      const auto session = telemetry::SessionReader::open(path.toStdString());
+      QVERIFY(session && session->complete() && session->range());
+    } else if (suffix == QStringLiteral(".html")) {
+      QVERIFY(bytes.contains("data:image/png;base64"));
+    } else if (suffix == QStringLiteral(".svg")) {
+      QSvgRenderer renderer(bytes);
+      QVERIFY(renderer.isValid());
+      QCOMPARE(renderer.viewBox(), QRect(0, 0, 640, 360));
+      // Shapes, not a picture in a picture.
+      QVERIFY(!bytes.contains("<image"));
+    } else if (suffix == QStringLiteral(".png")) {
+      QCOMPARE(QImage::fromData(bytes).size(), QSize(640, 360));
+    } else {
+      QCOMPARE(bytes.mid(4, 4), QByteArray("ftyp"));
+    }
+    // The same name again is refused.
+    QSignalSpy failed(dialog, &ExportDialog::failed);
+    dialog->exportTo(path);
+    QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, 20'000);
+    QCOMPARE(contents(path), bytes);
+  }
+
+  void aVideoIsCancelledWithTheButton() {
+    if (QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
+      QSKIP("ffmpeg is not installed");
+    }
+    Studio s(600);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    ExportDialog* dialog = openDialog(s);
+    choose(dialog, QStringLiteral("(WebM)"));
+    QSignalSpy failed(dialog, &ExportDialog::failed);
+    const QString path = s.folder.filePath(QStringLiteral("out.webm"));
+    dialog->exportTo(path);
+    QVERIFY(dialog->isWriting());
+    auto* bar = dialog->findChild<QProgressBar*>(QStringLiteral("exportProgress"));
+    QTRY_VERIFY_WITH_TIMEOUT(bar->value() > 0, 20'000);
+    QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("exportButton")), Qt::LeftButton);
+    QCOMPARE(failed.size(), 1);
+    QVERIFY(!dialog->isWriting());
+    QVERIFY2(message(dialog).contains(QStringLiteral("Cancelled")), qPrintable(message(dialog)));
+    QVERIFY(!QFile::exists(path) && !QFile::exists(path + QStringLiteral(".part")));
+  }
+
+  void withoutFfmpegTheDialogSaysWhatToInstall() {
+    Studio s(60);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
+    ExportDialog* dialog = openDialog(s);
+    choose(dialog, QStringLiteral("(MP4)"));
+    dialog->setVideoProgram(QStringLiteral("no-such-ffmpeg"));
+    QSignalSpy failed(dialog, &ExportDialog::failed);
+    dialog->exportTo(s.folder.filePath(QStringLiteral("out.mp4")));
+    QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, 20'000);
+    QVERIFY2(message(dialog).contains(QStringLiteral("Install the package ffmpeg")),
+             qPrintable(message(dialog)));
+  }
+
+  void aRangeTheWrongWayRoundIsSaid() {
+    Studio s(60);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
+    ExportDialog* dialog = openDialog(s);
+    const auto boxes = dialog->findChildren<QDoubleSpinBox*>();
+    QCOMPARE(boxes.size(), 2);
+    boxes[0]->setValue(5);
+    boxes[1]->setValue(1);
+    QSignalSpy failed(dialog, &ExportDialog::failed);
+    dialog->exportTo(s.folder.filePath(QStringLiteral("out.csv")));
+    QCOMPARE(failed.size(), 1);
+    QVERIFY(message(dialog).contains(QStringLiteral("ends before it begins")));
+  }
+};
+
+QTEST_MAIN(TestSessionExportDialog)
+#include "tst_session_export_dialog.moc"
