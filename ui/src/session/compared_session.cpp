@@ -3,9 +3,9 @@
 
 #include <QFileInfo>
 
-#include <timeline/event_collector.h>
-#include <timeline/playback.h>
-#include <timeline/timeline.h>
+#include "timeline/event_collector.h"
+#include "timeline/playback.h"
+#include "timeline/timeline.h"
 #include <ui/field_view.h>
 
 namespace pitchboard::ui {

@@ -17,7 +17,7 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 
-#include <field/field_style.h>
+#include "field/field_style.h"
 #include <ui/field_view.h>
 #include <ui/theme.h>
 

@@ -4,10 +4,10 @@
 #include <QPainter>
 #include <cmath>
 
-#include <field/field_picture.h>
-#include <field/field_scene.h>
+#include "field/field_picture.h"
+#include "field/field_scene.h"
 #include <robotlink/recorded_frame.h>
-#include <shell/scoreboard.h>
+#include "shell/scoreboard.h"
 #include <ui/theme.h>
 
 namespace pitchboard::ui {

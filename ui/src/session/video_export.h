@@ -9,7 +9,7 @@
 #include <atomic>
 #include <memory>
 
-#include <field/field_style.h>
+#include "field/field_style.h"
 #include <telemetry/series_store.h>
 
 #include "video_writer.h"

@@ -5,7 +5,7 @@
 #include <QMenu>
 #include <QToolButton>
 
-#include <session/compared_session.h>
+#include "session/compared_session.h"
 #include <ui/theme.h>
 
 #include "timeline.h"
