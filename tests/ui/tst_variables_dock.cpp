@@ -222,6 +222,26 @@ class TestVariablesDock : public QObject {
     QCOMPARE(samples, 601U);
   }
 
+  void aPastMomentShowsItsOwnValues() {
+    VariablesModel model;
+    model.setStore(twoRobots(), SourceKind::Replay);
+    const auto shown = [&model](const QString& name, int column) {
+      return model.find(name).siblingAtColumn(column).data().toString();
+    };
+    model.setMoment(5.0);
+    model.refreshAll();
+    QCOMPARE(shown(distance, VariablesModel::Value), QStringLiteral("90.0"));
+    QCOMPARE(shown(action, VariablesModel::Value), QStringLiteral("0"));
+    QCOMPARE(shown(action, VariablesModel::Age), QString());
+    model.setMoment(9.5);
+    model.refreshAll();
+    QCOMPARE(shown(action, VariablesModel::Value), QStringLiteral("1"));
+    QCOMPARE(shown(action, VariablesModel::Age), QStringLiteral("500 ms"));
+    model.setMoment({});
+    model.refreshAll();
+    QCOMPARE(shown(distance, VariablesModel::Value), QStringLiteral("80.0"));
+  }
+
   void onlyRowsInSightAreRead() {
     auto store = std::make_shared<telemetry::SeriesStore>();
     constexpr int extra = 500;

@@ -22,6 +22,7 @@
 #include "in_place_message.h"
 #include "plots/plot_target.h"
 #include "shell/source_switch.h"
+#include "timeline/timeline.h"
 #include "value_writer.h"
 #include "variables_filter.h"
 #include "variables_header.h"
@@ -346,6 +347,9 @@ class VariablesDock : public QWidget {
     }
     m_writer->check();
     if (!isVisible()) return;
+    const Timeline* timeline = m_context.timeline;
+    const bool past = timeline && (timeline->isLookingBack() || timeline->isRecording());
+    m_model->setMoment(past ? std::optional(timeline->shownTime()) : std::nullopt);
     showBoards();
     m_model->updateGroups();
     constexpr int slowly = 5;

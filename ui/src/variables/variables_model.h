@@ -51,7 +51,10 @@ class VariablesModel : public QAbstractItemModel {
   SourceKind sourceKind() const { return m_kind; }
   /// Takes up groups that came since; cheap when none did.
   void updateGroups();
-  /// Reads the newest values of these rows (any order, parents included) and tells the views what
+  /// From the next refresh on values are those of this moment of the source (s); without one the
+  /// newest.
+  void setMoment(std::optional<double> moment) { m_moment = moment; }
+  /// Reads the values of these rows (any order, parents included) and tells the views what
   /// differs. `sparkPixels`: buckets of a sparkline, 0 leaves the sparklines alone.
   void refresh(const QModelIndexList& rows, int sparkPixels);
   /// The same for values of every row, without sparklines; for sorting by value.
@@ -119,6 +122,7 @@ class VariablesModel : public QAbstractItemModel {
       telemetry::GroupId id, std::shared_ptr<const telemetry::GroupView> view) const;
   void renumber();
   bool read(VariableNode& variable, int sparkPixels) const;
+  void takeTime();
   void lookAt(VariableNode& group);
   double rateOf(const VariableNode& group) const;
   QVariant display(const VariableNode& node, int column) const;
@@ -131,6 +135,7 @@ class VariablesModel : public QAbstractItemModel {
   std::vector<std::unique_ptr<VariableNode>> m_groups;
   QSet<QString> m_favourites;
   QHash<QString, GroupNote> m_notes;   // by group
+  std::optional<double> m_moment;   // looked back at
   double m_now = 0.0;
   std::uint64_t m_round = 0;
   bool m_editingAllowed = false;

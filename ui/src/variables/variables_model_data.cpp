@@ -41,6 +41,11 @@ QString shownAge(double seconds) {
 
 }  // namespace
 
+void VariablesModel::takeTime() {
+  if (m_moment) m_now = *m_moment;
+  else if (const auto range = m_store->range()) m_now = range->end;
+}
+
 void VariablesModel::lookAt(VariableNode& group) {
   if (group.round == m_round) return;
   group.round = m_round;
@@ -53,7 +58,7 @@ void VariablesModel::lookAt(VariableNode& group) {
 bool VariablesModel::read(VariableNode& variable, int sparkPixels) const {
   const VariableNode& group = *variable.owner();
   const telemetry::GroupView& view = *group.view;
-  const auto newest = view.latest(variable.column);
+  const auto newest = m_moment ? view.at(variable.column, *m_moment) : view.latest(variable.column);
   bool changed = newest.has_value() != variable.known;
   variable.known = newest.has_value();
   if (!newest) return changed;
@@ -67,7 +72,8 @@ bool VariablesModel::read(VariableNode& variable, int sparkPixels) const {
     variable.ratePerSecond = rate;
   }
   if (const auto last = view.lastChange(variable.column)) variable.lastChange = *last;
-  QString age = shownAge(m_now - variable.lastChange);
+  // Only the last change of all is known; of a past moment before it the age is not.
+  QString age = variable.lastChange <= m_now ? shownAge(m_now - variable.lastChange) : QString();
   changed = changed || age != variable.ageShown;
   variable.ageShown = std::move(age);
   if (sparkPixels <= 0) return changed;
@@ -87,7 +93,7 @@ bool VariablesModel::read(VariableNode& variable, int sparkPixels) const {
 void VariablesModel::refresh(const QModelIndexList& rows, int sparkPixels) {
   if (!m_store) return;
   ++m_round;
-  if (const auto range = m_store->range()) m_now = range->end;
+  takeTime();
   std::vector<VariableNode*> changed;
   for (const QModelIndex& index : rows) {
     if (!index.isValid()) continue;
@@ -117,7 +123,7 @@ void VariablesModel::refresh(const QModelIndexList& rows, int sparkPixels) {
 void VariablesModel::refreshAll() {
   if (!m_store) return;
   ++m_round;
-  if (const auto range = m_store->range()) m_now = range->end;
+  takeTime();
   for (const auto& group : m_groups) {
     lookAt(*group);
     for (const auto& heading : group->children) {
@@ -136,7 +142,7 @@ void VariablesModel::refreshAll() {
 void VariablesModel::refreshChanges() {
   if (!m_store) return;
   ++m_round;
-  if (const auto range = m_store->range()) m_now = range->end;
+  takeTime();
   for (const auto& group : m_groups) {
     lookAt(*group);
     forEachVariable(*group, [&group](VariableNode& variable) {
