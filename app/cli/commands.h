@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The subcommands of pitchboard-cli: each file adds one group to the parser and leaves its exit code
-// in `exitCode` (0 done, 1 done with differences, 2 an error already printed as "error: ...").
+// The subcommands of pitchboard-cli: each file adds one group to the parser and leaves its exit
+// code in `exitCode` (0 done, 1 done with differences, 2 an error already printed as "error: ...").
 
 #include <CLI/CLI.hpp>
 

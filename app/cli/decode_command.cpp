@@ -172,7 +172,8 @@ int decodeGameController(const Options& options) {
       }
       exitCode = 1;
       put(options, std::move(head),
-          Json{{"error", packet.error().message}, {"bytes", stored.bytes.size()},
+          Json{{"error", packet.error().message},
+               {"bytes", stored.bytes.size()},
                {"text", printable(stored.bytes)}},
           file + ": " + packet.error().message);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/session_export.h>
 
+#include <unistd.h>
 #include <cstdio>
 #include <memory>
-#include <unistd.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -44,7 +44,8 @@ int run(const Options& options) {
   if (!session) return reportError(session.error());
   if (asReport) {
     const auto done = exportReport(*session, selection.range, options.output);
-    for (const std::string& note : session->notes()) std::fprintf(stderr, "warning: %s\n", note.c_str());
+    for (const std::string& note : session->notes())
+      std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
   }
   selection.robots = options.robots;
@@ -61,7 +62,8 @@ int run(const Options& options) {
         },
         std::ref(progress));
   }();
-  for (const std::string& note : session->notes()) std::fprintf(stderr, "warning: %s\n", note.c_str());
+  for (const std::string& note : session->notes())
+    std::fprintf(stderr, "warning: %s\n", note.c_str());
   if (!report) return reportError(report.error());
   if (std::fflush(stdout) != 0) {
     return reportError({ErrorCode::SystemError, "The output cannot be written.", {}});
@@ -77,23 +79,30 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       "export",
       "Write a session, or part of it, as CSV, JSON lines or a shorter session.\n"
       "Examples: pitchboard-cli export match.mcap --to csv-wide -o match.csv\n"
-      "          pitchboard-cli export match.mcap --to csv-long --robots B1,R2 --variables 'VISION_*'\n"
+      "          pitchboard-cli export match.mcap --to csv-long --robots B1,R2 --variables "
+      "'VISION_*'\n"
       "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
-  command->add_option("--to", options->format,
-                      "csv-wide: a line per time; csv-long: a line per value; jsonl; mcap; report: "
-                      "an HTML page with score, statistics and events")
-      ->type_name("FORMAT")->capture_default_str();
+  command
+      ->add_option("--to", options->format,
+                   "csv-wide: a line per time; csv-long: a line per value; jsonl; mcap; report: "
+                   "an HTML page with score, statistics and events")
+      ->type_name("FORMAT")
+      ->capture_default_str();
   command->add_option("--from", options->from, "First second")->type_name("T");
   command->add_option("--until", options->to, "Last second")->type_name("T");
   command->add_option("--robots", options->robots, "Only these, e.g. B1,R2 or match")
-      ->type_name("NAMES")->delimiter(',');
+      ->type_name("NAMES")
+      ->delimiter(',');
   command->add_option("--variables", options->variables, "Only these; * stands for any letters")
-      ->type_name("NAMES")->delimiter(',');
-  command->add_flag("--rows-only", options->rowsOnly, "Without events, log and datagrams (jsonl, mcap)");
+      ->type_name("NAMES")
+      ->delimiter(',');
+  command->add_flag("--rows-only", options->rowsOnly,
+                    "Without events, log and datagrams (jsonl, mcap)");
   command->add_option("-o,--output", options->output, "A new file; else the text goes to stdout")
       ->type_name("FILE");
-  command->add_flag("--progress", options->progress, "Say on stderr how far it is, also without a terminal");
+  command->add_flag("--progress", options->progress,
+                    "Say on stderr how far it is, also without a terminal");
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 

@@ -37,17 +37,15 @@ std::string wallText(WallTime time) {
 
 /// Every part is unpacked and its checksum compared; what is wrong is in the notes then.
 void readEverything(const SessionReader& session, Progress& progress) {
-  session.walk({-1e18, 1e18}, [](const SessionItem&) { return true; }, std::ref(progress));
+  session.walk(
+      {-1e18, 1e18}, [](const SessionItem&) { return true; }, std::ref(progress));
 }
 
 Json toJson(const SessionReader& session, const Options& options) {
   const SessionInfo& info = session.info();
-  Json out{{"file", options.file},
-           {"bytes", session.file().fileBytes()},
-           {"complete", session.complete()},
-           {"program", info.program},
-           {"source", info.source},
-           {"title", info.title}};
+  Json out{{"file", options.file},           {"bytes", session.file().fileBytes()},
+           {"complete", session.complete()}, {"program", info.program},
+           {"source", info.source},          {"title", info.title}};
   if (info.seed) out["seed"] = *info.seed;
   out["start"] = unixSeconds(info.start);
   out["created"] = unixSeconds(info.created);
@@ -60,8 +58,10 @@ Json toJson(const SessionReader& session, const Options& options) {
   for (const SessionGroup& group : session.groups()) {
     Json columns = Json::array();
     for (const ColumnInfo& column : group.info.columns) columns.push_back(column.name);
-    out["groups"].push_back({{"name", group.info.name}, {"rows", group.rows},
-                             {"attributes", group.info.attributes}, {"columns", columns}});
+    out["groups"].push_back({{"name", group.info.name},
+                             {"rows", group.rows},
+                             {"attributes", group.info.attributes},
+                             {"columns", columns}});
   }
   out["messages"] = Json::object();
   for (std::size_t i = 0; i < streamNames.size(); ++i) {
@@ -69,13 +69,16 @@ Json toJson(const SessionReader& session, const Options& options) {
   }
   out["attachments"] = Json::array();
   for (const auto& attachment : session.attachments()) {
-    out["attachments"].push_back({{"name", attachment.name}, {"mediaType", attachment.mediaType},
+    out["attachments"].push_back({{"name", attachment.name},
+                                  {"mediaType", attachment.mediaType},
                                   {"bytes", attachment.dataSize}});
   }
   if (options.events) {
     out["events"] = Json::array();
     for (const SessionEvent& event : session.events()) {
-      out["events"].push_back({{"time", event.time}, {"kind", event.kind}, {"group", event.group},
+      out["events"].push_back({{"time", event.time},
+                               {"kind", event.kind},
+                               {"group", event.group},
                                {"text", event.text}});
     }
   }
@@ -85,13 +88,13 @@ Json toJson(const SessionReader& session, const Options& options) {
 
 void printText(const SessionReader& session, const Options& options) {
   const SessionInfo& info = session.info();
-  std::printf("%s: %.3f MB%s\n", options.file.c_str(),
-              static_cast<double>(session.file().fileBytes()) / 1e6,
-              session.complete() ? ""
-                                 : "; broken off or damaged: pitchboard-cli repair makes a whole one");
+  std::printf(
+      "%s: %.3f MB%s\n", options.file.c_str(),
+      static_cast<double>(session.file().fileBytes()) / 1e6,
+      session.complete() ? "" : "; broken off or damaged: pitchboard-cli repair makes a whole one");
   if (session.ours()) {
-    std::printf("recorded %s by %s, %s \"%s\"", wallText(info.created).c_str(), info.program.c_str(),
-                info.source.c_str(), info.title.c_str());
+    std::printf("recorded %s by %s, %s \"%s\"", wallText(info.created).c_str(),
+                info.program.c_str(), info.source.c_str(), info.title.c_str());
     if (info.seed) std::printf(", seed %llu", static_cast<unsigned long long>(*info.seed));
     std::printf("\n");
   }
@@ -142,15 +145,16 @@ int run(const Options& options) {
 
 void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand(
-      "inspect",
-      "Say what is in a session. Ends with 1 when it broke off or something in it is not understood.\n"
-      "Example: pitchboard-cli inspect match.mcap --events");
+  CLI::App* command = parent.add_subcommand("inspect",
+                                            "Say what is in a session. Ends with 1 when it broke "
+                                            "off or something in it is not understood.\n"
+                                            "Example: pitchboard-cli inspect match.mcap --events");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--check", options->check, "Read everything and compare all checksums");
-  command->add_flag("--progress", options->progress, "Say on stderr how far it is, also without a terminal");
+  command->add_flag("--progress", options->progress,
+                    "Say on stderr how far it is, also without a terminal");
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 

@@ -32,7 +32,8 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
  private:
-  struct sigaction m_int {}, m_term {}, m_hup {};
+  struct sigaction m_int {
+  }, m_term{}, m_hup{};
 };
 
 }  // namespace pitchboard::cli

@@ -68,8 +68,7 @@ class Printer {
     if (verdict == TeamMonitor::Verdict::SenderRefused) return;
     const TextDecoder& decoder = m_monitor.decoder();
     const DecodedText& decoded = m_monitor.decoded();
-    put("telemetry", datagram,
-        m_json ? telemetryJson(decoder, decoded, datagram.payload) : Json(),
+    put("telemetry", datagram, m_json ? telemetryJson(decoder, decoded, datagram.payload) : Json(),
         m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload));
   }
 
@@ -94,7 +93,8 @@ class Printer {
 };
 
 void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint64_t unknown) {
-  std::fprintf(stderr, "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu",
+  std::fprintf(stderr,
+               "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu",
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
                static_cast<unsigned long long>(network.kernelDrops()),
                static_cast<unsigned long long>(network.queueDrops + team.refusedRobots),
@@ -163,7 +163,8 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();
   CLI::App* command = parent.add_subcommand(
       "listen",
-      "Print what robots and the referee send, until Ctrl+C. Sends nothing unless --monitor is given.\n"
+      "Print what robots and the referee send, until Ctrl+C. Sends nothing unless --monitor is "
+      "given.\n"
       "Examples: pitchboard-cli listen\n"
       "          pitchboard-cli listen --json --duration 60 > match.jsonl\n"
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24");

@@ -8,8 +8,9 @@ namespace pitchboard::cli {
 using namespace telemetry;
 
 void addListenOptions(CLI::App& command, ListenOptions& options) {
-  command.add_option("--bind", options.bind,
-                      "Address to receive at; 0.0.0.0 is every interface, with broadcasts")
+  command
+      .add_option("--bind", options.bind,
+                  "Address to receive at; 0.0.0.0 is every interface, with broadcasts")
       ->capture_default_str();
   command.add_option("--port-base", options.portBase, "Robot n sends to port base + n")
       ->capture_default_str();
@@ -20,7 +21,7 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
       ->capture_default_str();
   command.add_option("--profile", options.profile, "Order of the fields as JSON (docs/LIVE.md)");
   command.add_option("--from", options.senders,
-                      "Only these senders: address or network, may be repeated");
+                     "Only these senders: address or network, may be repeated");
 }
 
 Result<ListenSetup> listenSetup(const ListenOptions& options) {
@@ -38,7 +39,8 @@ Result<ListenSetup> listenSetup(const ListenOptions& options) {
     setup.profile = std::move(*loaded);
   }
   for (const std::string& sender : options.senders) {
-    if (const auto added = setup.monitor.senders.add(sender); !added) return tl::unexpected(added.error());
+    if (const auto added = setup.monitor.senders.add(sender); !added)
+      return tl::unexpected(added.error());
   }
   return setup;
 }

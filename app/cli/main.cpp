@@ -24,16 +24,9 @@ int main(int argc, char** argv) {
 
   int exitCode = 0;
   constexpr std::array<AddCommand, 10> commands{
-      &addSimulateCommand,
-      &addConformanceCommand,
-      &addBlackboardCommands,
-      &addCatalogCommands,
-      &addListenCommand,
-      &addDecodeCommand,
-      &addRecordCommand,
-      &addInspectCommand,
-      &addRepairCommand,
-      &addExportCommand};
+      &addSimulateCommand, &addConformanceCommand, &addBlackboardCommands, &addCatalogCommands,
+      &addListenCommand,   &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
+      &addRepairCommand,   &addExportCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   try {

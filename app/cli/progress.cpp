@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "progress.h"
 
-#include <cstdio>
 #include <unistd.h>
+#include <cstdio>
 #include <utility>
 
 #include "interrupt.h"
@@ -33,8 +33,10 @@ void Progress::say(const std::string& words) {
   if (!m_shown || (m_open && now - m_last < interval)) return;
   m_last = now;
   m_open = true;
-  if (m_terminal) std::fprintf(stderr, "\r\033[K%s: %s", m_what.c_str(), words.c_str());
-  else std::fprintf(stderr, "%s: %s\n", m_what.c_str(), words.c_str());
+  if (m_terminal)
+    std::fprintf(stderr, "\r\033[K%s: %s", m_what.c_str(), words.c_str());
+  else
+    std::fprintf(stderr, "%s: %s\n", m_what.c_str(), words.c_str());
 }
 
 }  // namespace pitchboard::cli

@@ -36,9 +36,11 @@ int ended(const std::string& path, const SessionStatus& status, const Result<voi
   }
   std::printf("%s: %.3f s, %llu rows, %llu messages, %.3f MB", path.c_str(), status.seconds,
               static_cast<unsigned long long>(status.rows),
-              static_cast<unsigned long long>(status.messages), static_cast<double>(status.bytes) / 1e6);
+              static_cast<unsigned long long>(status.messages),
+              static_cast<double>(status.bytes) / 1e6);
   if (status.dropped > 0) {
-    std::printf("; %llu dropped, the disk was too slow", static_cast<unsigned long long>(status.dropped));
+    std::printf("; %llu dropped, the disk was too slow",
+                static_cast<unsigned long long>(status.dropped));
   }
   std::printf("\n");
   return 0;
@@ -61,13 +63,15 @@ int recordMatch(const Options& options) {
     if (!noise) return reportError(noise.error());
     scenario->settings.noise = *noise;
   }
-  scenario->stop.duration = options.duration.value_or(scenario->stop.duration.value_or(defaultDuration));
+  scenario->stop.duration =
+      options.duration.value_or(scenario->stop.duration.value_or(defaultDuration));
   auto match = link::SimulatedMatch::create(*scenario, {});
   if (!match) return reportError(match.error());
 
   SessionWriterOptions writing;
   writing.waitWhenFull = true;
-  auto created = SessionWriter::create(options.output, link::sessionInfo(*match, program, wallNow()), writing);
+  auto created =
+      SessionWriter::create(options.output, link::sessionInfo(*match, program, wallNow()), writing);
   if (!created) return reportError(created.error());
   const std::shared_ptr<SessionWriter> writer = std::move(*created);
   link::attachMatch(*writer, match->scenario(), link::VariableCatalog::published());
@@ -154,16 +158,21 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
       "Examples: pitchboard-cli record --scenario match-3v3 --duration 600 -o match.mcap\n"
       "          pitchboard-cli record --live -o training.mcap");
   command->add_option("-o,--output", o.output, "A new session")->required()->type_name("FILE.mcap");
-  command->add_option("--duration", o.duration,
-                      "Seconds; without it the scenario's, else 60; live: until Ctrl+C")
+  command
+      ->add_option("--duration", o.duration,
+                   "Seconds; without it the scenario's, else 60; live: until Ctrl+C")
       ->check(CLI::Range(0.001, 1e9));
   command->add_option("--scenario", o.scenario, "Built-in name or a JSON file")
-      ->type_name("NAME|FILE")->capture_default_str();
-  command->add_option("--seed", o.seed, "Seed of all noise; default: the scenario's")->type_name("N");
-  command->add_option("--noise", o.noise, "none, published, paper or realistic")->type_name("PRESET");
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  command->add_option("--seed", o.seed, "Seed of all noise; default: the scenario's")
+      ->type_name("N");
+  command->add_option("--noise", o.noise, "none, published, paper or realistic")
+      ->type_name("PRESET");
   command->add_flag("--live", o.live, "Record what robots and the referee send");
   addListenOptions(*command, o.network);
-  command->add_flag("--progress", o.progress, "Say on stderr how far it is, also without a terminal");
+  command->add_flag("--progress", o.progress,
+                    "Say on stderr how far it is, also without a terminal");
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 

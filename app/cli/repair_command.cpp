@@ -40,8 +40,11 @@ void addRepairCommand(CLI::App& parent, int& exitCode) {
       "Make a whole session of one that broke off or is damaged. The old file stays as it is.\n"
       "Example: pitchboard-cli repair match.mcap match-repaired.mcap");
   command->add_option("in", options->from, "The broken session")->required()->type_name("IN");
-  command->add_option("out", options->to, "The new one; it must not exist")->required()->type_name("OUT");
-  command->add_flag("--progress", options->progress, "Say on stderr how far it is, also without a terminal");
+  command->add_option("out", options->to, "The new one; it must not exist")
+      ->required()
+      ->type_name("OUT");
+  command->add_flag("--progress", options->progress,
+                    "Say on stderr how far it is, also without a terminal");
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 

@@ -34,8 +34,9 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Se
   if (!frame.snapshot.robots.empty()) {
     content.picture = link::fieldSvg(frame);
     char caption[96];
-    std::snprintf(caption, sizeof caption, "The field at %.1f s%s", part.end,
-                  frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
+    std::snprintf(
+        caption, sizeof caption, "The field at %.1f s%s", part.end,
+        frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
     content.pictureCaption = caption;
   }
   return link::writeReport(output, content);

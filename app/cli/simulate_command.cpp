@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -7,7 +8,6 @@
 #include <filesystem>
 #include <memory>
 #include <thread>
-#include <unistd.h>
 
 #include <robotlink/match_recorder.h>
 #include <robotlink/moment.h>
@@ -26,7 +26,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr double defaultDuration = 60.0;   // s simulated
+constexpr double defaultDuration = 60.0;  // s simulated
 constexpr auto longestBatch = 10ms;
 constexpr auto pollInterval = 50ms;
 constexpr auto progressInterval = 500ms;
@@ -55,8 +55,8 @@ struct CognitionName {
   link::Cognition cognition;
 };
 constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
-                                                  {"external", link::Cognition::External},
-                                                  {"none", link::Cognition::None}}};
+                                                   {"external", link::Cognition::External},
+                                                   {"none", link::Cognition::None}}};
 
 /// 0 = as fast as possible.
 Result<double> speedFrom(const Arguments& arguments, link::Cognition cognition) {
@@ -65,7 +65,8 @@ Result<double> speedFrom(const Arguments& arguments, link::Cognition cognition) 
   if (text == "max") return 0.0;
   double speed = 0.0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  if (code != std::errc() || end != text.data() + text.size() || !(speed >= 0.001 && speed <= 1e6)) {
+  if (code != std::errc() || end != text.data() + text.size() ||
+      !(speed >= 0.001 && speed <= 1e6)) {
     return failure(ErrorCode::InvalidArgument,
                    "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
   }
@@ -93,12 +94,14 @@ Result<Recorded> recordedMoment(const Arguments& arguments) {
   auto moment = link::momentFromSession(*session, arguments.at, link::VariableCatalog::published());
   if (!moment) {
     Error error = moment.error();
-    error.context = error.context.empty() ? arguments.session : arguments.session + ": " + error.context;
+    error.context =
+        error.context.empty() ? arguments.session : arguments.session + ": " + error.context;
     return tl::unexpected(error);
   }
   const auto text = session->attachment(link::scenarioAttachment);
   if (!text) {
-    return failure(ErrorCode::NotFound, "this session has no scenario, so that nobody knows the match",
+    return failure(ErrorCode::NotFound,
+                   "this session has no scenario, so that nobody knows the match",
                    arguments.session);
   }
   auto scenario = link::scenarioFromJson(*text, arguments.session + ": scenario.json");
@@ -120,7 +123,8 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
   }
   if (arguments.duration) {
     if (!(*arguments.duration > 0.0 && *arguments.duration <= 1e9)) {
-      return failure(ErrorCode::InvalidArgument, "--duration must be above 0 and at most 1e9 seconds");
+      return failure(ErrorCode::InvalidArgument,
+                     "--duration must be above 0 and at most 1e9 seconds");
     }
     scenario->stop.duration = arguments.duration;
   } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None) {
@@ -231,13 +235,12 @@ class Player {
 };
 
 Result<void> simulate(const Arguments& arguments) {
-  const auto cognition = std::find_if(cognitions.begin(), cognitions.end(), [&](const auto& c) {
-    return arguments.cognition == c.name;
-  });
+  const auto cognition = std::find_if(cognitions.begin(), cognitions.end(),
+                                      [&](const auto& c) { return arguments.cognition == c.name; });
   if (cognition == cognitions.end()) {
-    return failure(ErrorCode::InvalidArgument,
-                   "--cognition must be inline, external or none, not \"" + arguments.cognition +
-                       "\"");
+    return failure(
+        ErrorCode::InvalidArgument,
+        "--cognition must be inline, external or none, not \"" + arguments.cognition + "\"");
   }
   const auto speed = speedFrom(arguments, cognition->cognition);
   if (!speed) return tl::unexpected(speed.error());
@@ -264,7 +267,8 @@ Result<void> simulate(const Arguments& arguments) {
 
   std::optional<TraceWriter> trace;
   if (!arguments.trace.empty()) {
-    auto made = TraceWriter::create(arguments.trace, arguments.force, match->simulation().snapshot());
+    auto made =
+        TraceWriter::create(arguments.trace, arguments.force, match->simulation().snapshot());
     if (!made) return tl::unexpected(made.error());
     trace = std::move(*made);
   }
@@ -299,40 +303,51 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
       "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1");
   command->add_option("--scenario", a.scenario, "Built-in name (see --list) or a JSON file")
-      ->type_name("NAME|FILE")->capture_default_str();
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
   CLI::Option* from =
-      command->add_option("--from", a.session,
-                          "Go on from a recorded moment, exactly; the robots' processes start anew")
+      command
+          ->add_option("--from", a.session,
+                       "Go on from a recorded moment, exactly; the robots' processes start anew")
           ->type_name("FILE.mcap");
   CLI::Option* at = command->add_option("--at", a.at, "The moment, in seconds of the session")
-                        ->type_name("S")->needs(from);
+                        ->type_name("S")
+                        ->needs(from);
   from->needs(at);
   command->add_option("--seed", a.seed, "Seed of all noise; default: the scenario's")
       ->type_name("N");
-  command->add_option("--duration", a.duration,
-                      "Simulated seconds; default: the scenario's stop conditions, else 60 (with "
-                      "--cognition none: until Ctrl+C)")
+  command
+      ->add_option("--duration", a.duration,
+                   "Simulated seconds; default: the scenario's stop conditions, else 60 (with "
+                   "--cognition none: until Ctrl+C)")
       ->type_name("S");
-  command->add_option("--speed", a.speed,
-                      "Times real time, or max; default: max for inline cognition, else 1")
+  command
+      ->add_option("--speed", a.speed,
+                   "Times real time, or max; default: max for inline cognition, else 1")
       ->type_name("X|max");
-  command->add_option("--cognition", a.cognition,
-                      "inline: decision in this program; external: robot processes on System V "
-                      "blackboards; none: blackboards for your own processes")
-      ->type_name("inline|external|none")->capture_default_str();
+  command
+      ->add_option("--cognition", a.cognition,
+                   "inline: decision in this program; external: robot processes on System V "
+                   "blackboards; none: blackboards for your own processes")
+      ->type_name("inline|external|none")
+      ->capture_default_str();
   command->add_option("--noise", a.noise, "none, published, paper or realistic")
       ->type_name("PRESET");
   command->add_option("--physics", a.physics, "rigid-body or published")->type_name("MODEL");
   command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
-  command->add_option("--save-moment", a.moment,
-                      "Save the last moment as a scenario, to go on from or to draw")
+  command
+      ->add_option("--save-moment", a.moment,
+                   "Save the last moment as a scenario, to go on from or to draw")
       ->type_name("FILE.json");
   command->add_flag("--force", a.force, "Overwrite the trace or the moment if it exists");
   command->add_flag("--json", a.json, "Print the outcome as one JSON object");
   command->add_option("--key-base", a.keyBase, "Added to the blackboard keys 100 x robot number")
-      ->type_name("B")->capture_default_str()->check(CLI::Range(0, 2'000'000'000));
-  command->add_option("--robot-program", a.robotProgram,
-                      "Program of the external processes; default: pitchboard-robot beside this one")
+      ->type_name("B")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 2'000'000'000));
+  command
+      ->add_option("--robot-program", a.robotProgram,
+                   "Program of the external processes; default: pitchboard-robot beside this one")
       ->type_name("FILE");
   command->add_flag("--list", a.list, "Print the built-in scenarios");
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {

@@ -13,8 +13,8 @@ struct Outcome {
   std::uint64_t ticks = 0;
   double simulatedSeconds = 0.0;
   double wallSeconds = 0.0;
-  std::string finishedBy;    ///< "duration", "goal", "ball_out", "interrupted"
-  std::string noise;         ///< name of the preset, or "custom"
+  std::string finishedBy;  ///< "duration", "goal", "ball_out", "interrupted"
+  std::string noise;       ///< name of the preset, or "custom"
 };
 
 /// Name of the preset with exactly these values, or "custom".

@@ -31,8 +31,8 @@ Result<TraceWriter> TraceWriter::create(const std::string& path, bool overwrite,
   TraceWriter writer(*file, path);
   writer.m_line = "tick,time_s,ball_x,ball_y,ball_vx,ball_vy,score_left,score_right";
   for (const sim::RobotSnapshot& robot : first.robots) {
-    const std::string name = std::string(info(robot.identity.team).letter) +
-                             std::to_string(robot.identity.number) + '_';
+    const std::string name =
+        std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number) + '_';
     for (const char* column : {"x", "y", "heading_deg", "head_deg", "action"}) {
       writer.m_line += ',' + name + column;
     }
@@ -45,8 +45,8 @@ Result<void> TraceWriter::add(const sim::Snapshot& snapshot) {
   m_line.clear();
   append(m_line, snapshot.tick);
   append(m_line, snapshot.time);
-  for (const double value : {snapshot.ball.x, snapshot.ball.y, snapshot.ballVelocity.x,
-                             snapshot.ballVelocity.y}) {
+  for (const double value :
+       {snapshot.ball.x, snapshot.ball.y, snapshot.ballVelocity.x, snapshot.ballVelocity.y}) {
     append(m_line, value);
   }
   append(m_line, snapshot.score.left);

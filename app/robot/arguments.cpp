@@ -32,31 +32,51 @@ std::string checkField(const std::string& text) {
 
 void addCommunicationOptions(CLI::App& command, Arguments& a) {
   const CLI::Range port(1, 65535);
-  command.add_option("--udp-address", a.process.udpAddress,
-                     "Where communication and team send; 255.255.255.255 is everybody on the network")
-      ->type_name("ADDRESS")->capture_default_str()->check(checkAddress);
-  command.add_option("--telemetry-port-base", a.process.telemetryPortBase,
-                     "Telemetry goes to this + robot number")
-      ->type_name("PORT")->capture_default_str();
+  command
+      .add_option("--udp-address", a.process.udpAddress,
+                  "Where communication and team send; 255.255.255.255 is everybody on the network")
+      ->type_name("ADDRESS")
+      ->capture_default_str()
+      ->check(checkAddress);
+  command
+      .add_option("--telemetry-port-base", a.process.telemetryPortBase,
+                  "Telemetry goes to this + robot number")
+      ->type_name("PORT")
+      ->capture_default_str();
   command.add_option("--telemetry-rate", a.telemetryRate, "Telemetry datagrams a second")
-      ->type_name("HZ")->capture_default_str()->check(CLI::Range(0.1, 20.0));
-  command.add_option("--team-port-base", a.process.teamPortBase,
-                     "Team messages go to this + 1, 2, 3 and 4")
-      ->type_name("PORT")->capture_default_str();
-  command.add_option("--team", a.process.team,
-                     "Robots with the same number hear each other, on UDP port 10000 + this")
-      ->type_name("N")->capture_default_str()->check(CLI::Range(0, 99));
-  command.add_option("--referee-team", a.process.refereeTeam,
-                     "Our team's number in the GameController; without it nobody listens to one")
-      ->type_name("N")->check(CLI::Range(0, 255));
-  command.add_option("--shirt", a.process.shirt,
-                     "Number in the GameController; the robot's number if not given")
-      ->type_name("N")->check(CLI::Range(1, 20));
+      ->type_name("HZ")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 20.0));
+  command
+      .add_option("--team-port-base", a.process.teamPortBase,
+                  "Team messages go to this + 1, 2, 3 and 4")
+      ->type_name("PORT")
+      ->capture_default_str();
+  command
+      .add_option("--team", a.process.team,
+                  "Robots with the same number hear each other, on UDP port 10000 + this")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 99));
+  command
+      .add_option("--referee-team", a.process.refereeTeam,
+                  "Our team's number in the GameController; without it nobody listens to one")
+      ->type_name("N")
+      ->check(CLI::Range(0, 255));
+  command
+      .add_option("--shirt", a.process.shirt,
+                  "Number in the GameController; the robot's number if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 20));
   command.add_option("--referee-port", a.process.refereePort, "UDP port of the GameController")
-      ->type_name("PORT")->capture_default_str()->check(port);
-  command.add_option("--thoughts-port", a.thoughtsPort,
-                     "Tell particles and path to a studio on this computer, on this UDP port")
-      ->type_name("PORT")->check(port);
+      ->type_name("PORT")
+      ->capture_default_str()
+      ->check(port);
+  command
+      .add_option("--thoughts-port", a.thoughtsPort,
+                  "Tell particles and path to a studio on this computer, on this UDP port")
+      ->type_name("PORT")
+      ->check(port);
 }
 
 CLI::Option* find(CLI::App& command, std::string name) {
@@ -73,8 +93,10 @@ Result<void> takeOver(CLI::App& command, const link::IniFile& file) {
     CLI::Option* option = find(command, entry.name);
     if (option == nullptr) {
       return failure(ErrorCode::ParseError,
-                     "there is no option '" + entry.name + "'; the options are those that "
-                     "pitchboard-robot " + command.get_name() + " --help lists",
+                     "there is no option '" + entry.name +
+                         "'; the options are those that "
+                         "pitchboard-robot " +
+                         command.get_name() + " --help lists",
                      file.place(entry));
     }
     if (option->count() > 0) continue;
@@ -96,28 +118,41 @@ int Arguments::blackboardKey() const {
 
 void addOptions(CLI::App& command, Arguments& a) {
   command.add_option("--robot", a.robot, "Number of the robot, 1 to 64")->type_name("N");
-  command.add_option("--config", a.config,
-                     "INI file with the number, [Communication] no_player_robofei = N, and with "
-                     "any of these options below [Pitchboard]")
+  command
+      .add_option("--config", a.config,
+                  "INI file with the number, [Communication] no_player_robofei = N, and with "
+                  "any of these options below [Pitchboard]")
       ->type_name("FILE.ini");
   command.add_option("--key", a.key, "Key of the blackboard instead of 100 x robot number")
       ->type_name("K");
   command.add_option("--key-base", a.keyBase, "Added to 100 x robot number")
-      ->type_name("B")->capture_default_str();
+      ->type_name("B")
+      ->capture_default_str();
   command.add_option("--behaviour", a.process.behaviour, "What decision does")
-      ->type_name("NAME")->capture_default_str()->check(checkBehaviour);
-  command.add_option("--distance-to-kick", a.process.distanceToKick,
-                     "Decision kicks a ball nearer than this; 25 in simulation, 40 on a robot")
-      ->type_name("CM")->capture_default_str();
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(checkBehaviour);
+  command
+      .add_option("--distance-to-kick", a.process.distanceToKick,
+                  "Decision kicks a ball nearer than this; 25 in simulation, 40 on a robot")
+      ->type_name("CM")
+      ->capture_default_str();
   addCommunicationOptions(command, a);
-  command.add_option("--attack", a.attack,
-                     "Side of the opponents' goal; found out from landmarks and IMU if not given")
-      ->type_name("SIDE")->check(CLI::IsMember({"left", "right"}));
-  command.add_option("--field", a.field,
-                     "Sizes of the field: a built-in name, or an object as in scenario files")
-      ->type_name("NAME|{...}")->capture_default_str()->check(checkField);
+  command
+      .add_option("--attack", a.attack,
+                  "Side of the opponents' goal; found out from landmarks and IMU if not given")
+      ->type_name("SIDE")
+      ->check(CLI::IsMember({"left", "right"}));
+  command
+      .add_option("--field", a.field,
+                  "Sizes of the field: a built-in name, or an object as in scenario files")
+      ->type_name("NAME|{...}")
+      ->capture_default_str()
+      ->check(checkField);
   command.add_option("--particles", a.process.particles, "Localization: at most this many")
-      ->type_name("N")->capture_default_str()->check(CLI::Range(1, 100000));
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
   command.add_flag("--published-localization", a.process.publishedLocalization,
                    "Localization with the published filter's parameters");
 }

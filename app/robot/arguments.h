@@ -21,11 +21,11 @@ struct Arguments {
   std::optional<int> key;
   int keyBase = 0;
   std::string field = "published", attack;
-  double telemetryRate = 1.0;          // Hz
+  double telemetryRate = 1.0;  // Hz
   std::optional<int> thoughtsPort;
   link::ProcessOptions process;
 
-  int blackboardKey() const;           // once settled
+  int blackboardKey() const;  // once settled
 };
 
 /// Every process takes every option, so that a starter can give one list to all of them.

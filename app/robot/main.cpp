@@ -73,7 +73,8 @@ int parseAndRun(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION);
 
   Arguments arguments;
-  const auto add = [&](std::string_view name, std::string_view description, std::string_view example) {
+  const auto add = [&](std::string_view name, std::string_view description,
+                       std::string_view example) {
     CLI::App* command = app.add_subcommand(
         std::string(name), std::string(description) + "\nExample: " + std::string(example));
     addOptions(*command, arguments);
@@ -84,8 +85,8 @@ int parseAndRun(int argc, char** argv) {
   }
   CLI::App* management = add("management", managementDescription,
                              "pitchboard-robot management --robot 1 --behaviour keeper");
-  CLI::App* list =
-      app.add_subcommand("list", "shows the processes and behaviours\nExample: pitchboard-robot list");
+  CLI::App* list = app.add_subcommand(
+      "list", "shows the processes and behaviours\nExample: pitchboard-robot list");
 
   try {
     app.parse(argc, argv);

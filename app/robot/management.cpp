@@ -26,8 +26,8 @@ Result<std::string> ownProgram() {
   std::error_code error;
   const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) return path.string();
-  return failure(ErrorCode::SystemError, "cannot find out where pitchboard-robot is: " +
-                                             error.message());
+  return failure(ErrorCode::SystemError,
+                 "cannot find out where pitchboard-robot is: " + error.message());
 }
 
 void print(link::ProcessManager& manager) {

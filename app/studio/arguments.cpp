@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <robotlink/match_runner.h>
+#include <cstdio>
 
 namespace pitchboard::studio {
 namespace {
@@ -17,53 +17,66 @@ bool isNumber(const std::string& text, double& value) {
 
 void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--scenario", a.scenario, "Built-in scenario or file")
-      ->type_name("NAME|FILE")->capture_default_str();
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
   app.add_option("--cognition", a.cognition,
                  "Who decides for the robots: separate processes on System V blackboards, the "
                  "studio itself, or none but yours")
-      ->type_name("external|inline|none")->capture_default_str()
+      ->type_name("external|inline|none")
+      ->capture_default_str()
       ->check(CLI::IsMember({"external", "inline", "none"}));
   app.add_option("--seed", a.seed, "Seed of all noise")->type_name("N");
   app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
-      ->type_name("X|max")->capture_default_str();
-  app.add_option("--noise", a.noise, "Preset instead of the scenario's noise")
-      ->type_name("PRESET");
+      ->type_name("X|max")
+      ->capture_default_str();
+  app.add_option("--noise", a.noise, "Preset instead of the scenario's noise")->type_name("PRESET");
   app.add_option("--physics", a.physics, "Model of motion and collisions")->type_name("MODEL");
   app.add_option("--key-base", a.keyBase, "Added to 100 x robot number for a blackboard's key")
-      ->type_name("B")->capture_default_str()->check(CLI::Range(0, 2000000000));
+      ->type_name("B")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 2000000000));
   app.add_option("--theme", a.theme, "Colours, this time only")
-      ->type_name("light|dark")->check(CLI::IsMember({"light", "dark"}));
+      ->type_name("light|dark")
+      ->check(CLI::IsMember({"light", "dark"}));
   app.add_flag("--paused", a.paused, "Do not start playing");
   app.add_option("--play-to", a.playTo,
                  "Play at full speed up to this tick, then pause: the same moment every time")
       ->type_name("TICK");
   app.add_option("--size", a.size, "Size of the window or the picture")->type_name("WxH");
   app.add_option("--settings", a.settings,
-                 "File for layout and preferences instead of the user's own")->type_name("FILE");
+                 "File for layout and preferences instead of the user's own")
+      ->type_name("FILE");
   app.add_option("--session,session", a.session, "Open this recorded session in Replay")
       ->type_name("FILE.mcap");
-  app.add_flag("--live", a.live,
-               "Start with what robots and referee send; no match is simulated unless --scenario is given");
+  app.add_flag(
+      "--live", a.live,
+      "Start with what robots and referee send; no match is simulated unless --scenario is given");
   app.add_flag("--overlay", a.overlay, "Show simulated and heard robots side by side");
   app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
   app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
   app.add_option("--robots", a.robots, "Live: how many ports after the base")
-      ->type_name("N")->check(CLI::Range(1, 64));
+      ->type_name("N")
+      ->check(CLI::Range(1, 64));
   app.add_option("--gamecontroller-port", a.refereePort, "Live: port of the referee's packets")
       ->type_name("P");
   app.add_option("--our-team", a.ourTeam, "Live: the referee's number of our team")
-      ->type_name("N")->check(CLI::Range(0, 65535));
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
   app.add_option("--profile", a.profile, "Live: order of the fields as JSON")->type_name("FILE");
-  CLI::Option* shot = app.add_option("--screenshot-to", a.screenshotFile,
-                                     "Save a picture of the window, then exit")
-                          ->type_name("FILE.png");
+  CLI::Option* shot =
+      app.add_option("--screenshot-to", a.screenshotFile, "Save a picture of the window, then exit")
+          ->type_name("FILE.png");
   app.add_option("--after", a.after, "When to take it")
-      ->type_name("SECONDS")->capture_default_str()->check(CLI::Range(0.0, 86400.0))->needs(shot);
+      ->type_name("SECONDS")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 86400.0))
+      ->needs(shot);
   CLI::Option* render = app.add_option("--render-scenario", a.renderScenario,
                                        "Draw a scenario's start to --picture, without a window")
                             ->type_name("NAME|FILE");
   app.add_option("--picture", a.picture, "Where --render-scenario writes")
-      ->type_name("FILE.png")->needs(render);
+      ->type_name("FILE.png")
+      ->needs(render);
 }
 
 }  // namespace
@@ -91,8 +104,8 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   }
   arguments.scenarioGiven = app.count("--scenario") > 0;
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
-    return report({ErrorCode::InvalidArgument,
-                   "--render-scenario needs --picture FILE.png to write to", {}});
+    return report(
+        {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});
   }
   return {};
 }
@@ -113,8 +126,7 @@ Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments) {
   WindowSize size;
   char rest = 0;
   if (std::sscanf(arguments.size.c_str(), "%6dx%6d%c", &size.width, &size.height, &rest) != 2 ||
-      size.width < 100 || size.height < 100 || size.width > maxPixels ||
-      size.height > maxPixels) {
+      size.width < 100 || size.height < 100 || size.width > maxPixels || size.height > maxPixels) {
     return failure(ErrorCode::InvalidArgument,
                    "must be two numbers of pixels such as 1440x900 (100 to 16384), not '" +
                        arguments.size + "'",
@@ -124,8 +136,8 @@ Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments) {
 }
 
 Result<link::Scenario> scenarioOf(const Arguments& arguments) {
-  auto scenario = link::loadScenario(
-      arguments.renderScenario.empty() ? arguments.scenario : arguments.renderScenario);
+  auto scenario = link::loadScenario(arguments.renderScenario.empty() ? arguments.scenario
+                                                                      : arguments.renderScenario);
   if (!scenario) return scenario;
   if (arguments.seed) scenario->settings.seed = *arguments.seed;
   if (!arguments.physics.empty()) scenario->settings.physics = arguments.physics;

@@ -33,10 +33,10 @@ struct Arguments {
   std::string renderScenario;
   std::string picture;
   std::string settings;
-  std::string session;               ///< a recorded session to open in Replay
+  std::string session;  ///< a recorded session to open in Replay
   bool live = false;
   bool overlay = false;
-  bool scenarioGiven = false;        ///< else Live starts without a simulated match
+  bool scenarioGiven = false;  ///< else Live starts without a simulated match
   // Of Live, instead of the saved settings; empty: as saved.
   std::string bind;
   std::optional<int> portBase, robots, refereePort, ourTeam;

@@ -41,9 +41,9 @@ link::MatchOptions matchOptions(const Arguments& arguments) {
   options.cognition = cognitionOf(arguments);
   options.keyBase = arguments.keyBase;
   options.thoughts = true;
-  options.robotProgram =
-      QDir(QApplication::applicationDirPath()).filePath(QStringLiteral("pitchboard-robot"))
-          .toStdString();
+  options.robotProgram = QDir(QApplication::applicationDirPath())
+                             .filePath(QStringLiteral("pitchboard-robot"))
+                             .toStdString();
   return options;
 }
 
@@ -130,7 +130,8 @@ int run(int argc, char** argv) {
     if (!render && arguments.screenshotFile.empty()) {
       return report({ErrorCode::SystemError,
                      "there is no display to open a window on; use pitchboard-cli, or set "
-                     "QT_QPA_PLATFORM=offscreen", {}});
+                     "QT_QPA_PLATFORM=offscreen",
+                     {}});
     }
     qputenv("QT_QPA_PLATFORM", "offscreen");
   }
@@ -148,4 +149,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace pitchboard::studio
 
-int main(int argc, char** argv) { return pitchboard::studio::run(argc, argv); }
+int main(int argc, char** argv) {
+  return pitchboard::studio::run(argc, argv);
+}

@@ -12,10 +12,10 @@ namespace pitchboard::link {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;   // CLOCK_MONOTONIC in the standard libraries of Linux
+using Clock = std::chrono::steady_clock;  // CLOCK_MONOTONIC in the standard libraries of Linux
 
-constexpr auto longestSleep = 50ms;        // so that stopping takes no longer
-constexpr auto lookInterval = 100ms;       // is the segment still the one of this key?
+constexpr auto longestSleep = 50ms;   // so that stopping takes no longer
+constexpr auto lookInterval = 100ms;  // is the segment still the one of this key?
 constexpr auto rateWindow = 1s;
 
 void sleepUntil(Clock::time_point until) {
@@ -47,7 +47,8 @@ Result<std::unique_ptr<BoardSampler>> BoardSampler::start(int key,
                                                           std::shared_ptr<telemetry::RowSink> sink,
                                                           const BoardSamplerOptions& options,
                                                           const VariableCatalog& catalog) {
-  if (!(options.rate >= BoardSamplerOptions::slowest && options.rate <= BoardSamplerOptions::fastest)) {
+  if (!(options.rate >= BoardSamplerOptions::slowest &&
+        options.rate <= BoardSamplerOptions::fastest)) {
     return failure(ErrorCode::InvalidArgument,
                    "the sampling rate must lie between " + shortest(BoardSamplerOptions::slowest) +
                        " and " + shortest(BoardSamplerOptions::fastest) + " samples per second",
@@ -57,10 +58,9 @@ Result<std::unique_ptr<BoardSampler>> BoardSampler::start(int key,
   if (!attached) return tl::unexpected(attached.error());
   std::unique_ptr<BoardSampler> sampler(new BoardSampler(key, std::move(sink), options, catalog));
   sampler->m_status.attached = true;
-  sampler->m_thread = std::jthread(
-      [self = sampler.get(), first = std::move(*attached)](const std::stop_token& stop) mutable {
-        self->run(stop, std::move(first));
-      });
+  sampler->m_thread =
+      std::jthread([self = sampler.get(), first = std::move(*attached)](
+                       const std::stop_token& stop) mutable { self->run(stop, std::move(first)); });
   return sampler;
 }
 
@@ -113,12 +113,13 @@ void BoardSampler::run(const std::stop_token& stop, Attached attached) {
     if (there) {
       now = Clock::now();
       m_columns.read(attached.board, words);
-      m_sink->append(m_group, {std::chrono::duration<double>(now - m_options.zero).count(), words, {}});
+      m_sink->append(m_group,
+                     {std::chrono::duration<double>(now - m_options.zero).count(), words, {}});
       ++inWindow;
     }
     due += period;
     std::uint64_t missed = 0;
-    if (now - due > period) {   // more than one late: they cannot be made up for
+    if (now - due > period) {  // more than one late: they cannot be made up for
       missed = static_cast<std::uint64_t>((now - due) / period);
       due += period * static_cast<Clock::rep>(missed);
     }
@@ -126,9 +127,10 @@ void BoardSampler::run(const std::stop_token& stop, Attached attached) {
     m_status.samples += there ? 1 : 0;
     m_status.missed += there ? missed : 0;
     const auto elapsed = now - windowStart;
-    const bool first = m_status.samples == inWindow;   // the first second is shown as it grows
+    const bool first = m_status.samples == inWindow;  // the first second is shown as it grows
     if (elapsed >= rateWindow || (first && elapsed > period)) {
-      m_status.rate = static_cast<double>(inWindow) / std::chrono::duration<double>(elapsed).count();
+      m_status.rate =
+          static_cast<double>(inWindow) / std::chrono::duration<double>(elapsed).count();
     }
     if (elapsed >= rateWindow) {
       windowStart = now;

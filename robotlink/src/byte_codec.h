@@ -20,7 +20,8 @@ inline void putVarint(std::string& out, std::uint64_t value) {
 }
 
 inline void putSigned(std::string& out, std::int64_t value) {
-  putVarint(out, (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63));
+  putVarint(out,
+            (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63));
 }
 
 /// The count of its leading bytes that are not all zero behind, then those bytes.
@@ -61,7 +62,8 @@ class ByteReader {
     if (count > 8 || count >= m_bytes.size()) return fail(), 0.0;
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(m_bytes[i + 1])) << (56 - 8 * i);
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(m_bytes[i + 1]))
+              << (56 - 8 * i);
     }
     m_bytes.remove_prefix(count + 1U);
     return std::bit_cast<double>(bits);

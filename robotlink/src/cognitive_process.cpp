@@ -23,15 +23,17 @@ struct NamedBehaviour {
 };
 
 constexpr std::array behaviourList{
-    NamedBehaviour{{"striker", "goes for the ball and the goal, leaves the ball to a nearer team-mate", true},
-              makeSoccerDecision<Striker>},
-    NamedBehaviour{{"supporter", "stays near the ball, takes it over when it is clearly nearer", true},
-              makeSoccerDecision<Supporter>},
+    NamedBehaviour{
+        {"striker", "goes for the ball and the goal, leaves the ball to a nearer team-mate", true},
+        makeSoccerDecision<Striker>},
+    NamedBehaviour{
+        {"supporter", "stays near the ball, takes it over when it is clearly nearer", true},
+        makeSoccerDecision<Supporter>},
     NamedBehaviour{{"keeper", "stays between the ball and its goal, clears the ball", true},
-              makeSoccerDecision<Keeper>},
+                   makeSoccerDecision<Keeper>},
     NamedBehaviour{{"idle", "stands", true}, makeSoccerDecision<Idle>},
     NamedBehaviour{{"naive", "as published: turn to the ball, walk to it, kick it", false},
-              makeNaiveDecision},
+                   makeNaiveDecision},
 };
 
 constexpr auto behaviourInfos = [] {
@@ -51,25 +53,27 @@ Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& opt
     if (behaviour.info.name == options.behaviour) return behaviour.make(options);
     known += (known.empty() ? "" : ", ") + std::string(behaviour.info.name);
   }
-  return failure(ErrorCode::NotFound, "there is no behaviour '" + options.behaviour +
-                                          "'; the behaviours are: " + known);
+  return failure(ErrorCode::NotFound,
+                 "there is no behaviour '" + options.behaviour + "'; the behaviours are: " + known);
 }
 
 constexpr std::array processes{
     ProcessInfo{"localization", "finds out where the robot stands", makeLocalization, true, false,
                 true, "pitchboard-robot localization --robot 1"},
-    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk, true, false, true,
-                "pitchboard-robot team --robot 1 --team 0"},
+    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk, true, false,
+                true, "pitchboard-robot team --robot 1 --team 0"},
     ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true, false,
                 "pitchboard-robot decision --robot 1 --behaviour striker"},
-    ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP", makeCommunication,
-                false, false, false,
+    ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP",
+                makeCommunication, false, false, false,
                 "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
 };
 
 }  // namespace
 
-std::span<const ProcessInfo> cognitiveProcesses() { return processes; }
+std::span<const ProcessInfo> cognitiveProcesses() {
+  return processes;
+}
 
 const ProcessInfo* findProcess(std::string_view name) {
   const auto found = std::find_if(processes.begin(), processes.end(),
@@ -77,7 +81,9 @@ const ProcessInfo* findProcess(std::string_view name) {
   return found == processes.end() ? nullptr : &*found;
 }
 
-std::span<const BehaviourInfo> behaviours() { return behaviourInfos; }
+std::span<const BehaviourInfo> behaviours() {
+  return behaviourInfos;
+}
 
 const BehaviourInfo* findBehaviour(std::string_view name) {
   const auto found = std::find_if(behaviourInfos.begin(), behaviourInfos.end(),

@@ -15,10 +15,11 @@ namespace {
 constexpr int teamPorts = 4;
 constexpr int distanceMessage = 2;  // the kind of team message, and the request in CONTROL_MESSAGES
 
-constexpr double cycle = 0.05;        // s: how soon a referee's word is on the blackboard
+constexpr double cycle = 0.05;  // s: how soon a referee's word is on the blackboard
 
-// Obeys the referee in every cycle. Once a second (or as often as asked), as published: says which robot this blackboard belongs to, sends a team message
-// and the telemetry datagram, and clears the five *_WORKING flags, which their owners set again.
+// Obeys the referee in every cycle. Once a second (or as often as asked), as published: says which
+// robot this blackboard belongs to, sends a team message and the telemetry datagram, and clears the
+// five *_WORKING flags, which their owners set again.
 //
 // Team message "2 n DIST", DIST in cm: robot n's distance to the ball. It is VISION_BALL_DIST while
 // the ball is in view. A decision process that wants to tell another value writes it to
@@ -31,8 +32,8 @@ class Communication final : public CognitiveProcess {
       : m_options(options), m_sender(std::move(sender)), m_referee(std::move(referee)) {
     const VariableCatalog& catalog = VariableCatalog::published();
     m_request = catalog.intVar("CONTROL_MESSAGES");
-    m_ownDistance = catalog.floatVar("DECISION_RBT0" + std::to_string(options.robot.value) +
-                                     "_DIST_BALL");
+    m_ownDistance =
+        catalog.floatVar("DECISION_RBT0" + std::to_string(options.robot.value) + "_DIST_BALL");
   }
 
   void step(Blackboard& board, const Clock& clock) override {
@@ -43,7 +44,8 @@ class Communication final : public CognitiveProcess {
     if (clock.seconds < m_nextTelemetry - rounding) return;
     // By absolute time, so that the rate does not drift; what was missed is left out.
     m_nextTelemetry += m_options.telemetryPeriod;
-    if (m_nextTelemetry <= clock.seconds) m_nextTelemetry = clock.seconds + m_options.telemetryPeriod;
+    if (m_nextTelemetry <= clock.seconds)
+      m_nextTelemetry = clock.seconds + m_options.telemetryPeriod;
     board.write(m_variables.robotNumber, m_options.robot.value);
     tellTeam(board);
     sendTelemetry(board);
@@ -55,8 +57,8 @@ class Communication final : public CognitiveProcess {
   void tellTeam(Blackboard& board) {
     const bool asked = m_request && board.read(*m_request) == distanceMessage;
     if (!asked && board.read(m_variables.visionLost) != 0) return;
-    const float distance = board.read(asked && m_ownDistance ? *m_ownDistance
-                                                             : m_variables.visionBallDist);
+    const float distance =
+        board.read(asked && m_ownDistance ? *m_ownDistance : m_variables.visionBallDist);
     const std::string message = std::to_string(distanceMessage) + " " +
                                 std::to_string(m_options.robot.value) + " " +
                                 telemetry::pythonFloat(distance);
@@ -92,7 +94,7 @@ class Communication final : public CognitiveProcess {
 
   ProcessOptions m_options;
   UdpSender m_sender;
-  std::unique_ptr<RefereeListener> m_referee;   // when there is a team to listen for
+  std::unique_ptr<RefereeListener> m_referee;  // when there is a team to listen for
   double m_nextTelemetry = 0.0;
   RobotVariables m_variables;
   std::optional<IntVar> m_request;

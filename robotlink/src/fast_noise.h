@@ -8,8 +8,8 @@
 
 #include <cstdint>
 
-#include <Eigen/Core>
 #include <base/random.h>
+#include <Eigen/Core>
 
 namespace pitchboard::link {
 

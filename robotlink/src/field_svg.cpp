@@ -12,7 +12,8 @@ namespace pitchboard::link {
 namespace {
 
 // docs/DESIGN_LANGUAGE.md; the colours of teams in the order of TeamColor.
-constexpr const char *grass = "#33453a", *border = "#2c3b32", *lines = "#c3cec6", *ballColour = "#f0a35e";
+constexpr const char *grass = "#33453a", *border = "#2c3b32", *lines = "#c3cec6",
+                     *ballColour = "#f0a35e";
 constexpr std::array<const char*, teamColors.size()> teamFill{"#4f8fe3", "#d8605b", "#1b1d20",
                                                               "#e8a25c", "#d8c04a"};
 
@@ -23,8 +24,8 @@ class Drawing {
         m_halfHeight(100 * (field.halfWidth() + field.border)) {}
 
   void rect(double x0, double y0, double x1, double y1, const std::string& style) {
-    m_body += "<rect x=\"" + n(x0) + "\" y=\"" + n(-y1) + "\" width=\"" + n(x1 - x0) + "\" height=\"" +
-              n(y1 - y0) + "\" " + style + "/>";
+    m_body += "<rect x=\"" + n(x0) + "\" y=\"" + n(-y1) + "\" width=\"" + n(x1 - x0) +
+              "\" height=\"" + n(y1 - y0) + "\" " + style + "/>";
   }
   void circle(const Point& centre, double radius, const std::string& style) {
     m_body += "<circle cx=\"" + n(100 * centre.x) + "\" cy=\"" + n(-100 * centre.y) + "\" r=\"" +
@@ -37,12 +38,13 @@ class Drawing {
   void text(const Point& at, const std::string& words) {
     m_body += "<text x=\"" + n(100 * at.x) + "\" y=\"" + n(-100 * at.y) +
               "\" dy=\"6\" text-anchor=\"middle\" font-family=\"DejaVu Sans, sans-serif\" "
-              "font-size=\"17\" font-weight=\"700\" fill=\"#ffffff\">" + words + "</text>";
+              "font-size=\"17\" font-weight=\"700\" fill=\"#ffffff\">" +
+              words + "</text>";
   }
   std::string document() const {
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + n(-m_halfWidth) + ' ' +
-           n(-m_halfHeight) + ' ' + n(2 * m_halfWidth) + ' ' + n(2 * m_halfHeight) + "\">" + m_body +
-           "</svg>\n";
+           n(-m_halfHeight) + ' ' + n(2 * m_halfWidth) + ' ' + n(2 * m_halfHeight) + "\">" +
+           m_body + "</svg>\n";
   }
 
  private:
@@ -69,7 +71,8 @@ void drawField(Drawing& d, const sim::FieldSpec& f) {
     area(f.goalAreaLength, f.goalAreaWidth);
     area(f.penaltyAreaLength, f.penaltyAreaWidth);
     const double back = side * (x + 100 * f.goalDepth), front = side * x;
-    d.rect(std::min(back, front), -50 * f.goalWidth, std::max(back, front), 50 * f.goalWidth, stroke);
+    d.rect(std::min(back, front), -50 * f.goalWidth, std::max(back, front), 50 * f.goalWidth,
+           stroke);
     d.circle({side * (f.halfLength() - f.penaltyMarkDistance), 0}, 5,
              std::string("fill=\"") + lines + '"');
   }
@@ -95,7 +98,8 @@ std::string fieldSvg(const MatchFrame& frame) {
     const double reach = 1.9 * frame.field.robotRadius;
     d.line(at, {at.x + reach * std::cos(robot.pose.yaw), at.y + reach * std::sin(robot.pose.yaw)},
            stroke + " stroke-linecap=\"round\"");
-    d.circle(at, radius, std::string("fill=\"") + fill + "\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
+    d.circle(at, radius,
+             std::string("fill=\"") + fill + "\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
     d.text(at, std::to_string(robot.identity.number));
   }
   if (frame.ballKnown) {

@@ -75,7 +75,7 @@ void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdenti
 
   struct Flag {
     IntVar variable;
-    bool RobotBoardView::* working;
+    bool RobotBoardView::*working;
     bool simulated;
   };
   const std::array<Flag, flags> all{

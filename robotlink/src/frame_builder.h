@@ -29,7 +29,7 @@ class FrameBuilder {
     Time time;
     std::uint64_t tick = 0;
     std::uint64_t ticksDone = 0;
-    double busy = 0.0;   // s
+    double busy = 0.0;  // s
   };
   static constexpr std::size_t flags = 5;
   using LastSeen = std::array<Time, flags>;
@@ -42,7 +42,7 @@ class FrameBuilder {
   std::uint64_t m_ticksDone = 0;
   double m_busy = 0.0;
   std::map<RobotId, LastSeen> m_lastSeen;
-  std::vector<RobotThoughts> m_thoughts;   // change seldom, and cost more than the rest of a frame
+  std::vector<RobotThoughts> m_thoughts;  // change seldom, and cost more than the rest of a frame
   Time m_thoughtsTime{};
 };
 

@@ -50,7 +50,8 @@ std::string hint(std::string_view name, std::span<const std::string_view> known)
   if (const std::string_view near = nearest(name, known); !near.empty()) {
     return "did you mean \"" + std::string(near) + "\"?";
   }
-  if (known.size() > mostListed) return "see its list for the " + std::to_string(known.size()) + " that there are";
+  if (known.size() > mostListed)
+    return "see its list for the " + std::to_string(known.size()) + " that there are";
   std::string list = "known are ";
   for (std::size_t i = 0; i < known.size(); ++i) {
     list += (i == 0 ? "" : ", ") + std::string(known[i]);
@@ -62,8 +63,8 @@ std::string hint(std::string_view name, std::span<const std::string_view> known)
 std::string plain(double value) {
   if (std::abs(value) >= 1e15) return shortest(value);
   std::array<char, 40> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::fixed);
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
   return {buffer.data(), end.ptr};
 }
 
@@ -134,8 +135,8 @@ int JsonObject::integer(std::string_view key, int fallback, int least, int most)
   const bool whole =
       value->kind == JsonNode::Kind::Number && value->number == std::trunc(value->number);
   if (!whole || value->number < least || value->number > most) {
-    fail(key, "must be a whole number from " + std::to_string(least) + " to " +
-                  std::to_string(most));
+    fail(key,
+         "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     return fallback;
   }
   return static_cast<int>(value->number);

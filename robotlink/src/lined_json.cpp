@@ -78,9 +78,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool number_unsigned(number_unsigned_t value) override {
     return addNumber(static_cast<double>(value), value);
   }
-  bool number_float(number_float_t value, const string_t&) override {
-    return addNumber(value, {});
-  }
+  bool number_float(number_float_t value, const string_t&) override { return addNumber(value, {}); }
   bool string(string_t& value) override {
     JsonNode node;
     node.kind = JsonNode::Kind::Text;
@@ -209,9 +207,9 @@ std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report) {
   }
   ReadPosition position;
   TreeBuilder builder(position, report);
-  const bool done = nlohmann::json::sax_parse(CountingIterator(text.data(), &position),
-                                              CountingIterator(text.data() + text.size(), &position),
-                                              &builder);
+  const bool done =
+      nlohmann::json::sax_parse(CountingIterator(text.data(), &position),
+                                CountingIterator(text.data() + text.size(), &position), &builder);
   if (report.failed()) return {};
   if (!done) {
     report.fail(position.line, "", "not valid JSON");

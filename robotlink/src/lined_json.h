@@ -22,9 +22,9 @@ struct JsonNode {
   enum class Kind { Null, Boolean, Number, Text, Array, Object };
 
   Kind kind = Kind::Null;
-  int line = 1;                       ///< where the value (of a member: its key) stands, from 1
+  int line = 1;  ///< where the value (of a member: its key) stands, from 1
   bool boolean = false;
-  double number = 0.0;                ///< finite
+  double number = 0.0;                 ///< finite
   std::optional<std::uint64_t> whole;  ///< exact value of a number written without sign and point
   std::string text;
   std::vector<JsonNode> items;

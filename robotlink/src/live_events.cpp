@@ -7,7 +7,9 @@ namespace pitchboard::link {
 namespace {
 
 /// Events have their time in ticks; a live frame counts sixty a second.
-std::uint64_t liveTick(double time) { return static_cast<std::uint64_t>(time * 60.0 + 0.5); }
+std::uint64_t liveTick(double time) {
+  return static_cast<std::uint64_t>(time * 60.0 + 0.5);
+}
 
 std::string clockWords(int seconds) {
   char text[32];
@@ -67,8 +69,10 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, LiveHappeni
     say(stateWords(now) + " at " + clockWords(now.secondsLeft));
   }
   if (now.timedOut != before.timedOut) {
-    if (now.timedOut) say("not heard for 10 s: the last state is shown", true);
-    else say("is heard again");
+    if (now.timedOut)
+      say("not heard for 10 s: the last state is shown", true);
+    else
+      say("is heard again");
   }
   if (now.conflict && !before.conflict) {
     say("a second referee program is heard; " + now.sender + " is shown", true);
@@ -80,7 +84,8 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, LiveHappeni
     const bool scored = now.teams[side].score > was->score;
     say((scored ? "goal for " : "score corrected for ") + teamWords(now.teams[side]) + ": " +
         std::to_string(now.teams[0].score) + " : " + std::to_string(now.teams[1].score));
-    if (scored) out.events.push_back({sim::EventKind::Goal, liveTick(time), {}, static_cast<int>(side)});
+    if (scored)
+      out.events.push_back({sim::EventKind::Goal, liveTick(time), {}, static_cast<int>(side)});
   }
 }
 
@@ -100,8 +105,8 @@ void LiveEvents::compareRobot(const RobotHealth& robot, const std::string& name,
     }
   }
   if (robot.conflict && !known.conflict) {
-    say("number " + std::to_string(robot.number) + " is also sent by another program; this one is " +
-            robot.sender,
+    say("number " + std::to_string(robot.number) +
+            " is also sent by another program; this one is " + robot.sender,
         true);
   }
   if (robot.penalty && (!known.penalty || known.penalty->words != robot.penalty->words)) {
@@ -137,11 +142,11 @@ std::vector<LogLine> LiveEvents::comparePorts(const telemetry::ReceiverStatus& n
     std::string& known = m_ports[port.port];
     if (port.problem == known) continue;
     if (port.bound) {
-      lines.push_back({time, "network", "port " + std::to_string(port.port) + " is received now",
-                       false});
+      lines.push_back(
+          {time, "network", "port " + std::to_string(port.port) + " is received now", false});
     } else {
-      lines.push_back({time, "network",
-                       port.problem + " It is tried again; the other ports work.", true});
+      lines.push_back(
+          {time, "network", port.problem + " It is tried again; the other ports work.", true});
     }
     known = port.problem;
   }

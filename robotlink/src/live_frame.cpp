@@ -23,7 +23,9 @@ double seconds(telemetry::Duration duration) {
 /// Sane numbers for drawing; what was sent stays in `values`.
 constexpr double farAway_cm = 10'000.0;
 
-double sane(double cm) { return std::clamp(cm, -farAway_cm, farAway_cm); }
+double sane(double cm) {
+  return std::clamp(cm, -farAway_cm, farAway_cm);
+}
 
 int asInt(std::optional<double> value) {
   constexpr double most = 2147483647.0;
@@ -132,8 +134,7 @@ std::string lowered(std::string_view text) {
   return out;
 }
 
-RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam,
-                   telemetry::WallTime now) {
+RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, telemetry::WallTime now) {
   const RefereeState& state = *tracker.state();
   RefereeView view;
   view.version = state.version;
@@ -147,7 +148,8 @@ RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam,
   constexpr int normal = 0, overtime = 2, shootout = 1;
   if (state.secState && *state.secState != normal) {
     const std::string words = lowered(telemetry::secStateName(*state.secState));
-    (*state.secState == overtime || *state.secState == shootout ? view.phase : view.setPlay) = words;
+    (*state.secState == overtime || *state.secState == shootout ? view.phase : view.setPlay) =
+        words;
   }
   if (state.gamePhase && *state.gamePhase != 0) {
     view.phase = telemetry::gamePhaseWords(*state.gamePhase);

@@ -20,7 +20,8 @@ int whole(const Json& object, const char* key, int fallback = 0) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number_integer()) return fallback;
   const auto value = found->get<std::int64_t>();
-  const bool fits = value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
+  const bool fits =
+      value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
   return fits ? static_cast<int>(value) : fallback;
 }
 
@@ -77,7 +78,8 @@ std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
   r.secondaryTime = optional("secondaryTime");
   r.kickOffTeam = optional("kickOffTeamNumber");
   const auto teams = json.find("teams");
-  for (std::size_t i = 0; teams != json.end() && teams->is_array() && i < r.teams.size() && i < teams->size(); ++i) {
+  for (std::size_t i = 0;
+       teams != json.end() && teams->is_array() && i < r.teams.size() && i < teams->size(); ++i) {
     const Json& team = (*teams)[i];
     if (!team.is_object()) continue;
     std::string colour = text(team, "colourName");
@@ -104,18 +106,17 @@ Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& pa
                                                            const LiveOptions& live,
                                                            telemetry::WallTime zero,
                                                            const RecorderOptions& options) {
-  auto writer = telemetry::SessionWriter::create(
-      path, liveSessionInfo(live, zero, options.program), options.writer);
+  auto writer = telemetry::SessionWriter::create(path, liveSessionInfo(live, zero, options.program),
+                                                 options.writer);
   if (!writer) return tl::unexpected(writer.error());
   (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
-  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero, live.refereePort));
+  return std::shared_ptr<LiveRecorder>(
+      new LiveRecorder(std::move(*writer), zero, live.refereePort));
 }
 
-LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
-                           int refereePort)
-    : m_writer(std::move(writer)),
-      m_refereePort(refereePort),
-      m_rows(m_writer, {zero, {}}) {}
+LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
+                           telemetry::WallTime zero, int refereePort)
+    : m_writer(std::move(writer)), m_refereePort(refereePort), m_rows(m_writer, {zero, {}}) {}
 
 LiveRecorder::~LiveRecorder() = default;
 
@@ -135,10 +136,11 @@ void LiveRecorder::refereeHeard(double time, const telemetry::DatagramView& data
 }
 
 void LiveRecorder::unusedHeard(double time, const telemetry::DatagramView& datagram) {
-  const bool ofRobot = datagram.localPort != m_refereePort &&
-                       datagram.localPort != telemetry::robotStatesPort;
-  m_writer->append(ofRobot ? telemetry::SessionStream::Telemetry : telemetry::SessionStream::RefereeRaw,
-                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+  const bool ofRobot =
+      datagram.localPort != m_refereePort && datagram.localPort != telemetry::robotStatesPort;
+  m_writer->append(
+      ofRobot ? telemetry::SessionStream::Telemetry : telemetry::SessionStream::RefereeRaw,
+      {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
 }
 
 void LiveRecorder::happened(const sim::Event& event, double time) {
@@ -148,7 +150,8 @@ void LiveRecorder::happened(const sim::Event& event, double time) {
 }
 
 void LiveRecorder::logged(const LogLine& line) {
-  m_writer->append(telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+  m_writer->append(
+      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
 }
 
 void LiveRecorder::frameMade(const MatchFrame& frame) {
@@ -158,7 +161,8 @@ void LiveRecorder::frameMade(const MatchFrame& frame) {
   m_writer->appendJson(telemetry::SessionStream::Referee, time,
                        refereeToJson(*news, *frame.referee, time));
   if (std::exchange(m_refereeState, frame.referee->state) != frame.referee->state) {
-    m_writer->append(telemetry::SessionEvent{time, "referee", {}, "referee: " + frame.referee->state});
+    m_writer->append(
+        telemetry::SessionEvent{time, "referee", {}, "referee: " + frame.referee->state});
   }
 }
 

@@ -19,11 +19,11 @@ using telemetry::RefereeState;
 using telemetry::TeamMonitor;
 using telemetry::WallTime;
 
-constexpr auto framePeriod = 16ms;    // at most so often while something arrives
-constexpr auto idlePeriod = 100ms;    // ages and timeouts go on without messages
+constexpr auto framePeriod = 16ms;  // at most so often while something arrives
+constexpr auto idlePeriod = 100ms;  // ages and timeouts go on without messages
 constexpr auto portsPeriod = 500ms;
 constexpr auto reportPeriod = 250ms;
-constexpr std::size_t flood = 16;     // datagrams in one go from which on it pays to gather
+constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
 constexpr std::size_t maxQueued = 10'000;
 
 WallTime wallNow() {
@@ -71,7 +71,7 @@ struct LiveWatch::Impl {
   void listen() {
     {
       const std::lock_guard lock(mutex);
-      receiver.reset();   // its ports may be wanted again
+      receiver.reset();  // its ports may be wanted again
     }
     auto started = telemetry::UdpReceiver::start(receiverOptions(options));
     const std::lock_guard lock(mutex);
@@ -158,8 +158,8 @@ struct LiveWatch::Impl {
     const std::lock_guard lock(mutex);
     const telemetry::TeamStatus team = monitor.status(wallNow());
     identities.keepOnly(team);
-    auto made = std::make_shared<MatchFrame>(
-        liveFrame(options, team, referee, identities, since(now)));
+    auto made =
+        std::make_shared<MatchFrame>(liveFrame(options, team, referee, identities, since(now)));
     made->serial = ++serial;
     tell(happened.compare(*made), made->snapshot.time);
     if (receiver && now >= nextPorts) {
@@ -223,12 +223,12 @@ struct LiveWatch::Impl {
 
   const Steady::time_point begin = Steady::now();
   const WallTime wallBegin = wallNow();
-  LiveOptions options;                       // changed by the thread only
+  LiveOptions options;  // changed by the thread only
   const std::function<void()> onFrame;
   std::unique_ptr<telemetry::UdpReceiver> receiver;
   Steady::time_point nextRequest{}, nextPorts{}, nextReport{};
 
-  mutable std::mutex mutex;                  // guards everything below, and changes of `receiver`
+  mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
   std::optional<LiveOptions> pending;
   bool clearAsked = false;
   TeamMonitor monitor;
@@ -242,7 +242,7 @@ struct LiveWatch::Impl {
   std::vector<sim::Event> events;
   std::vector<LogLine> lines;
   std::vector<std::shared_ptr<LiveObserver>> observers;
-  std::jthread thread;                       // last: it uses all of the above
+  std::jthread thread;  // last: it uses all of the above
 };
 
 LiveWatch::LiveWatch(LiveOptions options, std::function<void()> onFrame)
@@ -297,7 +297,9 @@ std::vector<LogLine> LiveWatch::takeLog() {
   return std::exchange(m_impl->lines, {});
 }
 
-telemetry::WallTime LiveWatch::began() const { return m_impl->wallBegin; }
+telemetry::WallTime LiveWatch::began() const {
+  return m_impl->wallBegin;
+}
 
 void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
   const std::lock_guard lock(m_impl->mutex);

@@ -15,13 +15,14 @@ namespace pitchboard::link {
 namespace {
 
 constexpr float unseen = -999.0F;
-constexpr double cycle = 0.05;            // s
-constexpr double longestGap = 1.0;        // s; a process that was stopped does not walk on
-constexpr double sureEnough_cm = 1.0;     // published: landmarks are asked for above this sigma
+constexpr double cycle = 0.05;         // s
+constexpr double longestGap = 1.0;     // s; a process that was stopped does not walk on
+constexpr double sureEnough_cm = 1.0;  // published: landmarks are asked for above this sigma
 
-// Reads CONTROL_ACTION, the four landmarks and IMU_EULER_Z; writes LOCALIZATION_X, _Y, _THETA (whole
-// cm and degrees, origin top left, y down), the belief (sigma in cm) in LOCALIZATION_RBT01_X, what
-// vision is to look for in DECISION_LOCALIZATION (1 landmarks, 0 ball) and LOCALIZATION_WORKING.
+// Reads CONTROL_ACTION, the four landmarks and IMU_EULER_Z; writes LOCALIZATION_X, _Y, _THETA
+// (whole cm and degrees, origin top left, y down), the belief (sigma in cm) in
+// LOCALIZATION_RBT01_X, what vision is to look for in DECISION_LOCALIZATION (1 landmarks, 0 ball)
+// and LOCALIZATION_WORKING.
 class Localization final : public CognitiveProcess {
  public:
   Localization(MonteCarloLocalization filter, const sim::FieldSpec& field)
@@ -31,8 +32,8 @@ class Localization final : public CognitiveProcess {
     LocalizationInput input;
     input.seconds = std::clamp(clock.seconds - m_last, 0.0, longestGap);
     m_last = clock.seconds;
-    const GaitSpeed speed = gaitSpeed(board.read(m_variables.controlAction),
-                                      board.read(m_variables.decisionActionB));
+    const GaitSpeed speed =
+        gaitSpeed(board.read(m_variables.controlAction), board.read(m_variables.decisionActionB));
     input.forward = speed.forward * input.seconds;
     input.left = speed.left * input.seconds;
     input.turn = speed.turn * input.seconds;
@@ -59,7 +60,8 @@ class Localization final : public CognitiveProcess {
       cloud->particles.push_back({pose.position, pose.yaw, m_filter.weight(index)});
       sum += cloud->particles.back().weight;
     }
-    for (Particle& particle : cloud->particles) particle.weight = sum > 0.0 ? particle.weight / sum : 0.0;
+    for (Particle& particle : cloud->particles)
+      particle.weight = sum > 0.0 ? particle.weight / sum : 0.0;
     const Belief& belief = m_filter.belief();
     cloud->count = count;
     cloud->pose = belief.pose;
@@ -108,8 +110,9 @@ Result<std::unique_ptr<CognitiveProcess>> makeLocalization(const ProcessOptions&
     parameters.mostParticles = options.particles;
     parameters.leastParticles = std::min(parameters.leastParticles, options.particles);
   }
-  const ImuZero zero = !options.facesLeft ? ImuZero::Unknown
-                       : *options.facesLeft ? ImuZero::Left : ImuZero::Right;
+  const ImuZero zero = !options.facesLeft   ? ImuZero::Unknown
+                       : *options.facesLeft ? ImuZero::Left
+                                            : ImuZero::Right;
   auto filter = MonteCarloLocalization::create(options.field, parameters, zero, options.seed,
                                                options.robot.value);
   if (!filter) return tl::unexpected<Error>(filter.error());

@@ -18,7 +18,7 @@ constexpr std::string_view commandKey = "command.";
 
 struct TimeKey {
   std::string_view name;
-  ManagerTiming::Seconds ManagerTiming::* member;
+  ManagerTiming::Seconds ManagerTiming::*member;
 };
 constexpr std::array<TimeKey, 5> timeKeys{{{"start_interval", &ManagerTiming::startInterval},
                                            {"silent_after", &ManagerTiming::silentAfter},
@@ -105,7 +105,8 @@ Result<ManagementConfig> managementFromIni(const IniFile& file) {
       if (words.empty()) return refuse("names no program");
       config.commands[entry.name.substr(commandKey.size())] = std::move(words);
     } else {
-      return failure(ErrorCode::ParseError, unknownName("key", entry.name, keys), file.place(entry));
+      return failure(ErrorCode::ParseError, unknownName("key", entry.name, keys),
+                     file.place(entry));
     }
   }
   for (auto name = config.processes.begin(); name != config.processes.end(); ++name) {
@@ -115,8 +116,10 @@ Result<ManagementConfig> managementFromIni(const IniFile& file) {
     }
     if (findProcess(*name) != nullptr || config.commands.contains(*name)) continue;
     return failure(ErrorCode::ParseError,
-                   "there is no reference process '" + *name + "'; tell how to start yours: "
-                   "command." + *name + " = PROGRAM ARGUMENTS",
+                   "there is no reference process '" + *name +
+                       "'; tell how to start yours: "
+                       "command." +
+                       *name + " = PROGRAM ARGUMENTS",
                    list ? file.place(*list) : file.source);
   }
   return config;

@@ -21,10 +21,10 @@ constexpr double centimetres = 100.0;
 
 // What a session keeps of values that nothing is entered again from (that is done from checkpoints,
 // which keep every bit), or that follow from columns that are kept in full.
-constexpr double derived = 1.0 / 256;        // 0.04 mm, 0.004°
-constexpr double speed_mps = 1.0 / (1 << 17);   // 8 µm/s
-constexpr double place_m = 1.0 / (1 << 17);     // 8 µm
-constexpr double angle_deg = 1.0 / (1 << 12);   // 0.0002°
+constexpr double derived = 1.0 / 256;          // 0.04 mm, 0.004°
+constexpr double speed_mps = 1.0 / (1 << 17);  // 8 µm/s
+constexpr double place_m = 1.0 / (1 << 17);    // 8 µm
+constexpr double angle_deg = 1.0 / (1 << 12);  // 0.0002°
 constexpr double microseconds = 1.0 / 8;
 
 /// What the columns of a robot are computed from.
@@ -32,7 +32,7 @@ struct Robot {
   const sim::Snapshot& snapshot;
   const sim::RobotSnapshot& truth;
   std::optional<Pose> belief;
-  double trueBallDistance = 0.0, trueBallBearing = 0.0;   // m, rad, left positive
+  double trueBallDistance = 0.0, trueBallBearing = 0.0;  // m, rad, left positive
   bool ballSeen = false;
   double seenBallDistance = 0.0, seenBallBearing = 0.0;
 };
@@ -68,15 +68,17 @@ const std::array robotColumns{
                 ColumnKind::Flag},
     RobotColumn{"DISTANCE_WALKED", "m", truth,
                 [](const Robot& r) { return r.truth.statistics.distanceWalked; }},
-    RobotColumn{"KICKS", "", truth, [](const Robot& r) { return double(r.truth.statistics.kicks); }},
-    RobotColumn{"FALLS", "", truth, [](const Robot& r) { return double(r.truth.statistics.falls); }},
+    RobotColumn{"KICKS", "", truth,
+                [](const Robot& r) { return double(r.truth.statistics.kicks); }},
+    RobotColumn{"FALLS", "", truth,
+                [](const Robot& r) { return double(r.truth.statistics.falls); }},
     RobotColumn{"UNKNOWN_ACTIONS", "", truth,
                 [](const Robot& r) { return double(r.truth.statistics.unknownActions); }},
     RobotColumn{"LAST_UNKNOWN_ACTION", "", truth,
                 [](const Robot& r) { return double(r.truth.statistics.lastUnknownAction); }},
     RobotColumn{"TRUE_BALL_DIST", "cm", truth,
-                [](const Robot& r) { return r.trueBallDistance * centimetres; },
-                ColumnKind::Number, derived},
+                [](const Robot& r) { return r.trueBallDistance * centimetres; }, ColumnKind::Number,
+                derived},
     RobotColumn{"TRUE_BALL_ANGLE", "°", truth,
                 [](const Robot& r) { return degreesFromRadians(r.trueBallBearing); },
                 ColumnKind::Number, derived},
@@ -87,15 +89,16 @@ const std::array robotColumns{
     RobotColumn{"BELIEF_Y", "m", belief,
                 [](const Robot& r) { return r.belief ? r.belief->position.y : unknown; },
                 ColumnKind::Number, place_m},
-    RobotColumn{"BELIEF_YAW", "°", belief,
-                [](const Robot& r) { return r.belief ? degreesFromRadians(r.belief->yaw) : unknown; },
-                ColumnKind::Number, angle_deg},
+    RobotColumn{
+        "BELIEF_YAW", "°", belief,
+        [](const Robot& r) { return r.belief ? degreesFromRadians(r.belief->yaw) : unknown; },
+        ColumnKind::Number, angle_deg},
 
     RobotColumn{"BELIEF_ERROR", "cm", errors,
                 [](const Robot& r) {
                   return beliefError(r, [](const Pose& b, const Pose& t) {
-                    return centimetres * std::hypot(b.position.x - t.position.x,
-                                                    b.position.y - t.position.y);
+                    return centimetres *
+                           std::hypot(b.position.x - t.position.x, b.position.y - t.position.y);
                   });
                 },
                 ColumnKind::Number, derived},
@@ -149,8 +152,10 @@ const std::array theMatchColumns{
                 ColumnKind::Number, speed_mps},
     MatchColumn{"CLOCK", "s", game, [](const sim::Snapshot& s) { return s.clock; }},
     MatchColumn{"CLOCK_RUNNING", "", game,
-                [](const sim::Snapshot& s) { return s.clockRunning ? 1.0 : 0.0; }, ColumnKind::Flag},
-    MatchColumn{"SCORE_LEFT", "", game, [](const sim::Snapshot& s) { return double(s.score.left); }},
+                [](const sim::Snapshot& s) { return s.clockRunning ? 1.0 : 0.0; },
+                ColumnKind::Flag},
+    MatchColumn{"SCORE_LEFT", "", game,
+                [](const sim::Snapshot& s) { return double(s.score.left); }},
     MatchColumn{"SCORE_RIGHT", "", game,
                 [](const sim::Snapshot& s) { return double(s.score.right); }}};
 
@@ -159,7 +164,12 @@ const std::array theMatchColumns{
 std::vector<ColumnInfo> truthColumns() {
   std::vector<ColumnInfo> out;
   for (const RobotColumn& column : robotColumns) {
-    out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {},
+    out.push_back({column.name,
+                   ColumnType::Float64,
+                   column.unit,
+                   column.heading,
+                   column.kind,
+                   {},
                    column.resolution});
     if (column.kind == ColumnKind::Enumeration) out.back().labels = telemetry::actionLabels();
   }
@@ -193,16 +203,22 @@ void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
 std::vector<ColumnInfo> matchColumns() {
   std::vector<ColumnInfo> out;
   for (const MatchColumn& column : theMatchColumns) {
-    out.push_back({column.name, ColumnType::Float64, column.unit, column.heading, column.kind, {},
+    out.push_back({column.name,
+                   ColumnType::Float64,
+                   column.unit,
+                   column.heading,
+                   column.kind,
+                   {},
                    column.resolution});
   }
-  out.push_back({"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {},
-                 microseconds});
+  out.push_back(
+      {"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {}, microseconds});
   return out;
 }
 
 void readMatch(const sim::Snapshot& snapshot, double tickTime_us, std::span<double> out) {
-  for (std::size_t i = 0; i < theMatchColumns.size(); ++i) out[i] = theMatchColumns[i].read(snapshot);
+  for (std::size_t i = 0; i < theMatchColumns.size(); ++i)
+    out[i] = theMatchColumns[i].read(snapshot);
   out[theMatchColumns.size()] = tickTime_us;
 }
 

@@ -14,7 +14,8 @@
 namespace pitchboard::link {
 
 std::vector<telemetry::ColumnInfo> truthColumns();
-/// In the order of truthColumns(); NaN where there is nothing to say (ball not seen, no belief yet).
+/// In the order of truthColumns(); NaN where there is nothing to say (ball not seen, no belief
+/// yet).
 void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
                const sim::RobotSnapshot& robot, const Blackboard& board, std::span<double> out);
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longestBatch = 8ms;      // then commands, frames and a stop get their turn
+constexpr auto longestBatch = 8ms;  // then commands, frames and a stop get their turn
 constexpr auto frameInterval = 8ms;
 constexpr auto pollInterval = 50ms;
 constexpr std::uint64_t noLastTick = std::numeric_limits<std::uint64_t>::max();
@@ -108,7 +108,8 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   const double speed = runTo ? MatchRunner::unlimitedSpeed : m_shared.speed;
   const bool still = finished || (m_shared.paused && !runTo);
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
-    m_pacer.start(now, tick, std::max(speed, 1e-6) * m_match.simulation().state().settings.tickRate);
+    m_pacer.start(now, tick,
+                  std::max(speed, 1e-6) * m_match.simulation().state().settings.tickRate);
     m_builder.resetSpeed(now, tick);
     m_publishWanted = true;
   }
@@ -229,9 +230,9 @@ void MatchLoop::pollChildren() {
 std::string MatchLoop::nameOf(const ChildSpec& child) const {
   const auto& robots = m_match.simulation().state().robots;
   const auto index = m_match.simulation().indexOf(child.robot);
-  const std::string robot = index ? std::string(info(robots[*index].team).letter) +
-                                        std::to_string(robots[*index].number)
-                                  : "robot " + std::to_string(child.robot.value);
+  const std::string robot =
+      index ? std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number)
+            : "robot " + std::to_string(child.robot.value);
   return robot + ' ' + child.name;
 }
 

@@ -15,7 +15,8 @@
 
 namespace pitchboard::link {
 
-/// Frames that nobody looks at any more are filled again, so that playing allocates next to nothing.
+/// Frames that nobody looks at any more are filled again, so that playing allocates next to
+/// nothing.
 class FramePool : public std::enable_shared_from_this<FramePool> {
  public:
   std::shared_ptr<MatchFrame> take();
@@ -32,14 +33,14 @@ class MatchLoop;
 struct MatchRunner::Shared {
   static constexpr std::size_t mostQueued = 10'000;
 
-  mutable std::mutex mutex;               // guards everything below
+  mutable std::mutex mutex;                      // guards everything below
   mutable std::condition_variable_any changed;   // for the thread
   mutable std::condition_variable_any stillNow;  // for waitUntilStill()
   std::deque<Command> commands;
   bool paused = false;
   int singleSteps = 0;
   bool paceChanged = true;
-  bool settled = false;                   // stands still, and the latest frame shows it
+  bool settled = false;  // stands still, and the latest frame shows it
   double speed = 1.0;
   std::optional<std::uint64_t> runTo;
   std::shared_ptr<const MatchFrame> latest;
@@ -48,7 +49,7 @@ struct MatchRunner::Shared {
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
 
-  MatchLoop* loop = nullptr;              // for commands, which run on its thread
+  MatchLoop* loop = nullptr;  // for commands, which run on its thread
 };
 
 class MatchLoop {
@@ -84,7 +85,7 @@ class MatchLoop {
   std::shared_ptr<FramePool> m_pool = std::make_shared<FramePool>();
   std::vector<std::shared_ptr<TickObserver>> m_observers;
   std::vector<sim::Event> m_newEvents;
-  std::vector<ChildState> m_childStates;   // as last seen
+  std::vector<ChildState> m_childStates;  // as last seen
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;
   std::uint64_t m_serial = 0;

@@ -90,17 +90,19 @@ Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& 
                                                              const Scenario& scenario,
                                                              const VariableCatalog& catalog,
                                                              const RecorderOptions& options) {
-  auto writer = telemetry::SessionWriter::create(path, sessionInfo(scenario, options), options.writer);
+  auto writer =
+      telemetry::SessionWriter::create(path, sessionInfo(scenario, options), options.writer);
   if (!writer) return tl::unexpected(writer.error());
   attachMatch(**writer, scenario, catalog);
   return std::make_shared<MatchRecorder>(std::move(*writer), options.everyNth);
 }
 
 MatchRecorder::MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer, int everyNth)
-    : m_writer(std::move(writer)),
-      m_sampler(m_writer, {everyNth}) {}
+    : m_writer(std::move(writer)), m_sampler(m_writer, {everyNth}) {}
 
-MatchRecorder::~MatchRecorder() { (void)finish(); }
+MatchRecorder::~MatchRecorder() {
+  (void)finish();
+}
 
 void MatchRecorder::ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) {
   keep(m_segmenter.ticked(match));
@@ -120,7 +122,8 @@ void MatchRecorder::worldChanged(const SimulatedMatch& match) {
 }
 
 void MatchRecorder::logged(const LogLine& line) {
-  m_writer->append(telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+  m_writer->append(
+      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
 }
 
 void MatchRecorder::keep(std::optional<StateSegment> ended) {
@@ -168,9 +171,9 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
   options.waitWhenFull = true;
   auto writer = telemetry::SessionWriter::create(path, info, options);
   if (!writer) return tl::unexpected(writer.error());
-  for (const auto& [name, text] : {std::pair{scenarioAttachment, &past.scenario},
-                                   std::pair{catalogAttachment, &past.catalog},
-                                   std::pair{profileAttachment, &past.profile}}) {
+  for (const auto& [name, text] :
+       {std::pair{scenarioAttachment, &past.scenario}, std::pair{catalogAttachment, &past.catalog},
+        std::pair{profileAttachment, &past.profile}}) {
     if (!text->empty()) (*writer)->attach(name, "application/json", *text);
   }
   const double begin = std::max(range->begin, range->end - seconds);

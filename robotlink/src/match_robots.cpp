@@ -52,8 +52,8 @@ Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(
 Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) const {
   for (const sim::RobotIdentity& other : m_simulation.state().robots) {
     if (other.id != identity.id && other.team == identity.team && other.number == identity.number) {
-      return failure(ErrorCode::Conflict, "there is already a robot " + nameOf(identity) +
-                                              "; choose another number");
+      return failure(ErrorCode::Conflict,
+                     "there is already a robot " + nameOf(identity) + "; choose another number");
     }
   }
   return {};
@@ -127,9 +127,8 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   std::vector<std::unique_ptr<Seat>> seats;
   for (const sim::RobotIdentity& identity : moment.state.robots) {
     auto& from = addedSeat(identity.id) ? added : m_seats;
-    const auto found = std::find_if(from.begin(), from.end(), [&](const auto& one) {
-      return one && one->id == identity.id;
-    });
+    const auto found = std::find_if(from.begin(), from.end(),
+                                    [&](const auto& one) { return one && one->id == identity.id; });
     seats.push_back(std::move(*found));
   }
   m_seats = std::move(seats);
@@ -154,7 +153,8 @@ Result<void> SimulatedMatch::startProcesses(Seat& seat) {
 Result<void> SimulatedMatch::startProcess(Seat& seat, const ProcessInfo& process) {
   if (seat.behaviour == noBehaviour && process.hasBehaviour) return {};
   if (m_options.cognition == Cognition::External) {
-    auto started = m_supervisor->start({seat.id, std::string(process.name), commandOf(seat, process)});
+    auto started =
+        m_supervisor->start({seat.id, std::string(process.name), commandOf(seat, process)});
     if (!started) return tl::unexpected(started.error());
   } else if (m_options.cognition == Cognition::Inline && process.deterministic) {
     const BehaviourInfo* behaviour = findBehaviour(seat.behaviour);
@@ -188,30 +188,30 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
   const sim::RobotIdentity& identity =
       m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
   std::vector<std::string> command{
-          m_options.robotProgram,
-          std::string(process.name),
-          "--robot",
-          std::to_string(seat.id.value),
-          "--key",
-          std::to_string(blackboardKey(seat.id, m_options.keyBase)),
-          "--behaviour",
-          seat.behaviour == noBehaviour ? options.behaviour : seat.behaviour,
-          "--distance-to-kick",
-          shortest(options.distanceToKick),
-          "--udp-address",
-          options.udpAddress,
-          "--telemetry-port-base",
-          std::to_string(options.telemetryPortBase),
-          "--team-port-base",
-          std::to_string(options.teamPortBase),
-          "--team",
-          std::to_string(options.team + static_cast<int>(identity.team)),
-          "--attack",
-          identity.imuStartsAt180 ? "left" : "right",
-          "--particles",
-          std::to_string(options.particles),
-          "--field",
-          fieldToText(m_scenario.settings.field)};
+      m_options.robotProgram,
+      std::string(process.name),
+      "--robot",
+      std::to_string(seat.id.value),
+      "--key",
+      std::to_string(blackboardKey(seat.id, m_options.keyBase)),
+      "--behaviour",
+      seat.behaviour == noBehaviour ? options.behaviour : seat.behaviour,
+      "--distance-to-kick",
+      shortest(options.distanceToKick),
+      "--udp-address",
+      options.udpAddress,
+      "--telemetry-port-base",
+      std::to_string(options.telemetryPortBase),
+      "--team-port-base",
+      std::to_string(options.teamPortBase),
+      "--team",
+      std::to_string(options.team + static_cast<int>(identity.team)),
+      "--attack",
+      identity.imuStartsAt180 ? "left" : "right",
+      "--particles",
+      std::to_string(options.particles),
+      "--field",
+      fieldToText(m_scenario.settings.field)};
   if (m_thoughts) {
     command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
   }
@@ -289,13 +289,12 @@ Scenario SimulatedMatch::toScenario() const {
   moment.robots.clear();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];
-    moment.robots.push_back({robot.identity,
-                             {inside(robot.pose.position), robot.pose.yaw},
-                             m_seats[i]->behaviour});
+    moment.robots.push_back(
+        {robot.identity, {inside(robot.pose.position), robot.pose.yaw}, m_seats[i]->behaviour});
   }
 
-  moment.writes = writesFrom(m_scenario.writes, now.time,
-                             [this](RobotId id) { return seat(id) != nullptr; });
+  moment.writes =
+      writesFrom(m_scenario.writes, now.time, [this](RobotId id) { return seat(id) != nullptr; });
   return moment;
 }
 

@@ -8,32 +8,30 @@
 
 namespace pitchboard::link {
 
-Result<std::unique_ptr<MatchRunner>> MatchRunner::start(const Scenario& scenario,
-                                                        const MatchOptions& options, bool paused,
-                                                        const VariableCatalog& catalog,
-                                                        std::vector<std::shared_ptr<TickObserver>>
-                                                            observers) {
+Result<std::unique_ptr<MatchRunner>> MatchRunner::start(
+    const Scenario& scenario, const MatchOptions& options, bool paused,
+    const VariableCatalog& catalog, std::vector<std::shared_ptr<TickObserver>> observers) {
   auto shared = std::make_shared<Shared>();
   shared->paused = paused;
   std::unique_ptr<MatchRunner> runner(new MatchRunner(shared));
   std::promise<Result<void>> made;
   auto outcome = made.get_future();
   // `scenario` and `options` are only used before the promise is kept, while this call waits.
-  runner->m_thread = std::jthread([&scenario, &options, &catalog, shared,
-                                   observers = std::move(observers),
-                                   promise = std::move(made)](const std::stop_token& stop) mutable {
-    auto match = SimulatedMatch::create(scenario, options, catalog);
-    if (!match) {
-      promise.set_value(tl::unexpected(match.error()));
-      return;
-    }
-    MatchLoop loop(*shared, std::move(*match));
-    for (auto& observer : observers) loop.observe(std::move(observer));
-    shared->loop = &loop;
-    loop.publish();
-    promise.set_value({});
-    loop.run(stop);
-  });
+  runner->m_thread =
+      std::jthread([&scenario, &options, &catalog, shared, observers = std::move(observers),
+                    promise = std::move(made)](const std::stop_token& stop) mutable {
+        auto match = SimulatedMatch::create(scenario, options, catalog);
+        if (!match) {
+          promise.set_value(tl::unexpected(match.error()));
+          return;
+        }
+        MatchLoop loop(*shared, std::move(*match));
+        for (auto& observer : observers) loop.observe(std::move(observer));
+        shared->loop = &loop;
+        loop.publish();
+        promise.set_value({});
+        loop.run(stop);
+      });
   if (auto started = outcome.get(); !started) return tl::unexpected(started.error());
   return runner;
 }

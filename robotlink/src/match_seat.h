@@ -15,13 +15,13 @@ namespace pitchboard::link {
 struct InlineProcess {
   const ProcessInfo* info = nullptr;
   std::unique_ptr<CognitiveProcess> process;
-  std::uint64_t nextTick = 0;   ///< runs after the tick that ends here
+  std::uint64_t nextTick = 0;  ///< runs after the tick that ends here
 };
 
 struct SimulatedMatch::Seat {
   RobotId id;
   std::string behaviour;
-  std::optional<BridgeClaim> claim;   // given back after the segment is gone
+  std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;
   std::vector<InlineProcess> processes;
 

@@ -56,8 +56,8 @@ std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
     if (place >= words.size()) break;
     const std::uint32_t bits = words[place++];
     const Variable* variable = catalog.find(column.name);
-    const auto type = column.type == telemetry::ColumnType::Int32 ? VariableType::Int
-                                                                  : VariableType::Float;
+    const auto type =
+        column.type == telemetry::ColumnType::Int32 ? VariableType::Int : VariableType::Float;
     if (!variable || variable->type != type) continue;
     const int base = type == VariableType::Int ? 0 : Blackboard::floatOffset;
     out.push_back({base + variable->index, bits});
@@ -82,7 +82,8 @@ Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::Se
     if (!robot || !isPlaying(moment.state, *robot) || !view->rowAt(time, rowTime, words, values)) {
       continue;
     }
-    if (rowTime * rate < static_cast<double>(tick) - 1.5) continue;  // an earlier robot of its number
+    if (rowTime * rate < static_cast<double>(tick) - 1.5)
+      continue;  // an earlier robot of its number
     moment.robots.push_back(
         {*robot, behaviourOf(view->info()), boardWords(view->info(), words, catalog)});
   }
@@ -95,9 +96,11 @@ Result<Moment> momentFromSession(const telemetry::SessionReader& session, double
   if (!segment) return tl::unexpected(segment.error());
   const double rate = segment->segment.tickRate();
   const double ticks = std::floor((seconds - segment->time) * rate + tickTolerance);
-  const auto length = static_cast<double>(segment->segment.lastTick() - segment->segment.firstTick());
+  const auto length =
+      static_cast<double>(segment->segment.lastTick() - segment->segment.firstTick());
   const double inside = std::clamp(ticks, 0.0, length);
-  auto state = segment->segment.at(segment->segment.firstTick() + static_cast<std::uint64_t>(inside));
+  auto state =
+      segment->segment.at(segment->segment.firstTick() + static_cast<std::uint64_t>(inside));
   if (!state) return tl::unexpected(state.error());
   Moment moment{std::move(*state), {}};
 
@@ -110,7 +113,8 @@ Result<Moment> momentFromSession(const telemetry::SessionReader& session, double
     if (!rows[i].present || !robot || !isPlaying(moment.state, *robot)) continue;
     if ((time - rows[i].time) * rate > 1.5) continue;
     if (moment.robot(*robot)) continue;
-    moment.robots.push_back({*robot, behaviourOf(group), boardWords(group, rows[i].words, catalog)});
+    moment.robots.push_back(
+        {*robot, behaviourOf(group), boardWords(group, rows[i].words, catalog)});
   }
   return moment;
 }

@@ -17,13 +17,15 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double gap = 0.01;              // m between robots that were pushed apart
-constexpr int mostPushes = 400;           // rounds; a crowd that needs more stays as it is
+constexpr double gap = 0.01;     // m between robots that were pushed apart
+constexpr int mostPushes = 400;  // rounds; a crowd that needs more stays as it is
 constexpr int highestShirt = 99;
-constexpr double halfSeconds = 600.0;    // Humanoid League, rules of every year since 2013
-constexpr double fastestBall = 50.0;      // m/s, of a scenario
+constexpr double halfSeconds = 600.0;  // Humanoid League, rules of every year since 2013
+constexpr double fastestBall = 50.0;   // m/s, of a scenario
 
-double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 bool isFinite(const Pose& pose) {
   return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&
@@ -42,7 +44,8 @@ std::string nameOf(const sim::RobotIdentity& robot) {
 
 class Maker {
  public:
-  Maker(const MatchFrame& frame, const MomentOptions& options) : m_frame(frame), m_options(options) {}
+  Maker(const MatchFrame& frame, const MomentOptions& options)
+      : m_frame(frame), m_options(options) {}
 
   MomentScenario make() {
     takeSettings();
@@ -66,8 +69,8 @@ class Maker {
     scenario.stop.duration.reset();
     char time[32];
     std::snprintf(time, sizeof time, "%.1f", m_frame.snapshot.time);
-    const std::string title = !scenario.title.empty() ? scenario.title
-                              : m_options.base        ? scenario.name
+    const std::string title = !scenario.title.empty()               ? scenario.title
+                              : m_options.base                      ? scenario.name
                               : m_frame.origin == FrameOrigin::Live ? std::string("Live")
                                                                     : std::string("Recorded match");
     scenario.title = title + ", at " + time + " s";
@@ -131,8 +134,8 @@ class Maker {
     if (out.behaviour != noBehaviour &&
         std::none_of(known.begin(), known.end(),
                      [&](const auto& behaviour) { return behaviour.name == out.behaviour; })) {
-      note(name + " had the behaviour \"" + out.behaviour + "\", which this program does not have; " +
-           "it plays " + m_options.behaviour + '.');
+      note(name + " had the behaviour \"" + out.behaviour +
+           "\", which this program does not have; " + "it plays " + m_options.behaviour + '.');
       out.behaviour = m_options.behaviour;
     }
     number(out, name);
@@ -205,8 +208,8 @@ class Maker {
           if (between >= least - gap / 2) continue;
           free = false;
           // On the very same spot: apart in a direction that differs from pair to pair.
-          const double angle = between > 1e-9 ? std::atan2(q.y - p.y, q.x - p.x)
-                                              : static_cast<double>(7 * a + b);
+          const double angle =
+              between > 1e-9 ? std::atan2(q.y - p.y, q.x - p.x) : static_cast<double>(7 * a + b);
           const double push = (least - between) / 2;
           const Point step{push * std::cos(angle), push * std::sin(angle)};
           p = inside(field, {p.x - step.x, p.y - step.y}, field.robotRadius);
@@ -277,8 +280,8 @@ class Maker {
     if (const auto agreed = agreedBall(balls)) {
       ball = agreed->position;
       if (static_cast<std::size_t>(agreed->agree) == seen.size()) return;
-      note("The robots do not agree where the ball is: " + std::to_string(agreed->agree) + " of the " +
-           std::to_string(seen.size()) + " that see it are believed.");
+      note("The robots do not agree where the ball is: " + std::to_string(agreed->agree) +
+           " of the " + std::to_string(seen.size()) + " that see it are believed.");
       return;
     }
     // Far balls are seen less well.
@@ -302,10 +305,10 @@ class Maker {
       // The referee counts down, this clock up.
       clock = halfSeconds - referee.secondsLeft;
       running = referee.state == "PLAYING" && !referee.stopped;
-      word = running                      ? refereePlay
-             : referee.state == "READY"   ? refereeReady
-             : referee.state == "SET"     ? refereeSet
-                                          : refereeStop;
+      word = running                    ? refereePlay
+             : referee.state == "READY" ? refereeReady
+             : referee.state == "SET"   ? refereeSet
+                                        : refereeStop;
       note("The referee said " + referee.state + " with " + std::to_string(referee.secondsLeft) +
            " s left; the clock here counts from the beginning of a half of 10 minutes.");
     } else if (!m_frame.truthKnown) {
@@ -318,9 +321,8 @@ class Maker {
       return std::any_of(scenario.robots.begin(), scenario.robots.end(),
                          [id](const auto& robot) { return robot.identity.id == id; });
     });
-    const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(), [](const auto& w) {
-      return w.variable == refereeVariable;
-    });
+    const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(),
+                                  [](const auto& w) { return w.variable == refereeVariable; });
     // Without a word of the referee robots stand still for ever.
     if (!told || m_frame.referee) {
       std::erase_if(scenario.writes, [](const auto& w) { return w.variable == refereeVariable; });

@@ -19,13 +19,15 @@ using std::numbers::pi;
 
 constexpr int headingCells = 16;
 constexpr int mostCells = 1 << 21;
-constexpr double imuJump = 0.26;         // rad: beyond it the IMU was reset or the robot carried
-constexpr double clusterRadius = 1.0;    // m
-constexpr double mostDisplacement = 1.0; // m and rad of one update; more is not walking
+constexpr double imuJump = 0.26;          // rad: beyond it the IMU was reset or the robot carried
+constexpr double clusterRadius = 1.0;     // m
+constexpr double mostDisplacement = 1.0;  // m and rad of one update; more is not walking
 constexpr double mostResetShare = 0.5;
-constexpr double widestKernel = 0.8;     // m
+constexpr double widestKernel = 0.8;  // m
 
-bool usable(const std::optional<double>& value) { return value && std::isfinite(*value); }
+bool usable(const std::optional<double>& value) {
+  return value && std::isfinite(*value);
+}
 
 double finite(double value) {
   return std::isfinite(value) ? std::clamp(value, -mostDisplacement, mostDisplacement) : 0.0;
@@ -53,9 +55,10 @@ LocalizationParameters LocalizationParameters::published() {
   return p;
 }
 
-Result<MonteCarloLocalization> MonteCarloLocalization::create(
-    const sim::FieldSpec& field, const LocalizationParameters& p, ImuZero imuZero,
-    std::uint64_t seed, int robot) {
+Result<MonteCarloLocalization> MonteCarloLocalization::create(const sim::FieldSpec& field,
+                                                              const LocalizationParameters& p,
+                                                              ImuZero imuZero, std::uint64_t seed,
+                                                              int robot) {
   if (const Result<void> valid = sim::validate(field); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
@@ -72,7 +75,8 @@ Result<MonteCarloLocalization> MonteCarloLocalization::create(
   }
   for (const double value : {p.walkSigma, p.walkShare, p.turnSigma, p.restSigma, p.outlierShare,
                              p.slowRate, p.fastRate, p.kldQuantile, p.kernel}) {
-    if (!std::isfinite(value) || value < 0.0) return refuse("Rates and noise must not be negative.");
+    if (!std::isfinite(value) || value < 0.0)
+      return refuse("Rates and noise must not be negative.");
   }
   if (p.outlierShare >= 1.0) return refuse("The share of outliers must be below 1.");
   return MonteCarloLocalization(field, p, imuZero, seed, robot);
@@ -96,7 +100,8 @@ MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
   const double widthAll = 2 * (m_halfWidth + m_border);
   // A huge field gets coarser cells rather than a huge table.
   while (std::ceil(lengthAll / m_parameters.kldCell) * std::ceil(widthAll / m_parameters.kldCell) *
-             headingCells > mostCells) {
+             headingCells >
+         mostCells) {
     m_parameters.kldCell *= 2;
   }
   m_columns = static_cast<int>(std::ceil(lengthAll / m_parameters.kldCell)) + 1;
@@ -217,8 +222,8 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
   const double time = std::sqrt(std::clamp(input.seconds, 0.0, 10.0));
   const LocalizationParameters& p = m_parameters;
   const double distance = std::hypot(forward, left);
-  const auto walk = static_cast<float>(
-      input.inMotion ? p.walkSigma * time + p.walkShare * distance : p.restSigma * time);
+  const auto walk = static_cast<float>(input.inMotion ? p.walkSigma * time + p.walkShare * distance
+                                                      : p.restSigma * time);
   const auto rotation = static_cast<float>(
       input.inMotion ? p.turnSigma * time + p.walkShare * std::abs(turn) : p.restSigma * time);
 
@@ -253,7 +258,8 @@ int MonteCarloLocalization::weigh(const LocalizationInput& input) {
   auto weight = m_weight.head(n);
   const auto x = m_now.x.head(n), y = m_now.y.head(n), c = m_now.c.head(n), s = m_now.s.head(n);
   auto a = m_a.head(n), b = m_b.head(n);
-  const auto kappa = static_cast<float>(1.0 / (m_parameters.bearingSigma * m_parameters.bearingSigma));
+  const auto kappa =
+      static_cast<float>(1.0 / (m_parameters.bearingSigma * m_parameters.bearingSigma));
   const auto floor = static_cast<float>(m_parameters.outlierShare);
   int seen = 0;
   for (std::size_t i = 0; i < m_corners.size(); ++i) {
@@ -266,9 +272,10 @@ int MonteCarloLocalization::weigh(const LocalizationInput& input) {
     // (u, v) = direction in which this particle saw the corner; its dot product with the direction
     // to the corner is the cosine of the error.
     weight *= floor + (1.0F - floor) *
-              (kappa * (((c * cosine - s * sine) * a + (s * cosine + c * sine) * b) *
-                            (a.square() + b.square() + 1e-6F).rsqrt() -
-                        1.0F)).exp();
+                          (kappa * (((c * cosine - s * sine) * a + (s * cosine + c * sine) * b) *
+                                        (a.square() + b.square() + 1e-6F).rsqrt() -
+                                    1.0F))
+                              .exp();
   }
   if (usable(input.imuYaw)) weighImu(*input.imuYaw);
   return seen;
@@ -279,7 +286,8 @@ void MonteCarloLocalization::weighImu(double yaw) {
   const auto c = m_now.c.head(n), s = m_now.s.head(n);
   auto a = m_a.head(n);
   const double offset = m_imuZero == ImuZero::Left ? pi : 0.0;
-  a = c * static_cast<float>(std::cos(yaw + offset)) + s * static_cast<float>(std::sin(yaw + offset));
+  a = c * static_cast<float>(std::cos(yaw + offset)) +
+      s * static_cast<float>(std::sin(yaw + offset));
   // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
   if (m_imuZero == ImuZero::Unknown) a = a.abs();
   const auto kappa = static_cast<float>(1.0 / (m_parameters.imuSigma * m_parameters.imuSigma));
@@ -367,8 +375,10 @@ void MonteCarloLocalization::estimate() {
     if (sum > m_cellWeight[static_cast<std::size_t>(best)]) best = cell;
   }
   const double cell_m = m_parameters.kldCell;
-  const auto centreX = static_cast<float>((best % m_columns + 0.5) * cell_m - m_halfLength - m_border);
-  const auto centreY = static_cast<float>((best / m_columns + 0.5) * cell_m - m_halfWidth - m_border);
+  const auto centreX =
+      static_cast<float>((best % m_columns + 0.5) * cell_m - m_halfLength - m_border);
+  const auto centreY =
+      static_cast<float>((best / m_columns + 0.5) * cell_m - m_halfWidth - m_border);
 
   auto inside = m_a.head(n);
   constexpr auto reach = static_cast<float>(clusterRadius * clusterRadius);
@@ -380,8 +390,7 @@ void MonteCarloLocalization::estimate() {
   const double total = std::max(static_cast<double>(weight.sum()), 1e-20);
   const auto allX = static_cast<float>((weight * x).sum() / total);
   const auto allY = static_cast<float>((weight * y).sum() / total);
-  const double variance =
-      (weight * ((x - allX).square() + (y - allY).square())).sum() / total;
+  const double variance = (weight * ((x - allX).square() + (y - allY).square())).sum() / total;
   m_belief = {{{meanX, meanY}, std::atan2(sine, cosine)}, std::sqrt(std::max(variance, 0.0)), n};
 }
 

@@ -19,8 +19,8 @@ constexpr double memory = 1.5;  // s for which a bearing serves
 
 double MonteCarloLocalization::drawYaw(CounterRandom& random) const {
   if (!m_lastImu || random.uniform() < imuOutliers) return (2 * random.uniform() - 1) * pi;
-  const bool left = m_imuZero == ImuZero::Left ||
-                    (m_imuZero == ImuZero::Unknown && random.uniform() < 0.5);
+  const bool left =
+      m_imuZero == ImuZero::Left || (m_imuZero == ImuZero::Unknown && random.uniform() < 0.5);
   return random.normal(*m_lastImu + (left ? pi : 0.0), 0.5 * m_parameters.imuSigma);
 }
 
@@ -42,7 +42,8 @@ Pose MonteCarloLocalization::drawFromSensors(CounterRandom& random) const {
   };
   if (count >= 2) {
     const auto first = static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
-    const auto step = 1 + static_cast<std::size_t>(random.uniform() * static_cast<double>(count - 1));
+    const auto step =
+        1 + static_cast<std::size_t>(random.uniform() * static_cast<double>(count - 1));
     const std::size_t i = known[first], j = known[(first + step) % count];
     const double u = lineOf(i), v = lineOf(j);
     const double cross = std::sin(v - u);
@@ -56,7 +57,8 @@ Pose MonteCarloLocalization::drawFromSensors(CounterRandom& random) const {
     }
   }
   if (count >= 1) {
-    const std::size_t i = known[static_cast<std::size_t>(random.uniform() * static_cast<double>(count))];
+    const std::size_t i =
+        known[static_cast<std::size_t>(random.uniform() * static_cast<double>(count))];
     const double u = lineOf(i);
     const double t = random.uniform() * 2 * std::hypot(m_halfLength, m_halfWidth);
     const Point p{m_corners[i].x - t * std::cos(u), m_corners[i].y - t * std::sin(u)};

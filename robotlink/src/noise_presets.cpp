@@ -14,7 +14,9 @@ constexpr std::array<std::string_view, 4> names{"none", "published", "paper", "r
 
 }  // namespace
 
-std::vector<std::string> noisePresets() { return {names.begin(), names.end()}; }
+std::vector<std::string> noisePresets() {
+  return {names.begin(), names.end()};
+}
 
 Result<sim::NoiseParameters> noisePreset(std::string_view name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) {

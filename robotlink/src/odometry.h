@@ -11,17 +11,18 @@
 namespace pitchboard::link {
 
 struct GaitSpeed {
-  double forward = 0.0;    ///< m/s
-  double left = 0.0;       ///< m/s
-  double turn = 0.0;       ///< rad/s
-  bool inMotion = false;   ///< the legs move, also in place
+  double forward = 0.0;   ///< m/s
+  double left = 0.0;      ///< m/s
+  double turn = 0.0;      ///< rad/s
+  bool inMotion = false;  ///< the legs move, also in place
 };
 
 /// `action` as in CONTROL_ACTION, `b` as in DECISION_ACTION_B (speed of slow walking below 10).
 inline GaitSpeed gaitSpeed(int action, int b) {
   const sim::Action* entry = sim::findAction(action);
   if (entry == nullptr) return {};
-  const bool moves = entry->kind == sim::ActionKind::Walk || entry->kind == sim::ActionKind::InPlace;
+  const bool moves =
+      entry->kind == sim::ActionKind::Walk || entry->kind == sim::ActionKind::InPlace;
   constexpr int walkSlow = 8, fixedFrom = 10;
   constexpr double slowStep = 0.015;  // cm per frame for each unit of B
   const double front = action == walkSlow && b < fixedFrom ? slowStep * b : entry->front;

@@ -10,11 +10,15 @@ namespace pitchboard::link {
 namespace {
 
 constexpr int corners = 10;
-constexpr double rim = 1e-3;       // m, kept between a corner and the circle it goes round
+constexpr double rim = 1e-3;  // m, kept between a corner and the circle it goes round
 
-double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
-bool finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+bool finite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
 
 /// The open disc is crossed by the segment.
 bool crosses(const Obstacle& o, const Point& a, const Point& b) {
@@ -55,9 +59,9 @@ void PathPlanner::activate(std::size_t obstacle) {
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / corners;
     const Point p{o.centre.x + radius * std::cos(angle), o.centre.y + radius * std::sin(angle)};
-    const auto covering = std::find_if(m_obstacles.begin(), m_obstacles.end(), [&](const Obstacle& c) {
-      return distance(p, c.centre) < c.radius;
-    });
+    const auto covering =
+        std::find_if(m_obstacles.begin(), m_obstacles.end(),
+                     [&](const Obstacle& c) { return distance(p, c.centre) < c.radius; });
     if (covering != m_obstacles.end()) {
       // The two overlap: who goes round one has to go round the other.
       activate(static_cast<std::size_t>(covering - m_obstacles.begin()));
@@ -71,9 +75,9 @@ Point PathPlanner::freeTarget(const Point& target, const Point& start, bool& fre
   Point p = target;
   // Leaving one obstacle may lead into its neighbour; a few rounds settle all but hopeless cases.
   for (std::size_t round = 0; round <= m_obstacles.size() && round < 8; ++round) {
-    const auto inside = std::find_if(m_obstacles.begin(), m_obstacles.end(), [&](const Obstacle& o) {
-      return distance(p, o.centre) < o.radius;
-    });
+    const auto inside =
+        std::find_if(m_obstacles.begin(), m_obstacles.end(),
+                     [&](const Obstacle& o) { return distance(p, o.centre) < o.radius; });
     if (inside == m_obstacles.end()) break;
     free = false;
     Point away{p.x - inside->centre.x, p.y - inside->centre.y};

@@ -12,7 +12,9 @@ namespace {
 using Seconds = ManagerTiming::Seconds;
 using Ticks = std::chrono::steady_clock::duration;
 
-Ticks ticks(Seconds seconds) { return std::chrono::duration_cast<Ticks>(seconds); }
+Ticks ticks(Seconds seconds) {
+  return std::chrono::duration_cast<Ticks>(seconds);
+}
 
 std::string inSeconds(Seconds seconds) {
   char text[32];
@@ -49,7 +51,9 @@ ProcessManager::ProcessManager(RobotId robot, std::vector<ManagedProcess> proces
   }
 }
 
-ProcessManager::~ProcessManager() { stop(); }
+ProcessManager::~ProcessManager() {
+  stop();
+}
 
 Result<void> ProcessManager::step(Time now) {
   // This process was stopped itself: what happened meanwhile says nothing about the others.
@@ -88,7 +92,8 @@ Result<void> ProcessManager::startDue(Time now) {
 
 Result<void> ProcessManager::start(Entry& entry, Time now) {
   writeIfPresent(m_board, entry.process.workingFlag, 0);  // what an earlier one left says nothing
-  const Result<int> handle = m_supervisor.start({m_robot, entry.process.name, entry.process.command});
+  const Result<int> handle =
+      m_supervisor.start({m_robot, entry.process.name, entry.process.command});
   if (!handle) {
     if (!entry.everStarted) return tl::unexpected<Error>(handle.error());
     plan(entry, now, handle.error().text());
@@ -132,7 +137,8 @@ void ProcessManager::watch(Entry& entry, Time now) {
   takeOutput();
   m_supervisor.forget(entry.handle);
   entry.handle = 0;
-  plan(entry, now, "showed no sign of life for " + inSeconds(m_timing.silentAfter) + " and was ended");
+  plan(entry, now,
+       "showed no sign of life for " + inSeconds(m_timing.silentAfter) + " and was ended");
 }
 
 void ProcessManager::plan(Entry& entry, Time now, const std::string& what) {
@@ -162,7 +168,9 @@ void ProcessManager::stop() {
   for (Entry& entry : m_entries) entry.handle = 0;
 }
 
-std::vector<std::string> ProcessManager::takeMessages() { return std::exchange(m_messages, {}); }
+std::vector<std::string> ProcessManager::takeMessages() {
+  return std::exchange(m_messages, {});
+}
 
 std::vector<pid_t> ProcessManager::pids() const {
   std::vector<pid_t> all;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/process_supervisor.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <string_view>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
 #include "spawn.h"
 
@@ -17,9 +17,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t bytesPerPoll = 256 * 1024;   // a child that floods must not hold poll() up
-constexpr std::size_t bytesAtEnd = 1024 * 1024;    // a full pipe holds less
-constexpr auto killPatience = 5s;                  // longer than this only in a stuck system call
+constexpr std::size_t bytesPerPoll = 256 * 1024;  // a child that floods must not hold poll() up
+constexpr std::size_t bytesAtEnd = 1024 * 1024;   // a full pipe holds less
+constexpr auto killPatience = 5s;                 // longer than this only in a stuck system call
 
 // Never in the middle of a UTF-8 character.
 std::string_view cut(std::string_view text, std::size_t limit) {
@@ -38,7 +38,9 @@ std::string describe(const siginfo_t& end) {
 
 }  // namespace
 
-ProcessSupervisor::~ProcessSupervisor() { stopAll(); }
+ProcessSupervisor::~ProcessSupervisor() {
+  stopAll();
+}
 
 Result<int> ProcessSupervisor::start(const ChildSpec& spec) {
   Result<Spawned> child = spawn(spec.command);

@@ -18,11 +18,11 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double flagMemory = 1.0;        // s, as in the frames of a running match
-constexpr double timeTolerance = 1e-6;    // s; files keep whole nanoseconds
-constexpr double refereeMemory = 5.0;     // s; it sends twice a second
-constexpr double liveTimeout = 10.0;      // s, as MonitorOptions
-constexpr int secondSender = 65536;       // added to the id, as in the frames of Live
+constexpr double flagMemory = 1.0;      // s, as in the frames of a running match
+constexpr double timeTolerance = 1e-6;  // s; files keep whole nanoseconds
+constexpr double refereeMemory = 5.0;   // s; it sends twice a second
+constexpr double liveTimeout = 10.0;    // s, as MonitorOptions
+constexpr int secondSender = 65536;     // added to the id, as in the frames of Live
 
 constexpr std::array<bool RobotBoardView::*, 5> flagMembers{
     &RobotBoardView::controlWorking, &RobotBoardView::visionWorking,

@@ -69,13 +69,19 @@ struct RecordedFrames::Layout {
     if (!live || !profile) return;
     using telemetry::FieldMeaning;
     // A team's own names.
-    const std::pair<FieldMeaning, RowSlot*> meanings[] = {
-        {FieldMeaning::X, &locX}, {FieldMeaning::Y, &locY}, {FieldMeaning::Theta, &locTheta},
-        {FieldMeaning::Belief, &belief}, {FieldMeaning::BallDistance, &ballDist},
-        {FieldMeaning::BallAngle, &pan}, {FieldMeaning::Action, &actionA},
-        {FieldMeaning::Voltage, &voltage}, {FieldMeaning::Control, &flags[0]},
-        {FieldMeaning::Vision, &flags[1]}, {FieldMeaning::Localization, &flags[2]},
-        {FieldMeaning::Decision, &flags[3]}, {FieldMeaning::Imu, &flags[4]}};
+    const std::pair<FieldMeaning, RowSlot*> meanings[] = {{FieldMeaning::X, &locX},
+                                                          {FieldMeaning::Y, &locY},
+                                                          {FieldMeaning::Theta, &locTheta},
+                                                          {FieldMeaning::Belief, &belief},
+                                                          {FieldMeaning::BallDistance, &ballDist},
+                                                          {FieldMeaning::BallAngle, &pan},
+                                                          {FieldMeaning::Action, &actionA},
+                                                          {FieldMeaning::Voltage, &voltage},
+                                                          {FieldMeaning::Control, &flags[0]},
+                                                          {FieldMeaning::Vision, &flags[1]},
+                                                          {FieldMeaning::Localization, &flags[2]},
+                                                          {FieldMeaning::Decision, &flags[3]},
+                                                          {FieldMeaning::Imu, &flags[4]}};
     for (const auto& [meaning, slot] : meanings) {
       const auto place = profile->indexOf(meaning);
       *slot = place ? findSlot(group, {profile->fields[*place].name}) : RowSlot{};

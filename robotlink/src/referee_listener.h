@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Hears the GameController for one robot: packets of every version in, the word for COM_REFEREE out.
+// Hears the GameController for one robot: packets of every version in, the word for COM_REFEREE
+// out.
 
 #include <memory>
 #include <optional>
@@ -32,7 +33,7 @@ class RefereeListener {
 
   int m_team, m_player;
   std::unique_ptr<telemetry::UdpReceiver> m_receiver;
-  telemetry::RefereeTracker m_tracker;   // two versions at once, a second controller
+  telemetry::RefereeTracker m_tracker;  // two versions at once, a second controller
   telemetry::DatagramBatch m_batch;
   std::uint64_t m_strange = 0;
 };

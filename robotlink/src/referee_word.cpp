@@ -6,7 +6,7 @@ namespace {
 
 // RefereeState::state
 enum State { Initial = 0, Ready = 1, Set = 2, Playing = 3 };
-constexpr int timeout = 3;             // of secState (Humanoid League) and gamePhase (others)
+constexpr int timeout = 3;  // of secState (Humanoid League) and gamePhase (others)
 
 }  // namespace
 

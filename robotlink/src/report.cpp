@@ -26,12 +26,23 @@ std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -39,14 +50,15 @@ std::string escaped(std::string_view text) {
 
 std::string capital(std::string_view word) {
   std::string out(word);
-  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z') out[0] = static_cast<char>(out[0] - 'a' + 'A');
+  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z')
+    out[0] = static_cast<char>(out[0] - 'a' + 'A');
   return out;
 }
 
 std::string wallText(telemetry::WallTime time) {
   if (time.time_since_epoch().count() <= 0) return {};
-  const std::time_t seconds =
-      std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::seconds>(time));
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::seconds>(time));
   std::tm parts{};
   char text[64];
   if (!::localtime_r(&seconds, &parts) ||
@@ -61,7 +73,9 @@ std::string cell(const std::string& text, const char* kind = "") {
          "</td>";
 }
 
-std::string teamClass(TeamColor team) { return std::string(info(team).name); }
+std::string teamClass(TeamColor team) {
+  return std::string(info(team).name);
+}
 
 std::string badge(const RobotSummary& robot) {
   return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>";
@@ -79,8 +93,8 @@ std::string head(const ReportContent& c) {
        : c.session.source == "simulation" ? "simulated"
                                           : escaped(c.session.source));
   if (c.session.seed) fact("seed " + std::to_string(*c.session.seed));
-  std::string out = "<h1>" + escaped(c.title.empty() ? "Match report" : c.title) + "</h1>\n<p class=\"quiet\">" +
-                    facts + "</p>\n";
+  std::string out = "<h1>" + escaped(c.title.empty() ? "Match report" : c.title) +
+                    "</h1>\n<p class=\"quiet\">" + facts + "</p>\n";
   for (const std::string& note : c.notes) out += "<p class=\"note\">" + escaped(note) + "</p>\n";
   return out;
 }
@@ -89,12 +103,12 @@ std::string teams(const SessionStatistics& s) {
   if (s.teams.empty()) return {};
   std::string out = "<div class=\"score\">\n";
   for (const TeamSummary& team : s.teams) {
-    out += "<div class=\"team " + teamClass(team.team) + "\">" + capital(info(team.team).name) + " team<b>" +
-           (team.score ? std::to_string(*team.score) : "–") + "</b><span class=\"quiet\">" +
-           clockText(team.ballSeconds) + " with the ball · " + std::to_string(team.kicks) +
-           (team.kicks == 1 ? " kick" : " kicks") + " · " + std::to_string(team.falls) +
-           (team.falls == 1 ? " fall" : " falls") + " · " + fixed(team.distance, 0) +
-           " m</span></div>\n";
+    out += "<div class=\"team " + teamClass(team.team) + "\">" + capital(info(team.team).name) +
+           " team<b>" + (team.score ? std::to_string(*team.score) : "–") +
+           "</b><span class=\"quiet\">" + clockText(team.ballSeconds) + " with the ball · " +
+           std::to_string(team.kicks) + (team.kicks == 1 ? " kick" : " kicks") + " · " +
+           std::to_string(team.falls) + (team.falls == 1 ? " fall" : " falls") + " · " +
+           fixed(team.distance, 0) + " m</span></div>\n";
   }
   return out + "</div>\n";
 }
@@ -103,37 +117,43 @@ std::string picture(const ReportContent& c) {
   if (c.picture.empty()) return {};
   const bool png = c.picture.starts_with("\x89PNG");
   return "<h2>Field</h2>\n<figure><img alt=\"The field\" src=\"data:image/" +
-         std::string(png ? "png" : "svg+xml") + ";base64," + telemetry::toBase64(c.picture) + "\">" +
-         (c.pictureCaption.empty() ? "" : "<figcaption>" + escaped(c.pictureCaption) + "</figcaption>") +
+         std::string(png ? "png" : "svg+xml") + ";base64," + telemetry::toBase64(c.picture) +
+         "\">" +
+         (c.pictureCaption.empty() ? ""
+                                   : "<figcaption>" + escaped(c.pictureCaption) + "</figcaption>") +
          "</figure>\n";
 }
 
 std::string robots(const SessionStatistics& s) {
   std::string out = "<h2>Robots</h2>\n";
   if (s.robots.empty()) return out + "<p class=\"quiet\">No robot was recorded.</p>\n";
-  out += "<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot</th><th>Distance</th>"
-         "<th>Kicks</th><th>Falls</th><th>With the ball</th>";
+  out +=
+      "<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot</th><th>Distance</th>"
+      "<th>Kicks</th><th>Falls</th><th>With the ball</th>";
   if (s.truthKnown) out += "<th>Belief error, median</th><th>90 %</th>";
   out += "</tr></thead><tbody>\n";
   for (const RobotSummary& r : s.robots) {
-    out += "<tr>" + cell(badge(r), "l") +
-           cell(r.distance ? fixed(*r.distance, 1) + " m" : "–") + cell(std::to_string(r.kicks)) +
-           cell(std::to_string(r.falls)) + cell(fixed(r.ballSeconds, 1) + " s");
+    out += "<tr>" + cell(badge(r), "l") + cell(r.distance ? fixed(*r.distance, 1) + " m" : "–") +
+           cell(std::to_string(r.kicks)) + cell(std::to_string(r.falls)) +
+           cell(fixed(r.ballSeconds, 1) + " s");
     if (s.truthKnown) {
       out += cell(r.errorMedian ? fixed(*r.errorMedian, 1) + " cm" : "–") +
              cell(r.error90 ? fixed(*r.error90, 1) + " cm" : "–");
     }
     out += "</tr>\n";
   }
-  out += "</tbody></table></div>\n<h2>Processes</h2>\n<p class=\"quiet\">Share of the time in which "
-         "they said that they work.</p>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">"
-         "Robot</th>";
-  for (const std::string_view name : telemetry::processNames) out += "<th>" + std::string(name) + "</th>";
+  out +=
+      "</tbody></table></div>\n<h2>Processes</h2>\n<p class=\"quiet\">Share of the time in which "
+      "they said that they work.</p>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">"
+      "Robot</th>";
+  for (const std::string_view name : telemetry::processNames)
+    out += "<th>" + std::string(name) + "</th>";
   out += "</tr></thead><tbody>\n";
   for (const RobotSummary& r : s.robots) {
     out += "<tr>" + cell(badge(r), "l");
     for (const auto& share : r.uptime) {
-      out += share ? cell(fixed(100 * *share, 1) + " %", *share < lowUptime ? "low" : "") : cell("–");
+      out +=
+          share ? cell(fixed(100 * *share, 1) + " %", *share < lowUptime ? "low" : "") : cell("–");
     }
     out += "</tr>\n";
   }
@@ -149,7 +169,8 @@ std::string charts(const SessionStatistics& s) {
     if (r.errorCurve.empty()) continue;
     errors += "<figure class=\"" + teamClass(r.team) + "\"><h3><span>" + escaped(r.name) +
               "</span><span class=\"quiet\">median " + fixed(r.errorMedian.value_or(NAN), 1) +
-              " cm</span></h3>" + curveChart(r.errorCurve, axisTop(most), "cm", s.range) + "</figure>\n";
+              " cm</span></h3>" + curveChart(r.errorCurve, axisTop(most), "cm", s.range) +
+              "</figure>\n";
   }
   for (const TeamSummary& team : s.teams) {
     if (team.ballCurve.empty()) continue;
@@ -160,13 +181,18 @@ std::string charts(const SessionStatistics& s) {
   }
   std::string out;
   if (!ball.empty()) {
-    out += "<h2>Who had the ball</h2>\n<p class=\"quiet\">Share of the time in which a robot of the "
-           "team was nearest to the ball and within " + fixed(100 * ballReach, 0) +
-           " cm of it.</p>\n<div class=\"charts\">\n" + ball + "</div>\n";
+    out +=
+        "<h2>Who had the ball</h2>\n<p class=\"quiet\">Share of the time in which a robot of the "
+        "team was nearest to the ball and within " +
+        fixed(100 * ballReach, 0) + " cm of it.</p>\n<div class=\"charts\">\n" + ball + "</div>\n";
   }
   if (!errors.empty()) {
-    out += "<h2>Belief error</h2>\n<p class=\"quiet\">Distance between where a robot believed to be and "
-           "where it was; means. What is larger than the scale is cut off.</p>\n<div class=\"charts\">\n" + errors + "</div>\n";
+    out +=
+        "<h2>Belief error</h2>\n<p class=\"quiet\">Distance between where a robot believed to be "
+        "and "
+        "where it was; means. What is larger than the scale is cut off.</p>\n<div "
+        "class=\"charts\">\n" +
+        errors + "</div>\n";
   }
   return out;
 }
@@ -176,12 +202,12 @@ std::string tenths(double seconds) {
 }
 
 std::string eventTable(const std::vector<const telemetry::SessionEvent*>& events) {
-  std::string out = "<div class=\"scroll\"><table><thead><tr><th>Time</th><th class=\"l\">Event</th>"
-                    "<th class=\"l\">Robot</th><th class=\"l\">What</th></tr></thead><tbody>\n";
+  std::string out =
+      "<div class=\"scroll\"><table><thead><tr><th>Time</th><th class=\"l\">Event</th>"
+      "<th class=\"l\">Robot</th><th class=\"l\">What</th></tr></thead><tbody>\n";
   for (const telemetry::SessionEvent* e : events) {
-    out += "<tr>" + cell(clockText(e->time) + tenths(e->time)) +
-           cell(escaped(e->kind), "l") + cell(escaped(e->group), "l") + cell(escaped(e->text), "l") +
-           "</tr>\n";
+    out += "<tr>" + cell(clockText(e->time) + tenths(e->time)) + cell(escaped(e->kind), "l") +
+           cell(escaped(e->group), "l") + cell(escaped(e->text), "l") + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }
@@ -197,7 +223,8 @@ std::string events(const ReportContent& c) {
   out += main.empty() ? "<p class=\"quiet\">Nothing but play.</p>\n" : eventTable(main);
   if (!kicks.empty()) {
     out += "<details><summary>" + std::to_string(kicks.size()) +
-           (kicks.size() == 1 ? " kick" : " kicks") + "</summary>\n" + eventTable(kicks) + "</details>\n";
+           (kicks.size() == 1 ? " kick" : " kicks") + "</summary>\n" + eventTable(kicks) +
+           "</details>\n";
   }
   return out;
 }
@@ -205,8 +232,9 @@ std::string events(const ReportContent& c) {
 }  // namespace
 
 std::string reportHtml(const ReportContent& c) {
-  std::string out = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>";
+  std::string out =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>";
   out += escaped(c.title.empty() ? "Match report" : c.title) + "</title>\n<style>";
   out += reportStyle;
   out += "</style></head><body><main>\n";

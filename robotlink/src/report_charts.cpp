@@ -8,11 +8,12 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double width = 440, height = 110;          // of the drawing
-constexpr double left = 40, right = 6, top = 10, bottom = 20;   // room round the curve
+constexpr double width = 440, height = 110;                    // of the drawing
+constexpr double left = 40, right = 6, top = 10, bottom = 20;  // room round the curve
 constexpr double plotWidth = width - left - right, plotHeight = height - top - bottom;
 
-std::string frame(const std::string& highest, telemetry::TimeRange range, const std::string& inside) {
+std::string frame(const std::string& highest, telemetry::TimeRange range,
+                  const std::string& inside) {
   const auto at = [](double value) { return fixed(value, 1); };
   const double foot = top + plotHeight;
   std::string out = "<svg class=\"chart\" viewBox=\"0 0 " + at(width) + ' ' + at(height) + "\">";
@@ -51,7 +52,8 @@ std::string clockText(double seconds) {
   const long long s = std::abs(total);
   const auto two = [](long long value) { return (value < 10 ? "0" : "") + std::to_string(value); };
   const std::string sign = total < 0 ? "−" : "";
-  if (s >= 3600) return sign + std::to_string(s / 3600) + ':' + two(s / 60 % 60) + ':' + two(s % 60);
+  if (s >= 3600)
+    return sign + std::to_string(s / 3600) + ':' + two(s / 60 % 60) + ':' + two(s % 60);
   return sign + std::to_string(s / 60) + ':' + two(s % 60);
 }
 
@@ -72,8 +74,8 @@ std::string curveChart(const std::vector<double>& values, double most, const std
   const auto endRun = [&] {
     if (run.empty()) return;
     curve += 'M' + run;
-    area += 'M' + fixed(runStart, 1) + ' ' + fixed(foot, 1) + 'L' + run + 'L' + fixed(lastX, 1) + ' ' +
-            fixed(foot, 1) + 'Z';
+    area += 'M' + fixed(runStart, 1) + ' ' + fixed(foot, 1) + 'L' + run + 'L' + fixed(lastX, 1) +
+            ' ' + fixed(foot, 1) + 'Z';
     run.clear();
   };
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -81,7 +83,8 @@ std::string curveChart(const std::vector<double>& values, double most, const std
       endRun();
       continue;
     }
-    const double x = left + plotWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size());
+    const double x =
+        left + plotWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size());
     const double y = foot - plotHeight * std::clamp(values[i] / most, 0.0, 1.0);
     if (run.empty()) {
       runStart = x;
@@ -92,8 +95,9 @@ std::string curveChart(const std::vector<double>& values, double most, const std
     lastX = x;
   }
   endRun();
-  return frame(fixed(most, most < 1 ? 1 : 0) + (unit.empty() ? "" : " " + unit), range,
-               "<path class=\"area\" d=\"" + area + "\"/><path class=\"curve\" d=\"" + curve + "\"/>");
+  return frame(
+      fixed(most, most < 1 ? 1 : 0) + (unit.empty() ? "" : " " + unit), range,
+      "<path class=\"area\" d=\"" + area + "\"/><path class=\"curve\" d=\"" + curve + "\"/>");
 }
 
 std::string shareChart(const std::vector<double>& shares, telemetry::TimeRange range) {
@@ -102,8 +106,8 @@ std::string shareChart(const std::vector<double>& shares, telemetry::TimeRange r
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const double tall = plotHeight * std::clamp(shares[i], 0.0, 1.0);
     if (tall < 0.1) continue;
-    bars += "<rect class=\"bar\" x=\"" + fixed(left + each * static_cast<double>(i), 2) + "\" y=\"" +
-            fixed(top + plotHeight - tall, 1) + "\" width=\"" + fixed(each * 0.9, 2) +
+    bars += "<rect class=\"bar\" x=\"" + fixed(left + each * static_cast<double>(i), 2) +
+            "\" y=\"" + fixed(top + plotHeight - tall, 1) + "\" width=\"" + fixed(each * 0.9, 2) +
             "\" height=\"" + fixed(tall, 1) + "\"/>";
   }
   return frame("100 %", range, bars);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/robot_config.h>
 
-#include <algorithm>
 #include <arpa/inet.h>
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -47,17 +47,18 @@ std::string placeOf(std::string_view source, int line) {
 
 Result<RobotId> robotFromNumber(long long number) {
   if (number >= 1 && number <= highestRobotNumber) return RobotId{static_cast<int>(number)};
-  return failure(ErrorCode::InvalidArgument,
-                 "there is no robot " + std::to_string(number) + "; robots have numbers from 1 to " +
-                     std::to_string(highestRobotNumber));
+  return failure(ErrorCode::InvalidArgument, "there is no robot " + std::to_string(number) +
+                                                 "; robots have numbers from 1 to " +
+                                                 std::to_string(highestRobotNumber));
 }
 
 Result<void> checkAddress(const std::string& text) {
   in_addr parsed{};
   if (::inet_pton(AF_INET, text.c_str(), &parsed) == 1) return {};
   return failure(ErrorCode::InvalidArgument,
-                 "'" + text + "' is not an IPv4 address; write one like 127.0.0.1 (this "
-                 "computer) or 255.255.255.255 (everybody on the network)");
+                 "'" + text +
+                     "' is not an IPv4 address; write one like 127.0.0.1 (this "
+                     "computer) or 255.255.255.255 (everybody on the network)");
 }
 
 const IniEntry* IniFile::find(std::string_view section, std::string_view name) const {
@@ -67,7 +68,9 @@ const IniEntry* IniFile::find(std::string_view section, std::string_view name) c
   return found == entries.rend() ? nullptr : &*found;
 }
 
-std::string IniFile::place(const IniEntry& entry) const { return placeOf(source, entry.line); }
+std::string IniFile::place(const IniEntry& entry) const {
+  return placeOf(source, entry.line);
+}
 
 Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
   IniFile file{std::string(source), {}};
@@ -82,7 +85,8 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
     if (line.front() == '[') {
       const std::size_t end = line.find(']');
       if (end == std::string_view::npos) {
-        return failure(ErrorCode::ParseError, "a section's name has no ']'", placeOf(source, number));
+        return failure(ErrorCode::ParseError, "a section's name has no ']'",
+                       placeOf(source, number));
       }
       section = line.substr(1, end - 1);
       continue;

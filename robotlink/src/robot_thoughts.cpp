@@ -70,7 +70,8 @@ std::string cloudText(RobotId robot, const ParticleCloud& cloud) {
   Writer out(cloudHead);
   out.whole(robot.value);
   out.whole(cloud.count);
-  for (const double value : {cloud.pose.position.x, cloud.pose.position.y, cloud.pose.yaw, cloud.sigma}) {
+  for (const double value :
+       {cloud.pose.position.x, cloud.pose.position.y, cloud.pose.yaw, cloud.sigma}) {
     out.thousandths(value);
   }
   const std::size_t shown = std::min(cloud.particles.size(), ParticleCloud::most);

@@ -15,7 +15,7 @@ namespace pitchboard::link {
 
 struct RowSlot {
   telemetry::ColumnType type = telemetry::ColumnType::Float64;
-  int place = -1;   ///< among the words or among the values; -1: there is no such column
+  int place = -1;  ///< among the words or among the values; -1: there is no such column
 
   bool present() const { return place >= 0; }
   /// NaN where there is no such column.
@@ -40,8 +40,8 @@ struct RowSlot {
   }
 };
 
-/// The first of these names that the group has. Several, because a blackboard and a message call the
-/// same thing differently.
+/// The first of these names that the group has. Several, because a blackboard and a message call
+/// the same thing differently.
 inline RowSlot findSlot(const telemetry::GroupInfo& group,
                         std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {

@@ -84,8 +84,8 @@ double fileDegrees(double radians) {
   const double quotient = degreesFromRadians(radians);
   double best = quotient;
   // Two roundings lie between the two forms, so the right one may be a neighbour.
-  for (const double candidate : {quotient, std::nextafter(quotient, -1e300),
-                                 std::nextafter(quotient, 1e300)}) {
+  for (const double candidate :
+       {quotient, std::nextafter(quotient, -1e300), std::nextafter(quotient, 1e300)}) {
     if (radiansFromDegrees(candidate) == radians) {
       best = candidate;
       break;

@@ -21,8 +21,8 @@ constexpr std::string_view inDegrees = "degrees";
 template <class T>
 struct NumberKey {
   std::string_view key;
-  double T::* member;
-  NumberRange range;   ///< in the unit of the file
+  double T::*member;
+  NumberRange range;  ///< in the unit of the file
 
   bool angle() const { return range.unit.starts_with(inDegrees); }
 };

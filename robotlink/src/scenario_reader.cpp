@@ -15,10 +15,10 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double longestTime = 1e6;      // s
-constexpr double longestClock = 1e6;   // s
+constexpr double longestTime = 1e6;   // s
+constexpr double longestClock = 1e6;  // s
 constexpr int mostGoals = 1'000'000;
-constexpr double fastestBall = 50.0;     // m/s
+constexpr double fastestBall = 50.0;  // m/s
 constexpr int highestShirtNumber = 99;
 constexpr std::size_t mostWrites = 100000;
 
@@ -54,7 +54,8 @@ sim::FieldSpec readFieldObject(JsonReport& report, const JsonNode& node, const s
   for (const auto& key : fieldKeys()) {
     field.*key.member = object.number(key.key, field.*key.member, key.range);
   }
-  if (const auto valid = sim::validate(field); !valid) report.fail(node.line, path, valid.error().message);
+  if (const auto valid = sim::validate(field); !valid)
+    report.fail(node.line, path, valid.error().message);
   return field;
 }
 
@@ -65,8 +66,8 @@ class Reader {
         m_catalog(catalog),
         m_root(report, root, "",
                {"version", "name", "title", "description", "physics", "tick_rate", "seed",
-                "after_goal", "clock_running", "clock", "score", "field", "noise", "rigid_body", "ball", "robots",
-                "writes", "stop"}) {}
+                "after_goal", "clock_running", "clock", "score", "field", "noise", "rigid_body",
+                "ball", "robots", "writes", "stop"}) {}
 
   Scenario read() {
     readVersion();
@@ -367,8 +368,10 @@ Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_vi
   if (nameOrJson.find('{') == std::string_view::npos) {
     const std::vector<std::string_view> known = fieldNames();
     const auto found = std::find(known.begin(), known.end(), nameOrJson);
-    if (found != known.end()) return sim::builtInFields()[static_cast<std::size_t>(found - known.begin())];
-    return failure(ErrorCode::NotFound, unknownName("field", nameOrJson, known), std::string(source));
+    if (found != known.end())
+      return sim::builtInFields()[static_cast<std::size_t>(found - known.begin())];
+    return failure(ErrorCode::NotFound, unknownName("field", nameOrJson, known),
+                   std::string(source));
   }
   JsonReport report(source);
   const auto root = parseJson(nameOrJson, report);

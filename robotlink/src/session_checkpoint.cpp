@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/session_checkpoint.h>
 
+#include <telemetry/base64.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <telemetry/base64.h>
 
 namespace pitchboard::link {
 namespace {

@@ -13,9 +13,9 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double longestStep = 2.5;      // s; a longer gap between rows counts as absence
-constexpr double flagMemory = 1.0;       // s, as on the robots' cards
-constexpr double leastMove = 10.0;       // cm; believed places tremble by less
+constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
+constexpr double flagMemory = 1.0;   // s, as on the robots' cards
+constexpr double leastMove = 10.0;   // cm; believed places tremble by less
 constexpr double centimetres = 100.0;
 
 TeamColor teamOf(const telemetry::GroupInfo& group) {
@@ -74,8 +74,8 @@ struct Robot {
   bool facesLeft = false;
   std::optional<double> lastTime;
   Counted distance, kicked, fell;
-  std::optional<std::pair<double, double>> anchor;   // cm
-  double believedWay = 0.0;                          // cm
+  std::optional<std::pair<double, double>> anchor;  // cm
+  double believedWay = 0.0;                         // cm
   bool wasFallen = false, wasKicking = false;
   std::array<double, telemetry::processCount> seen;
   std::array<double, telemetry::processCount> worked{};
@@ -94,15 +94,15 @@ bool isKick(int code) {
 struct StatisticsBuilder::Impl {
   struct Claim {
     Robot* robot;
-    double distance;   // cm
+    double distance;  // cm
     double seconds;
   };
 
   telemetry::TimeRange range;
-  std::map<std::string, Robot> robots;             // by name: one robot may change its columns
+  std::map<std::string, Robot> robots;  // by name: one robot may change its columns
   std::map<telemetry::GroupId, Robot*> byId;
   std::map<TeamColor, std::vector<double>> possession;
-  std::vector<Claim> claims;                       // of one time
+  std::vector<Claim> claims;  // of one time
   double claimTime = -1e300;
   std::uint64_t rows = 0;
   bool truth = false;
@@ -123,9 +123,9 @@ struct StatisticsBuilder::Impl {
 
 /// The nearest robot of one time has the ball.
 void StatisticsBuilder::Impl::settle() {
-  const auto nearest = std::min_element(claims.begin(), claims.end(), [](const auto& a, const auto& b) {
-    return a.distance < b.distance;
-  });
+  const auto nearest =
+      std::min_element(claims.begin(), claims.end(),
+                       [](const auto& a, const auto& b) { return a.distance < b.distance; });
   if (nearest != claims.end()) hold(*nearest->robot, nearest->seconds);
   claims.clear();
 }
@@ -185,7 +185,8 @@ void StatisticsBuilder::Impl::addRobot(Robot& r, const telemetry::RowView& row) 
   }
 }
 
-StatisticsBuilder::StatisticsBuilder(telemetry::TimeRange range) : m_impl(std::make_unique<Impl>()) {
+StatisticsBuilder::StatisticsBuilder(telemetry::TimeRange range)
+    : m_impl(std::make_unique<Impl>()) {
   m_impl->range = range;
 }
 StatisticsBuilder::~StatisticsBuilder() = default;
@@ -260,11 +261,13 @@ SessionStatistics StatisticsBuilder::finish() {
       s.errorMedian = quantile(r.errors, 0.5);
       s.error90 = quantile(r.errors, 0.9);
       for (std::size_t i = 0; i < parts; ++i) {
-        s.errorCurve.push_back(r.errorCount[i] > 0 ? r.errorSum[i] / r.errorCount[i] : std::nan(""));
+        s.errorCurve.push_back(r.errorCount[i] > 0 ? r.errorSum[i] / r.errorCount[i]
+                                                   : std::nan(""));
       }
     }
     for (std::size_t f = 0; f < r.flags.size(); ++f) {
-      if (r.flags[f].present() && s.seconds > 0.0) s.uptime[f] = std::min(1.0, r.worked[f] / s.seconds);
+      if (r.flags[f].present() && s.seconds > 0.0)
+        s.uptime[f] = std::min(1.0, r.worked[f] / s.seconds);
     }
     TeamSummary& team = teams[s.team];
     team.team = s.team;
@@ -310,7 +313,8 @@ SessionStatistics walked(const Source& source, telemetry::TimeRange range) {
 SessionStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range) {
   return walked(rows, range);
 }
-SessionStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range) {
+SessionStatistics statisticsOf(const telemetry::SessionReader& session,
+                               telemetry::TimeRange range) {
   return walked(session, range);
 }
 

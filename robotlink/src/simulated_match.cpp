@@ -54,7 +54,9 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   return *this;
 }
 
-SimulatedMatch::~SimulatedMatch() { m_supervisor.reset(); }
+SimulatedMatch::~SimulatedMatch() {
+  m_supervisor.reset();
+}
 
 Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const MatchOptions& options,
                                               const VariableCatalog& catalog) {

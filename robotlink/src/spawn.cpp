@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "spawn.h"
 
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
 #include <fcntl.h>
-#include <string_view>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <system_error>
 #include <unistd.h>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace pitchboard::link {
@@ -144,7 +144,9 @@ tl::unexpected<Error> cannotStart(const std::string& program, int error) {
 
 }  // namespace
 
-std::string systemReason(int error) { return std::generic_category().message(error); }
+std::string systemReason(int error) {
+  return std::generic_category().message(error);
+}
 
 Result<Spawned> spawn(const std::vector<std::string>& command) {
   if (command.empty() || command.front().empty()) {
@@ -171,7 +173,7 @@ Result<Spawned> spawn(const std::vector<std::string>& command) {
     arguments.push_back(const_cast<char*>(argument.c_str()));
   }
   arguments.push_back(nullptr);
-  const ChildPlan plan{path.c_str(),       arguments.data(),   ::environ,  input.get(),
+  const ChildPlan plan{path.c_str(),       arguments.data(),   ::environ, input.get(),
                        output.write.get(), report.write.get(), ::getpid()};
 
   sigset_t all, before;

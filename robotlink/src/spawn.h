@@ -3,8 +3,8 @@
 
 // fork and exec of one child with a clean start: see process_supervisor.h for what it gets.
 
-#include <string>
 #include <sys/types.h>
+#include <string>
 #include <vector>
 
 #include <base/result.h>
@@ -12,8 +12,8 @@
 namespace pitchboard::link {
 
 struct Spawned {
-  pid_t pid = 0;   ///< also its process group
-  int output = -1; ///< read end of its standard output and error; non-blocking, close-on-exec
+  pid_t pid = 0;    ///< also its process group
+  int output = -1;  ///< read end of its standard output and error; non-blocking, close-on-exec
 };
 
 /// Starts `command` (program and arguments). From a process with any number of threads: nothing but

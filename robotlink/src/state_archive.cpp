@@ -86,8 +86,9 @@ Result<sim::WorldState> StateArchive::reenter(std::uint64_t tick) const {
     }
   }
   if (!found || tick > found->lastTick()) {
-    return failure(ErrorCode::NotFound,
-                   "this moment is not in memory any more; record a session to keep all of a match");
+    return failure(
+        ErrorCode::NotFound,
+        "this moment is not in memory any more; record a session to keep all of a match");
   }
   return found->at(tick);
 }

@@ -77,7 +77,8 @@ class Reader {
   }
   void value(std::uint64_t& value) { value = m_in.varint(); }
   void value(sim::AfterGoal& value) {
-    value = static_cast<sim::AfterGoal>(limited(static_cast<std::uint64_t>(sim::AfterGoal::CentreBall)));
+    value = static_cast<sim::AfterGoal>(
+        limited(static_cast<std::uint64_t>(sim::AfterGoal::CentreBall)));
   }
   void value(TeamColor& value) { value = static_cast<TeamColor>(limited(teamColors.size() - 1)); }
   void value(sim::Posture& value) {
@@ -112,7 +113,9 @@ class Reader {
   ByteReader& m_in;
 };
 
-bool isNear(double value) { return std::abs(value) <= farthest; }
+bool isNear(double value) {
+  return std::abs(value) <= farthest;
+}
 
 bool plausible(const sim::RigidBodyState& state) {
   for (const sim::RigidRobot& r : state.robots) {
@@ -182,8 +185,9 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::ParseError, "the saved state is cut or damaged",
                    "byte " + std::to_string(in.offset()));
   }
-  const bool usable = robotsAreDistinct(state) &&
-                      std::visit([](const auto& physics) { return plausible(physics); }, state.physics);
+  const bool usable =
+      robotsAreDistinct(state) &&
+      std::visit([](const auto& physics) { return plausible(physics); }, state.physics);
   if (!usable) {
     return failure(ErrorCode::ParseError,
                    "the saved state has numbers that no match has (robots or places)");

@@ -19,8 +19,8 @@ constexpr std::uint64_t version = 1;
 constexpr std::uint64_t mostTicks = 1'000'000;
 
 constexpr std::array<int sim::RobotCommand::*, 6> values{
-    &sim::RobotCommand::actionA,      &sim::RobotCommand::actionB,
-    &sim::RobotCommand::searchOn,     &sim::RobotCommand::actionVision,
+    &sim::RobotCommand::actionA,          &sim::RobotCommand::actionB,
+    &sim::RobotCommand::searchOn,         &sim::RobotCommand::actionVision,
     &sim::RobotCommand::localizationLook, &sim::RobotCommand::imuReset};
 
 Error damaged(const ByteReader& in) {

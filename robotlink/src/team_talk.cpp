@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "team_talk.h"
 
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <tuple>
 
 #include "team_variables.h"
@@ -10,8 +10,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double cycle = 0.2;            // s
-constexpr double silence = 3.0;          // s after which a team-mate is unknown
+constexpr double cycle = 0.2;    // s
+constexpr double silence = 3.0;  // s after which a team-mate is unknown
 constexpr std::string_view header = "PB1";
 
 // One extended team message: "PB1 robot x y theta belief intention state ball", whole numbers; x, y
@@ -33,7 +33,8 @@ struct TeamMessage {
     TeamMessage m;
     const char* p = text.data() + header.size();
     const char* const end = text.data() + text.size();
-    for (int* value : {&m.robot, &m.x, &m.y, &m.theta, &m.belief, &m.intention, &m.state, &m.ball}) {
+    for (int* value :
+         {&m.robot, &m.x, &m.y, &m.theta, &m.belief, &m.intention, &m.state, &m.ball}) {
       if (p == end || *p != ' ') return std::nullopt;
       const auto [next, error] = std::from_chars(p + 1, end, *value);
       if (error != std::errc{}) return std::nullopt;
@@ -50,8 +51,8 @@ int whole(float value) {
 
 // Five times a second: posts where this robot, its ball and its intention are, and writes what the
 // others posted: the places of up to ten team-mates to LOCALIZATION_RBT02.._RBT11, and all of the
-// three that matter most to COM_*_ROBOT1..3, both in the order of their numbers. Those who go for the
-// ball matter most, then those who see it, then the nearest.
+// three that matter most to COM_*_ROBOT1..3, both in the order of their numbers. Those who go for
+// the ball matter most, then those who see it, then the nearest.
 class TeamTalk final : public CognitiveProcess {
  public:
   TeamTalk(RobotId robot, std::shared_ptr<TeamChannel> channel)
@@ -117,9 +118,8 @@ class TeamTalk final : public CognitiveProcess {
       const double away = std::hypot(static_cast<double>(m.x) - x, static_cast<double>(m.y) - y);
       return std::tuple(attacks ? 0 : 1, m.ball >= 0 ? 0 : 1, away, m.robot);
     };
-    std::sort(all.begin(), all.end(), [&](const TeamMessage* a, const TeamMessage* b) {
-      return rank(*a) < rank(*b);
-    });
+    std::sort(all.begin(), all.end(),
+              [&](const TeamMessage* a, const TeamMessage* b) { return rank(*a) < rank(*b); });
     if (all.size() > mostTeamMates) all.resize(mostTeamMates);
     std::sort(all.begin(), all.end(),
               [](const TeamMessage* a, const TeamMessage* b) { return a->robot < b->robot; });
@@ -148,7 +148,7 @@ class TeamTalk final : public CognitiveProcess {
   std::shared_ptr<TeamChannel> m_channel;
   RobotVariables m_variables;
   TeamVariables m_team;
-  std::vector<Mate> m_mates;             // by robot number
+  std::vector<Mate> m_mates;  // by robot number
 };
 
 }  // namespace

@@ -3,11 +3,12 @@
 
 // What the reference robots of a team tell each other through their blackboards: the decision
 // process writes its own part, the team process sends it and writes what the others sent. All of it
-// lies in published variables. Places are whole cm of the LOCALIZATION frame; a place packed into one
-// int is x * 10000 + y, readable in the inspector (4500300 = x 450, y 300), and -1 is unknown.
+// lies in published variables. Places are whole cm of the LOCALIZATION frame; a place packed into
+// one int is x * 10000 + y, readable in the inspector (4500300 = x 450, y 300), and -1 is unknown.
 //
-// The published map has room for three team-mates with all that they tell (COM_*_ROBOT1..3), and for
-// the places of ten, a team of eleven (LOCALIZATION_RBT02_X to _RBT11_Y; _RBT01_X is the belief).
+// The published map has room for three team-mates with all that they tell (COM_*_ROBOT1..3), and
+// for the places of ten, a team of eleven (LOCALIZATION_RBT02_X to _RBT11_Y; _RBT01_X is the
+// belief).
 
 #include <algorithm>
 #include <array>
@@ -18,11 +19,19 @@
 
 namespace pitchboard::link {
 
-constexpr int mostTeamMates = 3;     // COM_*_ROBOT1..3
-constexpr int mostMatePlaces = 10;   // LOCALIZATION_RBT02_X .. _RBT11_Y
+constexpr int mostTeamMates = 3;    // COM_*_ROBOT1..3
+constexpr int mostMatePlaces = 10;  // LOCALIZATION_RBT02_X .. _RBT11_Y
 
 /// DECISION_STATE and COM_ACTION_ROBOTn.
-enum class Intention : int { None = 0, Idle = 1, Search = 2, Ball = 3, Support = 4, Keep = 5, Walk = 6 };
+enum class Intention : int {
+  None = 0,
+  Idle = 1,
+  Search = 2,
+  Ball = 3,
+  Support = 4,
+  Keep = 5,
+  Walk = 6
+};
 
 /// COM_STATE_ROBOTn.
 enum class MateState : int { Unknown = 0, Active = 1, Down = 2 };
@@ -55,9 +64,9 @@ struct TeamVariables {
     }
   }
 
-  IntVar intention;                ///< Intention
-  IntVar targetX, targetY;         ///< cm, where the robot is walking to
-  FloatVar ballX, ballY;           ///< cm, the ball as this robot saw it itself; -1 = not lately
+  IntVar intention;         ///< Intention
+  IntVar targetX, targetY;  ///< cm, where the robot is walking to
+  FloatVar ballX, ballY;    ///< cm, the ball as this robot saw it itself; -1 = not lately
   std::array<IntVar, mostTeamMates> state, action, place, ball;
   std::array<FloatVar, mostMatePlaces> mateX, mateY;  ///< cm, every team-mate; -1 = none
 };

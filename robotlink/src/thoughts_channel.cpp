@@ -3,10 +3,10 @@
 #include <robotlink/robot_thoughts.h>
 
 #include <arpa/inet.h>
-#include <cerrno>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cerrno>
 #include <utility>
 
 #include "spawn.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int highestPort = 65535;
 constexpr std::size_t longestDatagram = 65536;
-constexpr int mostPerPoll = 1000;              // a flood must not hold the display up
+constexpr int mostPerPoll = 1000;  // a flood must not hold the display up
 constexpr std::chrono::seconds memory{3};
 
 Result<void> checkPort(int port, int least) {
@@ -34,7 +34,8 @@ ThoughtsSender::ThoughtsSender(ThoughtsSender&&) noexcept = default;
 ThoughtsSender::~ThoughtsSender() = default;
 
 Result<ThoughtsSender> ThoughtsSender::to(int port) {
-  if (const Result<void> valid = checkPort(port, 1); !valid) return tl::unexpected<Error>(valid.error());
+  if (const Result<void> valid = checkPort(port, 1); !valid)
+    return tl::unexpected<Error>(valid.error());
   Result<UdpSender> sender = UdpSender::to("127.0.0.1");
   if (!sender) return tl::unexpected<Error>(sender.error());
   return ThoughtsSender(std::make_unique<UdpSender>(std::move(*sender)), port);
@@ -45,7 +46,8 @@ void ThoughtsSender::send(const RobotThoughts& thoughts) {
 }
 
 Result<ThoughtsReceiver> ThoughtsReceiver::listen(int port) {
-  if (const Result<void> valid = checkPort(port, 0); !valid) return tl::unexpected<Error>(valid.error());
+  if (const Result<void> valid = checkPort(port, 0); !valid)
+    return tl::unexpected<Error>(valid.error());
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (fd < 0) {
     return failure(ErrorCode::SystemError, "cannot make a UDP socket: " + systemReason(errno));
@@ -60,8 +62,9 @@ Result<ThoughtsReceiver> ThoughtsReceiver::listen(int port) {
   socklen_t size = sizeof name;
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0 ||
       ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) {
-    return failure(ErrorCode::SystemError, "port " + std::to_string(port) +
-                                               " for thoughts cannot be had: " + systemReason(errno));
+    return failure(
+        ErrorCode::SystemError,
+        "port " + std::to_string(port) + " for thoughts cannot be had: " + systemReason(errno));
   }
   receiver.m_port = ntohs(name.sin_port);
   receiver.m_buffer.resize(longestDatagram);

@@ -98,8 +98,8 @@ TraceRobot robotFrom(const Json& json, const std::string& where) {
 using ReadOperation = TraceOperation (*)(const Json&, const std::string&, std::size_t robots);
 
 std::size_t robotIndex(const Json& json, const std::string& where, std::size_t robots) {
-  return static_cast<std::size_t>(
-             wholeNumber(json, "robot", where, 1, static_cast<int>(robots))) - 1;
+  return static_cast<std::size_t>(wholeNumber(json, "robot", where, 1, static_cast<int>(robots))) -
+         1;
 }
 
 constexpr std::array<std::pair<const char*, ReadOperation>, 6> operations{{
@@ -163,8 +163,8 @@ Trace traceFrom(const Json& json) {
   const Json& schedule = member(json, "schedule", "the trace");
   if (!schedule.is_array()) throw Malformed("schedule must be a list");
   for (std::size_t i = 0; i < schedule.size(); ++i) {
-    trace.schedule.push_back(operationFrom(
-        schedule[i], "schedule[" + std::to_string(i) + "]", trace.robots.size()));
+    trace.schedule.push_back(
+        operationFrom(schedule[i], "schedule[" + std::to_string(i) + "]", trace.robots.size()));
   }
   std::stable_sort(trace.schedule.begin(), trace.schedule.end(),
                    [](const auto& a, const auto& b) { return a.frame < b.frame; });

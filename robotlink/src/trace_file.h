@@ -55,9 +55,9 @@ struct ScheduledOperation {
 
 struct Trace {
   std::string name;
-  int frames = 0;                    ///< steps recorded; rows = frames + 1
-  int crashFrame = 0;                ///< the published program died in this step; 0 = it did not
-  int naiveEvery = 0;                ///< 0 = no decision process
+  int frames = 0;      ///< steps recorded; rows = frames + 1
+  int crashFrame = 0;  ///< the published program died in this step; 0 = it did not
+  int naiveEvery = 0;  ///< 0 = no decision process
   double ballX = 0.0, ballY = 0.0, ballFriction = 0.95;
   std::vector<TraceRobot> robots;
   std::vector<ScheduledOperation> schedule;  ///< by frame, order of the file within a frame

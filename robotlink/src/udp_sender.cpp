@@ -2,10 +2,10 @@
 #include "udp_sender.h"
 
 #include <arpa/inet.h>
-#include <cerrno>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cerrno>
 #include <utility>
 
 #include <robotlink/robot_config.h>
@@ -15,7 +15,8 @@
 namespace pitchboard::link {
 
 Result<UdpSender> UdpSender::to(const std::string& address) {
-  if (Result<void> valid = checkAddress(address); !valid) return tl::unexpected<Error>(valid.error());
+  if (Result<void> valid = checkAddress(address); !valid)
+    return tl::unexpected<Error>(valid.error());
   in_addr parsed{};
   ::inet_pton(AF_INET, address.c_str(), &parsed);
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);

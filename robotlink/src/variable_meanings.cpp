@@ -40,7 +40,8 @@ bool fits(std::string_view pattern, std::string_view name) {
 std::map<std::int32_t, std::string> readLabels(const JsonObject& rule) {
   const JsonNode* labels = rule.find("labels");
   if (!labels) return {};
-  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions") return telemetry::actionLabels();
+  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions")
+    return telemetry::actionLabels();
   std::map<std::int32_t, std::string> out;
   if (labels->kind != JsonNode::Kind::Object) {
     rule.fail("labels", R"(must be "actions" or an object of code and text)");
@@ -92,7 +93,7 @@ const VariableMeanings& VariableMeanings::published() {
   static const VariableMeanings meanings = [] {
     constexpr std::string_view path = "variables.json";
     auto parsed = parse(resourceText(path), path);
-    assert(parsed);   // a test reads it too
+    assert(parsed);  // a test reads it too
     return parsed ? std::move(*parsed) : VariableMeanings{};
   }();
   return meanings;

@@ -27,7 +27,7 @@ class VariableMeanings {
 
  private:
   struct Rule {
-    std::string name;   // with * for any text
+    std::string name;  // with * for any text
     std::optional<std::string> heading, unit;
     std::optional<telemetry::ColumnKind> kind;
     std::map<std::int32_t, std::string> labels;

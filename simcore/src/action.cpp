@@ -70,7 +70,9 @@ static_assert(codesAreIndices());
 
 }  // namespace
 
-std::span<const Action> actionTable() { return table; }
+std::span<const Action> actionTable() {
+  return table;
+}
 
 const Action* findAction(int code) {
   const bool known = code >= 0 && code < static_cast<int>(table.size());

@@ -46,7 +46,9 @@ const std::array<FieldSpec, 8>& fields() {
 
 }  // namespace
 
-std::span<const FieldSpec> builtInFields() { return fields(); }
+std::span<const FieldSpec> builtInFields() {
+  return fields();
+}
 
 Result<FieldSpec> fieldByName(std::string_view name) {
   std::string known;

@@ -24,7 +24,9 @@ constexpr auto infos = [] {
 
 }  // namespace
 
-std::span<const PhysicsModelInfo> physicsModels() { return infos; }
+std::span<const PhysicsModelInfo> physicsModels() {
+  return infos;
+}
 
 std::unique_ptr<PhysicsModel> makePhysicsModel(std::string_view name) {
   for (const Registration& registration : registrations) {

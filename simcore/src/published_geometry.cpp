@@ -7,7 +7,9 @@ namespace pitchboard::sim {
 namespace {
 
 /// Centimetres to 0.01 cm, so that sizes written in metres give the published whole numbers.
-double cm(double metres) { return std::round(metres * 10000.0) / 100.0; }
+double cm(double metres) {
+  return std::round(metres * 10000.0) / 100.0;
+}
 
 }  // namespace
 

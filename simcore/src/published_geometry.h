@@ -2,8 +2,8 @@
 #pragma once
 
 // The pitch as the `published` model sees it: lines, posts, goals and limits in window centimetres.
-// For the published field these are the whole numbers of PUBLISHED_EXACT; other fields give the same
-// shapes with their own sizes.
+// For the published field these are the whole numbers of PUBLISHED_EXACT; other fields give the
+// same shapes with their own sizes.
 
 #include <array>
 
@@ -24,14 +24,14 @@ struct PublishedPoint {
 struct PublishedGeometry {
   explicit PublishedGeometry(const FieldSpec& field);
 
-  std::array<PublishedLine, 8> lines;    ///< in the published order of tests
+  std::array<PublishedLine, 8> lines;  ///< in the published order of tests
   std::array<PublishedPoint, 4> posts;
   std::array<PublishedPoint, 4> landmarks;  ///< blue, red, yellow, purple corner
-  double left, right, top, bottom;       ///< of the field, on its lines
+  double left, right, top, bottom;          ///< of the field, on its lines
   double worldWidth, worldHeight;
-  double goalDepth;                      ///< of the goals, from the goal line
+  double goalDepth;  ///< of the goals, from the goal line
   double goalTop, goalBottom;
-  double replaceMargin = 100.0;          ///< a ball that was out is put this far inside
+  double replaceMargin = 100.0;  ///< a ball that was out is put this far inside
   double robotRadius, ballRadius, postRadius;
 };
 

@@ -9,8 +9,12 @@
 
 namespace pitchboard::sim::published {
 
-inline double rad(double degrees) { return degrees * (std::numbers::pi / 180.0); }
-inline double deg(double radians) { return radians * (180.0 / std::numbers::pi); }
+inline double rad(double degrees) {
+  return degrees * (std::numbers::pi / 180.0);
+}
+inline double deg(double radians) {
+  return radians * (180.0 / std::numbers::pi);
+}
 
 /// a mod 360 as Python's float %: a tiny negative value gives 360.0 itself.
 inline double mod360(double a) {
@@ -21,14 +25,16 @@ inline double mod360(double a) {
   return m == 0.0 ? 0.0 : m;
 }
 
-/// The published squares are the C library's pow(x, 2), which differs from x·x in the last bit about
-/// once in a thousand. The exponent is volatile so that the compiler does not make it x·x.
+/// The published squares are the C library's pow(x, 2), which differs from x·x in the last bit
+/// about once in a thousand. The exponent is volatile so that the compiler does not make it x·x.
 inline double square(double x) {
   static const volatile double two = 2.0;
   return std::pow(x, two);
 }
 
-inline double length(double a, double b) { return std::sqrt(square(a) + square(b)); }
+inline double length(double a, double b) {
+  return std::sqrt(square(a) + square(b));
+}
 
 /// length(a, b) < limit, by a cheap test where it is not close.
 inline bool isShorter(double a, double b, double limit) {

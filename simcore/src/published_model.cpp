@@ -14,7 +14,9 @@
 namespace pitchboard::sim {
 namespace {
 
-PublishedState& stateOf(WorldState& world) { return std::get<PublishedState>(world.physics); }
+PublishedState& stateOf(WorldState& world) {
+  return std::get<PublishedState>(world.physics);
+}
 const PublishedState& stateOf(const WorldState& world) {
   return std::get<PublishedState>(world.physics);
 }
@@ -36,8 +38,8 @@ class PublishedModel : public PhysicsModel {
     return state && state->robots.size() == world.robots.size();
   }
 
-  void step(WorldState& world, std::span<const RobotCommand> commands,
-            std::span<Percepts> percepts, std::vector<Event>& events) override {
+  void step(WorldState& world, std::span<const RobotCommand> commands, std::span<Percepts> percepts,
+            std::vector<Event>& events) override {
     const PublishedGeometry& geometry = geometryOf(world.settings.field);
     const std::size_t count = world.robots.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -127,6 +129,8 @@ class PublishedModel : public PhysicsModel {
 
 }  // namespace
 
-std::unique_ptr<PhysicsModel> makePublishedModel() { return std::make_unique<PublishedModel>(); }
+std::unique_ptr<PhysicsModel> makePublishedModel() {
+  return std::make_unique<PublishedModel>();
+}
 
 }  // namespace pitchboard::sim

@@ -13,7 +13,9 @@
 namespace pitchboard::sim::published {
 namespace {
 
-PublishedState& stateOf(WorldState& world) { return std::get<PublishedState>(world.physics); }
+PublishedState& stateOf(WorldState& world) {
+  return std::get<PublishedState>(world.physics);
+}
 
 void setInMotion(PublishedBall& ball, double speed, double angle) {
   ball.vx = speed * std::cos(rad(angle));
@@ -70,8 +72,7 @@ void pushRobotsApart(const PublishedGeometry& geometry, std::vector<PublishedRob
   }
 }
 
-void pushBall(const PublishedGeometry& geometry, const PublishedRobot& robot,
-              PublishedBall& ball) {
+void pushBall(const PublishedGeometry& geometry, const PublishedRobot& robot, PublishedBall& ball) {
   const double dx = ball.x - robot.x;
   const double dy = robot.y - ball.y;
   if (!isShorter(dx, dy, geometry.robotRadius + geometry.ballRadius)) return;

@@ -60,7 +60,9 @@ Sighting look(const PublishedRobot& robot, double x, double y, double view) {
 }
 
 /// Heading in (−180, 180] as published: 360 itself stays.
-double baseOf(double rotate) { return rotate > 180.0 && rotate < 360.0 ? rotate - 360.0 : rotate; }
+double baseOf(double rotate) {
+  return rotate > 180.0 && rotate < 360.0 ? rotate - 360.0 : rotate;
+}
 
 double wrapOnce(double bearing) {
   if (bearing > 180.0) return bearing - 360.0;
@@ -102,8 +104,8 @@ void lookForRobots(WorldState& world, std::size_t index, bool teamMates, Percept
   PublishedState& state = std::get<PublishedState>(world.physics);
   PublishedRobot& robot = state.robots[index];
   const NoiseParameters& noise = world.settings.noise;
-  CounterRandom random(world.settings.seed, world.robots[index].id.value,
-                       NoiseStream::RobotVision, world.tick);
+  CounterRandom random(world.settings.seed, world.robots[index].id.value, NoiseStream::RobotVision,
+                       world.tick);
   const TeamColor own = world.robots[index].team;
   for (std::size_t j = 0; j < state.robots.size(); ++j) {
     if (j == index || (world.robots[j].team == own) != teamMates) continue;
@@ -143,8 +145,7 @@ void landmarkVision(const WorldState& world, const PublishedGeometry& geometry, 
     CounterRandom random(world.settings.seed, world.robots[index].id.value, NoiseStream::BallVision,
                          world.tick);
     percepts.landmarks.ballTiltDeg = random.normal(distance, distance * noise.visionDistance);
-    percepts.landmarks.ballPanDeg =
-        random.normal(bearing, degreesFromRadians(noise.visionBearing));
+    percepts.landmarks.ballPanDeg = random.normal(bearing, degreesFromRadians(noise.visionBearing));
   } else if (command.localizationLook == 1) {
     CounterRandom random(world.settings.seed, world.robots[index].id.value, NoiseStream::Landmarks,
                          world.tick);
@@ -159,8 +160,7 @@ void landmarkVision(const WorldState& world, const PublishedGeometry& geometry, 
   }
 }
 
-void sight(WorldState& world, std::size_t index, const RobotCommand& command,
-           Percepts& percepts) {
+void sight(WorldState& world, std::size_t index, const RobotCommand& command, Percepts& percepts) {
   switch (command.actionVision) {
     case 0:
       lookForBall(world, index, command, percepts);

@@ -55,8 +55,9 @@ class RigidBodyModel final : public PhysicsModel {
     for (std::size_t i = 0; i < robots; ++i) {
       const RigidRobot& robot = tick.state.robots[i];
       if (robot.inMotion) {
-        world.statistics[i].distanceWalked += dt * std::sqrt(robot.forwardSpeed * robot.forwardSpeed +
-                                                             robot.sidewaysSpeed * robot.sidewaysSpeed);
+        world.statistics[i].distanceWalked +=
+            dt * std::sqrt(robot.forwardSpeed * robot.forwardSpeed +
+                           robot.sidewaysSpeed * robot.sidewaysSpeed);
       }
       if (world.settings.rigidBody.falls) rigid::applyFall(tick, i);
     }

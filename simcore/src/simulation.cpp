@@ -189,8 +189,8 @@ Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pos
                    "Robot numbers lie between 1 and " + std::to_string(maxRobots) + ".");
   }
   if (indexOf(identity.id)) {
-    return failure(ErrorCode::Conflict, "Robot " + std::to_string(identity.id.value) +
-                                            " is already on the field.");
+    return failure(ErrorCode::Conflict,
+                   "Robot " + std::to_string(identity.id.value) + " is already on the field.");
   }
   if (!isFinite(pose)) {
     return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");

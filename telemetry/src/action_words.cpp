@@ -8,30 +8,29 @@ namespace pitchboard::telemetry {
 
 namespace {
 
-constexpr std::array<std::string_view, 23> words{
-    "stop",
-    "walk forward fast",
-    "turn left",
-    "turn right",
-    "kick right",
-    "kick left",
-    "walk left",
-    "walk right",
-    "walk forward slow",
-    "turn around the ball left",
-    "defend the goal",
-    "gait in place",
-    "pass left",
-    "pass right",
-    "turn around the ball right",
-    "get up from the front",
-    "get up from the back",
-    "walk backward fast",
-    "walk backward slow",
-    "greet",
-    "say goodbye",
-    "kick right weak",
-    "kick left weak"};
+constexpr std::array<std::string_view, 23> words{"stop",
+                                                 "walk forward fast",
+                                                 "turn left",
+                                                 "turn right",
+                                                 "kick right",
+                                                 "kick left",
+                                                 "walk left",
+                                                 "walk right",
+                                                 "walk forward slow",
+                                                 "turn around the ball left",
+                                                 "defend the goal",
+                                                 "gait in place",
+                                                 "pass left",
+                                                 "pass right",
+                                                 "turn around the ball right",
+                                                 "get up from the front",
+                                                 "get up from the back",
+                                                 "walk backward fast",
+                                                 "walk backward slow",
+                                                 "greet",
+                                                 "say goodbye",
+                                                 "kick right weak",
+                                                 "kick left weak"};
 
 }  // namespace
 

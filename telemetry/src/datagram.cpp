@@ -24,11 +24,12 @@ Result<Address> parseAddress(std::string_view text) {
   return Address{ntohl(address.s_addr)};
 }
 
-std::string Sender::text() const { return address.text() + ":" + std::to_string(port); }
+std::string Sender::text() const {
+  return address.text() + ":" + std::to_string(port);
+}
 
 void DatagramBatch::append(const DatagramView& d) {
-  m_heads.push_back(
-      {d.time, d.sender, d.localPort, d.truncated, m_bytes.size(), d.payload.size()});
+  m_heads.push_back({d.time, d.sender, d.localPort, d.truncated, m_bytes.size(), d.payload.size()});
   m_bytes += d.payload;
 }
 

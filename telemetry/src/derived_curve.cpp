@@ -33,7 +33,9 @@ std::span<const Sample>::iterator firstAfter(std::span<const Sample> samples, do
 
 }  // namespace
 
-std::span<const UnitConversion> unitConversions() { return conversions; }
+std::span<const UnitConversion> unitConversions() {
+  return conversions;
+}
 
 std::vector<UnitConversion> unitConversionsFrom(std::string_view unit) {
   std::vector<UnitConversion> out;
@@ -58,7 +60,8 @@ Sample Integral::next(const Sample& sample) {
 
 void MovingAverage::add(double value) {
   const double sum = m_sum + value;
-  m_correction += std::abs(m_sum) >= std::abs(value) ? (m_sum - sum) + value : (value - sum) + m_sum;
+  m_correction +=
+      std::abs(m_sum) >= std::abs(value) ? (m_sum - sum) + value : (value - sum) + m_sum;
   m_sum = sum;
 }
 
@@ -86,7 +89,7 @@ Sample WrapAngle::next(const Sample& sample) const {
 std::vector<Sample> difference(std::span<const Sample> a, std::span<const Sample> b) {
   std::vector<Sample> out;
   out.reserve(a.size());
-  std::size_t next = 0;   // of b: the first after the time of a
+  std::size_t next = 0;  // of b: the first after the time of a
   for (const Sample& sample : a) {
     while (next < b.size() && b[next].time <= sample.time) ++next;
     out.push_back({sample.time, next == 0 ? nothing : sample.value - b[next - 1].value});

@@ -12,15 +12,16 @@ namespace {
 /// The selected part as a session of its own.
 class Clip {
  public:
-  Clip(const SessionReader& session, const ExportSelection& selection, const std::vector<SelectedGroup>& selected,
-       McapWriter& out)
+  Clip(const SessionReader& session, const ExportSelection& selection,
+       const std::vector<SelectedGroup>& selected, McapWriter& out)
       : m_session(session), m_selection(selection), m_selected(selected), m_out(out) {}
 
   Result<ExportReport> write(const ExportProgress& progress) {
     for (const McapMetadataInfo& entry : m_session.file().metadata()) {
       const auto values = m_session.file().readMetadata(entry);
       if (!values) continue;
-      if (auto done = m_out.metadata(entry.name, *values); !done) return tl::unexpected(done.error());
+      if (auto done = m_out.metadata(entry.name, *values); !done)
+        return tl::unexpected(done.error());
     }
     for (const McapAttachmentInfo& entry : m_session.attachments()) {
       const auto data = m_session.file().readAttachment(entry);
@@ -81,9 +82,10 @@ class Clip {
     }
     if (!m_selection.messages) return;
     for (const auto& [id, channel] : file.channels()) {
-      const bool known = std::any_of(
-          session::streams.begin(), session::streams.end(),
-          [&topic = channel.topic](const session::StreamInfo& stream) { return stream.topic == topic; });
+      const bool known = std::any_of(session::streams.begin(), session::streams.end(),
+                                     [&topic = channel.topic](const session::StreamInfo& stream) {
+                                       return stream.topic == topic;
+                                     });
       if (known && channel.messageEncoding == "json") m_chunk.add(channel);
     }
   }
@@ -98,8 +100,10 @@ class Clip {
     m_words.clear();
     m_values.clear();
     for (const SelectedColumn& column : group.columns) {
-      if (column.type == ColumnType::Float64) m_values.push_back(item.row.values[column.place]);
-      else m_words.push_back(item.row.words[column.place]);
+      if (column.type == ColumnType::Float64)
+        m_values.push_back(item.row.values[column.place]);
+      else
+        m_words.push_back(item.row.words[column.place]);
     }
     // The row keeps its own time; the session's is in the times of the message.
     double source = item.time;

@@ -56,8 +56,8 @@ std::string_view fileExtension(ExportFormat format) {
 Result<void> checkRange(SessionRange range) {
   if (range.begin <= range.end) return {};
   char text[120];
-  std::snprintf(text, sizeof text, "The range ends before it begins: from %g s until %g s.", range.begin,
-                range.end);
+  std::snprintf(text, sizeof text, "The range ends before it begins: from %g s until %g s.",
+                range.begin, range.end);
   return failure(ErrorCode::InvalidArgument, text);
 }
 
@@ -73,9 +73,8 @@ Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session
       known += (known.empty() ? "" : ", ") + group.info.name;
     }
     if (!found) {
-      return failure(ErrorCode::NotFound,
-                     "The session has no robot \"" + robot + "\"; it has " +
-                         (known.empty() ? std::string("none") : known) + ".");
+      return failure(ErrorCode::NotFound, "The session has no robot \"" + robot + "\"; it has " +
+                                              (known.empty() ? std::string("none") : known) + ".");
     }
   }
   std::vector<bool> used(selection.variables.size(), false);
@@ -99,9 +98,9 @@ Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session
   }
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) continue;
-    return failure(ErrorCode::NotFound,
-                   "The selected robots have no variable \"" + selection.variables[v] +
-                       "\"; a * stands for any letters.");
+    return failure(ErrorCode::NotFound, "The selected robots have no variable \"" +
+                                            selection.variables[v] +
+                                            "\"; a * stands for any letters.");
   }
   return out;
 }

@@ -12,7 +12,7 @@ namespace pitchboard::telemetry {
 struct SelectedColumn {
   std::size_t column = 0;  ///< in GroupInfo
   ColumnType type = ColumnType::Float64;
-  std::size_t place = 0;   ///< in the words or the values of a row
+  std::size_t place = 0;  ///< in the words or the values of a row
 };
 
 struct SelectedGroup {

@@ -48,8 +48,8 @@ RefereeTeam readTeam(const RefereeLayout& layout, Bytes bytes) {
   for (std::size_t i = 0; i < layout.slots; ++i) {
     RefereePlayer& player = team.allSlots[i];
     player.number = static_cast<int>(i) + 1;
-    readFields(layout.player, bytes.subspan(layout.slotsAt + i * layout.slotBytes, layout.slotBytes),
-               player);
+    readFields(layout.player,
+               bytes.subspan(layout.slotsAt + i * layout.slotBytes, layout.slotBytes), player);
   }
   return team;
 }
@@ -66,20 +66,20 @@ std::optional<int> kickOffTeam(const RefereeLayout& layout, const RefereeState& 
 constexpr int substitute2013 = 14;
 
 /// The native program of 2013 and the v7 packets that later ones add have version and size in
-/// common. Slots 10 and 11 of team 1 are unused in games of up to nine a side and then hold the code
-/// of a substitute, unless the native program wrote its own values over them.
+/// common. Slots 10 and 11 of team 1 are unused in games of up to nine a side and then hold the
+/// code of a substitute, unless the native program wrote its own values over them.
 bool isNative2013(const RefereeLayout& layout, Bytes bytes, int playersPerTeam) {
-  return layout.version == 7 && playersPerTeam < 10 && intAt(bytes, 108, 2, false) != substitute2013 &&
+  return layout.version == 7 && playersPerTeam < 10 &&
+         intAt(bytes, 108, 2, false) != substitute2013 &&
          intAt(bytes, 112, 2, false) != substitute2013;
 }
 
 void readExtra2013(Bytes bytes, RefereeState& state) {
   const auto byteAt = [bytes](std::size_t offset) { return intAt(bytes, offset, 1, false); };
-  state.extra2013 = RefereeExtra2013{
-      byteAt(107),
-      {byteAt(108), byteAt(109)},
-      {intAt(bytes, 110, 2, false), intAt(bytes, 112, 2, false)},
-      intAt(bytes, 114, 2, false)};
+  state.extra2013 = RefereeExtra2013{byteAt(107),
+                                     {byteAt(108), byteAt(109)},
+                                     {intAt(bytes, 110, 2, false), intAt(bytes, 112, 2, false)},
+                                     intAt(bytes, 114, 2, false)};
   for (std::size_t slot = 8; slot < 11; ++slot) {
     RefereePlayer& player = state.teams[1].allSlots[slot];
     player.penalty = substitute2013;
@@ -100,9 +100,9 @@ Result<RefereePacket> decodeState(Bytes bytes) {
     }
     const std::string start = "Referee packet of version " + std::to_string(version) + " with " +
                               std::to_string(bytes.size()) + " bytes: ";
-    return failure(ErrorCode::Unsupported,
-                   sizes.empty() ? start + "this version is not known."
-                                 : start + "this version has " + sizes + " bytes.");
+    return failure(ErrorCode::Unsupported, sizes.empty()
+                                               ? start + "this version is not known."
+                                               : start + "this version has " + sizes + " bytes.");
   }
   RefereeState state;
   for (std::size_t i = 0; i < 4; ++i) state.magic[i] = std::to_integer<char>(bytes[i]);
@@ -115,8 +115,8 @@ Result<RefereePacket> decodeState(Bytes bytes) {
     for (std::size_t i = 0; i < 4; ++i) info[i] = intAt(bytes, layout->secStateInfo + i, 1, false);
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    state.teams[i] = readTeam(*layout, bytes.subspan(layout->teamsAt + i * layout->teamBytes,
-                                                     layout->teamBytes));
+    state.teams[i] = readTeam(
+        *layout, bytes.subspan(layout->teamsAt + i * layout->teamBytes, layout->teamBytes));
   }
   state.kickOffTeam = kickOffTeam(*layout, state);
   if (isNative2013(*layout, bytes, state.playersPerTeam)) readExtra2013(bytes, state);
@@ -144,10 +144,10 @@ Result<RobotReply> decodeReply(Bytes bytes) {
     reply.ballAge = floatAt(bytes, 20);
     reply.ball = {floatAt(bytes, 24), floatAt(bytes, 28)};
   } else {
-    return failure(ErrorCode::Unsupported,
-                   "A robot's reply to the referee (RGrt) of version " +
-                       std::to_string(reply.version) + " with " + std::to_string(bytes.size()) +
-                       " bytes: this version is not known.");
+    return failure(ErrorCode::Unsupported, "A robot's reply to the referee (RGrt) of version " +
+                                               std::to_string(reply.version) + " with " +
+                                               std::to_string(bytes.size()) +
+                                               " bytes: this version is not known.");
   }
   return reply;
 }

@@ -8,30 +8,30 @@ using S = RefereeState;
 using T = RefereeTeam;
 using P = RefereePlayer;
 
-constexpr FieldAt<S> header7[] = {
-    u8(&S::playersPerTeam, 8), u8(&S::state, 9),       u8(&S::firstHalf, 10),
-    u8(&S::kickOffRaw, 11),    u8(&S::secState, 12),   u8(&S::dropInTeam, 13),
-    i16(&S::dropInTime, 14),   i32(&S::secsRemaining, 16)};
-constexpr FieldAt<S> header8[] = {
-    u8(&S::packetNumber, 5), u8(&S::playersPerTeam, 6), u8(&S::state, 7),
-    u8(&S::firstHalf, 8),    u8(&S::kickOffRaw, 9),     u8(&S::secState, 10),
-    u8(&S::dropInTeam, 11),  i16(&S::dropInTime, 12),   i16(&S::secsRemaining, 14),
-    i16(&S::secondaryTime, 16)};
+constexpr FieldAt<S> header7[] = {u8(&S::playersPerTeam, 8), u8(&S::state, 9),
+                                  u8(&S::firstHalf, 10),     u8(&S::kickOffRaw, 11),
+                                  u8(&S::secState, 12),      u8(&S::dropInTeam, 13),
+                                  i16(&S::dropInTime, 14),   i32(&S::secsRemaining, 16)};
+constexpr FieldAt<S> header8[] = {u8(&S::packetNumber, 5),    u8(&S::playersPerTeam, 6),
+                                  u8(&S::state, 7),           u8(&S::firstHalf, 8),
+                                  u8(&S::kickOffRaw, 9),      u8(&S::secState, 10),
+                                  u8(&S::dropInTeam, 11),     i16(&S::dropInTime, 12),
+                                  i16(&S::secsRemaining, 14), i16(&S::secondaryTime, 16)};
 constexpr FieldAt<S> header9[] = {
-    u8(&S::packetNumber, 6),   u8(&S::playersPerTeam, 7), u8(&S::gameType, 8),
-    u8(&S::state, 9),          u8(&S::firstHalf, 10),     u8(&S::kickOffRaw, 11),
-    u8(&S::secState, 12),      u8(&S::dropInTeam, 13),    i16(&S::dropInTime, 14),
+    u8(&S::packetNumber, 6),    u8(&S::playersPerTeam, 7), u8(&S::gameType, 8),
+    u8(&S::state, 9),           u8(&S::firstHalf, 10),     u8(&S::kickOffRaw, 11),
+    u8(&S::secState, 12),       u8(&S::dropInTeam, 13),    i16(&S::dropInTime, 14),
     i16(&S::secsRemaining, 16), i16(&S::secondaryTime, 18)};
 constexpr FieldAt<S> headerHl11[] = {
-    u8(&S::packetNumber, 6),   u8(&S::playersPerTeam, 7), u8(&S::gameType, 8),
-    u8(&S::state, 9),          u8(&S::firstHalf, 10),     u8(&S::kickOffRaw, 11),
-    u8(&S::secState, 12),      u8(&S::dropInTeam, 17),    i16(&S::dropInTime, 18),
+    u8(&S::packetNumber, 6),    u8(&S::playersPerTeam, 7), u8(&S::gameType, 8),
+    u8(&S::state, 9),           u8(&S::firstHalf, 10),     u8(&S::kickOffRaw, 11),
+    u8(&S::secState, 12),       u8(&S::dropInTeam, 17),    i16(&S::dropInTime, 18),
     i16(&S::secsRemaining, 20), i16(&S::secondaryTime, 22)};
 constexpr FieldAt<S> headerSpl11[] = {
-    u8(&S::packetNumber, 6),     u8(&S::playersPerTeam, 7), u8(&S::competitionPhase, 8),
-    u8(&S::competitionType, 9),  u8(&S::gamePhase, 10),     u8(&S::state, 11),
-    u8(&S::setPlay, 12),         u8(&S::firstHalf, 13),     u8(&S::kickOffRaw, 14),
-    u8(&S::dropInTeam, 15),      i16(&S::dropInTime, 16),   i16(&S::secsRemaining, 18),
+    u8(&S::packetNumber, 6),    u8(&S::playersPerTeam, 7), u8(&S::competitionPhase, 8),
+    u8(&S::competitionType, 9), u8(&S::gamePhase, 10),     u8(&S::state, 11),
+    u8(&S::setPlay, 12),        u8(&S::firstHalf, 13),     u8(&S::kickOffRaw, 14),
+    u8(&S::dropInTeam, 15),     i16(&S::dropInTime, 16),   i16(&S::secsRemaining, 18),
     i16(&S::secondaryTime, 20)};
 constexpr FieldAt<S> headerSpl12[] = {
     u8(&S::packetNumber, 5),    u8(&S::playersPerTeam, 6), u8(&S::competitionPhase, 7),
@@ -52,20 +52,20 @@ constexpr FieldAt<T> team14[] = {u8(&T::number, 0),       u8(&T::colour, 1),
                                  u8(&T::score, 2),        u8(&T::penaltyShot, 3),
                                  u16(&T::singleShots, 4), u16(&T::messageBudget, 6)};
 constexpr FieldAt<T> team15[] = {
-    u8(&T::number, 0), u8(&T::colour, 1),      u8(&T::goalkeeperColour, 2), u8(&T::goalkeeper, 3),
-    u8(&T::score, 4),  u8(&T::penaltyShot, 5), u16(&T::singleShots, 6),     u16(&T::messageBudget, 8)};
+    u8(&T::number, 0),       u8(&T::colour, 1),        u8(&T::goalkeeperColour, 2),
+    u8(&T::goalkeeper, 3),   u8(&T::score, 4),         u8(&T::penaltyShot, 5),
+    u16(&T::singleShots, 6), u16(&T::messageBudget, 8)};
 
 constexpr FieldAt<P> player7[] = {u16(&P::penalty, 0), u16(&P::secondsLeft, 2)};
 constexpr FieldAt<P> player8[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1)};
 constexpr FieldAt<P> player640[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1), u8(&P::yellow, 2),
                                     u8(&P::red, 3)};
-constexpr FieldAt<P> player688[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1),
+constexpr FieldAt<P> player688[] = {u8(&P::penalty, 0),  u8(&P::secondsLeft, 1),
                                     u8(&P::warnings, 2), u8(&P::yellow, 3),
-                                    u8(&P::red, 4),     u8(&P::goalkeeper, 5)};
-constexpr FieldAt<P> player19[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1),
-                                   u8(&P::warnings, 2), u8(&P::cautions, 3)};
-constexpr FieldAt<P> player20[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1),
-                                   u8(&P::cautions, 2)};
+                                    u8(&P::red, 4),      u8(&P::goalkeeper, 5)};
+constexpr FieldAt<P> player19[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1), u8(&P::warnings, 2),
+                                   u8(&P::cautions, 3)};
+constexpr FieldAt<P> player20[] = {u8(&P::penalty, 0), u8(&P::secondsLeft, 1), u8(&P::cautions, 2)};
 
 constexpr League hl = League::Humanoid;
 constexpr League spl = League::StandardPlatform;
@@ -119,7 +119,9 @@ static_assert(consistent());
 
 }  // namespace
 
-std::span<const RefereeLayout> refereeLayouts() { return layouts; }
+std::span<const RefereeLayout> refereeLayouts() {
+  return layouts;
+}
 
 const RefereeLayout* refereeLayout(int version, std::size_t size) {
   for (const RefereeLayout& layout : layouts) {

@@ -90,12 +90,18 @@ std::span<const Code> codesOf(const RefereeState& state) {
   const RefereeLayout* layout =
       refereeLayout(state.version, static_cast<std::size_t>(std::max(state.size, 0)));
   switch (layout == nullptr ? PenaltyCodes::Hl2017 : layout->penalties) {
-    case PenaltyCodes::Hl2013: return hl2013;
-    case PenaltyCodes::Hl2017: return hl2017;
-    case PenaltyCodes::Spl2017: return spl2017;
-    case PenaltyCodes::Spl2019: return spl2019;
-    case PenaltyCodes::Hsl19: return hsl19;
-    case PenaltyCodes::Hsl20: return hsl20;
+    case PenaltyCodes::Hl2013:
+      return hl2013;
+    case PenaltyCodes::Hl2017:
+      return hl2017;
+    case PenaltyCodes::Spl2017:
+      return spl2017;
+    case PenaltyCodes::Spl2019:
+      return spl2019;
+    case PenaltyCodes::Hsl19:
+      return hsl19;
+    case PenaltyCodes::Hsl20:
+      return hsl20;
   }
   return hl2017;
 }
@@ -122,8 +128,8 @@ std::string_view stateName(int state) {
 
 std::string_view secStateName(int secState) {
   static constexpr std::string_view names[] = {
-      "NORMAL",          "PENALTYSHOOT", "OVERTIME",    "TIMEOUT",   "DIRECT_FREEKICK",
-      "INDIRECT_FREEKICK", "PENALTYKICK",  "CORNER_KICK", "GOAL_KICK", "THROW_IN"};
+      "NORMAL",      "PENALTYSHOOT", "OVERTIME",  "TIMEOUT", "DIRECT_FREEKICK", "INDIRECT_FREEKICK",
+      "PENALTYKICK", "CORNER_KICK",  "GOAL_KICK", "THROW_IN"};
   return pick(names, secState, "UNKNOWN");
 }
 
@@ -141,8 +147,8 @@ std::string_view gamePhaseWords(int gamePhase) {
 std::string_view setPlayWords(League league, int setPlay) {
   static constexpr std::string_view spl[] = {"none",   "goal kick", "pushing free kick",
                                              "corner", "kick-in",   "penalty"};
-  static constexpr std::string_view hsl[] = {"none",     "direct free kick", "indirect free kick",
-                                             "penalty",  "throw-in",         "goal kick",
+  static constexpr std::string_view hsl[] = {"none",    "direct free kick", "indirect free kick",
+                                             "penalty", "throw-in",         "goal kick",
                                              "corner"};
   return league == League::HumanoidSoccer ? pick(hsl, setPlay, "unknown")
                                           : pick(spl, setPlay, "unknown");

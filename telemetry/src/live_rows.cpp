@@ -24,10 +24,13 @@ constexpr std::array<HealthColumn, healthColumns> health{
 // A clock that is set back a little must not cost what was recorded since.
 constexpr double smallStep = 5.0;
 
-double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
+double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
 
 ColumnInfo columnOf(const ProfileField& field) {
-  ColumnInfo column{field.name, ColumnType::Float64, field.unit, field.group, ColumnKind::Number, {}};
+  ColumnInfo column{field.name,  ColumnType::Float64, field.unit,
+                    field.group, ColumnKind::Number,  {}};
   if (field.type == FieldType::Flag) column.kind = ColumnKind::Flag;
   if (field.meaning == FieldMeaning::Action) {
     column.kind = ColumnKind::Enumeration;
@@ -43,11 +46,11 @@ struct LiveRows::Robot {
   Sender sender;
   std::string name;
   GroupId group = 0;
-  std::uint64_t generation = 0;      // of the profile that the group was made for; 0: none yet
-  std::size_t fields = 0;            // columns before those of health
-  std::vector<double> values;        // fields, then health
+  std::uint64_t generation = 0;  // of the profile that the group was made for; 0: none yet
+  std::size_t fields = 0;        // columns before those of health
+  std::vector<double> values;    // fields, then health
   double lastTime = -std::numeric_limits<double>::infinity();
-  bool heard = false;                // since the last report
+  bool heard = false;  // since the last report
   bool timedOut = false;
 };
 
@@ -56,7 +59,9 @@ LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options)
 
 LiveRows::~LiveRows() = default;
 
-void LiveRows::clear() { m_robots.clear(); }
+void LiveRows::clear() {
+  m_robots.clear();
+}
 
 LiveRows::Robot& LiveRows::robotOf(int number, const Sender& sender) {
   const auto found = std::ranges::find_if(m_robots, [&](const Robot& robot) {
@@ -86,9 +91,11 @@ void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t va
   robot.generation = m_generation;
   robot.fields = fields;
   robot.values.assign(fields + healthColumns, nothing);
-  GroupInfo info{robot.name, {}, {{"number", std::to_string(robot.number)},
-                                  {"sender", robot.sender.address.text()},
-                                  {"live", "1"}}};
+  GroupInfo info{robot.name,
+                 {},
+                 {{"number", std::to_string(robot.number)},
+                  {"sender", robot.sender.address.text()},
+                  {"live", "1"}}};
   for (std::size_t i = 0; i < fields; ++i) {
     if (i < m_profile.fields.size()) {
       info.columns.push_back(columnOf(m_profile.fields[i]));
@@ -100,9 +107,10 @@ void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t va
   for (const HealthColumn& column : health) {
     std::string name = column.name;
     while (std::ranges::find(info.columns, name, &ColumnInfo::name) != info.columns.end()) {
-      name.insert(0, "LINK_");   // a team's own field keeps its name
+      name.insert(0, "LINK_");  // a team's own field keeps its name
     }
-    info.columns.push_back({name, ColumnType::Float64, column.unit, "Link", ColumnKind::Number, {}});
+    info.columns.push_back(
+        {name, ColumnType::Float64, column.unit, "Link", ColumnKind::Number, {}});
   }
   robot.group = m_sink->addGroup(info);
 }
@@ -125,9 +133,11 @@ void LiveRows::report(const TeamStatus& status) {
     const auto found = std::ranges::find_if(m_robots, [&](const Robot& robot) {
       return robot.number == now.number && robot.sender.address == now.sender.address;
     });
-    if (found == m_robots.end()) continue;   // nothing of it could be used yet
+    if (found == m_robots.end()) continue;  // nothing of it could be used yet
     Robot& robot = *found;
-    const auto set = [&](Health column, double value) { robot.values[robot.fields + column] = value; };
+    const auto set = [&](Health column, double value) {
+      robot.values[robot.fields + column] = value;
+    };
     set(Age, seconds(now.age));
     set(Rate, now.rate);
     set(Loss, now.loss.value_or(nothing));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Little-endian numbers, strings and maps of MCAP records, to and from bytes. The reading half never
-// goes past its end: it turns bad and gives zeros from then on.
+// Little-endian numbers, strings and maps of MCAP records, to and from bytes. The reading half
+// never goes past its end: it turns bad and gives zeros from then on.
 
 #include <bit>
 #include <cstring>
@@ -103,7 +103,7 @@ class ByteReader {
   bool m_ok = true;
 };
 
-inline constexpr std::size_t recordHead = 9;          ///< opcode and length
+inline constexpr std::size_t recordHead = 9;  ///< opcode and length
 inline constexpr std::size_t messageHead = 2 + 4 + 8 + 8;
 inline constexpr std::size_t footerLength = 8 + 8 + 4;
 

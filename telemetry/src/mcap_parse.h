@@ -20,9 +20,9 @@ std::optional<McapMetadataInfo> parseMetadataIndex(std::string_view content);
 std::optional<McapStatistics> parseStatistics(std::string_view content);
 
 struct ChunkHead {
-  McapChunkInfo info;           ///< offset and length are left for the caller
-  std::uint32_t crc = 0;        ///< 0: none
-  std::size_t recordsAt = 0;    ///< where the records begin in the content
+  McapChunkInfo info;         ///< offset and length are left for the caller
+  std::uint32_t crc = 0;      ///< 0: none
+  std::size_t recordsAt = 0;  ///< where the records begin in the content
 };
 /// Needs only the beginning of the content; `contentLength` is that of the whole record.
 std::optional<ChunkHead> parseChunkHead(std::string_view beginning, std::uint64_t contentLength);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/mcap_reader.h>
 
-#include <algorithm>
 #include <zlib.h>
+#include <algorithm>
 
 #include "mcap_bytes.h"
 #include "mcap_reader_impl.h"
@@ -19,7 +19,9 @@ std::uint32_t crcOf(std::string_view bytes) {
       crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-std::string atOffset(std::uint64_t offset) { return "at byte " + std::to_string(offset); }
+std::string atOffset(std::uint64_t offset) {
+  return "at byte " + std::to_string(offset);
+}
 
 Error damaged(const McapSource& source, std::uint64_t offset, std::string sentence) {
   return {ErrorCode::ParseError, std::move(sentence), source.name() + " " + atOffset(offset)};
@@ -32,21 +34,39 @@ McapReader::McapReader(McapReader&&) noexcept = default;
 McapReader& McapReader::operator=(McapReader&&) noexcept = default;
 McapReader::~McapReader() = default;
 
-bool McapReader::indexed() const { return m_impl->indexed; }
-const std::vector<std::string>& McapReader::problems() const { return m_impl->problems; }
-std::uint64_t McapReader::fileBytes() const { return m_impl->source.size(); }
-const std::string& McapReader::profile() const { return m_impl->profile; }
-const std::string& McapReader::library() const { return m_impl->library; }
-const std::map<std::uint16_t, McapSchema>& McapReader::schemas() const { return m_impl->schemas; }
+bool McapReader::indexed() const {
+  return m_impl->indexed;
+}
+const std::vector<std::string>& McapReader::problems() const {
+  return m_impl->problems;
+}
+std::uint64_t McapReader::fileBytes() const {
+  return m_impl->source.size();
+}
+const std::string& McapReader::profile() const {
+  return m_impl->profile;
+}
+const std::string& McapReader::library() const {
+  return m_impl->library;
+}
+const std::map<std::uint16_t, McapSchema>& McapReader::schemas() const {
+  return m_impl->schemas;
+}
 const std::map<std::uint16_t, McapChannel>& McapReader::channels() const {
   return m_impl->channels;
 }
-const std::vector<McapChunkInfo>& McapReader::chunks() const { return m_impl->chunks; }
+const std::vector<McapChunkInfo>& McapReader::chunks() const {
+  return m_impl->chunks;
+}
 const std::vector<McapAttachmentInfo>& McapReader::attachments() const {
   return m_impl->attachments;
 }
-const std::vector<McapMetadataInfo>& McapReader::metadata() const { return m_impl->metadata; }
-const McapStatistics& McapReader::statistics() const { return m_impl->statistics; }
+const std::vector<McapMetadataInfo>& McapReader::metadata() const {
+  return m_impl->metadata;
+}
+const McapStatistics& McapReader::statistics() const {
+  return m_impl->statistics;
+}
 
 Result<McapReader> McapReader::open(const std::string& path, const McapReaderOptions& options) {
   auto source = McapSource::file(path);
@@ -71,8 +91,10 @@ Result<McapReader> McapReader::openBytes(std::string bytes, const McapReaderOpti
 }
 
 void McapReader::Impl::problem(std::uint64_t offset, const std::string& sentence) {
-  if (problems.size() < mostProblems) problems.push_back("At byte " + std::to_string(offset) + ": " + sentence);
-  else ++moreProblems;
+  if (problems.size() < mostProblems)
+    problems.push_back("At byte " + std::to_string(offset) + ": " + sentence);
+  else
+    ++moreProblems;
 }
 
 Result<void> McapReader::Impl::readHeader() {
@@ -84,9 +106,9 @@ Result<void> McapReader::Impl::readHeader() {
                                 source.name()});
   }
   if (begin != magic) {
-    return tl::unexpected(
-        Error{ErrorCode::ParseError, "This is not an MCAP file: its first bytes are others.",
-              source.name()});
+    return tl::unexpected(Error{ErrorCode::ParseError,
+                                "This is not an MCAP file: its first bytes are others.",
+                                source.name()});
   }
   dataBegin = magic.size();
   ByteReader head(source.look(dataBegin, recordHead));
@@ -195,7 +217,8 @@ bool McapReader::Impl::takeSummary(std::string_view summary) {
         counted = true;
         break;
       }
-      default: break;
+      default:
+        break;
     }
   }
   std::sort(chunks.begin(), chunks.end(),
@@ -249,8 +272,8 @@ Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string
     }
     return {};
   }
-  const std::string_view look =
-      source.look(chunk.offset, static_cast<std::size_t>(std::min<std::uint64_t>(256, chunk.length)));
+  const std::string_view look = source.look(
+      chunk.offset, static_cast<std::size_t>(std::min<std::uint64_t>(256, chunk.length)));
   ByteReader in(look);
   const auto op = in.number<std::uint8_t>();
   const auto length = in.number<std::uint64_t>();
@@ -291,9 +314,9 @@ Result<void> McapReader::readChunk(const McapChunkInfo& chunk, std::string& body
 Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachment) const {
   const McapSource& source = m_impl->source;
   const auto wrong = [&](const char* why) {
-    return tl::unexpected(damaged(source, attachment.offset,
-                                  "The attachment \"" + attachment.name + "\" is damaged: " + why +
-                                      "."));
+    return tl::unexpected(
+        damaged(source, attachment.offset,
+                "The attachment \"" + attachment.name + "\" is damaged: " + why + "."));
   };
   if (attachment.length > m_impl->options.maxAttachmentBytes) return wrong("it is too long");
   std::string record;
@@ -326,8 +349,8 @@ Result<McapMap> McapReader::readMetadata(const McapMetadataInfo& metadata) const
     McapMap values = content.map();
     if (op == static_cast<std::uint8_t>(McapOp::Metadata) && in.ok() && content.ok()) return values;
   }
-  return tl::unexpected(damaged(source, metadata.offset,
-                                "The metadata \"" + metadata.name + "\" are damaged."));
+  return tl::unexpected(
+      damaged(source, metadata.offset, "The metadata \"" + metadata.name + "\" are damaged."));
 }
 
 McapCursor::Kind McapCursor::next() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What McapReader knows of a file, filled by the summary (mcap_reader.cpp) or by walking through the
-// file (mcap_scan.cpp).
+// What McapReader knows of a file, filled by the summary (mcap_reader.cpp) or by walking through
+// the file (mcap_scan.cpp).
 
 #include <zstd.h>
 

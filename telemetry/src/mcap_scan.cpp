@@ -40,7 +40,8 @@ class McapScan {
     }
     closeRun();
     if (!m_done && !m_told) {
-      m_reader.problem(m_source.size(), "the file ends without its end mark: the recording broke off.");
+      m_reader.problem(m_source.size(),
+                       "the file ends without its end mark: the recording broke off.");
     }
     return true;
   }
@@ -66,12 +67,16 @@ class McapScan {
 
   void take(McapOp op, std::uint64_t length) {
     switch (op) {
-      case McapOp::Chunk: takeChunk(m_at, length, true); break;
-      case McapOp::Attachment: takeAttachment(length); break;
+      case McapOp::Chunk:
+        takeChunk(m_at, length, true);
+        break;
+      case McapOp::Attachment:
+        takeAttachment(length);
+        break;
       case McapOp::Metadata: {
-        const std::string_view look = m_source.look(
-            m_at + recordHead,
-            static_cast<std::size_t>(std::min<std::uint64_t>(length, longestHead)));
+        const std::string_view look =
+            m_source.look(m_at + recordHead,
+                          static_cast<std::size_t>(std::min<std::uint64_t>(length, longestHead)));
         ByteReader content(look);
         std::string name(content.text());
         if (content.ok()) m_reader.metadata.push_back({m_at, recordHead + length, std::move(name)});
@@ -86,8 +91,11 @@ class McapScan {
         }
         break;
       case McapOp::DataEnd:
-      case McapOp::Footer: m_done = true; break;
-      default: break;
+      case McapOp::Footer:
+        m_done = true;
+        break;
+      default:
+        break;
     }
   }
 
@@ -122,7 +130,8 @@ class McapScan {
     }
     m_unpacked += m_body.size();
     if (m_unpacked > freeExpansion && m_unpacked / mostExpansion > m_source.size()) {
-      m_reader.problem(offset, "the file unpacks to far more than any recording; the rest is left out.");
+      m_reader.problem(offset,
+                       "the file unpacks to far more than any recording; the rest is left out.");
       m_done = m_told = true;
       return false;
     }
@@ -152,7 +161,8 @@ class McapScan {
           ++counts[cursor.message().channel];
           continue;
         }
-        case McapCursor::Kind::End: break;
+        case McapCursor::Kind::End:
+          break;
       }
       break;
     }
@@ -257,6 +267,8 @@ class McapScan {
   bool m_told = false;
 };
 
-bool McapReader::Impl::scan() { return McapScan(*this).run(); }
+bool McapReader::Impl::scan() {
+  return McapScan(*this).run();
+}
 
 }  // namespace pitchboard::telemetry

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mcap_source.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace pitchboard::telemetry {
@@ -60,8 +60,8 @@ std::size_t McapSource::readSome(std::uint64_t offset, char* to, std::size_t cou
   }
   std::size_t done = 0;
   while (done < count) {
-    const ssize_t got = ::pread(m_descriptor, to + done, count - done,
-                                static_cast<off_t>(offset + done));
+    const ssize_t got =
+        ::pread(m_descriptor, to + done, count - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;  // cut meanwhile, or a bad disk: what is not there is not read
     done += static_cast<std::size_t>(got);
@@ -84,7 +84,8 @@ std::string_view McapSource::look(std::uint64_t offset, std::size_t count) const
     m_window.resize(readSome(offset, m_window.data(), m_window.size()));
     m_windowOffset = offset;
   }
-  return std::string_view(m_window).substr(static_cast<std::size_t>(offset - m_windowOffset), count);
+  return std::string_view(m_window).substr(static_cast<std::size_t>(offset - m_windowOffset),
+                                           count);
 }
 
 }  // namespace pitchboard::telemetry

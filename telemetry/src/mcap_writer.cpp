@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/mcap_writer.h>
 
-#include <algorithm>
-#include <optional>
 #include <zlib.h>
 #include <zstd.h>
+#include <algorithm>
+#include <optional>
 
 #include "mcap_bytes.h"
 #include "new_file.h"
@@ -87,7 +87,7 @@ struct McapWriter::Impl {
   std::uint64_t whole = 0;  ///< the file holds whole records up to here
   bool closed = false;
 
-  std::string out;         ///< the records of the chunk being written
+  std::string out;  ///< the records of the chunk being written
   std::string compressed;
   std::vector<McapSchema> schemas;
   std::vector<McapChannel> channels;
@@ -194,13 +194,14 @@ Result<void> McapWriter::writeChunk(const McapChunk& chunk) {
     }
   }
   impl.compressed.resize(ZSTD_compressBound(chunk.m_body.size()));
-  const std::size_t size = ZSTD_compress2(impl.compressor, impl.compressed.data(),
-                                          impl.compressed.size(), chunk.m_body.data(),
-                                          chunk.m_body.size());
+  const std::size_t size =
+      ZSTD_compress2(impl.compressor, impl.compressed.data(), impl.compressed.size(),
+                     chunk.m_body.data(), chunk.m_body.size());
   if (ZSTD_isError(size)) {
-    return impl.fail({ErrorCode::SystemError,
-                      std::string("The data cannot be compressed: ") + ZSTD_getErrorName(size) + ".",
-                      impl.file.path()});
+    return impl.fail(
+        {ErrorCode::SystemError,
+         std::string("The data cannot be compressed: ") + ZSTD_getErrorName(size) + ".",
+         impl.file.path()});
   }
   std::string& out = impl.out;
   out.clear();
@@ -308,7 +309,9 @@ Result<void> McapWriter::metadata(std::string_view name, const McapMap& values) 
   return {};
 }
 
-Result<void> McapWriter::sync() { return m_impl->settle(); }
+Result<void> McapWriter::sync() {
+  return m_impl->settle();
+}
 
 /// Summary, summary offsets and footer, from file offset `begin` on.
 std::string McapWriter::Impl::summary(std::uint64_t begin) const {
@@ -323,8 +326,12 @@ std::string McapWriter::Impl::summary(std::uint64_t begin) const {
     fill();
     if (text.size() > start) groups.push_back({op, start, text.size() - start});
   };
-  group(McapOp::Schema, [&] { for (const auto& schema : schemas) putSchema(text, schema); });
-  group(McapOp::Channel, [&] { for (const auto& channel : channels) putChannel(text, channel); });
+  group(McapOp::Schema, [&] {
+    for (const auto& schema : schemas) putSchema(text, schema);
+  });
+  group(McapOp::Channel, [&] {
+    for (const auto& channel : channels) putChannel(text, channel);
+  });
   group(McapOp::ChunkIndex, [&] { text += chunkIndexes; });
   group(McapOp::AttachmentIndex, [&] { text += attachmentIndexes; });
   group(McapOp::MetadataIndex, [&] { text += metadataIndexes; });
@@ -383,7 +390,11 @@ Result<void> McapWriter::finish() {
   return closed;
 }
 
-std::uint64_t McapWriter::bytes() const { return m_impl->file.size(); }
-const McapStatistics& McapWriter::statistics() const { return m_impl->statistics; }
+std::uint64_t McapWriter::bytes() const {
+  return m_impl->file.size();
+}
+const McapStatistics& McapWriter::statistics() const {
+  return m_impl->statistics;
+}
 
 }  // namespace pitchboard::telemetry

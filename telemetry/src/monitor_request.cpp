@@ -2,11 +2,11 @@
 // The only file of this library that may send; tst_live_is_silent checks that.
 #include <telemetry/monitor_request.h>
 
-#include <cerrno>
-#include <cstring>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 
 namespace pitchboard::telemetry {
 

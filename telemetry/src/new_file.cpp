@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "new_file.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace pitchboard::telemetry {
@@ -21,7 +21,8 @@ Result<NewFile> NewFile::create(const std::string& path) {
     case EEXIST:
       return failure(ErrorCode::Conflict, "This file exists; choose another name.", path);
     case ENOENT:
-      return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.", path);
+      return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.",
+                     path);
     case EACCES:
     case EROFS:
     case EPERM:
@@ -53,8 +54,8 @@ tl::unexpected<Error> NewFile::failed(int reason) const {
   switch (reason) {
     case ENOSPC:
     case EDQUOT:
-      return failure(ErrorCode::SystemError, "The disk is full; free some room or choose another disk.",
-                     m_path);
+      return failure(ErrorCode::SystemError,
+                     "The disk is full; free some room or choose another disk.", m_path);
     case EFBIG:
       return failure(ErrorCode::SystemError,
                      "The file has reached the largest size that is allowed here.", m_path);

@@ -26,8 +26,8 @@ class NewFile {
   Result<void> sync();
   /// Cuts what was written behind `size`, and gives room that was kept back.
   void cutAt(std::uint64_t size);
-  /// Asks for room behind the end, so that the last words fit on a disk that becomes full. False: the
-  /// disk has no such room. File systems that cannot keep room say true.
+  /// Asks for room behind the end, so that the last words fit on a disk that becomes full. False:
+  /// the disk has no such room. File systems that cannot keep room say true.
   bool keepRoom(std::uint64_t bytes);
   /// Error when the file is no longer in its folder (removed while it was written).
   Result<void> stillThere() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/profile.h>
 
+#include <resources/resources.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <resources/resources.h>
 #include <set>
 
 namespace pitchboard::telemetry {
@@ -17,9 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, fieldMeaningCount> meanings{
-    "none",    "robot",  "x",            "y",        "theta", "belief", "ball-distance",
-    "ball-angle", "control", "vision",   "localization", "decision", "imu", "action",
-    "yaw",     "voltage", "sequence"};
+    "none",          "robot",      "x",       "y",       "theta",        "belief",
+    "ball-distance", "ball-angle", "control", "vision",  "localization", "decision",
+    "imu",           "action",     "yaw",     "voltage", "sequence"};
 constexpr std::array<std::string_view, 3> types{"int", "float", "flag"};
 
 constexpr std::size_t maxNameBytes = 60;
@@ -170,7 +170,8 @@ Result<void> validateAt(const Profile& profile, const std::vector<std::string>& 
                         const std::string& whole) {
   if (!isWord(profile.end)) {
     return failure(ErrorCode::ParseError,
-                   "The end word has 1 to 60 printable characters without spaces.", whole + ": end");
+                   "The end word has 1 to 60 printable characters without spaces.",
+                   whole + ": end");
   }
   if (profile.fields.empty() || profile.fields.size() > Profile::maxFields) {
     return failure(ErrorCode::ParseError, "A profile has 1 to 100 fields.", whole + ": fields");
@@ -213,9 +214,10 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
   } catch (const Json::exception& error) {
     const std::string what = error.what();
     const auto colon = what.rfind(": ");
-    return failure(ErrorCode::ParseError,
-                   "This is not JSON: " + (colon == what.npos ? what : what.substr(colon + 2)) + ".",
-                   file + ":" + std::to_string(line));
+    return failure(
+        ErrorCode::ParseError,
+        "This is not JSON: " + (colon == what.npos ? what : what.substr(colon + 2)) + ".",
+        file + ":" + std::to_string(line));
   }
   ObjectReader top(json, file + ":1", {"name", "end", "fields"});
   Profile profile;

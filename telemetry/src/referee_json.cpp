@@ -96,7 +96,9 @@ Json stateJson(const RefereeState& state) {
   return json;
 }
 
-Json number(float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(float value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json replyJson(const RobotReply& reply) {
   Json json{{"header", "RGrt"},
@@ -124,16 +126,17 @@ Overloaded(Ts...) -> Overloaded<Ts...>;
 }  // namespace
 
 Json refereeJson(const RefereePacket& packet) {
-  return std::visit(
-      Overloaded{[](const RefereeState& state) { return stateJson(state); },
-                 [](const RobotReply& reply) { return replyJson(reply); },
-                 [](const ForwardedReply& forwarded) {
-                   Json json = replyJson(forwarded.reply);
-                   json["robot"] = Address{forwarded.robot}.text();
-                   return json;
-                 },
-                 [](const TrueDataRequest&) { return Json{{"header", "RGTr"}}; }},
-      packet);
+  return std::visit(Overloaded{[](const RefereeState& state) { return stateJson(state); },
+                               [](const RobotReply& reply) { return replyJson(reply); },
+                               [](const ForwardedReply& forwarded) {
+                                 Json json = replyJson(forwarded.reply);
+                                 json["robot"] = Address{forwarded.robot}.text();
+                                 return json;
+                               },
+                               [](const TrueDataRequest&) {
+                                 return Json{{"header", "RGTr"}};
+                               }},
+                    packet);
 }
 
 }  // namespace pitchboard::telemetry

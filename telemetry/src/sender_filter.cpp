@@ -26,9 +26,9 @@ Result<void> SenderFilter::add(std::string_view text) {
 }
 
 bool SenderFilter::allows(Address address) const {
-  return m_ranges.empty() || std::any_of(m_ranges.begin(), m_ranges.end(), [address](const Range& r) {
-           return (address.value & r.mask) == r.address;
-         });
+  return m_ranges.empty() ||
+         std::any_of(m_ranges.begin(), m_ranges.end(),
+                     [address](const Range& r) { return (address.value & r.mask) == r.address; });
 }
 
 }  // namespace pitchboard::telemetry

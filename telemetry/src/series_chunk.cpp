@@ -9,8 +9,8 @@ Staging::Staging(const Layout& layout)
     : times(std::make_unique_for_overwrite<double[]>(blockRows)),
       words(std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t{blockRows} * layout.words)),
       values(std::make_unique_for_overwrite<double[]>(std::size_t{blockRows} * layout.values)),
-      bytes(sizeof(Staging) + blockRows * (8 + std::size_t{4} * layout.words +
-                                           std::size_t{8} * layout.values)) {}
+      bytes(sizeof(Staging) +
+            blockRows * (8 + std::size_t{4} * layout.words + std::size_t{8} * layout.values)) {}
 
 bool Staging::put(const RowView& row, const Layout& layout) {
   const std::uint32_t at = rows.load(std::memory_order_relaxed);
@@ -74,9 +74,8 @@ std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Lay
   std::array<const Column*, chunkBlocks> parts{};
   for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {
     for (std::size_t b = 0; b < chunkBlocks; ++b) parts[b] = &blocks[b].columns[c];
-    withType(layout.slots[c].type, [&](auto zero) {
-      chunk->m_columns.push_back(Column::join<decltype(zero)>(parts));
-    });
+    withType(layout.slots[c].type,
+             [&](auto zero) { chunk->m_columns.push_back(Column::join<decltype(zero)>(parts)); });
   }
   chunk->count(layout);
   return chunk;
@@ -85,9 +84,8 @@ std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Lay
 void Chunk::count(const Layout& layout) {
   m_bytes = sizeof(Chunk) + m_times.capacity() * sizeof(double) + m_columns.size() * sizeof(Column);
   for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {
-    withType(layout.slots[c].type, [&](auto zero) {
-      m_bytes += m_columns[c].heapBytes<decltype(zero)>(blocks());
-    });
+    withType(layout.slots[c].type,
+             [&](auto zero) { m_bytes += m_columns[c].heapBytes<decltype(zero)>(blocks()); });
   }
 }
 

@@ -21,9 +21,9 @@ struct Staging {
   bool put(const RowView& row, const Layout& layout);
 
   std::atomic<std::uint32_t> rows{0};
-  std::unique_ptr<double[]> times;           // [64]
-  std::unique_ptr<std::uint32_t[]> words;    // [64][layout.words]
-  std::unique_ptr<double[]> values;          // [64][layout.values]
+  std::unique_ptr<double[]> times;         // [64]
+  std::unique_ptr<std::uint32_t[]> words;  // [64][layout.words]
+  std::unique_ptr<double[]> values;        // [64][layout.values]
   std::size_t bytes = 0;
 };
 
@@ -44,7 +44,7 @@ class Chunk {
  private:
   void count(const Layout& layout);
   std::vector<double> m_times;
-  std::vector<Column> m_columns;   // in the order of the group's columns
+  std::vector<Column> m_columns;  // in the order of the group's columns
   std::size_t m_bytes = 0;
 };
 
@@ -53,11 +53,16 @@ class Chunk {
 struct Unit {
   Unit() = default;
   explicit Unit(std::shared_ptr<const Chunk> of)
-      : times(of->times()), columns(of->columns()), first(times[0]), last(times[of->rows() - 1]),
-        rows(of->rows()), blocks(of->blocks()), chunk(std::move(of)) {}
+      : times(of->times()),
+        columns(of->columns()),
+        first(times[0]),
+        last(times[of->rows() - 1]),
+        rows(of->rows()),
+        blocks(of->blocks()),
+        chunk(std::move(of)) {}
   const double* times = nullptr;
-  const Column* columns = nullptr;   ///< null: the staging block
-  double first = 0.0, last = 0.0;    ///< times
+  const Column* columns = nullptr;  ///< null: the staging block
+  double first = 0.0, last = 0.0;   ///< times
   std::uint32_t rows = 0, blocks = 0;
   std::shared_ptr<const Chunk> chunk;
 };

@@ -3,7 +3,8 @@
 
 // One column of one chunk. A column that does not change costs 24 bytes; otherwise every block of
 // 64 rows that does not change costs its value only, the others are kept raw. Minimum and maximum
-// are kept for 64, 512 and 4096 rows, of doubles for 16 too. Private to the library; immutable once made.
+// are kept for 64, 512 and 4096 rows, of doubles for 16 too. Private to the library; immutable once
+// made.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,7 @@ namespace pitchboard::telemetry::series {
 
 template <class T>
 struct Extremes {
-  T min, max;   ///< NaN where there is no other value
+  T min, max;  ///< NaN where there is no other value
 };
 
 /// Running minimum and maximum that pass over NaN. Without branches: it begins with limits that any
@@ -59,13 +60,15 @@ struct MinMax {
 #ifdef __SSE2__
     // The compiler may not do several values at a time by itself, because of NaN.
     if constexpr (std::is_same_v<T, float>) {
-      scanLanes<__m128>(values, count, [](const float* v) { return _mm_loadu_ps(v); },
-                        [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
-                        [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
+      scanLanes<__m128>(
+          values, count, [](const float* v) { return _mm_loadu_ps(v); },
+          [](__m128 a, __m128 b) { return _mm_min_ps(a, b); },
+          [](__m128 a, __m128 b) { return _mm_max_ps(a, b); });
     } else if constexpr (std::is_same_v<T, double>) {
-      scanLanes<__m128d>(values, count, [](const double* v) { return _mm_loadu_pd(v); },
-                         [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
-                         [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
+      scanLanes<__m128d>(
+          values, count, [](const double* v) { return _mm_loadu_pd(v); },
+          [](__m128d a, __m128d b) { return _mm_min_pd(a, b); },
+          [](__m128d a, __m128d b) { return _mm_max_pd(a, b); });
     }
 #endif
     for (; values != end; ++values) add(*values, *values);
@@ -86,7 +89,7 @@ struct MinMax {
     }
     for (; count >= width; count -= width, values += width) {
       const Lanes next = load(values);
-      lows = least(next, lows);   // gives the second where one is NaN
+      lows = least(next, lows);  // gives the second where one is NaN
       highs = greatest(next, highs);
     }
     std::array<T, width> l, h;
@@ -160,7 +163,8 @@ class Column {
       } else {
         const T value = blocks[b]->constant<T>();
         range.add(value, value);
-        out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {value, value};   // its bits, also where it is NaN
+        out.array<Extremes<T>>()[ofBlocks(chunkBlocks) + b] = {
+            value, value};  // its bits, also where it is NaN
       }
       super.add(range.min, range.max);
       if ((b + 1) % superBlocks == 0) {
@@ -188,7 +192,8 @@ class Column {
   T at(std::uint32_t row, std::uint32_t blocks) const {
     if (!m_bytes) return constant<T>();
     const std::uint32_t block = row / blockRows;
-    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows] : summary<T>(ofBlocks(blocks) + block).min;
+    return isRaw(block) ? raw<T>(block, blocks)[row % blockRows]
+                        : summary<T>(ofBlocks(blocks) + block).min;
   }
 
   template <class T>
@@ -204,9 +209,10 @@ class Column {
     if (begin >= end) return;
     if (!m_bytes) return out.add(constant<T>(), constant<T>());
     const std::uint32_t last = (end - 1) / blockRows;
-    std::uint32_t from = begin / blockRows, to = end / blockRows;   // whole blocks
+    std::uint32_t from = begin / blockRows, to = end / blockRows;  // whole blocks
     if (begin % blockRows != 0) {
-      rangeOfBlock(from, begin % blockRows, from == last ? end - last * blockRows : blockRows, blocks, out);
+      rangeOfBlock(from, begin % blockRows, from == last ? end - last * blockRows : blockRows,
+                   blocks, out);
       if (from == last) return;
       ++from;
     }
@@ -217,7 +223,8 @@ class Column {
       for (; count > 0; --count) out.add(*at++);
     };
     const Extremes<T>* ofBlock = kept + ofBlocks(blocks);
-    const std::uint32_t superFrom = (from + superBlocks - 1) / superBlocks, superTo = to / superBlocks;
+    const std::uint32_t superFrom = (from + superBlocks - 1) / superBlocks,
+                        superTo = to / superBlocks;
     if (superFrom >= superTo) return add(ofBlock + from, to - from);
     add(ofBlock + from, superFrom * superBlocks - from);
     add(kept + 1 + superFrom, superTo - superFrom);
@@ -241,7 +248,7 @@ class Column {
     if (hasSubs<T>) __builtin_prefetch(values + blockRows);
     const T* part = values + row % blockRows / read * read;
     for (std::uint32_t i = 0; i < read; i += 64 / sizeof(T)) __builtin_prefetch(part + i);
-    __builtin_prefetch(part + read - 1);   // the memory may not begin with a cache line
+    __builtin_prefetch(part + read - 1);  // the memory may not begin with a cache line
   }
 
   template <class T>
@@ -258,20 +265,23 @@ class Column {
   static constexpr bool hasSubs = sizeof(T) == 8;
   /// A raw block: its values, then minimum and maximum of each 16 of them where they are kept.
   template <class T>
-  static constexpr std::uint32_t rawValues = blockRows + (hasSubs<T> ? 2 * (blockRows / subRows) : 0);
+  static constexpr std::uint32_t rawValues = blockRows +
+                                             (hasSubs<T> ? 2 * (blockRows / subRows) : 0);
 
   /// Of the rows [begin, end) of one block, not all of it.
   template <class T>
-  void rangeOfBlock(std::uint32_t block, std::uint32_t begin, std::uint32_t end, std::uint32_t blocks,
-                    MinMax<T>& out) const {
+  void rangeOfBlock(std::uint32_t block, std::uint32_t begin, std::uint32_t end,
+                    std::uint32_t blocks, MinMax<T>& out) const {
     if (!isRaw(block)) return out.add(summary<T>(ofBlocks(blocks) + block));
     const T* values = raw<T>(block, blocks);
     if constexpr (hasSubs<T>) {
       const auto* subs = reinterpret_cast<const Extremes<T>*>(values + blockRows);
       while (begin < end) {
         const std::uint32_t stop = std::min(end, (begin / subRows + 1) * subRows);
-        if (stop - begin == subRows) out.add(subs[begin / subRows]);
-        else out.scan(values + begin, stop - begin);
+        if (stop - begin == subRows)
+          out.add(subs[begin / subRows]);
+        else
+          out.scan(values + begin, stop - begin);
         begin = stop;
       }
     } else {
@@ -284,7 +294,9 @@ class Column {
   static constexpr std::uint32_t ofBlocks(std::uint32_t blocks) {
     return blocks == 1 ? 0 : 1 + blocks / superBlocks;
   }
-  static constexpr std::uint32_t summaries(std::uint32_t blocks) { return ofBlocks(blocks) + blocks; }
+  static constexpr std::uint32_t summaries(std::uint32_t blocks) {
+    return ofBlocks(blocks) + blocks;
+  }
   template <class T>
   void allocate(std::uint32_t blocks, std::uint32_t rawBlocks) {
     m_bytes = std::make_unique_for_overwrite<std::byte[]>(
@@ -303,8 +315,8 @@ class Column {
     return array<Extremes<T>>()[at];
   }
 
-  std::uint64_t m_raw = 0;        // bit b: block b is kept raw
-  std::uint64_t m_constant = 0;   // bits of the value, without m_bytes
+  std::uint64_t m_raw = 0;       // bit b: block b is kept raw
+  std::uint64_t m_constant = 0;  // bits of the value, without m_bytes
   std::unique_ptr<std::byte[]> m_bytes;
 };
 

@@ -52,12 +52,12 @@ void Group::publish() {
   {
     const std::lock_guard lock(m_mutex);
     m_state.swap(state);
-  }   // the former state ends here, without the lock
+  }  // the former state ends here, without the lock
 }
 
 void Group::closeBlock() {
   const std::lock_guard lock(m_write);
-  if (m_staging->rows.load(std::memory_order_relaxed) < blockRows) return;   // cleared meanwhile
+  if (m_staging->rows.load(std::memory_order_relaxed) < blockRows) return;  // cleared meanwhile
   addBlock();
   publish();
 }
@@ -67,8 +67,9 @@ void Group::truncate(double time) {
   const auto now = view();
   const std::size_t keep = now->rowsBefore(time);
   const std::size_t fullRows = m_next.full->size() * chunkRows;
-  const std::size_t wholeRows = keep < fullRows ? keep / chunkRows * chunkRows
-                                                : fullRows + (keep - fullRows) / blockRows * blockRows;
+  const std::size_t wholeRows = keep < fullRows
+                                    ? keep / chunkRows * chunkRows
+                                    : fullRows + (keep - fullRows) / blockRows * blockRows;
   if (wholeRows < fullRows) {
     auto full = std::make_shared<Units>(*m_next.full);
     full->resize(wholeRows / chunkRows);

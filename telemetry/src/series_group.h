@@ -2,8 +2,8 @@
 #pragma once
 
 // The writing side of one group. Rows go to the staging block under a lock of the group, which only
-// who clears or replaces the group could hold otherwise; every 64 rows the block becomes columns and
-// a new state is published under a lock that is held for a pointer's exchange. Private to the
+// who clears or replaces the group could hold otherwise; every 64 rows the block becomes columns
+// and a new state is published under a lock that is held for a pointer's exchange. Private to the
 // library.
 
 #include <mutex>
@@ -43,14 +43,14 @@ class Group {
   void countBytes();
   void newStaging();
 
-  std::mutex m_write;           // of m_staging, m_lastTime, m_any; after the structure lock
+  std::mutex m_write;  // of m_staging, m_lastTime, m_any; after the structure lock
   std::shared_ptr<Staging> m_staging;
-  State m_next;                 // what is published next; layout and staging under m_write too
+  State m_next;  // what is published next; layout and staging under m_write too
   std::size_t m_bytes = 0;
   double m_lastTime = 0.0;
   bool m_any = false;
 
-  mutable std::mutex m_mutex;   // of m_state only
+  mutable std::mutex m_mutex;  // of m_state only
   std::shared_ptr<const State> m_state;
 };
 

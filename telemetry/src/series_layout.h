@@ -13,15 +13,15 @@
 
 namespace pitchboard::telemetry::series {
 
-inline constexpr std::uint32_t blockRows = 64;     ///< what the writer collects
-inline constexpr std::uint32_t subRows = 16;       ///< smallest unit that has a summary, in raw blocks
-inline constexpr std::uint32_t chunkBlocks = 64;   ///< a bit of a word for each
+inline constexpr std::uint32_t blockRows = 64;  ///< what the writer collects
+inline constexpr std::uint32_t subRows = 16;    ///< smallest unit that has a summary, in raw blocks
+inline constexpr std::uint32_t chunkBlocks = 64;  ///< a bit of a word for each
 inline constexpr std::uint32_t chunkRows = blockRows * chunkBlocks;
-inline constexpr std::uint32_t superBlocks = 8;    ///< blocks below one summary of the next level
+inline constexpr std::uint32_t superBlocks = 8;  ///< blocks below one summary of the next level
 
 struct Slot {
   ColumnType type = ColumnType::Float64;
-  std::uint32_t index = 0;   ///< among the words, or among the Float64 values
+  std::uint32_t index = 0;  ///< among the words, or among the Float64 values
 };
 
 struct Layout {
@@ -37,18 +37,21 @@ struct Layout {
     values = static_cast<std::uint32_t>(valueColumns.size());
   }
   GroupInfo info;
-  std::vector<Slot> slots;                                 // of the columns
-  std::vector<std::uint32_t> wordColumns, valueColumns;    // column of each word, of each value
-  std::uint32_t words = 0, values = 0;                     // of one row
+  std::vector<Slot> slots;                               // of the columns
+  std::vector<std::uint32_t> wordColumns, valueColumns;  // column of each word, of each value
+  std::uint32_t words = 0, values = 0;                   // of one row
 };
 
 /// Calls `work` with a value of the type that a column holds.
 template <class Work>
 decltype(auto) withType(ColumnType type, Work&& work) {
   switch (type) {
-    case ColumnType::Int32: return work(std::int32_t{});
-    case ColumnType::Float32: return work(float{});
-    case ColumnType::Float64: break;
+    case ColumnType::Int32:
+      return work(std::int32_t{});
+    case ColumnType::Float32:
+      return work(float{});
+    case ColumnType::Float64:
+      break;
   }
   return work(double{});
 }

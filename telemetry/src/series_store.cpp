@@ -15,7 +15,7 @@ struct SeriesStore::Impl {
   // Of the list below, which only grows, and only under `structure`.
   mutable std::shared_mutex listMutex;
   std::vector<std::unique_ptr<series::Group>> groups;
-  std::vector<bool> replaced;   // by a group of the same name with other columns
+  std::vector<bool> replaced;  // by a group of the same name with other columns
   std::atomic<std::uint64_t> revision{0}, refused{0};
   std::atomic<std::size_t> bytes{0}, budget{0};
 
@@ -115,7 +115,9 @@ void SeriesStore::clear() {
   m_impl->account();
 }
 
-std::uint64_t SeriesStore::groupsRevision() const { return m_impl->revision.load(); }
+std::uint64_t SeriesStore::groupsRevision() const {
+  return m_impl->revision.load();
+}
 
 std::size_t SeriesStore::groups() const {
   const std::shared_lock lock(m_impl->listMutex);
@@ -157,7 +159,9 @@ std::optional<TimeRange> SeriesStore::range() const {
   return out;
 }
 
-std::size_t SeriesStore::memoryBytes() const { return m_impl->bytes.load(std::memory_order_relaxed); }
+std::size_t SeriesStore::memoryBytes() const {
+  return m_impl->bytes.load(std::memory_order_relaxed);
+}
 
 std::uint64_t SeriesStore::refusedRows() const {
   return m_impl->refused.load(std::memory_order_relaxed);

@@ -54,7 +54,9 @@ double View::rate() const {
   return span > 0.0 ? static_cast<double>(m_rows - 1 - first) / span : 0.0;
 }
 
-std::size_t View::rowsBefore(double time) const { return Search<false>(*this, time)(time); }
+std::size_t View::rowsBefore(double time) const {
+  return Search<false>(*this, time)(time);
+}
 
 double View::number(std::uint32_t column, std::size_t row) const {
   return withType(m_state->layout->slots[column].type, [&](auto zero) {
@@ -90,7 +92,8 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
   values.resize(layout.values);
   if (!at.unit->columns) {
     const Staging& staging = *m_state->staging;
-    std::copy_n(staging.words.get() + std::size_t{at.row} * layout.words, layout.words, words.begin());
+    std::copy_n(staging.words.get() + std::size_t{at.row} * layout.words, layout.words,
+                words.begin());
     std::copy_n(staging.values.get() + std::size_t{at.row} * layout.values, layout.values,
                 values.begin());
     return staging.times[at.row];
@@ -100,7 +103,7 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
     const Slot slot = layout.slots[c];
     if (slot.type == ColumnType::Float64) {
       values[slot.index] = column.at<double>(at.row, at.unit->blocks);
-    } else {   // bit patterns: the type of the words does not matter
+    } else {  // bit patterns: the type of the words does not matter
       words[slot.index] = column.at<std::uint32_t>(at.row, at.unit->blocks);
     }
   }
@@ -109,9 +112,8 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
 
 std::optional<double> View::lastChange(std::uint32_t column) const {
   if (m_rows == 0 || !hasColumn(column)) return std::nullopt;
-  return timeOf(withType(m_state->layout->slots[column].type, [&](auto zero) {
-    return lastChangedRow<decltype(zero)>(column);
-  }));
+  return timeOf(withType(m_state->layout->slots[column].type,
+                         [&](auto zero) { return lastChangedRow<decltype(zero)>(column); }));
 }
 
 }  // namespace pitchboard::telemetry::series

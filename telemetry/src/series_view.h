@@ -12,9 +12,9 @@ namespace pitchboard::telemetry::series {
 
 struct State {
   std::shared_ptr<const Layout> layout;
-  std::shared_ptr<const Units> full;          // 4096 rows each; never null
-  Units blocks;                               // 64 rows each, at most 63
-  std::shared_ptr<const Staging> staging;     // never null
+  std::shared_ptr<const Units> full;       // 4096 rows each; never null
+  Units blocks;                            // 64 rows each, at most 63
+  std::shared_ptr<const Staging> staging;  // never null
 };
 
 class View final : public GroupView {
@@ -46,12 +46,14 @@ class View final : public GroupView {
     const Unit* unit = nullptr;
     std::uint32_t row = 0;
   };
-  struct Ahead;        // prefetches
+  struct Ahead;  // prefetches
   template <bool After>
-  struct Search;       // walks forward through ascending times
+  struct Search;  // walks forward through ascending times
 
   // Units are numbered in order of time: chunks, blocks, the staging block.
-  std::size_t units() const { return m_fullUnits + m_state->blocks.size() + (m_tail.rows > 0 ? 1 : 0); }
+  std::size_t units() const {
+    return m_fullUnits + m_state->blocks.size() + (m_tail.rows > 0 ? 1 : 0);
+  }
   const Unit& unit(std::size_t number) const;
   std::size_t firstRow(std::size_t unit) const;
   Place place(std::size_t row) const;
@@ -72,7 +74,7 @@ class View final : public GroupView {
 
   std::shared_ptr<const State> m_state;
   std::size_t m_fullUnits = 0;
-  Unit m_tail;                  // the staging block
+  Unit m_tail;  // the staging block
   std::size_t m_rows = 0;
 };
 

@@ -78,8 +78,10 @@ SeriesStatistics View::statistics(std::uint32_t column, TimeRange range) const {
     using T = decltype(zero);
     runs<T>(column, begin, end,
             [&](const double*, const T* values, T constant, std::uint32_t count) {
-              if (values) sum.add(values, count);
-              else sum.addEqual(static_cast<double>(constant), count);
+              if (values)
+                sum.add(values, count);
+              else
+                sum.addEqual(static_cast<double>(constant), count);
               return true;
             });
   });

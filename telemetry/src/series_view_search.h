@@ -19,8 +19,10 @@ struct View::Search {
     std::size_t low = 0, high = end;
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      if (before(view.unit(middle).first, start)) low = middle + 1;
-      else high = middle;
+      if (before(view.unit(middle).first, start))
+        low = middle + 1;
+      else
+        high = middle;
     }
     unit = low == 0 ? 0 : low - 1;
   }
@@ -35,7 +37,7 @@ struct View::Search {
     // times[low] is before, times[high] is not.
     std::uint32_t low = 0, high = in.rows - 1;
     const double share = (time - in.first) / (in.last - in.first);
-    auto guess = static_cast<std::uint32_t>(share * high);   // 0 to 1: time lies between
+    auto guess = static_cast<std::uint32_t>(share * high);  // 0 to 1: time lies between
     guess = std::clamp(guess, low, high);
     if (before(times[guess], time)) {
       low = guess;
@@ -64,7 +66,9 @@ struct View::Search {
   }
 
  private:
-  static bool before(double rowTime, double time) { return After ? rowTime <= time : rowTime < time; }
+  static bool before(double rowTime, double time) {
+    return After ? rowTime <= time : rowTime < time;
+  }
   const View& view;
   std::size_t end;
 
@@ -147,8 +151,8 @@ void View::runs(std::uint32_t column, std::size_t begin, std::size_t end, const 
   while (begin < end) {
     const Place at = place(begin);
     const std::uint32_t inBlock = at.row % blockRows;
-    const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(
-        end - begin, std::min(at.unit->rows - at.row, blockRows - inBlock)));
+    const auto count = static_cast<std::uint32_t>(
+        std::min<std::size_t>(end - begin, std::min(at.unit->rows - at.row, blockRows - inBlock)));
     const double* times = at.unit->times + at.row;
     bool more = true;
     if (!at.unit->columns) {
@@ -161,8 +165,8 @@ void View::runs(std::uint32_t column, std::size_t begin, std::size_t end, const 
       if (!data.isConstant() && data.isRaw(block)) {
         more = work(times, data.raw<T>(block, at.unit->blocks) + inBlock, T{}, count);
       } else {
-        more = work(times, static_cast<const T*>(nullptr), data.at<T>(at.row, at.unit->blocks),
-                    count);
+        more =
+            work(times, static_cast<const T*>(nullptr), data.at<T>(at.row, at.unit->blocks), count);
       }
     }
     if (!more) return;
@@ -173,17 +177,21 @@ void View::runs(std::uint32_t column, std::size_t begin, std::size_t end, const 
 template <class T>
 std::size_t View::lastChangedRow(std::uint32_t column) const {
   const auto same = [](T a, T b) {
-    if constexpr (std::is_floating_point_v<T>) return a == b || (std::isnan(a) && std::isnan(b));
-    else return a == b;
+    if constexpr (std::is_floating_point_v<T>)
+      return a == b || (std::isnan(a) && std::isnan(b));
+    else
+      return a == b;
   };
   const T last = value<T>(column, m_rows - 1);
-  std::size_t row = m_rows - 1;   // has the last value, and so have all after it
+  std::size_t row = m_rows - 1;  // has the last value, and so have all after it
   while (row > 0) {
     const Place before = place(row - 1);
     const Column* kept = before.unit->columns ? before.unit->columns + column : nullptr;
-    std::uint32_t begin = before.row;   // rows [begin, before.row] of the unit have one value
-    if (kept && kept->isConstant()) begin = 0;
-    else if (kept && !kept->isRaw(before.row / blockRows)) begin = before.row / blockRows * blockRows;
+    std::uint32_t begin = before.row;  // rows [begin, before.row] of the unit have one value
+    if (kept && kept->isConstant())
+      begin = 0;
+    else if (kept && !kept->isRaw(before.row / blockRows))
+      begin = before.row / blockRows * blockRows;
     if (!same(value<T>(column, row - 1), last)) return row;
     row -= before.row - begin + 1;
   }

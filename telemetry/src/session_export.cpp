@@ -182,8 +182,10 @@ class JsonWriter : public NamedWriter {
       m_out.reserve(Cell::room + prefix.size() + 8);
       if (i > 0) m_out.put(',');
       m_out.put(prefix);
-      if (cell.isNumber()) m_out.put(cell);
-      else m_out.put("null");
+      if (cell.isNumber())
+        m_out.put(cell);
+      else
+        m_out.put("null");
     }
     m_out.putSafely("}}");
     return m_out.endLine();
@@ -195,9 +197,10 @@ class JsonWriter : public NamedWriter {
     std::replace(json.begin(), json.end(), '\n', ' ');
     std::replace(json.begin(), json.end(), '\r', ' ');
     putTime(item.time);
-    m_out.putSafely(",\"stream\":\"" +
-                    std::string(session::streams[static_cast<std::size_t>(item.stream)].topic.substr(1)) +
-                    "\",\"message\":");
+    m_out.putSafely(
+        ",\"stream\":\"" +
+        std::string(session::streams[static_cast<std::size_t>(item.stream)].topic.substr(1)) +
+        "\",\"message\":");
     m_out.putSafely(json);
     m_out.putSafely("}");
     return m_out.endLine();
@@ -224,9 +227,15 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
   TextBuffer out(sink);
   std::unique_ptr<LineWriter> writer;
   switch (format) {
-    case ExportFormat::CsvWide: writer = std::make_unique<WideWriter>(session, *selected, out); break;
-    case ExportFormat::CsvLong: writer = std::make_unique<LongWriter>(session, *selected, out); break;
-    case ExportFormat::JsonLines: writer = std::make_unique<JsonWriter>(session, *selected, out); break;
+    case ExportFormat::CsvWide:
+      writer = std::make_unique<WideWriter>(session, *selected, out);
+      break;
+    case ExportFormat::CsvLong:
+      writer = std::make_unique<LongWriter>(session, *selected, out);
+      break;
+    case ExportFormat::JsonLines:
+      writer = std::make_unique<JsonWriter>(session, *selected, out);
+      break;
     case ExportFormat::Mcap:
       return failure(ErrorCode::InvalidArgument, "A session is no text; it needs a file.");
   }

@@ -18,7 +18,7 @@
 namespace pitchboard::telemetry::session {
 
 inline constexpr std::string_view metadataName = "pitchboard";
-inline constexpr std::string_view checkKey = "check";  ///< CRC-32 of the other metadata
+inline constexpr std::string_view checkKey = "check";             ///< CRC-32 of the other metadata
 inline constexpr std::string_view groupKey = "pitchboard.group";  ///< of a row channel's metadata
 
 struct StreamInfo {
@@ -37,8 +37,9 @@ std::string groupToJson(const GroupInfo& group);
 /// Nothing when it is not of its form or its 32-bit columns do not stand first.
 std::optional<GroupInfo> groupFromJson(std::string_view json);
 
-/// Names that ros2msg allows (lower case, digits, single underscores), one per column, all different:
-/// "VISION_BALL_DIST" is "vision_ball_dist". None is "source_time", the time's own field.
+/// Names that ros2msg allows (lower case, digits, single underscores), one per column, all
+/// different: "VISION_BALL_DIST" is "vision_ball_dist". None is "source_time", the time's own
+/// field.
 std::vector<std::string> fieldNames(const GroupInfo& group);
 std::string rowTopic(const GroupInfo& group);
 std::string rowSchemaName(const GroupInfo& group);
@@ -56,11 +57,11 @@ struct RowLayout {
   static constexpr std::size_t timeAt = 4, wordsAt = 12;
   std::size_t singlesAt = 0, doublesAt = 0, size = 0;
   struct Single {
-    std::size_t place;   ///< among the values
+    std::size_t place;  ///< among the values
     double resolution;
   };
   std::vector<Single> singles;
-  std::vector<std::size_t> doubles;   ///< places among the values
+  std::vector<std::size_t> doubles;  ///< places among the values
 
   RowLayout() = default;
   explicit RowLayout(const GroupInfo& group);

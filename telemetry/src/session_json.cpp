@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The parts of a session that are JSON: groups, events, log lines, datagrams, and their schemas.
 
+#include <zlib.h>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <zlib.h>
 
 #include <telemetry/base64.h>
 
@@ -63,7 +63,8 @@ std::optional<T> whole(std::string_view digits) {
 bool isUtf8(std::string_view bytes) {
   return Json::accept("\"" + [&] {
     std::string safe;
-    for (const char c : bytes) safe += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    for (const char c : bytes)
+      safe += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 32 ? ' ' : c;
     return safe;
   }() + "\"");
 }
@@ -88,11 +89,12 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
      R"({"type":"object","title":"pitchboard.RefereeDatagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64"}},"required":["time","sender","port"]})"},
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
-    {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
+    {"/checkpoints",
+     "pitchboard.Checkpoint", R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
 }};
 
-/// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all times.
+/// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all
+/// times.
 std::string checkOf(const McapMap& metadata) {
   unsigned long crc = 0;
   for (const auto& [key, value] : metadata) {
@@ -206,22 +208,29 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
 }
 
 std::string toJson(const SessionEvent& event) {
-  return dump(Json{{"time", event.time}, {"kind", event.kind}, {"group", event.group},
-                   {"text", event.text}});
+  return dump(Json{
+      {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}});
 }
 
 std::string toJson(const SessionLogLine& line, std::uint64_t wallNanoseconds) {
-  return dump(Json{{"timestamp",
-                    {{"sec", wallNanoseconds / 1'000'000'000}, {"nsec", wallNanoseconds % 1'000'000'000}}},
-                   {"level", line.level}, {"message", line.text}, {"name", line.source},
-                   {"file", ""}, {"line", 0}, {"time", line.time}});
+  return dump(
+      Json{{"timestamp",
+            {{"sec", wallNanoseconds / 1'000'000'000}, {"nsec", wallNanoseconds % 1'000'000'000}}},
+           {"level", line.level},
+           {"message", line.text},
+           {"name", line.source},
+           {"file", ""},
+           {"line", 0},
+           {"time", line.time}});
 }
 
 std::string toJson(const SessionDatagram& datagram) {
-  Json json{{"time", datagram.time}, {"sender", datagram.sender.text()},
-            {"port", datagram.localPort}};
-  if (isUtf8(datagram.payload)) json["text"] = datagram.payload;
-  else json["base64"] = toBase64(datagram.payload);
+  Json json{
+      {"time", datagram.time}, {"sender", datagram.sender.text()}, {"port", datagram.localPort}};
+  if (isUtf8(datagram.payload))
+    json["text"] = datagram.payload;
+  else
+    json["base64"] = toBase64(datagram.payload);
   return dump(json);
 }
 
@@ -235,9 +244,10 @@ std::optional<SessionEvent> eventFromJson(std::string_view json) {
 std::optional<SessionLogLine> logLineFromJson(std::string_view json) {
   const auto object = objectWithTime(json);
   if (!object) return std::nullopt;
-  return SessionLogLine{*number(*object, "time"),
-                        static_cast<int>(std::clamp(number(*object, "level").value_or(2), 0.0, 5.0)),
-                        text(*object, "name"), text(*object, "message")};
+  return SessionLogLine{
+      *number(*object, "time"),
+      static_cast<int>(std::clamp(number(*object, "level").value_or(2), 0.0, 5.0)),
+      text(*object, "name"), text(*object, "message")};
 }
 
 std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
@@ -252,8 +262,8 @@ std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
   const auto port = whole<std::uint16_t>(std::string_view(sender).substr(colon + 1));
   if (!address || !port) return std::nullopt;
   out.sender = {*address, *port};
-  out.localPort = static_cast<std::uint16_t>(
-      std::clamp(number(*object, "port").value_or(0.0), 0.0, 65535.0));
+  out.localPort =
+      static_cast<std::uint16_t>(std::clamp(number(*object, "port").value_or(0.0), 0.0, 65535.0));
   if (object->contains("base64")) {
     auto bytes = fromBase64(text(*object, "base64"));
     if (!bytes) return std::nullopt;

@@ -57,8 +57,7 @@ void SessionReader::Impl::takeMetadata() {
   }
   if (described && format > sessionFormat) {
     note("This file is of a newer version (format " + std::to_string(format) +
-         "; this program knows " + std::to_string(sessionFormat) +
-         "): what is known is shown.");
+         "; this program knows " + std::to_string(sessionFormat) + "): what is known is shown.");
   }
 }
 
@@ -82,7 +81,7 @@ void SessionReader::Impl::findStart() {
       const int group = useOfChannel[cursor.message().channel].group;
       SessionRow row;
       if (group == Impl::noGroup || !layouts[static_cast<std::size_t>(group)].read(
-                                  cursor.message().data, row.time, row.words, row.values)) {
+                                        cursor.message().data, row.time, row.words, row.values)) {
         continue;
       }
       const WallTime moment{Duration(fits(cursor.message().publishTime))};
@@ -96,8 +95,7 @@ void SessionReader::Impl::takeChannels() {
   useOfChannel.assign(std::size_t{1} << 16, Use{});
   for (const auto& [id, channel] : file.channels()) {
     const auto counted = file.statistics().perChannel.find(id);
-    const std::uint64_t count =
-        counted == file.statistics().perChannel.end() ? 0 : counted->second;
+    const std::uint64_t count = counted == file.statistics().perChannel.end() ? 0 : counted->second;
     if (const auto found = channel.metadata.find(session::groupKey);
         found != channel.metadata.end() && channel.messageEncoding == "cdr") {
       if (auto group = session::groupFromJson(found->second)) {
@@ -107,9 +105,10 @@ void SessionReader::Impl::takeChannels() {
         continue;
       }
     }
-    const auto stream = std::find_if(
-        session::streams.begin(), session::streams.end(),
-        [&topic = channel.topic](const session::StreamInfo& known) { return known.topic == topic; });
+    const auto stream = std::find_if(session::streams.begin(), session::streams.end(),
+                                     [&topic = channel.topic](const session::StreamInfo& known) {
+                                       return known.topic == topic;
+                                     });
     if (stream != session::streams.end() && channel.messageEncoding == "json") {
       const auto place = static_cast<std::size_t>(stream - session::streams.begin());
       channelsOfStream[place].push_back(id);
@@ -129,9 +128,8 @@ void SessionReader::Impl::takeChunks() {
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     if (chunks[i].end != 0 || chunks[i].loose) byStart.push_back(i);
   }
-  std::stable_sort(byStart.begin(), byStart.end(), [&](std::size_t a, std::size_t b) {
-    return chunks[a].start < chunks[b].start;
-  });
+  std::stable_sort(byStart.begin(), byStart.end(),
+                   [&](std::size_t a, std::size_t b) { return chunks[a].start < chunks[b].start; });
   std::uint64_t latest = 0;
   for (const std::size_t chunk : byStart) {
     latest = std::max(latest, chunks[chunk].end);
@@ -141,8 +139,8 @@ void SessionReader::Impl::takeChunks() {
 
 /// Empty when it is damaged, which is then noted once. Valid until the next call.
 std::string_view SessionReader::Impl::body(std::size_t chunk) const {
-  const auto found = std::find_if(kept.begin(), kept.end(),
-                                  [&](const Kept& one) { return one.chunk == chunk; });
+  const auto found =
+      std::find_if(kept.begin(), kept.end(), [&](const Kept& one) { return one.chunk == chunk; });
   if (found != kept.end()) {
     kept.splice(kept.begin(), kept, found);
     return kept.front().body;
@@ -163,12 +161,24 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
   return kept.front().body;
 }
 
-const SessionInfo& SessionReader::info() const { return m_impl->info; }
-bool SessionReader::ours() const { return m_impl->described || !m_impl->groups.empty(); }
-bool SessionReader::complete() const { return m_impl->file.indexed(); }
-const std::vector<std::string>& SessionReader::notes() const { return m_impl->notes; }
-std::span<const SessionGroup> SessionReader::groups() const { return m_impl->groups; }
-const McapReader& SessionReader::file() const { return m_impl->file; }
+const SessionInfo& SessionReader::info() const {
+  return m_impl->info;
+}
+bool SessionReader::ours() const {
+  return m_impl->described || !m_impl->groups.empty();
+}
+bool SessionReader::complete() const {
+  return m_impl->file.indexed();
+}
+const std::vector<std::string>& SessionReader::notes() const {
+  return m_impl->notes;
+}
+std::span<const SessionGroup> SessionReader::groups() const {
+  return m_impl->groups;
+}
+const McapReader& SessionReader::file() const {
+  return m_impl->file;
+}
 
 std::optional<SessionRange> SessionReader::range() const {
   const McapStatistics& statistics = m_impl->file.statistics();

@@ -61,8 +61,9 @@ struct SessionReader::Impl {
   /// The session's time of a row or message that says `source` of itself.
   static double time(double source, const McapMessage& message) {
     if (message.logTime == message.publishTime) return source;
-    return source + static_cast<double>(static_cast<std::int64_t>(message.logTime -
-                                                                   message.publishTime)) / 1e9;
+    return source +
+           static_cast<double>(static_cast<std::int64_t>(message.logTime - message.publishTime)) /
+               1e9;
   }
 };
 

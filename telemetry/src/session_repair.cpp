@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/session_repair.h>
 
+#include <zlib.h>
 #include <cstdio>
 #include <optional>
-#include <zlib.h>
 
 #include <telemetry/mcap_reader.h>
 #include <telemetry/mcap_writer.h>
@@ -51,8 +51,8 @@ class Repair {
     if (!broken) return tl::unexpected(broken.error());
     m_report.lost = broken->problems();
     if (broken->chunks().empty() && broken->metadata().empty() && broken->attachments().empty()) {
-      return failure(ErrorCode::ParseError, "Nothing in this file can be read; there is nothing to repair.",
-                     m_from);
+      return failure(ErrorCode::ParseError,
+                     "Nothing in this file can be read; there is nothing to repair.", m_from);
     }
     auto created = McapWriter::create(m_to, {broken->profile(), broken->library(), 3, true});
     if (!created) return tl::unexpected(created.error());
@@ -93,7 +93,8 @@ class Repair {
     std::string body;
     std::uint64_t strangers = 0;
     for (std::size_t i = 0; i < broken.chunks().size(); ++i) {
-      if (!report(0.4 + 0.4 * static_cast<double>(i) / static_cast<double>(broken.chunks().size()))) {
+      if (!report(0.4 +
+                  0.4 * static_cast<double>(i) / static_cast<double>(broken.chunks().size()))) {
         return stopped(m_from);
       }
       if (auto read = broken.readChunk(broken.chunks()[i], body); !read) {
@@ -133,7 +134,8 @@ class Repair {
     MessageDigest found;
     std::string body;
     for (std::size_t i = 0; i < made->chunks().size(); ++i) {
-      if (!report(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(made->chunks().size()))) {
+      if (!report(0.8 +
+                  0.2 * static_cast<double>(i) / static_cast<double>(made->chunks().size()))) {
         return stopped(m_from);
       }
       if (auto read = made->readChunk(made->chunks()[i], body); !read) {
@@ -148,8 +150,7 @@ class Repair {
       return wrong("its messages are others");
     }
     m_report.messages = found.count();
-    m_report.seconds =
-        static_cast<double>(made->statistics().end - made->statistics().start) / 1e9;
+    m_report.seconds = static_cast<double>(made->statistics().end - made->statistics().start) / 1e9;
     return {};
   }
 

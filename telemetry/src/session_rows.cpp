@@ -13,9 +13,15 @@ namespace {
 
 constexpr std::array<char, 4> littleEndianCdr{0, 1, 0, 0};
 
-bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool isLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 /// ros2 field name without double or final underscores; begins with a letter.
 std::string fieldName(std::string_view name) {
@@ -36,8 +42,10 @@ std::string fieldName(std::string_view name) {
 std::string plainName(std::string_view name) {
   std::string out;
   for (const char c : name) {
-    if (isLetter(c) || isDigit(c)) out += c;
-    else if (!out.empty() && out.back() != '_') out += '_';
+    if (isLetter(c) || isDigit(c))
+      out += c;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
   return out.empty() ? "group" : out;
@@ -47,7 +55,8 @@ std::string comment(const ColumnInfo& column) {
   std::string out = column.name;
   if (!column.unit.empty()) out += " [" + column.unit + "]";
   for (const auto& [code, word] : column.labels) {
-    out += (code == column.labels.begin()->first ? ": " : ", ") + std::to_string(code) + " = " + word;
+    out +=
+        (code == column.labels.begin()->first ? ": " : ", ") + std::to_string(code) + " = " + word;
   }
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -57,9 +66,12 @@ std::string comment(const ColumnInfo& column) {
 
 const char* typeName(ColumnType type) {
   switch (type) {
-    case ColumnType::Int32: return "int32";
-    case ColumnType::Float32: return "float32";
-    case ColumnType::Float64: return "float64";
+    case ColumnType::Int32:
+      return "int32";
+    case ColumnType::Float32:
+      return "float32";
+    case ColumnType::Float64:
+      return "float64";
   }
   return "float64";
 }
@@ -85,7 +97,9 @@ std::vector<std::string> fieldNames(const GroupInfo& group) {
 }
 
 std::string rowTopic(const GroupInfo& group) {
-  return (group.attributes.contains("robot") || group.attributes.contains("live") ? "/robots/" : "/") + plainName(group.name) + "/row";
+  return (group.attributes.contains("robot") || group.attributes.contains("live") ? "/robots/"
+                                                                                  : "/") +
+         plainName(group.name) + "/row";
 }
 
 std::string rowSchemaName(const GroupInfo& group) {

@@ -15,12 +15,12 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
   std::vector<std::uint64_t> best(impl.groups.size(), 0);
   std::vector<std::string_view> found(impl.groups.size());
   const auto& chunks = impl.file.chunks();
-  auto at = static_cast<std::size_t>(
-      std::upper_bound(impl.byStart.begin(), impl.byStart.end(), until,
-                       [&](std::uint64_t value, std::size_t chunk) {
-                         return value < chunks[chunk].start;
-                       }) -
-      impl.byStart.begin());
+  auto at =
+      static_cast<std::size_t>(std::upper_bound(impl.byStart.begin(), impl.byStart.end(), until,
+                                                [&](std::uint64_t value, std::size_t chunk) {
+                                                  return value < chunks[chunk].start;
+                                                }) -
+                               impl.byStart.begin());
   while (at-- > 0) {
     const McapChunkInfo& chunk = chunks[impl.byStart[at]];
     bool needed = false, settled = true;
@@ -139,9 +139,8 @@ void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
                [&](const SessionItem& item) { return visit(item.group, item.row); }, {});
 }
 
-void SessionReader::messages(
-    SessionStream stream, SessionRange range,
-    const std::function<bool(double, std::string_view)>& visit) const {
+void SessionReader::messages(SessionStream stream, SessionRange range,
+                             const std::function<bool(double, std::string_view)>& visit) const {
   m_impl->walk(logTime(range.begin), logTime(range.end),
                m_impl->channelsOfStream[static_cast<std::size_t>(stream)],
                [&](const SessionItem& item) { return visit(item.time, item.message->data); }, {});

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A step back that is smaller than this is disorder on the way here and moves nothing.
-constexpr std::uint64_t smallStepBack = 50'000'000;   // ns
+constexpr std::uint64_t smallStepBack = 50'000'000;    // ns
 constexpr std::uint64_t gapBetweenPasses = 1'000'000;  // ns
 constexpr std::size_t mostSpareChunks = 4;
 constexpr std::uint16_t mostChannels = 60'000;
@@ -77,7 +77,9 @@ struct SessionWriter::Impl {
 
 SessionWriter::SessionWriter(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 
-SessionWriter::~SessionWriter() { (void)finish(); }
+SessionWriter::~SessionWriter() {
+  (void)finish();
+}
 
 Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::string& path,
                                                              const SessionInfo& info,
@@ -138,7 +140,8 @@ void SessionWriter::Impl::run() {
   state.bytes = file->bytes();
   state.recording = false;
   if (error) {
-    state.problem = "Recording stopped. " + error->message + " What was recorded until then is in the file.";
+    state.problem =
+        "Recording stopped. " + error->message + " What was recorded until then is in the file.";
   }
   full.clear();
   current.clear();
@@ -223,7 +226,10 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
     const std::string suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string();
     group.channel = impl.addChannel(
         {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)},
-        {0, 0, session::rowTopic(info) + suffix, "cdr",
+        {0,
+         0,
+         session::rowTopic(info) + suffix,
+         "cdr",
          {{std::string(session::groupKey), session::groupToJson(info)}}});
   }
   impl.groups.push_back(std::move(group));
@@ -247,9 +253,9 @@ void SessionWriter::append(GroupId id, const RowView& row) {
     }
   }
   group.lastLog = log;
-  group.layout.write(impl.current.addMessage(group.channel, group.sequence++, log, publish,
-                                             group.layout.size),
-                     row);
+  group.layout.write(
+      impl.current.addMessage(group.channel, group.sequence++, log, publish, group.layout.size),
+      row);
   ++impl.state.rows;
   impl.note(log);
 }
@@ -291,8 +297,8 @@ void SessionWriter::attach(std::string_view name, std::string_view mediaType,
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
   if (!impl.hasRoom(lock, data.size())) return;
-  const std::uint64_t now = impl.lastLog > 0 ? impl.lastLog
-                                             : session::nanoseconds(impl.info.start, 0.0);
+  const std::uint64_t now =
+      impl.lastLog > 0 ? impl.lastLog : session::nanoseconds(impl.info.start, 0.0);
   impl.attachments.push_back({now, std::string(name), std::string(mediaType), std::string(data)});
   impl.waiting += data.size();
   impl.wake.notify_one();
@@ -303,7 +309,9 @@ SessionStatus SessionWriter::status() const {
   return m_impl->state;
 }
 
-const std::string& SessionWriter::path() const { return m_impl->path; }
+const std::string& SessionWriter::path() const {
+  return m_impl->path;
+}
 
 Result<void> SessionWriter::finish() {
   Impl& impl = *m_impl;

@@ -16,7 +16,9 @@ constexpr FieldMeaning processFlags[processCount] = {FieldMeaning::Control, Fiel
                                                      FieldMeaning::Decision, FieldMeaning::Imu};
 
 /// A time span that a clock set back cannot make negative.
-Duration since(WallTime now, WallTime then) { return std::max(now - then, Duration::zero()); }
+Duration since(WallTime now, WallTime then) {
+  return std::max(now - then, Duration::zero());
+}
 
 Battery batteryAt(double volts, double highest, const BatteryLimits& limits) {
   Battery battery;
@@ -77,7 +79,9 @@ void TeamMonitor::setProfile(Profile profile) {
   m_decoder = std::make_shared<const TextDecoder>(std::move(profile));
 }
 
-void TeamMonitor::setOptions(MonitorOptions options) { m_options = std::move(options); }
+void TeamMonitor::setOptions(MonitorOptions options) {
+  m_options = std::move(options);
+}
 
 void TeamMonitor::clear() {
   m_robots.clear();
@@ -103,8 +107,8 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     if (robot.sender.port == sender.port) return &robot;
     // A program that was started again, or opens a socket for each message, is the same robot. Two
     // programs on one computer are not: there the earlier port speaks again.
-    const bool earlierSpeaksAgain = robot.previousPort == sender.port &&
-                                    since(time, robot.last) < m_options.timeout;
+    const bool earlierSpeaksAgain =
+        robot.previousPort == sender.port && since(time, robot.last) < m_options.timeout;
     if (!earlierSpeaksAgain) restarted = &robot;
   }
   if (restarted != nullptr) {
@@ -113,9 +117,9 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     return restarted;
   }
   if (m_robots.size() == MonitorOptions::maxRobots) {
-    const auto oldest = std::min_element(
-        m_robots.begin(), m_robots.end(),
-        [](const Robot& a, const Robot& b) { return a.last < b.last; });
+    const auto oldest =
+        std::min_element(m_robots.begin(), m_robots.end(),
+                         [](const Robot& a, const Robot& b) { return a.last < b.last; });
     if (since(time, oldest->last) < m_options.timeout) return nullptr;
     *oldest = Robot{};
     oldest->number = number;
@@ -174,8 +178,8 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   bool duplicate = robot->messages > 0 && hash == robot->lastHash &&
                    since(datagram.time, robot->lastHashTime) < m_options.duplicateWindow;
   if (const auto number = m_decoder->value(m_decoded, FieldMeaning::Sequence)) {
-    duplicate = robot->sequence.add(static_cast<std::int64_t>(*number)) ==
-                SequenceStats::Step::Duplicate;
+    duplicate =
+        robot->sequence.add(static_cast<std::int64_t>(*number)) == SequenceStats::Step::Duplicate;
   }
   if (duplicate) m_decoded.errors.add(TextError::Duplicate);
   tally(robot);

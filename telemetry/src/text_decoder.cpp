@@ -11,7 +11,9 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-constexpr bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+constexpr bool isSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
 
 /// Splits the text at white space while it looks at every byte once.
 class Words {
@@ -88,9 +90,12 @@ Number readFlag(std::string_view word) {
 
 Number read(FieldType type, std::string_view word) {
   switch (type) {
-    case FieldType::Int: return readInt(word);
-    case FieldType::Float: return readFloat(word);
-    case FieldType::Flag: return readFlag(word);
+    case FieldType::Int:
+      return readInt(word);
+    case FieldType::Float:
+      return readFloat(word);
+    case FieldType::Flag:
+      return readFlag(word);
   }
   return {};
 }
@@ -131,8 +136,8 @@ void TextDecoder::decode(std::string_view datagram, DecodedText& out) const {
       break;
     }
     // An extra field may be anything until the team gives it a type: text is kept as a word.
-    const Number number = i < fields ? read(m_profile.fields[i].type, word)
-                                     : Number{readFloat(word).value, {}};
+    const Number number =
+        i < fields ? read(m_profile.fields[i].type, word) : Number{readFloat(word).value, {}};
     out.values[i] = number.value;
     out.words[i] = word;
     ++out.count;

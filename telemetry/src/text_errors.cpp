@@ -31,8 +31,12 @@ constexpr std::array<Text, textErrorCount> texts{{
 
 }  // namespace
 
-std::string_view errorName(TextError error) { return texts[static_cast<std::size_t>(error)].name; }
-std::string_view errorWords(TextError error) { return texts[static_cast<std::size_t>(error)].words; }
+std::string_view errorName(TextError error) {
+  return texts[static_cast<std::size_t>(error)].name;
+}
+std::string_view errorWords(TextError error) {
+  return texts[static_cast<std::size_t>(error)].words;
+}
 
 void ErrorTally::add(TextErrors errors, std::string_view datagram) {
   if (errors.empty()) return;

@@ -27,8 +27,8 @@ std::string pythonFloat(double value) {
     if (text[mantissa - 1] == '.') --mantissa;
     return text.erase(mantissa, e - mantissa);
   }
-  const auto general = std::to_chars(buffer, buffer + sizeof buffer, value,
-                                     std::chars_format::general, digits);
+  const auto general =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
   text.assign(buffer, general.ptr);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;

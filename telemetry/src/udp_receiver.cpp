@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/udp_receiver.h>
 
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
 #include <optional>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <thread>
-#include <unistd.h>
 
 #include "datagram_queue.h"
 #include "udp_socket.h"
@@ -184,7 +184,9 @@ Result<std::unique_ptr<UdpReceiver>> UdpReceiver::start(ReceiverOptions options,
 
 UdpReceiver::UdpReceiver(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 
-UdpReceiver::~UdpReceiver() { stop(); }
+UdpReceiver::~UdpReceiver() {
+  stop();
+}
 
 void UdpReceiver::stop() {
   const std::lock_guard lock(m_impl->stopMutex);

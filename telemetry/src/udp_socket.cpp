@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "udp_socket.h"
 
+#include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <unistd.h>
 #include <utility>
 
 namespace pitchboard::telemetry {
@@ -29,10 +29,14 @@ sockaddr_in socketAddress(Address address, std::uint16_t port) {
 
 std::string reason(int error) {
   switch (error) {
-    case EADDRINUSE: return "another program uses it and does not share it";
-    case EADDRNOTAVAIL: return "no network interface of this computer has that address";
-    case EACCES: return "ports below 1024 need administrator rights";
-    default: return std::strerror(error);
+    case EADDRINUSE:
+      return "another program uses it and does not share it";
+    case EADDRNOTAVAIL:
+      return "no network interface of this computer has that address";
+    case EACCES:
+      return "ports below 1024 need administrator rights";
+    default:
+      return std::strerror(error);
   }
 }
 
@@ -73,8 +77,8 @@ UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
 
 Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int receiveBufferBytes) {
   const auto refused = [&](int error) {
-    return failure(ErrorCode::SystemError,
-                   "UDP port " + std::to_string(port) + " cannot be received: " + reason(error) + ".");
+    return failure(ErrorCode::SystemError, "UDP port " + std::to_string(port) +
+                                               " cannot be received: " + reason(error) + ".");
   };
   UdpSocket socket;
   socket.m_descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);

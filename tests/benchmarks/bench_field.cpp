@@ -4,8 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <QApplication>
 #include <QAction>
+#include <QApplication>
 #include <QImage>
 #include <QPainter>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole studio in Live under the load of 16 senders: what is lost where, how often the window is
-// painted meanwhile, what it costs in memory (docs/PERFORMANCE.md). The senders are a process of their
-// own. Arguments: datagrams per second (50000), seconds (10).
+// The whole studio in Live under the load of 16 senders: what is lost where, how often the window
+// is painted meanwhile, what it costs in memory (docs/PERFORMANCE.md). The senders are a process of
+// their own. Arguments: datagrams per second (50000), seconds (10).
 #include <QApplication>
 #include <QEventLoop>
 #include <QGraphicsView>
@@ -125,14 +125,13 @@ int main(int argc, char** argv) {
   };
   spin(std::chrono::seconds(1));
   [[maybe_unused]] const auto told = write(go[1], "g", 1);
-  spin(std::chrono::seconds(2));   // everything has its size by then
+  spin(std::chrono::seconds(2));  // everything has its size by then
   const double early = residentMib();
   const auto storeEarly = static_cast<double>(window.live()->series()->memoryBytes());
   paints.count = 0;
   const auto begin = Clock::now();
   spin(std::chrono::seconds(seconds - 3));
-  const double painted =
-      paints.count / std::chrono::duration<double>(Clock::now() - begin).count();
+  const double painted = paints.count / std::chrono::duration<double>(Clock::now() - begin).count();
   const double late = residentMib();
   const auto storeLate = static_cast<double>(window.live()->series()->memoryBytes());
   spin(std::chrono::seconds(2));
@@ -142,15 +141,17 @@ int main(int argc, char** argv) {
   spin(std::chrono::milliseconds(500));
   const link::LiveDetails details = window.live()->details();
   constexpr double mib = 1024.0 * 1024.0;
-  std::printf("sent %llu, received %llu, decoded %llu, lost in the kernel %llu, lost here %llu, bad %llu\n",
-              static_cast<unsigned long long>(sent),
-              static_cast<unsigned long long>(details.network.datagrams()),
-              static_cast<unsigned long long>(details.team.datagrams),
-              static_cast<unsigned long long>(details.network.kernelDrops()),
-              static_cast<unsigned long long>(details.network.queueDrops),
-              static_cast<unsigned long long>(details.team.errors.total()));
+  std::printf(
+      "sent %llu, received %llu, decoded %llu, lost in the kernel %llu, lost here %llu, bad %llu\n",
+      static_cast<unsigned long long>(sent),
+      static_cast<unsigned long long>(details.network.datagrams()),
+      static_cast<unsigned long long>(details.team.datagrams),
+      static_cast<unsigned long long>(details.network.kernelDrops()),
+      static_cast<unsigned long long>(details.network.queueDrops),
+      static_cast<unsigned long long>(details.team.errors.total()));
   std::printf("field painted %.1f times a second\n", painted);
-  std::printf("memory grew by %.1f MiB, of which %.1f MiB are rows (bounded by the store's budget)\n",
-              late - early, (storeLate - storeEarly) / mib);
+  std::printf(
+      "memory grew by %.1f MiB, of which %.1f MiB are rows (bounded by the store's budget)\n",
+      late - early, (storeLate - storeEarly) / mib);
   return 0;
 }

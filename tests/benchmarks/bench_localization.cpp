@@ -26,7 +26,11 @@ void update(benchmark::State& state) {
     benchmark::DoNotOptimize(filter.belief());
   }
 }
-BENCHMARK(update)->Name("localization/particles")->Arg(200)->Arg(500)->Arg(5000)
+BENCHMARK(update)
+    ->Name("localization/particles")
+    ->Arg(200)
+    ->Arg(500)
+    ->Arg(5000)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

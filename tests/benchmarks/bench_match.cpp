@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A whole match in lock-step: simulation, blackboards, bridge and the inline naive decision (or the soccer behaviours
-// with localization, at most 500 particles) of six robots, on one core. The counter says how many times faster than real time it plays.
+// A whole match in lock-step: simulation, blackboards, bridge and the inline naive decision (or the
+// soccer behaviours with localization, at most 500 particles) of six robots, on one core. The
+// counter says how many times faster than real time it plays.
 
 #include <benchmark/benchmark.h>
 #include <robotlink/simulated_match.h>

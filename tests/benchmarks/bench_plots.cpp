@@ -98,8 +98,10 @@ void frames(benchmark::State& state, bool zoom) {
   int i = 0;
   for (auto _ : state) {
     times.begin();
-    if (zoom) bench.time.zoom(i++ % 20 < 10 ? 0.95 : 1 / 0.95, span / 3);
-    else bench.time.pan(span / 300 * (i++ % 200 < 100 ? 1 : -1));
+    if (zoom)
+      bench.time.zoom(i++ % 20 < 10 ? 0.95 : 1 / 0.95, span / 3);
+    else
+      bench.time.pan(span / 300 * (i++ % 200 < 100 ? 1 : -1));
     bench.dock->currentPage()->refresh();
     bench.dock->render(&screen);
     times.end();
@@ -107,11 +109,18 @@ void frames(benchmark::State& state, bool zoom) {
   times.report(state);
 }
 
-void pan(benchmark::State& state) { frames(state, false); }
-void zoom(benchmark::State& state) { frames(state, true); }
+void pan(benchmark::State& state) {
+  frames(state, false);
+}
+void zoom(benchmark::State& state) {
+  frames(state, true);
+}
 
 void cases(benchmark::internal::Benchmark* benchmark) {
-  benchmark->ArgNames({"width", "height", "seconds"})->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(1.0);
+  benchmark->ArgNames({"width", "height", "seconds"})
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MinTime(1.0);
   // All of it; a part in columns; about two samples a pixel; few samples.
   for (const int seconds : {16'000, 1'000, 50, 15}) {
     benchmark->Args({1280, 400, seconds})->Args({1920, 1000, seconds});

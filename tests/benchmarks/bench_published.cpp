@@ -47,8 +47,9 @@ void ticks(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
   state.counters["published frames/s"] = count == 1 ? 10300 : count == 6 ? 2250 : 390;
   state.counters["ratio"] =
-      benchmark::Counter(static_cast<double>(state.iterations()) /
-                             (count == 1 ? 10300.0 : count == 6 ? 2250.0 : 390.0),
+      benchmark::Counter(static_cast<double>(state.iterations()) / (count == 1   ? 10300.0
+                                                                    : count == 6 ? 2250.0
+                                                                                 : 390.0),
                          benchmark::Counter::kIsRate);
 }
 BENCHMARK(ticks)->Name("published/robots")->Arg(1)->Arg(6)->Arg(22);

@@ -37,7 +37,8 @@ void append(benchmark::State& state) {
   std::mt19937 random(1);
   std::vector<std::vector<std::uint32_t>> rows(1024, std::vector<std::uint32_t>(205, 0x3f800000));
   for (auto& row : rows) {
-    for (std::size_t i = 0; i < changing; ++i) row[i * 205 / changing] = 0x3f000000 + random() % 0x800000;
+    for (std::size_t i = 0; i < changing; ++i)
+      row[i * 205 / changing] = 0x3f000000 + random() % 0x800000;
   }
   SeriesStore store({.memoryBudget = std::size_t{300} << 20});
   const GroupId id = store.addGroup(group(83, 122, 0));
@@ -46,8 +47,8 @@ void append(benchmark::State& state) {
     store.append(id, {static_cast<double>(row) / 60.0, rows[row % rows.size()], {}});
     ++row;
   }
-  state.counters["values/s"] =
-      benchmark::Counter(205.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["values/s"] = benchmark::Counter(205.0 * static_cast<double>(state.iterations()),
+                                                  benchmark::Counter::kIsRate);
 }
 BENCHMARK(append)->Arg(205)->Arg(40)->MinTime(2.0);
 
@@ -60,7 +61,8 @@ const SeriesStore& tenMillion() {
     float walk = 0.0F;
     for (int i = 0; i < 10'000'000; ++i) {
       walk += step(random);
-      const std::uint32_t words[] = {static_cast<std::uint32_t>(i / 1000), std::bit_cast<std::uint32_t>(walk)};
+      const std::uint32_t words[] = {static_cast<std::uint32_t>(i / 1000),
+                                     std::bit_cast<std::uint32_t>(walk)};
       const double values[] = {std::sin(i * 1e-4)};
       made->append(id, {i / 60.0, words, values});
     }
@@ -120,7 +122,8 @@ double residentMegabytes() {
 void sampling(benchmark::State& state) {
   auto match = soccer();
   for (int i = 0; i < 600; ++i) match.tick();
-  const auto store = std::make_shared<SeriesStore>(SeriesOptions{.memoryBudget = std::size_t{300} << 20});
+  const auto store =
+      std::make_shared<SeriesStore>(SeriesOptions{.memoryBudget = std::size_t{300} << 20});
   link::MatchSampler sampler(store);
   for (auto _ : state) {
     state.PauseTiming();
@@ -136,7 +139,8 @@ void hourOfMatch(benchmark::State& state) {
   for (auto _ : state) {
     auto match = soccer();
     const double before = residentMegabytes();
-    const auto store = std::make_shared<SeriesStore>(SeriesOptions{.memoryBudget = std::size_t{4} << 30});
+    const auto store =
+        std::make_shared<SeriesStore>(SeriesOptions{.memoryBudget = std::size_t{4} << 30});
     link::MatchSampler sampler(store);
     for (int i = 0; i < 60 * 3600; ++i) {
       match.tick();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sessions: what writing rows costs, how large an hour of a match is, how fast that file opens, shows a
-// moment and becomes CSV. An hour and two hours are recorded once, into the folder of TMPDIR.
+// Sessions: what writing rows costs, how large an hour of a match is, how fast that file opens,
+// shows a moment and becomes CSV. An hour and two hours are recorded once, into the folder of
+// TMPDIR.
 
-#include <algorithm>
 #include <benchmark/benchmark.h>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -37,7 +38,9 @@ class Rows : public RowSink {
     return static_cast<GroupId>(groups.size() - 1);
   }
   void append(GroupId group, const RowView& row) override {
-    rows.push_back({group, row.time, {row.words.begin(), row.words.end()},
+    rows.push_back({group,
+                    row.time,
+                    {row.words.begin(), row.words.end()},
                     {row.values.begin(), row.values.end()}});
     values += row.words.size() + row.values.size();
   }
@@ -71,7 +74,8 @@ void writeRows(benchmark::State& state) {
     const std::clock_t begin = std::clock();  // of all threads
     auto writer = SessionWriter::create(path, {}, options).value();
     for (const GroupInfo& group : rows->groups) writer->addGroup(group);
-    for (const Rows::Row& row : rows->rows) writer->append(row.group, {row.time, row.words, row.values});
+    for (const Rows::Row& row : rows->rows)
+      writer->append(row.group, {row.time, row.words, row.values});
     if (!writer->finish()) state.SkipWithError("not written");
     cpu += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
@@ -91,7 +95,8 @@ std::string recorded(const char* name, double seconds) {
   options.waitWhenFull = true;
   options.sync = false;
   std::shared_ptr<SessionWriter> writer =
-      SessionWriter::create(file, link::sessionInfo(match, "benchmark", WallTime{}), options).value();
+      SessionWriter::create(file, link::sessionInfo(match, "benchmark", WallTime{}), options)
+          .value();
   link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
   link::MatchRecorder recorder(writer);
   recorder.ticked(match, {});
@@ -132,8 +137,9 @@ void seekInTwoHours(benchmark::State& state) {
     const auto begin = std::chrono::steady_clock::now();
     const double time = std::uniform_real_distribution<double>(0.0, 2 * hour)(random);
     benchmark::DoNotOptimize(frames.frameAt(*session, time));
-    slowest = std::max(slowest, std::chrono::duration<double, std::milli>(
-                                    std::chrono::steady_clock::now() - begin).count());
+    slowest = std::max(
+        slowest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                     .count());
   }
   state.counters["slowest, ms"] = slowest;
   std::remove(path.c_str());
@@ -149,14 +155,20 @@ void exportCsv(benchmark::State& state, ExportFormat format) {
   for (auto _ : state) {
     std::remove(path.c_str());
     const auto report = exportFile(*session, format, selection, path);
-    if (!report) state.SkipWithError(report.error().text().c_str());
-    else bytes += report->bytes;
+    if (!report)
+      state.SkipWithError(report.error().text().c_str());
+    else
+      bytes += report->bytes;
   }
   std::remove(path.c_str());
   state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
 }
-BENCHMARK_CAPTURE(exportCsv, wide, ExportFormat::CsvWide)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(exportCsv, long_form, ExportFormat::CsvLong)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(exportCsv, wide, ExportFormat::CsvWide)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(exportCsv, long_form, ExportFormat::CsvLong)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace pitchboard::telemetry

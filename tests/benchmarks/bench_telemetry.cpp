@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How fast telemetry is taken in: the decoder alone, the team's book-keeping, the referee's packets,
-// and a real socket on 127.0.0.1 under the load of 16 senders (docs/LIVE.md).
+// How fast telemetry is taken in: the decoder alone, the team's book-keeping, the referee's
+// packets, and a real socket on 127.0.0.1 under the load of 16 senders (docs/LIVE.md).
 
 #include <telemetry/gamecontroller.h>
 #include <telemetry/team_monitor.h>
 #include <telemetry/udp_receiver.h>
 
+#include <benchmark/benchmark.h>
 #include <array>
 #include <atomic>
-#include <benchmark/benchmark.h>
 #include <cstring>
 #include <fstream>
 #include <thread>
@@ -125,7 +125,8 @@ void loopbackLoad(benchmark::State& state) {
       (*receiver)->take(batch);
       for (std::size_t i = 0; i < batch.size(); ++i) monitor.take(batch[i]);
       taken += batch.size();
-      if (residentEarly == 0 && taken > static_cast<std::uint64_t>(perSecond)) residentEarly = residentKib();
+      if (residentEarly == 0 && taken > static_cast<std::uint64_t>(perSecond))
+        residentEarly = residentKib();
     }
     sender.join();
     const ReceiverStatus status = (*receiver)->status();
@@ -137,7 +138,12 @@ void loopbackLoad(benchmark::State& state) {
     state.counters["grownKiB"] = static_cast<double>(residentKib() - residentEarly);
   }
 }
-BENCHMARK(loopbackLoad)->Arg(50'000)->Iterations(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK(loopbackLoad)
+    ->Arg(50'000)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
 
 }  // namespace
 

@@ -21,7 +21,9 @@ int main(int argc, char** argv) {
 
   int withGoal = 0, bothScored = 0, goals = 0;
   std::vector<double> position, yaw;
-  std::printf("seed score first_goal_s kicks out walked_m touch_%% collisions error_cm error_deg x_real_time\n");
+  std::printf(
+      "seed score first_goal_s kicks out walked_m touch_%% collisions error_cm error_deg "
+      "x_real_time\n");
   for (int seed = first; seed < first + seeds; ++seed) {
     const auto scenario = link::soccerMatch(noise, static_cast<std::uint64_t>(seed));
     if (!scenario) {
@@ -41,14 +43,14 @@ int main(int argc, char** argv) {
     goals += m.left + m.right;
     position.insert(position.end(), m.positionError.begin(), m.positionError.end());
     yaw.insert(yaw.end(), m.yawError.begin(), m.yawError.end());
-    std::printf("%d %d:%d %.0f %d %d %.0f %.1f %d %.1f %.1f %.0f\n", seed, m.left, m.right, m.firstGoal,
-                m.kicks, m.ballOut, m.walked, 100 * m.touchShare, m.collisions,
+    std::printf("%d %d:%d %.0f %d %d %.0f %.1f %d %.1f %.1f %.0f\n", seed, m.left, m.right,
+                m.firstGoal, m.kicks, m.ballOut, m.walked, 100 * m.touchShare, m.collisions,
                 100 * link::quantile(m.positionError, 0.5),
                 degreesFromRadians(link::quantile(m.yawError, 0.5)), minutes * 60 / took.count());
     std::fflush(stdout);
   }
-  std::printf("%d of %d matches with a goal, %d with goals of both teams, %.1f goals a match\n", withGoal,
-              seeds, bothScored, static_cast<double>(goals) / seeds);
+  std::printf("%d of %d matches with a goal, %d with goals of both teams, %.1f goals a match\n",
+              withGoal, seeds, bothScored, static_cast<double>(goals) / seeds);
   std::printf("belief: median error %.1f cm, %.1f deg; 90 %%: %.1f cm, %.1f deg\n",
               100 * link::quantile(position, 0.5), degreesFromRadians(link::quantile(yaw, 0.5)),
               100 * link::quantile(position, 0.9), degreesFromRadians(link::quantile(yaw, 0.9)));

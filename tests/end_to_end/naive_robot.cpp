@@ -27,17 +27,17 @@ int main(int argc, char** argv) {
     int action = 0;                                        // stand still
     if (ints[Referee] == 2 && ints[Lost] == 1) {
       ints[SearchOn] = 1;
-      action = 3;                                          // turn to find the ball
+      action = 3;  // turn to find the ball
     } else if (ints[Referee] == 2 && std::abs(bearing) > 40 && std::abs(bearing) < 160) {
-      action = bearing > 0 ? 2 : 3;                        // turn left, right
+      action = bearing > 0 ? 2 : 3;  // turn left, right
     } else if (ints[Referee] == 2 && distance < 25) {
-      action = bearing > 0 ? 5 : 4;                        // kick left, right
+      action = bearing > 0 ? 5 : 4;  // kick left, right
     } else if (ints[Referee] == 2) {
-      ints[ActionB] = static_cast<int>(distance / 5);      // how fast, before the action
-      action = 8;                                          // walk forward
+      ints[ActionB] = static_cast<int>(distance / 5);  // how fast, before the action
+      action = 8;                                      // walk forward
     }
     ints[ActionA] = action;
-    ints[Working] = 1;                                     // still alive
+    ints[Working] = 1;  // still alive
     std::this_thread::sleep_for(period);
   }
 }

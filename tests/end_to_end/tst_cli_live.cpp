@@ -48,8 +48,16 @@ class Listener {
     base = robots.port() - 1;
     refereePort = referee.port();
     if (refereePort == base + 2) refereePort = base + 3;
-    arguments = QStringList{"listen", "--json", "--bind", "127.0.0.1", "--robots", "2", "--port-base",
-                            QString::number(base), "--gamecontroller-port", QString::number(refereePort)} +
+    arguments = QStringList{"listen",
+                            "--json",
+                            "--bind",
+                            "127.0.0.1",
+                            "--robots",
+                            "2",
+                            "--port-base",
+                            QString::number(base),
+                            "--gamecontroller-port",
+                            QString::number(refereePort)} +
                 more;
   }
   /// True once it says that it listens.
@@ -102,8 +110,9 @@ class TestCliLive : public QObject {
     Listener listener;
     QVERIFY(listener.start());
     QProcess sender;
-    sender.start("python3", {QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/robot_sender.py"),
-                             QString::number(listener.base), "2", "5"});
+    sender.start("python3",
+                 {QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/robot_sender.py"),
+                  QString::number(listener.base), "2", "5"});
     if (!sender.waitForStarted()) QSKIP("python3 is not installed");
     QVERIFY(sender.waitForFinished());
     QCOMPARE(sender.exitCode(), 0);
@@ -137,10 +146,13 @@ class TestCliLive : public QObject {
     const auto robot = static_cast<std::uint16_t>(listener.base + 1);
     QVERIFY(socket.send(referee, packet.readAll().toStdString()));
     QCOMPARE(listener.read(1)[0]["secGameStateName"].toString(), "CORNER_KICK");
-    QVERIFY(socket.send(referee, "RGme\x63" "later version"));
+    QVERIFY(socket.send(referee,
+                        "RGme\x63"
+                        "later version"));
     QVERIFY(listener.read(1)[0]["error"].toString().contains("version 99"));
-    for (const std::string& text : {std::string(), std::string("\0\xff\x01", 3), std::string("1 2 3"),
-                                    std::string(60000, 'A'), std::string("1 nan")}) {
+    for (const std::string& text :
+         {std::string(), std::string("\0\xff\x01", 3), std::string("1 2 3"),
+          std::string(60000, 'A'), std::string("1 nan")}) {
       QVERIFY(socket.send(robot, text));
       const QList<QJsonObject> heard = listener.read(1);
       QCOMPARE(heard.size(), 1);
@@ -157,7 +169,8 @@ class TestCliLive : public QObject {
     TestSocket blocker;  // does not share its port
     listener.arguments.replace(listener.arguments.indexOf("--gamecontroller-port") + 1,
                                QString::number(blocker.port()));
-    listener.arguments << "--duration" << "0.01";
+    listener.arguments << "--duration"
+                       << "0.01";
     const Outcome outcome = run(listener.arguments);
     QCOMPARE(outcome.exitCode, 0);
     QVERIFY2(outcome.err.contains("warning: UDP port " + QByteArray::number(blocker.port())),
@@ -191,8 +204,8 @@ class TestCliLive : public QObject {
   }
 
   void decodesTheCapture() {
-    const Outcome outcome =
-        run({"decode", "telemetry", "--json", data + "telemetry/telemetry_capture_1_robot_60s.txt"});
+    const Outcome outcome = run(
+        {"decode", "telemetry", "--json", data + "telemetry/telemetry_capture_1_robot_60s.txt"});
     QCOMPARE(outcome.exitCode, 0);
     const QList<QJsonObject> objects = outcome.objects();
     QCOMPARE(objects.size(), 60);
@@ -207,8 +220,8 @@ class TestCliLive : public QObject {
     profile.write(R"({"name": "t", "fields": [{"name": "ID", "type": "int", "meaning": "robot"},
                       {"name": "TEMP", "type": "float"}]})");
     profile.close();
-    const Outcome outcome =
-        run({"decode", "telemetry", "--json", "--profile", profile.fileName(), "-"}, "4 36.5 7 OUT\n");
+    const Outcome outcome = run(
+        {"decode", "telemetry", "--json", "--profile", profile.fileName(), "-"}, "4 36.5 7 OUT\n");
     QCOMPARE(outcome.exitCode, 0);
     const QJsonObject values = outcome.objects()[0]["values"].toObject();
     QCOMPARE(values["TEMP"].toDouble(), 36.5);

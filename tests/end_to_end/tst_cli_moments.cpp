@@ -51,7 +51,9 @@ class TestCliMoments : public QObject {
     // The same again: entered exactly, and played from there without chance.
     const QString second = m_folder.filePath("moment2.json");
     QCOMPARE(cli({"simulate", "--from", m_session, "--at", "5", "--duration", "3", "--save-moment",
-                  second}).exitCode, 0);
+                  second})
+                 .exitCode,
+             0);
     QFile other(second);
     QVERIFY(other.open(QIODevice::ReadOnly));
     QCOMPARE(other.readAll(), text);
@@ -61,14 +63,16 @@ class TestCliMoments : public QObject {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<QString>("words");
     QTest::newRow("before the beginning")
-        << QStringList{"simulate", "--from", "SESSION", "--at", "-3"} << "no state of a simulated match";
+        << QStringList{"simulate", "--from", "SESSION", "--at", "-3"}
+        << "no state of a simulated match";
     QTest::newRow("no time") << QStringList{"simulate", "--from", "SESSION"} << "--at";
-    QTest::newRow("both") << QStringList{"simulate", "--from", "SESSION", "--at", "1", "--seed", "3"}
+    QTest::newRow("both") << QStringList{"simulate", "--from", "SESSION", "--at",
+                                         "1",        "--seed", "3"}
                           << "--seed";
     QTest::newRow("no file") << QStringList{"simulate", "--from", "/nonexistent.mcap", "--at", "1"}
                              << "/nonexistent.mcap";
-    QTest::newRow("report without a file") << QStringList{"export", "SESSION", "--to", "report"}
-                                           << "-o FILE.html";
+    QTest::newRow("report without a file")
+        << QStringList{"export", "SESSION", "--to", "report"} << "-o FILE.html";
   }
   void badRequestsAreSentences() {
     QFETCH(QStringList, arguments);
@@ -86,8 +90,8 @@ class TestCliMoments : public QObject {
     QFile file(path);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QByteArray html = file.readAll();
-    for (const char* words : {"<!DOCTYPE html>", "data:image/svg+xml;base64,", ">B1<", "Belief error",
-                              "0:12 of play recorded"}) {
+    for (const char* words : {"<!DOCTYPE html>", "data:image/svg+xml;base64,", ">B1<",
+                              "Belief error", "0:12 of play recorded"}) {
       QVERIFY2(html.contains(words), words);
     }
     QCOMPARE(cli({"export", m_session, "--to", "report", "-o", path}).exitCode, 2);

@@ -44,13 +44,16 @@ QByteArray contents(const QString& path) {
 
 /// A float is written with as few digits as give its 32 bits back.
 bool same(double a, double b) {
-  if (const auto single = static_cast<float>(b); double(single) == b) return static_cast<float>(a) == single;
+  if (const auto single = static_cast<float>(b); double(single) == b)
+    return static_cast<float>(a) == single;
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
          (std::isnan(a) && std::isnan(b));
 }
 
 /// As the exports write numbers; nan for what is none.
-double numberOf(const QByteArray& text) { return std::strtod(text.constData(), nullptr); }
+double numberOf(const QByteArray& text) {
+  return std::strtod(text.constData(), nullptr);
+}
 
 double valueOf(const GroupInfo& info, const RowView& row, std::size_t column) {
   std::size_t words = 0, values = 0;
@@ -58,9 +61,12 @@ double valueOf(const GroupInfo& info, const RowView& row, std::size_t column) {
     ++(info.columns[i].type == ColumnType::Float64 ? values : words);
   }
   switch (info.columns[column].type) {
-    case ColumnType::Int32: return std::bit_cast<std::int32_t>(row.words[words]);
-    case ColumnType::Float32: return double(std::bit_cast<float>(row.words[words]));
-    case ColumnType::Float64: break;
+    case ColumnType::Int32:
+      return std::bit_cast<std::int32_t>(row.words[words]);
+    case ColumnType::Float32:
+      return double(std::bit_cast<float>(row.words[words]));
+    case ColumnType::Float64:
+      break;
   }
   return row.values[values];
 }
@@ -75,7 +81,8 @@ std::size_t columnOf(const GroupInfo& info, const std::string& name) {
 /// By time, robot and variable.
 using Values = std::map<std::tuple<double, std::string, std::string>, double>;
 
-Values valuesOf(const QString& path, SessionRange range, const std::vector<std::string>& robots = {},
+Values valuesOf(const QString& path, SessionRange range,
+                const std::vector<std::string>& robots = {},
                 const std::vector<std::string>& variables = {}) {
   Values out;
   const auto session = SessionReader::open(path.toStdString());
@@ -100,8 +107,11 @@ void compare(const Values& found, const Values& wanted) {
   for (auto a = found.begin(), b = wanted.begin(); a != found.end(); ++a, ++b) {
     const auto& [time, robot, name] = b->first;
     QVERIFY2(a->first == b->first && same(a->second, b->second),
-             qPrintable(QString("%1 s %2.%3: %4, not %5").arg(time).arg(robot.c_str(), name.c_str())
-                            .arg(a->second).arg(b->second)));
+             qPrintable(QString("%1 s %2.%3: %4, not %5")
+                            .arg(time)
+                            .arg(robot.c_str(), name.c_str())
+                            .arg(a->second)
+                            .arg(b->second)));
   }
 }
 
@@ -113,13 +123,15 @@ class TestCliSessions : public QObject {
   QString m_session;
   int m_files = 0;
 
-  QString newPath(const char* ending) { return m_folder.filePath(QString::number(++m_files) + ending); }
+  QString newPath(const char* ending) {
+    return m_folder.filePath(QString::number(++m_files) + ending);
+  }
 
  private slots:
   void initTestCase() {
     m_session = m_folder.filePath("match.mcap");
-    const Run run = cli({"record", "--scenario", "match-3v3", "--duration", "10", "--noise", "realistic",
-                         "--seed", "7", "-o", m_session});
+    const Run run = cli({"record", "--scenario", "match-3v3", "--duration", "10", "--noise",
+                         "realistic", "--seed", "7", "-o", m_session});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     QVERIFY2(run.out.contains("10.000 s, 4207 rows"), run.out.constData());
   }
@@ -171,8 +183,9 @@ class TestCliSessions : public QObject {
 
   void longCsvHasWhatWasAskedFor() {
     const QString path = newPath(".csv");
-    const Run run = cli({"export", m_session, "--to", "csv-long", "--robots", "B1,R2", "--variables",
-                         "TRUE_X,VISION_BALL_DIST,BELIEF_ERROR", "--from", "2", "--until", "5", "-o", path});
+    const Run run =
+        cli({"export", m_session, "--to", "csv-long", "--robots", "B1,R2", "--variables",
+             "TRUE_X,VISION_BALL_DIST,BELIEF_ERROR", "--from", "2", "--until", "5", "-o", path});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     Values found;
     const QList<QByteArray> lines = contents(path).split('\n');
@@ -180,15 +193,18 @@ class TestCliSessions : public QObject {
     for (const QByteArray& line : lines.mid(1)) {
       const QList<QByteArray> cells = line.split(',');
       if (cells.size() == 4) {
-        found[{numberOf(cells[0]), cells[1].toStdString(), cells[2].toStdString()}] = numberOf(cells[3]);
+        found[{numberOf(cells[0]), cells[1].toStdString(), cells[2].toStdString()}] =
+            numberOf(cells[3]);
       }
     }
     QCOMPARE(found.size(), std::size_t{181 * 2 * 3});
-    compare(found, valuesOf(m_session, {2, 5}, {"B1", "R2"}, {"TRUE_X", "VISION_BALL_DIST", "BELIEF_ERROR"}));
+    compare(found, valuesOf(m_session, {2, 5}, {"B1", "R2"},
+                            {"TRUE_X", "VISION_BALL_DIST", "BELIEF_ERROR"}));
   }
 
   void jsonLinesHaveRowsAndMessages() {
-    const Run run = cli({"export", m_session, "--to", "jsonl", "--robots", "match", "--until", "4"});
+    const Run run =
+        cli({"export", m_session, "--to", "jsonl", "--robots", "match", "--until", "4"});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     Values found;
     int events = 0;
@@ -206,14 +222,14 @@ class TestCliSessions : public QObject {
     compare(found, valuesOf(m_session, {-1, 4}, {"match"}));
     const auto all = SessionReader::open(m_session.toStdString())->events();
     QCOMPARE(events, static_cast<int>(std::count_if(all.begin(), all.end(), [](const auto& event) {
-      return event.time <= 4.0;
-    })));
+               return event.time <= 4.0;
+             })));
   }
 
   void aClipIsASession() {
     const QString path = newPath(".mcap");
-    const Run run = cli({"export", m_session, "--to", "mcap", "--from", "3", "--until", "6", "--robots",
-                         "B2,match", "-o", path});
+    const Run run = cli({"export", m_session, "--to", "mcap", "--from", "3", "--until", "6",
+                         "--robots", "B2,match", "-o", path});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     compare(valuesOf(path, always), valuesOf(m_session, {3, 6}, {"B2", "match"}));
     QCOMPARE(cli({"inspect", path, "--check"}).exitCode, 0);
@@ -248,30 +264,35 @@ class TestCliSessions : public QObject {
     }
     const QString path = newPath(".mcap");
     QProcess process;
-    process.start(program, {"record", "--live", "--bind", "127.0.0.1", "--robots", "2", "--port-base",
-                            QString::number(base), "--gamecontroller-port", QString::number(referee),
-                            "-o", path});
+    process.start(program, {"record", "--live", "--bind", "127.0.0.1", "--robots", "2",
+                            "--port-base", QString::number(base), "--gamecontroller-port",
+                            QString::number(referee), "-o", path});
     QByteArray err;
-    QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"), 10'000);
+    QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"),
+                             10'000);
     const auto robotPort = static_cast<std::uint16_t>(base + 1);
     const auto refereePort = static_cast<std::uint16_t>(referee);
     const QByteArray packet = contents(QStringLiteral(PITCHBOARD_TEST_DATA) +
                                        QStringLiteral("/gamecontroller/v11hl592_FINISHED.bin"));
     QVERIFY(!packet.isEmpty());
     for (int i = 0; i < 40; ++i) {
-      const std::string text = "1 " + std::to_string(400 + i) + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT";
+      const std::string text =
+          "1 " + std::to_string(400 + i) + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT";
       QVERIFY(robot.send(robotPort, text));
       QTest::qWait(5);
     }
     QVERIFY(robot.send(robotPort, "hello\xff there"));
-    QVERIFY(robot.send(refereePort, std::string_view(packet.constData(), std::size_t(packet.size()))));
+    QVERIFY(
+        robot.send(refereePort, std::string_view(packet.constData(), std::size_t(packet.size()))));
     QVERIFY(robot.send(refereePort, "no packet"));
     // A chunk is on the disk after a second: seen from outside while it goes on.
-    QTRY_VERIFY_WITH_TIMEOUT([&] {
-      const auto session = SessionReader::open(path.toStdString());
-      return session && session->count(SessionStream::Telemetry) == 41 &&
-             session->count(SessionStream::RefereeRaw) == 2;
-    }(), 5000);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        [&] {
+          const auto session = SessionReader::open(path.toStdString());
+          return session && session->count(SessionStream::Telemetry) == 41 &&
+                 session->count(SessionStream::RefereeRaw) == 2;
+        }(),
+        5000);
     process.terminate();
     QVERIFY(process.waitForFinished(10'000));
     err += process.readAllStandardError();
@@ -305,7 +326,8 @@ class TestCliSessions : public QObject {
     });
     const QJsonObject referees = QJsonDocument::fromJson(state).object();
     QVERIFY2(!referees["stateName"].toString().isEmpty(), state.constData());
-    QVERIFY(referees["teams"][0]["players"].isArray() && referees["teams"][1].toObject().contains("playersLeft"));
+    QVERIFY(referees["teams"][0]["players"].isArray() &&
+            referees["teams"][1].toObject().contains("playersLeft"));
     QVERIFY(!session->attachment("profile.json")->empty());
   }
 
@@ -319,28 +341,41 @@ class TestCliSessions : public QObject {
     for (const char* command : {"inspect", "export"}) {
       QTest::addRow("%s: no file", command) << QStringList{command, nowhere} << "nowhere.mcap";
       QTest::addRow("%s: no session", command) << QStringList{command, text} << "text.mcap";
-      QTest::addRow("%s: a folder", command) << QStringList{command, m_folder.path()} << m_folder.path();
+      QTest::addRow("%s: a folder", command)
+          << QStringList{command, m_folder.path()} << m_folder.path();
     }
     QTest::newRow("repair: no file") << QStringList{"repair", nowhere, fresh} << "nowhere.mcap";
     QTest::newRow("repair: over a file") << QStringList{"repair", there, there} << there;
     QTest::newRow("record: over a file") << QStringList{"record", "-o", there} << there;
-    QTest::newRow("record: no folder") << QStringList{"record", "-o", "/no/such/x.mcap"} << "/no/such";
-    QTest::newRow("record: no scenario") << QStringList{"record", "--scenario", "chess", "-o", fresh} << "chess";
-    QTest::newRow("record: no duration") << QStringList{"record", "--duration", "-1", "-o", fresh} << "duration";
+    QTest::newRow("record: no folder")
+        << QStringList{"record", "-o", "/no/such/x.mcap"} << "/no/such";
+    QTest::newRow("record: no scenario")
+        << QStringList{"record", "--scenario", "chess", "-o", fresh} << "chess";
+    QTest::newRow("record: no duration")
+        << QStringList{"record", "--duration", "-1", "-o", fresh} << "duration";
     QTest::newRow("record live: over a file")
-        << QStringList{"record", "--live", "--bind", "127.0.0.1", "--robots", "1", "--port-base", "40501",
-                       "--gamecontroller-port", "40511", "-o", there} << there;
-    QTest::newRow("record live: no address") << QStringList{"record", "--live", "--bind", "home", "-o", fresh} << "home";
+        << QStringList{"record",      "--live",   "--bind",
+                       "127.0.0.1",   "--robots", "1",
+                       "--port-base", "40501",    "--gamecontroller-port",
+                       "40511",       "-o",       there}
+        << there;
+    QTest::newRow("record live: no address")
+        << QStringList{"record", "--live", "--bind", "home", "-o", fresh} << "home";
     QTest::newRow("record live: foreign address")
         << QStringList{"record", "--live", "--bind", "192.0.2.1", "-o", fresh} << "192.0.2.1";
     QTest::newRow("export: over a file") << QStringList{"export", there, "-o", there} << there;
     QTest::newRow("export: no robot") << QStringList{"export", there, "--robots", "B9"} << "B9";
-    QTest::newRow("export: no variable") << QStringList{"export", there, "--variables", "NOTHING_*"} << "NOTHING_*";
-    QTest::newRow("export: backwards") << QStringList{"export", there, "--from", "6", "--until", "3"} << "before";
+    QTest::newRow("export: no variable")
+        << QStringList{"export", there, "--variables", "NOTHING_*"} << "NOTHING_*";
+    QTest::newRow("export: backwards")
+        << QStringList{"export", there, "--from", "6", "--until", "3"} << "before";
     QTest::newRow("report: backwards")
-        << QStringList{"export", there, "--to", "report", "--from", "6", "--until", "3", "-o", fresh} << "before";
+        << QStringList{"export", there,     "--to", "report", "--from",
+                       "6",      "--until", "3",    "-o",     fresh}
+        << "before";
     QTest::newRow("export: no form") << QStringList{"export", there, "--to", "xls"} << "xls";
-    QTest::newRow("export: clip to nowhere") << QStringList{"export", there, "--to", "mcap"} << "-o FILE";
+    QTest::newRow("export: clip to nowhere")
+        << QStringList{"export", there, "--to", "mcap"} << "-o FILE";
   }
   void badRequestsAreSentences() {
     QFETCH(QStringList, arguments);
@@ -349,7 +384,8 @@ class TestCliSessions : public QObject {
     const Run run = cli(arguments);
     QVERIFY2(run.exitCode == 2, run.out.left(200) + run.err);
     const QList<QByteArray> lines = run.err.trimmed().split('\n');
-    QVERIFY2(lines[0].startsWith("error: ") && lines[0].contains(words.toUtf8()), run.err.constData());
+    QVERIFY2(lines[0].startsWith("error: ") && lines[0].contains(words.toUtf8()),
+             run.err.constData());
     QVERIFY2(lines.size() == 1 || (lines.size() == 2 && lines[1].startsWith("Run with --help")),
              run.err.constData());
     QVERIFY(contents(m_session) == before);

@@ -6,9 +6,9 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include <csignal>
 #include <sys/shm.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <robotlink/match_runner.h>
 
@@ -30,7 +30,8 @@ Run simulate(const QStringList& arguments) {
 }
 
 int keyBase() {
-  return 100000 + static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
+  return 100000 +
+         static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
 }
 
 }  // namespace
@@ -105,7 +106,8 @@ class TestCliSimulate : public QObject {
     QTest::newRow("cognition") << QStringList{"--cognition", "x"} << QByteArray("--cognition must");
     QTest::newRow("duration") << QStringList{"--duration", "-1"} << QByteArray("--duration must");
     QTest::newRow("physics") << QStringList{"--physics", "x"} << QByteArray("physics model");
-    QTest::newRow("noise") << QStringList{"--noise", "papr"} << QByteArray("did you mean \"paper\"");
+    QTest::newRow("noise") << QStringList{"--noise", "papr"}
+                           << QByteArray("did you mean \"paper\"");
     QTest::newRow("folder") << QStringList{"--trace", "/nonexistent/a.csv"}
                             << QByteArray("cannot be written");
     QTest::newRow("full disk") << QStringList{"--trace", "/dev/full", "--force"}

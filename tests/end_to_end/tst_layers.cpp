@@ -11,8 +11,8 @@ namespace {
 
 struct Layer {
   const char* folder;
-  QStringList ownHeaders;     ///< prefixes of our headers that it may include
-  QStringList packageHeaders; ///< prefixes of package headers, besides the standard library
+  QStringList ownHeaders;      ///< prefixes of our headers that it may include
+  QStringList packageHeaders;  ///< prefixes of package headers, besides the standard library
 };
 
 const QString source = QStringLiteral(PITCHBOARD_SOURCE_DIR "/");
@@ -25,7 +25,9 @@ const QList<Layer>& layers() {
       {"simcore/base", {"base/"}, {"Random123/", "tl/"}},
       {"simcore", {"base/", "simcore/"}, {"Eigen/", "box2d/", "tl/", "Random123/"}},
       // Profiles of the text protocol are JSON files, and the published one is a resource.
-      {"telemetry", {"base/", "telemetry/", "resources/"}, {"nlohmann/", "tl/", "zlib.h", "zstd.h"}},
+      {"telemetry",
+       {"base/", "telemetry/", "resources/"},
+       {"nlohmann/", "tl/", "zlib.h", "zstd.h"}},
       {"resources", {"resources/"}, {}},
       {"robotlink",
        {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},
@@ -64,8 +66,7 @@ struct Include {
 QList<Include> includesBelow(const QString& folder) {
   static const QRegularExpression include(QStringLiteral("^\\s*#\\s*include\\s*<([^>]+)>"));
   QList<Include> found;
-  QDirIterator files(source + folder, {"*.h", "*.cpp"}, QDir::Files,
-                     QDirIterator::Subdirectories);
+  QDirIterator files(source + folder, {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories);
   while (files.hasNext()) {
     const QString path = files.next();
     QFile file(path);
@@ -106,7 +107,9 @@ class TestLayers : public QObject {
         continue;
       }
       wrong << QStringLiteral("%1:%2 includes <%3>")
-                   .arg(include.file).arg(include.line).arg(include.header);
+                   .arg(include.file)
+                   .arg(include.line)
+                   .arg(include.header);
     }
     QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join("\n")));
   }

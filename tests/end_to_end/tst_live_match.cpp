@@ -7,9 +7,9 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include <cmath>
 #include <netinet/in.h>
 #include <unistd.h>
+#include <cmath>
 
 #include <robotlink/live_watch.h>
 #include <robotlink/robot_variables.h>
@@ -75,8 +75,8 @@ class TestLiveMatch : public QObject {
         const link::RobotVariables variables;
         const int x = board->read(variables.localizationX);
         const int y = board->read(variables.localizationY);
-        const double away = std::hypot(x - frame->boards[i].localizationX,
-                                       y - frame->boards[i].localizationY);
+        const double away =
+            std::hypot(x - frame->boards[i].localizationX, y - frame->boards[i].localizationY);
         if (away < 60.0 && frame->health[i].poseKnown) ++agree;
       }
       return agree == 6;

@@ -41,10 +41,11 @@ class TestManagement : public QObject {
     return file.fileName();
   }
   void start(const QByteArray& management) {
-    const QString file =
-        config("[Communication]\nno_player_robofei = 3\n[Pitchboard]\nbehaviour = naive\n"
-               "telemetry_port_base = 60000\nteam_port_base = 60100\nteam = 77\n"
-               "[Pitchboard Management]\n" + management);
+    const QString file = config(
+        "[Communication]\nno_player_robofei = 3\n[Pitchboard]\nbehaviour = naive\n"
+        "telemetry_port_base = 60000\nteam_port_base = 60100\nteam = 77\n"
+        "[Pitchboard Management]\n" +
+        management);
     m_manager->setProcessChannelMode(QProcess::MergedChannels);
     m_manager->start(PITCHBOARD_BIN "/pitchboard-robot",
                      {"management", "--config", file, "--key-base", QString::number(m_base)});
@@ -94,10 +95,10 @@ class TestManagement : public QObject {
   void startsInOrderAndLeavesNothing_data() {
     QTest::addColumn<QByteArray>("list");
     QTest::addColumn<QStringList>("order");
-    QTest::newRow("as listed by the program") << QByteArray()
-        << QStringList{"localization", "team", "decision", "communication"};
+    QTest::newRow("as listed by the program")
+        << QByteArray() << QStringList{"localization", "team", "decision", "communication"};
     QTest::newRow("as the file says") << QByteArray("processes = communication, decision\n")
-        << QStringList{"communication", "decision"};
+                                      << QStringList{"communication", "decision"};
   }
   void startsInOrderAndLeavesNothing() {
     QFETCH(QByteArray, list);
@@ -157,14 +158,16 @@ class TestManagement : public QObject {
     QTest::addColumn<QByteArray>("list");
     const QByteArray all = "localization, team, decision, communication";
     QTest::newRow("by its flag") << "decision" << all;
-    QTest::newRow("by its flag, which nobody else clears") << "localization" << QByteArray("localization");
+    QTest::newRow("by its flag, which nobody else clears")
+        << "localization" << QByteArray("localization");
     QTest::newRow("without a flag") << "team" << all;
     QTest::newRow("who clears the flags") << "communication" << all;
   }
   void aFrozenProcessStartsAgain() {
     QFETCH(QString, name);
     QFETCH(QByteArray, list);
-    start("processes = " + list + "\nstart_interval = 0.05\nsilent_after = 2.5\nrestart_wait = 0.05\n");
+    start("processes = " + list +
+          "\nstart_interval = 0.05\nsilent_after = 2.5\nrestart_wait = 0.05\n");
     QTRY_VERIFY(!pidsOf(name).empty());
     ::kill(static_cast<pid_t>(pidsOf(name).front()), SIGSTOP);
     QElapsedTimer timer;
@@ -178,8 +181,9 @@ class TestManagement : public QObject {
   }
 
   void aProcessOfOnesOwn() {
-    start("processes = decision own\n"
-          "command.own = sh -c \"echo robot {robot} key {key}; exec sleep 600\"\n");
+    start(
+        "processes = decision own\n"
+        "command.own = sh -c \"echo robot {robot} key {key}; exec sleep 600\"\n");
     QTRY_VERIFY(said(("own: robot 3 key " + QByteArray::number(m_key)).constData()));
     endsWithoutRemains();
   }
@@ -203,17 +207,23 @@ class TestManagement : public QObject {
     row("unknown process", "[Pitchboard Management]\nprocesses = decision, cook\n",
         "robot.ini, line 4: there is no reference process 'cook'");
     row("twice", "[Pitchboard Management]\nprocesses = team team\n", "line 4: 'team' stands twice");
-    row("nothing to start", "[Pitchboard Management]\nprocesses =\n", "line 4: processes names no process");
+    row("nothing to start", "[Pitchboard Management]\nprocesses =\n",
+        "line 4: processes names no process");
     row("time", "[Pitchboard Management]\n\nsilent_after = soon\n",
         "line 5: silent_after must be a number of seconds");
-    row("negative time", "[Pitchboard Management]\nrestart_wait = -1\n", "line 4: restart_wait must be");
-    row("unknown key", "[Pitchboard Management]\nsilent_afer = 3\n", "did you mean \"silent_after\"");
-    row("no program", "[Pitchboard Management]\ncommand.own =\n", "line 4: command.own names no program");
-    row("no such program", "[Pitchboard Management]\nprocesses = own\ncommand.own = /no/such/thing\n",
+    row("negative time", "[Pitchboard Management]\nrestart_wait = -1\n",
+        "line 4: restart_wait must be");
+    row("unknown key", "[Pitchboard Management]\nsilent_afer = 3\n",
+        "did you mean \"silent_after\"");
+    row("no program", "[Pitchboard Management]\ncommand.own =\n",
+        "line 4: command.own names no program");
+    row("no such program",
+        "[Pitchboard Management]\nprocesses = own\ncommand.own = /no/such/thing\n",
         "cannot start '/no/such/thing'");
     row("not a line", "[Pitchboard Management]\nquickly\n", "line 4: 'quickly' has not the form");
     row("option", "[Pitchboard]\nbehavior = keeper\n", "line 4: there is no option 'behavior'");
-    row("behaviour", "[Pitchboard]\nbehaviour = clever\n", "line 4: --behaviour: there is no behaviour 'clever'");
+    row("behaviour", "[Pitchboard]\nbehaviour = clever\n",
+        "line 4: --behaviour: there is no behaviour 'clever'");
     row("shirt", "[Pitchboard]\nreferee_team = 5\nshirt = 99\n", "robot.ini, line 5: ");
     row("address", "[Pitchboard]\nudp_address = home\n", "line 4: --udp-address: 'home' is not");
     row("field", "[Pitchboard]\nfield = {\"length\": -9}\n", "line 4: --field: ");

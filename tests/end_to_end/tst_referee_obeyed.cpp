@@ -5,13 +5,13 @@
 #include <robotlink/robot_variables.h>
 #include <robotlink/system_v.h>
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QtTest>
-#include <arpa/inet.h>
 #include <csignal>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include "../robotlink/segment_keys.h"
 
@@ -74,10 +74,14 @@ int wordOf(const QJsonObject& state) {
   if (state["secState"].toInt() == 3 || state["gamePhase"].toInt() == 3) return 1;  // timeout
   if (state["stopped"].toInt() != 0) return 1;
   switch (state["state"].toInt()) {
-    case 1: return 11;
-    case 2: return 12;
-    case 3: return 2;
-    default: return 1;
+    case 1:
+      return 11;
+    case 2:
+      return 12;
+    case 3:
+      return 2;
+    default:
+      return 1;
   }
 }
 
@@ -134,7 +138,8 @@ class TestRefereeObeyed : public QObject {
         const bool stands = player["penalty"].toInt() != 0;
         int& done = stands ? penalised : free;
         if (done++ > 0) continue;  // one of each kind is enough
-        hears(packet(name), team["number"].toInt(), player["n"].toInt(), stands ? 1 : wordOf(state));
+        hears(packet(name), team["number"].toInt(), player["n"].toInt(),
+              stands ? 1 : wordOf(state));
       }
     }
     QVERIFY(free + penalised > 0);
@@ -163,8 +168,14 @@ class TestRefereeObeyed : public QObject {
                  "\nreferee_port = " + QByteArray::number(port) + "\ntelemetry_rate = 0.1\n");
     config.close();
     QProcess communication, decision;
-    const QStringList common{"--config", config.fileName(), "--key-base", QString::number(m_base),
-                             "--telemetry-port-base", "60000", "--team-port-base", "60100"};
+    const QStringList common{"--config",
+                             config.fileName(),
+                             "--key-base",
+                             QString::number(m_base),
+                             "--telemetry-port-base",
+                             "60000",
+                             "--team-port-base",
+                             "60100"};
     communication.start(PITCHBOARD_BIN "/pitchboard-robot", QStringList{"communication"} + common);
     decision.start(PITCHBOARD_BIN "/pitchboard-robot",
                    QStringList{"decision", "--behaviour", "naive"} + common);
@@ -198,11 +209,11 @@ class TestRefereeObeyed : public QObject {
     std::vector<Blackboard> boards;
     for (const int n : {1, 2}) {
       auto& process = processes.emplace_back(std::make_unique<QProcess>());
-      process->start(PITCHBOARD_BIN "/pitchboard-robot",
-                     {"communication", "--robot", QString::number(n), "--key-base",
-                      QString::number(m_base), "--telemetry-port-base", "60000",
-                      "--team-port-base", "60100", "--referee-team", QString::number(team),
-                      "--referee-port", QString::number(port)});
+      process->start(
+          PITCHBOARD_BIN "/pitchboard-robot",
+          {"communication", "--robot", QString::number(n), "--key-base", QString::number(m_base),
+           "--telemetry-port-base", "60000", "--team-port-base", "60100", "--referee-team",
+           QString::number(team), "--referee-port", QString::number(port)});
       QTRY_VERIFY(process->canReadLine());
       auto board = SystemVSegments::open(m_base + 100 * n, AttachMode::AttachOnly);
       QVERIFY(board);
@@ -241,7 +252,8 @@ class TestRefereeObeyed : public QObject {
     options.refereePort = port;
     const auto process = findProcess("communication")->make(options);
     QVERIFY(!process);
-    QVERIFY2(QString::fromStdString(process.error().text()).contains(reason), process.error().text().c_str());
+    QVERIFY2(QString::fromStdString(process.error().text()).contains(reason),
+             process.error().text().c_str());
   }
 };
 

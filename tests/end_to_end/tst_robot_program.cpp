@@ -128,8 +128,9 @@ class TestRobotProgram : public QObject {
     QTemporaryDir folder;
     QFile file(folder.filePath("config.ini"));
     QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write("; of our robot\r\n[Vision]\r\nno_player_robofei = 3\r\n[Communication]\r\n"
-               "No_Player_RoboFEI : 7 ; lucky\r\n");
+    file.write(
+        "; of our robot\r\n[Vision]\r\nno_player_robofei = 3\r\n[Communication]\r\n"
+        "No_Player_RoboFEI : 7 ; lucky\r\n");
     file.close();
     QProcess process;
     start(process, withBase({"decision", "--config", file.fileName()}));

@@ -15,7 +15,7 @@ class TestStudioProcess : public QObject {
   Q_OBJECT
 
   QTemporaryDir m_folder;
-  QImage m_timeOfSession;   // the timeline of a window with a session
+  QImage m_timeOfSession;  // the timeline of a window with a session
   int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
 
   QStringList withSettings(const QStringList& arguments) const {
@@ -37,8 +37,7 @@ class TestStudioProcess : public QObject {
       QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
       if (!file.open(QIODevice::ReadOnly)) continue;
       const QByteArray line = file.readAll();
-      if (line.contains("pitchboard-robot") &&
-          line.contains(QByteArray::number(m_keyBase + 100))) {
+      if (line.contains("pitchboard-robot") && line.contains(QByteArray::number(m_keyBase + 100))) {
         ++found;
       }
     }
@@ -98,8 +97,10 @@ class TestStudioProcess : public QObject {
     QCOMPARE(picture.size(), QSize(1280, 800));
     // The timeline is below: without a session there is no time to show on it.
     const QImage time = picture.copy(0, 690, 1200, 80);
-    if (file == QStringLiteral("no-such.mcap")) QVERIFY(time != m_timeOfSession);
-    else m_timeOfSession = time;
+    if (file == QStringLiteral("no-such.mcap"))
+      QVERIFY(time != m_timeOfSession);
+    else
+      m_timeOfSession = time;
     // A session starts no robots.
     QCOMPARE(robotProcesses(), 0);
     QCOMPARE(segments(), std::size_t(0));
@@ -110,7 +111,7 @@ class TestStudioProcess : public QObject {
     QTest::addColumn<bool>("clean");
     QTest::newRow("SIGTERM") << SIGTERM << true;
     QTest::newRow("SIGINT") << SIGINT << true;
-    QTest::newRow("SIGKILL") << SIGKILL << false;   // segments cannot be removed then: orphans
+    QTest::newRow("SIGKILL") << SIGKILL << false;  // segments cannot be removed then: orphans
   }
   void nothingIsLeftAfter() {
     QFETCH(int, signal);

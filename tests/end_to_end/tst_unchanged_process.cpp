@@ -26,8 +26,10 @@ class TestUnchangedProcess : public QObject {
   void theGuideShowsThesePrograms_data() {
     QTest::addColumn<QString>("file");
     QTest::addColumn<QString>("language");
-    QTest::newRow("Python") << "naive_robot.py" << "python";
-    QTest::newRow("C++") << "naive_robot.cpp" << "cpp";
+    QTest::newRow("Python") << "naive_robot.py"
+                            << "python";
+    QTest::newRow("C++") << "naive_robot.cpp"
+                         << "cpp";
   }
   void theGuideShowsThesePrograms() {
     QFETCH(QString, file);

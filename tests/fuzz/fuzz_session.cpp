@@ -18,7 +18,8 @@ void lookAt(const std::string& bytes, bool walk) {
   if (!session) return;
   std::vector<SessionRow> rows;
   const auto range = session->range();
-  for (const double time : {-1.0, 0.0, range ? range->begin : 1.0, range ? range->end : 2.0, 1e300}) {
+  for (const double time :
+       {-1.0, 0.0, range ? range->begin : 1.0, range ? range->end : 2.0, 1e300}) {
     session->rowsAt(time, rows);
     if (rows.size() != session->groups().size()) std::abort();
     for (std::size_t g = 0; g < rows.size(); ++g) {

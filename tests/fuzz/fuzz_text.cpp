@@ -19,9 +19,11 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   const auto verdict = monitor.take({now, sender, 1241, false, text});
   const DecodedText& decoded = monitor.decoded();
   if (decoded.count > DecodedText::maxValues) std::abort();
-  if (verdict == TeamMonitor::Verdict::Used && (decoded.robot < 1 || decoded.count < 16)) std::abort();
+  if (verdict == TeamMonitor::Verdict::Used && (decoded.robot < 1 || decoded.count < 16))
+    std::abort();
   // The whole status is a large value: now and then is enough.
   static unsigned rounds = 0;
-  if (++rounds % 64 == 0 && monitor.status(now).robots.size() > MonitorOptions::maxRobots) std::abort();
+  if (++rounds % 64 == 0 && monitor.status(now).robots.size() > MonitorOptions::maxRobots)
+    std::abort();
   return 0;
 }

@@ -109,8 +109,11 @@ class TestMcapReaders : public QObject {
     QList<QByteArray> events;
     for (int i = 0; i < 10; ++i) {
       const double time = (60 * i + 30) / 60.0;
-      const QByteArray json = QStringLiteral(R"({"time":%1,"kind":"kick","group":"B1","text":"kick %2"})")
-                                  .arg(time, 0, 'f', 1).arg(60 * i + 30).toUtf8();
+      const QByteArray json =
+          QStringLiteral(R"({"time":%1,"kind":"kick","group":"B1","text":"kick %2"})")
+              .arg(time, 0, 'f', 1)
+              .arg(60 * i + 30)
+              .toUtf8();
       events << "json /events " + QByteArray::number(i) + " " + times(time) + " " + json.toHex();
     }
     const auto json = ofKind(out.lines, "json");
@@ -119,9 +122,10 @@ class TestMcapReaders : public QObject {
     QVERIFY(ofKind(out.lines, "attachment") ==
             QList<QByteArray>{"attachment scenario.json application/json 7b7d"});
     QVERIFY(out.lines.contains("metadata pitchboard title " + QByteArray("match-3v3").toHex()));
-    QVERIFY(out.lines.contains("schema /robots/B1/row pitchboard_msgs/msg/RowB1 ros2msg "
-                               "float64:source_time int32:decision_action_a int32:vision_working "
-                               "float32:vision_ball_dist float64:truth_x float64:truth_yaw"));
+    QVERIFY(
+        out.lines.contains("schema /robots/B1/row pitchboard_msgs/msg/RowB1 ros2msg "
+                           "float64:source_time int32:decision_action_a int32:vision_working "
+                           "float32:vision_ball_dist float64:truth_x float64:truth_yaw"));
   }
 
   /// Columns with a resolution are single precision there, behind the words and before the doubles.
@@ -129,12 +133,13 @@ class TestMcapReaders : public QObject {
     const std::string path = m_folder.filePath("rounded.mcap").toStdString();
     auto writer = SessionWriter::create(path, sessionInfo());
     QVERIFY(writer);
-    const GroupInfo group{"match",
-                          {{"COUNT", ColumnType::Int32, "", "", ColumnKind::Number, {}},
-                           {"EXACT", ColumnType::Float64, "m", "", ColumnKind::Number, {}},
-                           {"SPEED", ColumnType::Float64, "m/s", "", ColumnKind::Number, {}, 1.0 / 1024},
-                           {"ERROR", ColumnType::Float64, "cm", "", ColumnKind::Number, {}, 1.0 / 4}},
-                          {}};
+    const GroupInfo group{
+        "match",
+        {{"COUNT", ColumnType::Int32, "", "", ColumnKind::Number, {}},
+         {"EXACT", ColumnType::Float64, "m", "", ColumnKind::Number, {}},
+         {"SPEED", ColumnType::Float64, "m/s", "", ColumnKind::Number, {}, 1.0 / 1024},
+         {"ERROR", ColumnType::Float64, "cm", "", ColumnKind::Number, {}, 1.0 / 4}},
+        {}};
     const auto id = (*writer)->addGroup(group);
     const std::uint32_t count = 5;
     const std::array values{0.1, 0.1, -7.3};
@@ -142,11 +147,13 @@ class TestMcapReaders : public QObject {
     QVERIFY((*writer)->finish());
     const Output out = readOfficially(path);
     QVERIFY2(out.code == 0, out.error.constData());
-    QVERIFY(out.lines.contains("schema /match/row pitchboard_msgs/msg/Rowmatch ros2msg "
-                               "float64:source_time int32:count float32:speed float32:error float64:exact"));
-    QCOMPARE(ofKind(out.lines, "row"),
-             QList<QByteArray>{"row /match/row 0 " + times(0.25) + " " + hexOf(0.25) + " " + hexOf(5) + " " +
-                               hexOf(102.0 / 1024) + " " + hexOf(-7.25) + " " + hexOf(0.1)});
+    QVERIFY(out.lines.contains(
+        "schema /match/row pitchboard_msgs/msg/Rowmatch ros2msg "
+        "float64:source_time int32:count float32:speed float32:error float64:exact"));
+    QCOMPARE(
+        ofKind(out.lines, "row"),
+        QList<QByteArray>{"row /match/row 0 " + times(0.25) + " " + hexOf(0.25) + " " + hexOf(5) +
+                          " " + hexOf(102.0 / 1024) + " " + hexOf(-7.25) + " " + hexOf(0.1)});
   }
 
   void repaired() {

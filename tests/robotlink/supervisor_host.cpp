@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // For tst_process_supervisor: starts children, writes a line "child PID" for each, and waits to be
 // killed.
-#include <cstdio>
 #include <robotlink/process_supervisor.h>
 #include <unistd.h>
+#include <cstdio>
 
 int main() {
   pitchboard::link::ProcessSupervisor supervisor;

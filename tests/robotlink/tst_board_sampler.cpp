@@ -43,14 +43,14 @@ class TestBoardSampler : public QObject {
 
     auto store = std::make_shared<SeriesStore>();
     const auto zero = std::chrono::steady_clock::now();
-    auto sampler = BoardSampler::start(segment.key, store,
-                                       {.rate = 1000.0, .group = "peer", .zero = zero},
-                                       VariableCatalog::published());
+    auto sampler =
+        BoardSampler::start(segment.key, store, {.rate = 1000.0, .group = "peer", .zero = zero},
+                            VariableCatalog::published());
     QVERIFY2(sampler, sampler ? "" : sampler.error().message.c_str());
-    const auto id = store->find("peer", "DECISION_ACTION_A");   // int 17
+    const auto id = store->find("peer", "DECISION_ACTION_A");  // int 17
     QVERIFY(id);
-    QTRY_VERIFY_WITH_TIMEOUT(store->view(id->group)->range().value_or(telemetry::TimeRange{}).end > 2.0,
-                             30'000);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        store->view(id->group)->range().value_or(telemetry::TimeRange{}).end > 2.0, 30'000);
     const BoardSamplerStatus status = (*sampler)->status();
     sampler->reset();
     writer.kill();
@@ -93,7 +93,8 @@ class TestBoardSampler : public QObject {
     int readOnly = 0;
     std::ifstream maps("/proc/self/maps");
     for (std::string line; std::getline(maps, line);) {
-      if (line.find(name) != std::string::npos && line.find(" r--s ") != std::string::npos) ++readOnly;
+      if (line.find(name) != std::string::npos && line.find(" r--s ") != std::string::npos)
+        ++readOnly;
     }
     QCOMPARE(readOnly, 1);
     QTRY_VERIFY_WITH_TIMEOUT((*sampler)->status().samples > 100, 20'000);
@@ -148,7 +149,7 @@ class TestBoardSampler : public QObject {
     const auto& catalog = VariableCatalog::published();
     const auto none = BoardSampler::start(segment.key, store, {}, catalog);
     QVERIFY(!none && none.error().code == ErrorCode::NotFound);
-    QVERIFY(!SystemVSegments::info(segment.key));   // looking did not create it
+    QVERIFY(!SystemVSegments::info(segment.key));  // looking did not create it
     for (const double rate : {0.0, -1.0, 1001.0, std::numeric_limits<double>::quiet_NaN()}) {
       const auto wrong = BoardSampler::start(segment.key, store, {.rate = rate}, catalog);
       QVERIFY(!wrong && wrong.error().code == ErrorCode::InvalidArgument);

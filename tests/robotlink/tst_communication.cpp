@@ -2,12 +2,12 @@
 #include <robotlink/cognitive_process.h>
 #include <robotlink/robot_variables.h>
 
-#include <QtTest>
 #include <arpa/inet.h>
-#include <limits>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <QtTest>
+#include <limits>
 
 #include "udp_sender.h"
 

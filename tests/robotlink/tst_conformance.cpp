@@ -62,8 +62,7 @@ class TestConformance : public QObject {
     };
     QTest::newRow("empty") << QByteArray() << QStringLiteral("Not a trace: ");
     QTest::newRow("not JSON") << QByteArray("frames: 3") << QStringLiteral("Not a trace: ");
-    QTest::newRow("a list") << QByteArray("[]")
-                            << QStringLiteral("the trace must be an object");
+    QTest::newRow("a list") << QByteArray("[]") << QStringLiteral("the trace must be an object");
     QTest::newRow("no name") << without(R"("name":"t",)", "")
                              << QStringLiteral("the trace has no \"name\"");
     QTest::newRow("negative frames") << without(R"("frames":1)", R"("frames":-1)")

@@ -18,7 +18,9 @@ std::unique_ptr<MatchRunner> start(const Scenario& scenario, bool paused) {
   return std::move(*runner);
 }
 
-Scenario builtIn(const char* name) { return loadScenario(name).value(); }
+Scenario builtIn(const char* name) {
+  return loadScenario(name).value();
+}
 
 std::uint64_t hashOf(MatchRunner& runner) {
   std::uint64_t hash = 0;
@@ -93,9 +95,7 @@ class TestMatchRunner : public QObject {
     auto runner = start(builtIn("one-robot"), true);
     std::vector<int> order;
     for (int i = 0; i < 5; ++i) runner->post([&order, i](SimulatedMatch&) { order.push_back(i); });
-    runner->execute([](SimulatedMatch& match) {
-      (void)match.simulation().placeBall({1, 1});
-    });
+    runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
     QCOMPARE(order, (std::vector<int>{0, 1, 2, 3, 4}));
     QTRY_COMPARE(runner->latest()->snapshot.ball, (Point{1, 1}));
   }
@@ -126,8 +126,8 @@ class TestMatchRunner : public QObject {
   void observersSeeEveryTickOnce() {
     const auto first = std::make_shared<Notes>();
     const auto late = std::make_shared<Notes>();
-    auto runner = std::move(*MatchRunner::start(builtIn("one-robot"), {}, true,
-                                                VariableCatalog::published(), {first}));
+    auto runner = std::move(
+        *MatchRunner::start(builtIn("one-robot"), {}, true, VariableCatalog::published(), {first}));
     runner->runTo(600);
     QVERIFY(runner->waitUntilStill(20s));
     runner->observe(late);
@@ -142,7 +142,7 @@ class TestMatchRunner : public QObject {
     std::vector<std::uint64_t> distinct = first->ticks;
     QVERIFY(std::is_sorted(distinct.begin(), distinct.end()));
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    QCOMPARE(distinct.size(), std::size_t{1202});   // 0 to 1201
+    QCOMPARE(distinct.size(), std::size_t{1202});  // 0 to 1201
     QCOMPARE(first->timed, std::size_t{1201});
     QCOMPARE(late->ticks.front(), std::uint64_t{600});
     QCOMPARE(late->ticks.back(), std::uint64_t{1200});
@@ -153,8 +153,8 @@ class TestMatchRunner : public QObject {
 
   void observersSeeWhatACommandDidToAMatchThatStandsStill() {
     const auto notes = std::make_shared<Notes>();
-    auto runner = std::move(*MatchRunner::start(builtIn("one-robot"), {}, true,
-                                                VariableCatalog::published(), {notes}));
+    auto runner = std::move(
+        *MatchRunner::start(builtIn("one-robot"), {}, true, VariableCatalog::published(), {notes}));
     QVERIFY(runner->waitUntilStill(10s));
     runner->execute([](SimulatedMatch& match) { (void)match.simulation().placeBall({1, 1}); });
     runner->stopObserving(notes);

@@ -3,9 +3,9 @@
 
 #include <QtTest>
 
+#include <resources/resources.h>
 #include <bit>
 #include <numbers>
-#include <resources/resources.h>
 
 #include <base/angles.h>
 #include <robotlink/match_sampler.h>
@@ -71,8 +71,8 @@ class TestMatchSampler : public QObject {
     QCOMPARE(rig.latest("match", "CLOCK"), now.clock);
     QCOMPARE(rig.latest("match", "TICK_TIME"), 12.0);
     for (const sim::RobotSnapshot& robot : now.robots) {
-      const std::string name = std::string(info(robot.identity.team).letter) +
-                               std::to_string(robot.identity.number);
+      const std::string name =
+          std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
       QCOMPARE(rig.latest(name.c_str(), "TRUE_X"), robot.pose.position.x);
       QCOMPARE(rig.latest(name.c_str(), "TRUE_Y"), robot.pose.position.y);
       QCOMPARE(rig.latest(name.c_str(), "TRUE_YAW"), degreesFromRadians(robot.pose.yaw));
@@ -106,8 +106,9 @@ class TestMatchSampler : public QObject {
   void errorsOfBeliefAndVision() {
     Rig rig("one-robot");
     const RobotId id = rig.match.simulation().state().robots.front().id;
-    const std::string group = std::string(info(rig.match.simulation().state().robots.front().team).letter) +
-                              std::to_string(rig.match.simulation().state().robots.front().number);
+    const std::string group =
+        std::string(info(rig.match.simulation().state().robots.front().team).letter) +
+        std::to_string(rig.match.simulation().state().robots.front().number);
     const char* const name = group.c_str();
     Blackboard& board = *rig.match.blackboard(id);
     const RobotVariables& v = rig.match.variables();
@@ -120,7 +121,7 @@ class TestMatchSampler : public QObject {
     board.write(v.localizationBelief, 0.0F);
     board.write(v.visionLost, 1);
     rig.sampler.ticked(rig.match, {});
-    QVERIFY(std::isnan(rig.latest(name, "BELIEF_ERROR")));   // nobody has said anything yet
+    QVERIFY(std::isnan(rig.latest(name, "BELIEF_ERROR")));  // nobody has said anything yet
     QVERIFY(std::isnan(rig.latest(name, "BALL_ERROR")));
     QCOMPARE(rig.latest(name, "TRUE_BALL_DIST"), 100.0);
     QCOMPARE(rig.latest(name, "TRUE_BALL_ANGLE"), 0.0);
@@ -136,7 +137,8 @@ class TestMatchSampler : public QObject {
     rig.sampler.ticked(rig.match, {});
     const auto near = [&](const char* column, double wanted) {
       const double found = rig.latest(name, column);
-      QVERIFY2(std::abs(found - wanted) < 1e-9, qPrintable(QString("%1: %2").arg(column).arg(found)));
+      QVERIFY2(std::abs(found - wanted) < 1e-9,
+               qPrintable(QString("%1: %2").arg(column).arg(found)));
     };
     near("BELIEF_X", 0.3);
     near("BELIEF_Y", -0.4);
@@ -188,8 +190,10 @@ class TestMatchSampler : public QObject {
     QTest::newRow("no rules") << QByteArray("{}") << "rules";
     QTest::newRow("no name") << QByteArray(R"({"rules": [{"unit": "cm"}]})") << "name";
     QTest::newRow("kind") << QByteArray(R"({"rules": [{"name": "A", "kind": "flagg"}]})") << "flag";
-    QTest::newRow("labels") << QByteArray(R"({"rules": [{"name": "A", "labels": {"x": "y"}}]})") << "x";
-    QTest::newRow("labels text") << QByteArray(R"({"rules": [{"name": "A", "labels": 3}]})") << "actions";
+    QTest::newRow("labels") << QByteArray(R"({"rules": [{"name": "A", "labels": {"x": "y"}}]})")
+                            << "x";
+    QTest::newRow("labels text") << QByteArray(R"({"rules": [{"name": "A", "labels": 3}]})")
+                                 << "actions";
     QTest::newRow("key") << QByteArray(R"({"rules": [{"name": "A", "color": "red"}]})") << "color";
     QTest::newRow("not JSON") << QByteArray("{") << "file";
   }
@@ -224,7 +228,7 @@ class TestMatchSampler : public QObject {
     QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});
     QVERIFY(rig.match.removeRobot(robot.identity.id));
     rig.play(10);
-    QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});   // its past stays
+    QCOMPARE(rig.store->view(*red)->rows(), std::size_t{10});  // its past stays
     QCOMPARE(rig.latest("match", "TICK"), 30.0);
   }
 
@@ -242,9 +246,9 @@ class TestMatchSampler : public QObject {
   /// As the program uses it.
   void besideARunner() {
     auto store = std::make_shared<SeriesStore>();
-    auto runner = MatchRunner::start(loadScenario("match-3v3").value(), {}, true,
-                                     VariableCatalog::published(),
-                                     {std::make_shared<MatchSampler>(store)});
+    auto runner =
+        MatchRunner::start(loadScenario("match-3v3").value(), {}, true,
+                           VariableCatalog::published(), {std::make_shared<MatchSampler>(store)});
     QVERIFY(runner);
     (*runner)->runTo(200);
     QVERIFY((*runner)->waitUntilStill(std::chrono::seconds(60)));

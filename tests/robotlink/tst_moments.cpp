@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Looking back at a simulated match: frames from rows, sessions, exact re-entry, scenarios of moments.
+// Looking back at a simulated match: frames from rows, sessions, exact re-entry, scenarios of
+// moments.
 #include <QtTest>
 
 #include <random>
@@ -165,7 +166,8 @@ class TestMoments : public QObject {
     // Before the first row there is nothing, and that is no error.
     QVERIFY(frames.frameAt(session, -5).snapshot.robots.empty());
     const auto events = session.events();
-    QVERIFY(std::any_of(events.begin(), events.end(), [](const auto& e) { return e.kind == "kick"; }));
+    QVERIFY(
+        std::any_of(events.begin(), events.end(), [](const auto& e) { return e.kind == "kick"; }));
   }
 
   void aRecordedMomentIsEnteredExactly() {
@@ -178,8 +180,8 @@ class TestMoments : public QObject {
       const auto fromFile = momentFromSession(session, seconds, VariableCatalog::published());
       QVERIFY2(fromFile, fromFile ? "" : fromFile.error().text().c_str());
       QVERIFY2(sim::stateHash(fromFile->state) == seen.hash, qPrintable(QString::number(tick)));
-      const auto fromMemory = momentFromMemory(*m_match->archive, m_match->store, tick,
-                                               VariableCatalog::published());
+      const auto fromMemory =
+          momentFromMemory(*m_match->archive, m_match->store, tick, VariableCatalog::published());
       QVERIFY2(fromMemory, fromMemory ? "" : fromMemory.error().text().c_str());
       QVERIFY(sim::stateHash(fromMemory->state) == seen.hash);
       for (const Moment& moment : {*fromFile, *fromMemory}) {
@@ -208,8 +210,8 @@ class TestMoments : public QObject {
     QCOMPARE(match.behaviour(RobotId{9}), std::string_view("striker"));
     const auto& names = match.variables();
     QCOMPARE(std::bit_cast<std::uint32_t>(match.blackboard(RobotId{9})->read(names.controlAction)),
-             m_match->witness->seen.at(900).boards.at(9)[static_cast<std::size_t>(
-                 names.controlAction.index)]);
+             m_match->witness->seen.at(900).boards.at(
+                 9)[static_cast<std::size_t>(names.controlAction.index)]);
     for (int i = 0; i < 100; ++i) match.tick();
     QCOMPARE(match.simulation().state().tick, std::uint64_t{1000});
     Scenario other = m_match->scenario;
@@ -244,8 +246,8 @@ class TestMoments : public QObject {
   }
 
   void anExistingFileIsNeverWrittenOver() {
-    const auto again = MatchRecorder::create(m_match->path, m_match->scenario,
-                                             VariableCatalog::published());
+    const auto again =
+        MatchRecorder::create(m_match->path, m_match->scenario, VariableCatalog::published());
     QVERIFY(!again);
     QCOMPARE(again.error().code, ErrorCode::Conflict);
   }
@@ -281,8 +283,8 @@ class TestMoments : public QObject {
     QCOMPARE(start.robots.size(), frame.snapshot.robots.size());
     for (std::size_t i = 0; !believed && i < start.robots.size(); ++i) {
       QVERIFY(std::hypot(start.robots[i].pose.position.x - frame.snapshot.robots[i].pose.position.x,
-                         start.robots[i].pose.position.y - frame.snapshot.robots[i].pose.position.y) <
-              0.05);
+                         start.robots[i].pose.position.y -
+                             frame.snapshot.robots[i].pose.position.y) < 0.05);
     }
     for (int i = 0; i < 600; ++i) match->tick();
     const auto text = scenarioToJson(made.scenario);
@@ -294,8 +296,8 @@ class TestMoments : public QObject {
     frame.origin = FrameOrigin::Live;
     frame.truthKnown = frame.ballKnown = false;
     const double nan = std::nan("");
-    const std::vector<Pose> poses{{{99, 99}, 0}, {{nan, 0}, nan}, {{1, 1}, 0}, {{1, 1}, 3},
-                                  {{1.05, 1}, 9}, {{-4, 0}, 1}, {{0, 0}, 0}};
+    const std::vector<Pose> poses{{{99, 99}, 0},  {{nan, 0}, nan}, {{1, 1}, 0}, {{1, 1}, 3},
+                                  {{1.05, 1}, 9}, {{-4, 0}, 1},    {{0, 0}, 0}};
     for (std::size_t i = 0; i < poses.size(); ++i) {
       sim::RobotSnapshot robot;
       robot.identity.id.value = i == 1 ? 70000 : static_cast<int>(i % 5);
@@ -352,8 +354,8 @@ class TestMoments : public QObject {
     for (auto& board : frame.boards) board.visionLost = true;
     made = scenarioFromMoment(frame);
     QVERIFY(made.scenario.ball == Point{});
-    QCOMPARE(made.notes, (std::vector<std::string>{
-                             "No robot sees the ball; it lies on the centre mark."}));
+    QCOMPARE(made.notes,
+             (std::vector<std::string>{"No robot sees the ball; it lies on the centre mark."}));
     frame.referee.emplace();
     frame.referee->state = "SET";
     frame.referee->secondsLeft = 500;
@@ -365,8 +367,13 @@ class TestMoments : public QObject {
 
   void missingColumnsAreNoError() {
     telemetry::SeriesStore store;
-    telemetry::GroupInfo strange{"X1", {{"NEVER_HEARD_OF", telemetry::ColumnType::Int32, "", "",
-                                         telemetry::ColumnKind::Number, {}}},
+    telemetry::GroupInfo strange{"X1",
+                                 {{"NEVER_HEARD_OF",
+                                   telemetry::ColumnType::Int32,
+                                   "",
+                                   "",
+                                   telemetry::ColumnKind::Number,
+                                   {}}},
                                  {{"robot", "1"}, {"number", "999999999999"}, {"team", "green"}}};
     const auto id = store.addGroup(strange);
     const std::uint32_t word = 7;
@@ -390,7 +397,8 @@ class TestMoments : public QObject {
     QCOMPARE(view->secondsLeft, -7);
     QCOMPARE(view->teams[0].score, 2);
     QVERIFY(!view->teams[0].colour.empty());
-    for (const char* bad : {"", "[]", "{", "{\"stateName\":3}", "{\"stateName\":\"x\",\"teams\":[1]}"}) {
+    for (const char* bad :
+         {"", "[]", "{", "{\"stateName\":3}", "{\"stateName\":\"x\",\"teams\":[1]}"}) {
       const auto read = refereeFromJson(bad);
       QVERIFY(!read || read->state == "x");
     }

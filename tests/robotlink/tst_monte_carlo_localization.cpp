@@ -77,10 +77,12 @@ class TestMonteCarloLocalization : public QObject {
     QFETCH(int, zero);
     QFETCH(bool, facesLeft);
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      auto filter = MonteCarloLocalization::create({}, {}, static_cast<ImuZero>(zero), seed).value();
+      auto filter =
+          MonteCarloLocalization::create({}, {}, static_cast<ImuZero>(zero), seed).value();
       CounterRandom random(seed, 5, NoiseStream::Behaviour, 0);
       Walker walker;
-      walker.pose = {{8 * random.uniform() - 4, 5 * random.uniform() - 2.5}, 6 * random.uniform() - 3};
+      walker.pose = {{8 * random.uniform() - 4, 5 * random.uniform() - 2.5},
+                     6 * random.uniform() - 3};
       walker.facesLeft = facesLeft;
       walker.seed = seed;
       std::vector<double> errors;
@@ -89,9 +91,11 @@ class TestMonteCarloLocalization : public QObject {
         if (i >= 200) errors.push_back(error(filter, walker));
       }
       std::sort(errors.begin(), errors.end());
-      QVERIFY2(errors[errors.size() / 2] < 0.25,
-               qPrintable(QString("seed %1: median %2 m").arg(seed).arg(errors[errors.size() / 2])));
-      QVERIFY(std::abs(wrapToPi(filter.belief().pose.yaw - walker.pose.yaw)) < radiansFromDegrees(10));
+      QVERIFY2(
+          errors[errors.size() / 2] < 0.25,
+          qPrintable(QString("seed %1: median %2 m").arg(seed).arg(errors[errors.size() / 2])));
+      QVERIFY(std::abs(wrapToPi(filter.belief().pose.yaw - walker.pose.yaw)) <
+              radiansFromDegrees(10));
     }
   }
 
@@ -136,7 +140,9 @@ class TestMonteCarloLocalization : public QObject {
   }
 
   void publishedParametersKeepTheirNumber() {
-    auto filter = MonteCarloLocalization::create({}, LocalizationParameters::published(), ImuZero::Right).value();
+    auto filter =
+        MonteCarloLocalization::create({}, LocalizationParameters::published(), ImuZero::Right)
+            .value();
     Walker walker;
     walker.pose = {{-2, 1}, 0};
     for (int i = 0; i < 300; ++i) {
@@ -161,7 +167,8 @@ class TestMonteCarloLocalization : public QObject {
   void startsFromAKnownPose() {
     auto filter = MonteCarloLocalization::create({}).value();
     filter.reset({{1, 2}, 0.5}, 0.1);
-    QVERIFY(std::hypot(filter.belief().pose.position.x - 1, filter.belief().pose.position.y - 2) < 0.02);
+    QVERIFY(std::hypot(filter.belief().pose.position.x - 1, filter.belief().pose.position.y - 2) <
+            0.02);
     QVERIFY(std::abs(filter.belief().sigma - 0.1 * std::sqrt(2.0)) < 0.01);
   }
 

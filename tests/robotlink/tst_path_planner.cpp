@@ -50,12 +50,14 @@ class TestPathPlanner : public QObject {
     const Path path = planner.plan({-2, 0}, {2, 0}, obstacles);
     QVERIFY(path.complete);
     QVERIFY(isFree(path, obstacles));
-    for (const Point& p : path.points) QVERIFY(p.y < 0.01);  // below: the centre lies above the line
+    for (const Point& p : path.points)
+      QVERIFY(p.y < 0.01);  // below: the centre lies above the line
     // The exact shortest path: two tangents and an arc.
     const double d = std::hypot(2.0, 0.1), tangent = std::sqrt(d * d - 0.25);
     const double arc = 0.5 * (std::numbers::pi - 2 * std::acos(0.5 / d) - 2 * std::atan2(0.1, 2.0));
     const double exact = 2 * tangent + arc;
-    QVERIFY2(path.length > exact - 1e-6 && path.length < 1.03 * exact, qPrintable(QString::number(path.length / exact)));
+    QVERIFY2(path.length > exact - 1e-6 && path.length < 1.03 * exact,
+             qPrintable(QString::number(path.length / exact)));
   }
 
   void startInsideAnObstacleLeadsOut() {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/process_supervisor.h>
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <QDir>
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <csignal>
-#include <fcntl.h>
-#include <unistd.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -58,8 +58,8 @@ class TestProcessSupervisor : public QObject {
     QTest::newRow("code") << QByteArray("exit 3") << true << QByteArray("exit code 3");
     QTest::newRow("crash") << QByteArray("kill -SEGV $$") << true
                            << QByteArray("killed by signal 11 (Segmentation fault)");
-    QTest::newRow("SIGTERM of somebody") << QByteArray("kill $$") << true
-                                         << QByteArray("killed by signal 15 (Terminated)");
+    QTest::newRow("SIGTERM of somebody")
+        << QByteArray("kill $$") << true << QByteArray("killed by signal 15 (Terminated)");
   }
   void ends() {
     QFETCH(QByteArray, script);
@@ -89,7 +89,9 @@ class TestProcessSupervisor : public QObject {
   void cutsLongLinesBetweenCharacters() {
     ProcessSupervisor supervisor;
     QVERIFY(supervisor.start(
-        {{1}, "test", {"python3", "-c", "import os; os.write(1, b'x' * 999 + b'\\xc3\\xa9' * 900000)"}}));
+        {{1},
+         "test",
+         {"python3", "-c", "import os; os.write(1, b'x' * 999 + b'\\xc3\\xa9' * 900000)"}}));
     QTRY_VERIFY(ended(supervisor));
     const std::vector<ChildLine> lines = supervisor.takeLines();
     QCOMPARE(lines.size(), std::size_t{1});

@@ -23,7 +23,7 @@ class StoreSink : public telemetry::RowSink {
   telemetry::SeriesStore& m_store;
 };
 
-constexpr double played = 60.0;   // s
+constexpr double played = 60.0;  // s
 
 }  // namespace
 
@@ -31,7 +31,7 @@ class TestReport : public QObject {
   Q_OBJECT
   telemetry::SeriesStore m_store;
   sim::Snapshot m_end;
-  std::vector<float> m_errors;       // of the first robot
+  std::vector<float> m_errors;  // of the first robot
   SessionStatistics m_statistics;
 
  private slots:
@@ -96,15 +96,17 @@ class TestReport : public QObject {
     content.title = "3 against 3 <script>alert(1)</script>";
     content.session.source = "simulation";
     content.session.seed = 7;
-    content.session.start = std::chrono::sys_days(std::chrono::year{2026} / 7 / 4) + std::chrono::hours(12);
+    content.session.start =
+        std::chrono::sys_days(std::chrono::year{2026} / 7 / 4) + std::chrono::hours(12);
     content.session.program = "pitchboard";
     content.statistics = m_statistics;
     content.events = {{12.34, "goal", "", "goal for the left side"},
                       {20.0, "kick", "B1", "B1: kick left"},
                       {30.0, "bookmark", "", "<b>look</b>"},
                       {999.0, "goal", "", "after the end"}};
-    content.picture = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 104 74\"><rect width=\"104\" "
-                      "height=\"74\" fill=\"#33453a\"/></svg>";
+    content.picture =
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 104 74\"><rect width=\"104\" "
+        "height=\"74\" fill=\"#33453a\"/></svg>";
     content.pictureCaption = "The field at 0:30";
     content.notes = {"The recording broke off."};
     const QString html = QString::fromStdString(reportHtml(content));

@@ -76,12 +76,27 @@ class TestRobotThoughts : public QObject {
 
   void badDatagrams_data() {
     QTest::addColumn<QByteArray>("datagram");
-    for (const char* text :
-         {"", "PBT1", "PBT1 cloud", "PBT1 cloud 1", "PBT1 cloud 1 5 0 0 0", "PBT1 cloud 0 5 0 0 0 0",
-          "PBT1 cloud 65 5 0 0 0 0", "PBT1 cloud 1 5 0 0 0 0 1", "PBT1 cloud 1 5 0 0 0 -3",
-          "PBT1 cloud 1 5 0 0 0 0 ", "PBT1 cloud 1 5 x 0 0 0", "PBT1 cloud 1 5 99999999999999999999 0 0 0",
-          "PBT1 cloudy 1 5 0 0 0 0", "PBT1 path", "PBT1 path 1", "PBT1 path 1 2", "PBT1 path 1 1 5",
-          "PBT1 path 1 1 5 nan", "PBT1 path 1 1  5 5", "1 PB1 1 0 0 0 0 0 0 -1", "pBT1 path 1 1"}) {
+    for (const char* text : {"",
+                             "PBT1",
+                             "PBT1 cloud",
+                             "PBT1 cloud 1",
+                             "PBT1 cloud 1 5 0 0 0",
+                             "PBT1 cloud 0 5 0 0 0 0",
+                             "PBT1 cloud 65 5 0 0 0 0",
+                             "PBT1 cloud 1 5 0 0 0 0 1",
+                             "PBT1 cloud 1 5 0 0 0 -3",
+                             "PBT1 cloud 1 5 0 0 0 0 ",
+                             "PBT1 cloud 1 5 x 0 0 0",
+                             "PBT1 cloud 1 5 99999999999999999999 0 0 0",
+                             "PBT1 cloudy 1 5 0 0 0 0",
+                             "PBT1 path",
+                             "PBT1 path 1",
+                             "PBT1 path 1 2",
+                             "PBT1 path 1 1 5",
+                             "PBT1 path 1 1 5 nan",
+                             "PBT1 path 1 1  5 5",
+                             "1 PB1 1 0 0 0 0 0 0 -1",
+                             "pBT1 path 1 1"}) {
       QTest::addRow("%s", text) << QByteArray(text);
     }
     QByteArray flood = "PBT1 path 1 1";
@@ -198,7 +213,8 @@ class TestRobotThoughts : public QObject {
       const auto frame = runner->latest();
       const RobotThoughts* first = frame ? of(frame->thoughts, 1) : nullptr;
       if (!first || !first->cloud) return most;
-      for (const Particle& p : first->cloud->particles) most = std::max(most, std::abs(p.position.x));
+      for (const Particle& p : first->cloud->particles)
+        most = std::max(most, std::abs(p.position.x));
       return most;
     };
     // It starts anywhere on the field, so some particle lies far outside a field of 9 metres.

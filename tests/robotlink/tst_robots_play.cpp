@@ -30,7 +30,8 @@ double beliefError(const SimulatedMatch& match, int robot, double* yaw = nullptr
 }
 
 /// One robot alone on the field.
-Scenario alone(const std::string& behaviour, TeamColor team, const Pose& pose, const std::string& noise) {
+Scenario alone(const std::string& behaviour, TeamColor team, const Pose& pose,
+               const std::string& noise) {
   Scenario scenario = soccerMatch(noise, 5).value();
   scenario.robots.resize(1);
   ScenarioRobot& robot = scenario.robots[0];
@@ -65,7 +66,8 @@ class TestRobotsPlay : public QObject {
         yaws.push_back(yaw);
       }
     }
-    qInfo("after 20 s: median %.2f m, worst of 60 %.2f m", quantile(errors, 0.5), quantile(errors, 1));
+    qInfo("after 20 s: median %.2f m, worst of 60 %.2f m", quantile(errors, 0.5),
+          quantile(errors, 1));
     QVERIFY(quantile(errors, 0.5) < 0.25);
     QVERIFY(quantile(errors, 1) < 0.6);
     QVERIFY(quantile(yaws, 1) < radiansFromDegrees(8));
@@ -80,8 +82,10 @@ class TestRobotsPlay : public QObject {
       match.tick();
       QVERIFY(beliefError(match, 1) > 1.0);
       run(match, 20);
-      QVERIFY2(beliefError(match, 1) < 0.5, qPrintable(QString("seed %1: %2").arg(seed).arg(beliefError(match, 1))));
-      QVERIFY2(beliefError(match, 5) < 0.5, qPrintable(QString("seed %1: %2").arg(seed).arg(beliefError(match, 5))));
+      QVERIFY2(beliefError(match, 1) < 0.5,
+               qPrintable(QString("seed %1: %2").arg(seed).arg(beliefError(match, 1))));
+      QVERIFY2(beliefError(match, 5) < 0.5,
+               qPrintable(QString("seed %1: %2").arg(seed).arg(beliefError(match, 5))));
     }
   }
 
@@ -91,7 +95,8 @@ class TestRobotsPlay : public QObject {
     QTest::addColumn<double>("heading");
     QTest::newRow("blue to the right") << static_cast<int>(TeamColor::Blue) << -2.0 << 0.0;
     QTest::newRow("red to the left") << static_cast<int>(TeamColor::Red) << 2.0 << std::numbers::pi;
-    QTest::newRow("blue starts on the wrong side of the ball") << static_cast<int>(TeamColor::Blue) << 1.5 << 0.0;
+    QTest::newRow("blue starts on the wrong side of the ball")
+        << static_cast<int>(TeamColor::Blue) << 1.5 << 0.0;
   }
   void aLonelyStrikerScores() {
     QFETCH(int, team);
@@ -124,7 +129,7 @@ class TestRobotsPlay : public QObject {
     const Pose pose = match.simulation().robotPose(RobotId{1}).value();
     QVERIFY(pose.position.x < -3.5);
     QVERIFY(std::abs(pose.position.y) < 0.9);
-    QVERIFY(pose.position.y > 0.05);        // towards the ball's side
+    QVERIFY(pose.position.y > 0.05);  // towards the ball's side
   }
 
   void theRefereeIsObeyed_data() {
@@ -149,7 +154,7 @@ class TestRobotsPlay : public QObject {
     run(match, 45);
     for (const auto& robot : match.simulation().snapshot().robots) {
       const bool blue = robot.identity.team == TeamColor::Blue;
-      QVERIFY((blue ? -1 : 1) * robot.pose.position.x > 0.5);   // own half
+      QVERIFY((blue ? -1 : 1) * robot.pose.position.x > 0.5);  // own half
       if (robot.identity.number == 1) {
         QVERIFY(std::hypot(std::abs(robot.pose.position.x) - 1.1, robot.pose.position.y) < 0.5);
       }
@@ -186,7 +191,8 @@ class TestRobotsPlay : public QObject {
       scored += m.left + m.right > 0;
       touching += m.touchShare / seeds;
     }
-    qInfo("%d goals, %d of %d matches with one, touching %.1f %% of the time", goals, scored, seeds, 100 * touching);
+    qInfo("%d goals, %d of %d matches with one, touching %.1f %% of the time", goals, scored, seeds,
+          100 * touching);
     QVERIFY(2 * scored > seeds);
     QVERIFY(touching < 0.05);
   }

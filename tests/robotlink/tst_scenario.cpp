@@ -13,10 +13,13 @@ using namespace pitchboard::link;
 
 namespace {
 
-Result<Scenario> read(const std::string& text) { return scenarioFromJson(text, "my.json"); }
+Result<Scenario> read(const std::string& text) {
+  return scenarioFromJson(text, "my.json");
+}
 
 std::string robot(const std::string& keys) {
-  return "{\"version\": 1,\n\"robots\": [\n{\"team\": \"blue\", \"number\": 1, \"x\": 0, \"y\": 0},\n{" +
+  return "{\"version\": 1,\n\"robots\": [\n{\"team\": \"blue\", \"number\": 1, \"x\": 0, \"y\": "
+         "0},\n{" +
          keys + "}\n]}";
 }
 
@@ -142,15 +145,18 @@ class TestScenario : public QObject {
     row("unknown behaviour",
         robot("\"team\": \"red\", \"number\": 1, \"x\": 1, \"y\": 1, \"behaviour\": \"naif\""),
         "my.json:4: robots[1].behaviour: there is no behaviour \"naif\"; did you mean \"naive\"?");
-    row("unknown variable", "{\"version\":1,\"writes\":[{\"variable\":\"COM_REFERE\",\"value\":1}]}",
-        "my.json:1: writes[0].variable: there is no blackboard variable \"COM_REFERE\"; did you mean "
+    row("unknown variable",
+        "{\"version\":1,\"writes\":[{\"variable\":\"COM_REFERE\",\"value\":1}]}",
+        "my.json:1: writes[0].variable: there is no blackboard variable \"COM_REFERE\"; did you "
+        "mean "
         "\"COM_REFEREE\"?");
     row("int variable with a fraction",
         "{\"version\":1,\"writes\":[{\"variable\":\"COM_REFEREE\",\"value\":1.5}]}",
         "my.json:1: writes[0].value: must be a whole number from -2147483648 to 2147483647");
     row("write for nobody",
         "{\"version\":1,\"writes\":[{\"robot\":4,\"variable\":\"COM_REFEREE\",\"value\":1}]}",
-        "my.json:1: writes[0].robot: there is no robot 4 in this scenario; leave it out to mean every "
+        "my.json:1: writes[0].robot: there is no robot 4 in this scenario; leave it out to mean "
+        "every "
         "robot");
     row("unknown preset", "{\"version\":1,\"noise\":\"papers\"}",
         "my.json:1: noise: there is no noise preset \"papers\"; did you mean \"paper\"?");
@@ -215,10 +221,18 @@ class TestScenario : public QObject {
       for (int change = 0; change < 1 + i % 4; ++change) {
         const std::size_t at = random() % text.size();
         switch (random() % 4) {
-          case 0: text[at] = alphabet[random() % alphabet.size()]; break;
-          case 1: text.erase(at, 1 + random() % 20); break;
-          case 2: text.insert(at, 1, alphabet[random() % alphabet.size()]); break;
-          default: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
+          case 0:
+            text[at] = alphabet[random() % alphabet.size()];
+            break;
+          case 1:
+            text.erase(at, 1 + random() % 20);
+            break;
+          case 2:
+            text.insert(at, 1, alphabet[random() % alphabet.size()]);
+            break;
+          default:
+            text.insert(at, text.substr(random() % text.size(), random() % 40));
+            break;
         }
         if (text.empty()) text = " ";
       }
@@ -237,7 +251,8 @@ class TestScenario : public QObject {
     QCOMPARE(loadScenario("match-3v4").error().message,
              std::string("there is no built-in scenario and no file \"match-3v4\"; did you mean "
                          "\"match-3v3\"?"));
-    QVERIFY(loadScenario("/nonexistent/a.json").error().text().starts_with("/nonexistent/a.json: "));
+    QVERIFY(
+        loadScenario("/nonexistent/a.json").error().text().starts_with("/nonexistent/a.json: "));
     QVERIFY(!loadScenario("/"));
   }
 
@@ -247,10 +262,10 @@ class TestScenario : public QObject {
     const QByteArray text = file.readAll();
     Scenario all;  // every key differs from its default, so that the writer names it
     sim::NoiseParameters& n = all.settings.noise;
-    for (double* value : {&n.forward, &n.sideways, &n.rotation, &n.kickSpeed, &n.kickAngle,
-                          &n.visionDistance, &n.visionBearing, &n.robotDistance, &n.robotBearing,
-                          &n.landmarkBearing, &n.landmarkProbability, &n.missedDetection,
-                          &n.visionDelay, &n.imuWhite, &n.imuDrift}) {
+    for (double* value :
+         {&n.forward, &n.sideways, &n.rotation, &n.kickSpeed, &n.kickAngle, &n.visionDistance,
+          &n.visionBearing, &n.robotDistance, &n.robotBearing, &n.landmarkBearing,
+          &n.landmarkProbability, &n.missedDetection, &n.visionDelay, &n.imuWhite, &n.imuDrift}) {
       *value = 0.123;
     }
     const QString written = QString::fromStdString(scenarioToJson(all));

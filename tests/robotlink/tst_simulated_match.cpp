@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
+#include <unistd.h>
 #include <atomic>
 #include <cstdlib>
 #include <new>
-#include <unistd.h>
 
 #include <robotlink/simulated_match.h>
 
@@ -23,8 +23,12 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 #endif
 
 using namespace pitchboard;
@@ -33,10 +37,13 @@ using namespace pitchboard::link;
 namespace {
 
 int keyBase() {
-  return 100000 + static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
+  return 100000 +
+         static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
 }
 
-Scenario builtIn(const char* name) { return loadScenario(name).value(); }
+Scenario builtIn(const char* name) {
+  return loadScenario(name).value();
+}
 
 SimulatedMatch make(const Scenario& scenario, const MatchOptions& options = {}) {
   auto match = SimulatedMatch::create(scenario, options);
@@ -97,8 +104,8 @@ class TestSimulatedMatch : public QObject {
   void scriptedWritesHappenBeforeTheirTick() {
     Scenario scenario = builtIn("one-robot");
     scenario.robots[0].behaviour = std::string(noBehaviour);
-    scenario.writes = {writeAt(0, 0, "DECISION_ACTION_B", 3), writeAt(0.5, 1, "DECISION_ACTION_A", 2),
-                       writeAt(0.5, 1, "IMU_STATE", 0)};
+    scenario.writes = {writeAt(0, 0, "DECISION_ACTION_B", 3),
+                       writeAt(0.5, 1, "DECISION_ACTION_A", 2), writeAt(0.5, 1, "IMU_STATE", 0)};
     auto match = make(scenario);
     const RobotVariables& v = match.variables();
     QCOMPARE(match.blackboard(RobotId{1})->read(v.decisionActionB), 3);

@@ -43,7 +43,9 @@ SimulatedMatch played(const Scenario& scenario, int ticks) {
   return match;
 }
 
-Result<sim::WorldState> decode(std::string_view bytes) { return decodeState(bytes); }
+Result<sim::WorldState> decode(std::string_view bytes) {
+  return decodeState(bytes);
+}
 
 }  // namespace
 
@@ -122,7 +124,8 @@ class TestStateArchive : public QObject {
   }
 
   void aLaterFormIsNamed() {
-    std::string bytes = encodeState(played(scenarioOf("one-robot", "published"), 1).simulation().state());
+    std::string bytes =
+        encodeState(played(scenarioOf("one-robot", "published"), 1).simulation().state());
     bytes[4] = 9;
     QCOMPARE(decode(bytes).error().code, ErrorCode::Unsupported);
     QVERIFY(decode(bytes).error().message.find("later version") != std::string::npos);
@@ -136,7 +139,8 @@ class TestStateArchive : public QObject {
     auto archive = std::make_shared<StateArchive>();
     auto log = std::make_shared<HashLog>();
     auto runner = MatchRunner::start(scenarioOf("match-3v3", physics), {}, true,
-                                     VariableCatalog::published(), {archive, log}).value();
+                                     VariableCatalog::published(), {archive, log})
+                      .value();
     const auto play = [&](std::uint64_t tick) {
       runner->runTo(tick);
       return runner->waitUntilStill(60s);
@@ -185,7 +189,8 @@ class TestStateArchive : public QObject {
     auto archive = std::make_shared<StateArchive>();
     auto log = std::make_shared<HashLog>();
     auto runner = MatchRunner::start(scenarioOf("match-3v3", "rigid-body"), {}, true,
-                                     VariableCatalog::published(), {archive, log}).value();
+                                     VariableCatalog::published(), {archive, log})
+                      .value();
     runner->runTo(700);
     QVERIFY(runner->waitUntilStill(60s));
     const auto moment = archive->reenter(250).value();
@@ -242,7 +247,8 @@ class TestStateArchive : public QObject {
       }
       for (int i = 0; i < 300; ++i) {
         std::string hostile = bytes.substr(0, 1 + random() % bytes.size());
-        for (int n = 0; n < 2; ++n) hostile[random() % hostile.size()] = static_cast<char>(random());
+        for (int n = 0; n < 2; ++n)
+          hostile[random() % hostile.size()] = static_cast<char>(random());
         const auto segment2 = StateSegment::decode(hostile);
         if (segment2 && segment2->lastTick() - segment2->firstTick() < 1000) {
           const auto state = segment2->at(segment2->lastTick());
@@ -264,7 +270,8 @@ class TestStateArchive : public QObject {
     timer.start();
     for (int i = 0; i < 20; ++i) QVERIFY(archive.reenter(60));
     QVERIFY2(timer.elapsed() < 20 * 50, qPrintable(QString::number(timer.elapsed())));
-    qInfo("entering the last tick of a second: %.2f ms", static_cast<double>(timer.nsecsElapsed()) / 20e6);
+    qInfo("entering the last tick of a second: %.2f ms",
+          static_cast<double>(timer.nsecsElapsed()) / 20e6);
   }
 };
 

@@ -74,7 +74,8 @@ class TestTeamChannel : public QObject {
     }
     const Blackboard& first = robots[0].board;
     for (int id = 2; id <= 11; ++id) {
-      const std::string name = "LOCALIZATION_RBT" + std::string(id < 10 ? "0" : "") + std::to_string(id);
+      const std::string name =
+          "LOCALIZATION_RBT" + std::string(id < 10 ? "0" : "") + std::to_string(id);
       QCOMPARE(first.read(*catalog.floatVar(name + "_X")), 50.0F * static_cast<float>(id));
       QCOMPARE(first.read(*catalog.floatVar(name + "_Y")), 300.0F);
     }
@@ -98,13 +99,13 @@ class TestTeamChannel : public QObject {
     QVERIFY2(one && two && other, one ? "" : one.error().text().c_str());
     (*one)->post(RobotId{1}, "hello");
     std::vector<std::string> heard;
-    const auto listen = [&] {   // QTRY_VERIFY asks once more after the answer was yes
+    const auto listen = [&] {  // QTRY_VERIFY asks once more after the answer was yes
       for (std::string& text : (*two)->take(RobotId{2})) heard.push_back(std::move(text));
       return !heard.empty();
     };
     QTRY_VERIFY(listen());
     QCOMPARE(heard, (std::vector<std::string>{"hello"}));
-    QVERIFY((*one)->take(RobotId{1}).empty());   // not its own words
+    QVERIFY((*one)->take(RobotId{1}).empty());  // not its own words
     QVERIFY((*other)->take(RobotId{3}).empty());
   }
 
@@ -131,7 +132,7 @@ class TestTeamChannel : public QObject {
     QCOMPARE(value(b.board, "COM_POS_BALL_ROBOT1"), 4000007);
     QCOMPARE(value(b.board, "COM_ACTION_ROBOT1"), 3);
     QCOMPARE(value(b.board, "COM_STATE_ROBOT2"), 0);
-    b.step(5.0);                                // silence
+    b.step(5.0);  // silence
     QCOMPARE(value(b.board, "COM_STATE_ROBOT1"), 0);
     QCOMPARE(value(b.board, "COM_POS_ROBOT1"), -1);
   }

@@ -17,7 +17,9 @@ Simulation make(const std::string& physics) {
   return Simulation::create(settings).value();
 }
 
-RobotIdentity blue(int number) { return {RobotId{number}, TeamColor::Blue, number, false}; }
+RobotIdentity blue(int number) {
+  return {RobotId{number}, TeamColor::Blue, number, false};
+}
 
 /// Steps with the same command for every robot.
 void run(Simulation& simulation, const RobotCommand& command, int ticks) {
@@ -29,7 +31,8 @@ void run(Simulation& simulation, const RobotCommand& command, int ticks) {
 void addModelRows() {
   QTest::addColumn<QString>("physics");
   for (const PhysicsModelInfo& model : physicsModels()) {
-    QTest::newRow(std::string(model.name).c_str()) << QString::fromStdString(std::string(model.name));
+    QTest::newRow(std::string(model.name).c_str())
+        << QString::fromStdString(std::string(model.name));
   }
 }
 
@@ -47,19 +50,28 @@ class TestSimulation : public QObject {
       QTest::newRow(name) << settings << QString(text);
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    row("unknown model", [](auto& s) { s.physics = "magic"; },
+    row(
+        "unknown model", [](auto& s) { s.physics = "magic"; },
         "There is no physics model called \"magic\". Known models: rigid-body, published.");
-    row("tick rate 0", [](auto& s) { s.tickRate = 0; }, "tick_rate: ");
-    row("tick rate nan", [nan](auto& s) { s.tickRate = nan; }, "tick_rate: ");
-    row("field without length", [](auto& s) { s.field.length = 0; }, "length is 0");
-    row("goal wider than field", [](auto& s) { s.field.goalWidth = 7; },
+    row(
+        "tick rate 0", [](auto& s) { s.tickRate = 0; }, "tick_rate: ");
+    row(
+        "tick rate nan", [nan](auto& s) { s.tickRate = nan; }, "tick_rate: ");
+    row(
+        "field without length", [](auto& s) { s.field.length = 0; }, "length is 0");
+    row(
+        "goal wider than field", [](auto& s) { s.field.goalWidth = 7; },
         "the goal is wider than the field");
-    row("goal behind the wall", [](auto& s) { s.field.goalDepth = 1; },
+    row(
+        "goal behind the wall", [](auto& s) { s.field.goalDepth = 1; },
         "the goal is deeper than the border");
-    row("negative noise", [](auto& s) { s.noise.forward = -0.1; }, "noise.forward: ");
-    row("probability over 1", [](auto& s) { s.noise.missedDetection = 1.5; },
+    row(
+        "negative noise", [](auto& s) { s.noise.forward = -0.1; }, "noise.forward: ");
+    row(
+        "probability over 1", [](auto& s) { s.noise.missedDetection = 1.5; },
         "noise.missed_detection: ");
-    row("weightless ball", [](auto& s) { s.rigidBody.ballMass = 0; }, "rigid_body.ball_mass: ");
+    row(
+        "weightless ball", [](auto& s) { s.rigidBody.ballMass = 0; }, "rigid_body.ball_mass: ");
   }
   void settingsThatCannotWorkAreRefused() {
     QFETCH(SimulationSettings, settings);

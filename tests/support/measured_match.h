@@ -17,14 +17,14 @@
 namespace pitchboard::link {
 
 struct MatchMeasure {
-  int left = 0, right = 0;                 ///< goals
-  double firstGoal = -1.0;                 ///< s, -1 = none
+  int left = 0, right = 0;  ///< goals
+  double firstGoal = -1.0;  ///< s, -1 = none
   int kicks = 0, ballOut = 0;
-  double walked = 0.0;                     ///< m, all robots
-  double touchShare = 0.0;                 ///< of robots x time in which a robot touches another
-  int collisions = 0;                      ///< times two robots came to touch
-  std::vector<double> positionError;       ///< m, once a second and robot
-  std::vector<double> yawError;            ///< rad
+  double walked = 0.0;                ///< m, all robots
+  double touchShare = 0.0;            ///< of robots x time in which a robot touches another
+  int collisions = 0;                 ///< times two robots came to touch
+  std::vector<double> positionError;  ///< m, once a second and robot
+  std::vector<double> yawError;       ///< rad
   std::uint64_t hash = 0;
 };
 
@@ -44,7 +44,8 @@ inline Result<Scenario> soccerMatch(const std::string& noise, std::uint64_t seed
   scenario->settings.noise = *parameters;
   scenario->settings.seed = seed;
   const char* const roles[] = {"striker", "keeper", "supporter"};
-  for (std::size_t i = 0; i < scenario->robots.size(); ++i) scenario->robots[i].behaviour = roles[i % 3];
+  for (std::size_t i = 0; i < scenario->robots.size(); ++i)
+    scenario->robots[i].behaviour = roles[i % 3];
   return scenario;
 }
 
@@ -53,10 +54,12 @@ inline double poseError(const SimulatedMatch& match, const sim::RobotSnapshot& r
   const RobotVariables& v = match.variables();
   const Pose belief = sim::published_frame::studioFromLocalization(
       match.simulation().state().settings.field,
-      {static_cast<double>(board.read(v.localizationX)), static_cast<double>(board.read(v.localizationY)),
+      {static_cast<double>(board.read(v.localizationX)),
+       static_cast<double>(board.read(v.localizationY)),
        static_cast<double>(board.read(v.localizationTheta))});
   if (yaw) *yaw = std::abs(wrapToPi(belief.yaw - robot.pose.yaw));
-  return std::hypot(belief.position.x - robot.pose.position.x, belief.position.y - robot.pose.position.y);
+  return std::hypot(belief.position.x - robot.pose.position.x,
+                    belief.position.y - robot.pose.position.y);
 }
 
 /// `seconds` of simulated time.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The series store done the plain way: every row kept, every query a loop over all of them. What the
-// store answers is compared with this.
+// The series store done the plain way: every row kept, every query a loop over all of them. What
+// the store answers is compared with this.
 
 #include <algorithm>
 #include <bit>
@@ -37,9 +37,12 @@ class NaiveSeries {
       (info.columns[c].type == ColumnType::Float64 ? values : words) += 1;
     }
     switch (info.columns[column].type) {
-      case ColumnType::Int32: return static_cast<std::int32_t>(row.words[words]);
-      case ColumnType::Float32: return static_cast<double>(std::bit_cast<float>(row.words[words]));
-      case ColumnType::Float64: break;
+      case ColumnType::Int32:
+        return static_cast<std::int32_t>(row.words[words]);
+      case ColumnType::Float32:
+        return static_cast<double>(std::bit_cast<float>(row.words[words]));
+      case ColumnType::Float64:
+        break;
     }
     return row.values[values];
   }
@@ -55,7 +58,8 @@ class NaiveSeries {
   std::vector<Sample> samples(std::uint32_t column, TimeRange range) const {
     std::vector<Sample> out;
     for (const NaiveRow& row : rows) {
-      if (row.time >= range.begin && row.time <= range.end) out.push_back({row.time, value(column, row)});
+      if (row.time >= range.begin && row.time <= range.end)
+        out.push_back({row.time, value(column, row)});
     }
     return out;
   }
@@ -69,14 +73,15 @@ class NaiveSeries {
     return rows[found].time;
   }
 
-  std::vector<SeriesBucket> buckets(std::uint32_t column, TimeRange range, std::size_t count) const {
+  std::vector<SeriesBucket> buckets(std::uint32_t column, TimeRange range,
+                                    std::size_t count) const {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<SeriesBucket> out(count, SeriesBucket{nan, nan, nan, nan, 0});
     std::size_t row = 0;
     while (row < rows.size() && rows[row].time < range.begin) ++row;
     for (std::size_t i = 0; i < count; ++i) {
-      const double end =
-          std::lerp(range.begin, range.end, static_cast<double>(i + 1) / static_cast<double>(count));
+      const double end = std::lerp(range.begin, range.end,
+                                   static_cast<double>(i + 1) / static_cast<double>(count));
       SeriesBucket& b = out[i];
       for (; row < rows.size() && rows[row].time < end; ++row) {
         const double v = value(column, rows[row]);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Records rows until it is killed: session_recorder FILE SHARED. SHARED is a file of 16 bytes, mapped:
-// number and time (s) of the last row that was handed to the recording.
+// Records rows until it is killed: session_recorder FILE SHARED. SHARED is a file of 16 bytes,
+// mapped: number and time (s) of the last row that was handed to the recording.
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <fcntl.h>
-#include <sys/mman.h>
 #include <thread>
-#include <unistd.h>
 
 #include <telemetry/session_writer.h>
 
@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
   if (!writer) return 2;
   GroupInfo info{"match", {{"COUNT", ColumnType::Float64, "", "", ColumnKind::Number, {}}}, {}};
   for (int i = 0; i < 200; ++i) {
-    info.columns.push_back({"X" + std::to_string(i), ColumnType::Float64, "", "", ColumnKind::Number, {}});
+    info.columns.push_back(
+        {"X" + std::to_string(i), ColumnType::Float64, "", "", ColumnKind::Number, {}});
   }
   const GroupId group = (*writer)->addGroup(info);
   std::vector<double> values(info.columns.size());

@@ -17,7 +17,11 @@ namespace pitchboard::telemetry::rig {
 
 inline GroupInfo robotGroup(const std::string& name, int number) {
   return {name,
-          {{"DECISION_ACTION_A", ColumnType::Int32, "", "Decision", ColumnKind::Enumeration,
+          {{"DECISION_ACTION_A",
+            ColumnType::Int32,
+            "",
+            "Decision",
+            ColumnKind::Enumeration,
             {{0, "stop"}, {1, "walk forward, \"fast\""}, {-7, "?"}}},
            {"VISION_WORKING", ColumnType::Int32, "", "Vision", ColumnKind::Flag, {}},
            {"VISION_BALL_DIST", ColumnType::Float32, "cm", "Vision", ColumnKind::Number, {}},
@@ -51,7 +55,8 @@ struct Row {
   std::vector<std::uint32_t> words;
   std::vector<double> values;
   bool operator==(const Row& other) const {
-    return group == other.group && std::bit_cast<std::uint64_t>(time) == std::bit_cast<std::uint64_t>(other.time) &&
+    return group == other.group &&
+           std::bit_cast<std::uint64_t>(time) == std::bit_cast<std::uint64_t>(other.time) &&
            words == other.words && values.size() == other.values.size() &&
            std::equal(values.begin(), values.end(), other.values.begin(), [](double a, double b) {
              return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -66,7 +71,8 @@ inline Row rowOf(GroupId group, int tick) {
   const float distance = tick % 7 == 0 ? std::numeric_limits<float>::quiet_NaN()
                                        : 100.0F / static_cast<float>(tick + 1);
   const double yaw = tick % 5 == 0 ? -std::numeric_limits<double>::infinity() : std::sin(tick);
-  return {group, time,
+  return {group,
+          time,
           {static_cast<std::uint32_t>(-tick), static_cast<std::uint32_t>(tick % 2),
            std::bit_cast<std::uint32_t>(distance)},
           {group + 1.0 / 3.0 * tick, yaw}};
@@ -87,7 +93,8 @@ inline std::vector<Row> record(SessionWriter& writer, int ticks) {
       rows.push_back(rowOf(group, tick));
       append(writer, rows.back());
     }
-    if (tick % 60 == 30) writer.append(SessionEvent{tick / 60.0, "kick", "B1", "kick " + std::to_string(tick)});
+    if (tick % 60 == 30)
+      writer.append(SessionEvent{tick / 60.0, "kick", "B1", "kick " + std::to_string(tick)});
   }
   return rows;
 }
@@ -95,7 +102,9 @@ inline std::vector<Row> record(SessionWriter& writer, int ticks) {
 inline std::vector<Row> rowsOf(const SessionReader& reader, SessionRange range) {
   std::vector<Row> rows;
   reader.rows(range, {}, [&](GroupId group, const RowView& row) {
-    rows.push_back({group, row.time, {row.words.begin(), row.words.end()},
+    rows.push_back({group,
+                    row.time,
+                    {row.words.begin(), row.words.end()},
                     {row.values.begin(), row.values.end()}});
     return true;
   });

@@ -31,7 +31,8 @@ class TestSocket {
   std::uint16_t port() const { return m_port; }
   int descriptor() const { return m_descriptor; }
 
-  bool send(std::uint16_t port, std::string_view text, std::uint32_t address = INADDR_LOOPBACK) const {
+  bool send(std::uint16_t port, std::string_view text,
+            std::uint32_t address = INADDR_LOOPBACK) const {
     const sockaddr_in to = at(address, port);
     return sendto(m_descriptor, text.data(), text.size(), 0, reinterpret_cast<const sockaddr*>(&to),
                   sizeof to) == static_cast<ssize_t>(text.size());

@@ -15,7 +15,9 @@ namespace {
 
 constexpr double hole = std::numeric_limits<double>::quiet_NaN();
 
-bool near(double a, double b) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) < 1e-12; }
+bool near(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) < 1e-12;
+}
 
 }  // namespace
 
@@ -27,8 +29,11 @@ class TestDerivedCurve : public QObject {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       QVERIFY2(found[i].time == wanted[i].time && near(found[i].value, wanted[i].value),
                qPrintable(QString("sample %1: %2 at %3, wanted %4 at %5")
-                              .arg(i).arg(found[i].value).arg(found[i].time)
-                              .arg(wanted[i].value).arg(wanted[i].time)));
+                              .arg(i)
+                              .arg(found[i].value)
+                              .arg(found[i].time)
+                              .arg(wanted[i].value)
+                              .arg(wanted[i].time)));
     }
   }
 
@@ -98,7 +103,8 @@ class TestDerivedCurve : public QObject {
   }
 
   void differenceOfTwo() {
-    // b holds its last value: 10 from 1 s, 20 from 2 s, 30 and then 40 at 3 s (the later one counts).
+    // b holds its last value: 10 from 1 s, 20 from 2 s, 30 and then 40 at 3 s (the later one
+    // counts).
     const Curve a{{0, 1}, {1, 2}, {1.5, 3}, {3, 4}, {9, 5}};
     const Curve b{{1, 10}, {2, 20}, {3, 30}, {3, 40}};
     check(difference(a, b), {{0, hole}, {1, -8}, {1.5, -7}, {3, -36}, {9, -35}});
@@ -110,8 +116,18 @@ class TestDerivedCurve : public QObject {
 
   void statistics() {
     // 2 4 4 4 5 5 7 9: mean 5, σ 2, RMS √(232/8) = √29.
-    Curve curve{{0, 100}, {1, 2}, {2, 4}, {3, 4}, {4, 4}, {5, hole}, {5, 5}, {6, 5}, {7, 7},
-                {8, 9}, {8.5, std::numeric_limits<double>::infinity()}, {9, 100}};
+    Curve curve{{0, 100},
+                {1, 2},
+                {2, 4},
+                {3, 4},
+                {4, 4},
+                {5, hole},
+                {5, 5},
+                {6, 5},
+                {7, 7},
+                {8, 9},
+                {8.5, std::numeric_limits<double>::infinity()},
+                {9, 100}};
     const auto s = statisticsOf(curve, {1, 8.5});
     QCOMPARE(s.samples, std::uint64_t{8});
     QVERIFY(near(s.mean, 5) && near(s.sigma, 2) && near(s.rms, std::sqrt(29.0)) && s.min == 2 &&

@@ -35,13 +35,16 @@ QByteArray packet(int version, int size, const char* magic = "RGme") {
 
 QStringList differences;
 
-void compare(const QString& name, const QJsonObject& expected, const char* key, std::optional<int> value) {
+void compare(const QString& name, const QJsonObject& expected, const char* key,
+             std::optional<int> value) {
   if (!expected.contains(key)) return;
   const QJsonValue wanted = expected[key];
   const bool same = wanted.isNull() ? !value : value && wanted.toInt(-999999) == *value;
   if (!same) {
-    differences << QStringLiteral("%1.%2: %3 instead of %4").arg(name, key)
-                       .arg(value ? QString::number(*value) : "nothing", wanted.toVariant().toString());
+    differences << QStringLiteral("%1.%2: %3 instead of %4")
+                       .arg(name, key)
+                       .arg(value ? QString::number(*value) : "nothing",
+                            wanted.toVariant().toString());
   }
 }
 
@@ -61,8 +64,9 @@ class TestGameController : public QObject {
     const auto result = decode(read(data + file));
     QVERIFY2(result, result ? "" : result.error().text().c_str());
     const RefereeState& state = std::get<RefereeState>(*result);
-    const QJsonObject expected =
-        QJsonDocument::fromJson(read(data + file.chopped(3) + "json")).object()["expected"].toObject();
+    const QJsonObject expected = QJsonDocument::fromJson(read(data + file.chopped(3) + "json"))
+                                     .object()["expected"]
+                                     .toObject();
     QVERIFY(!expected.isEmpty());
     differences.clear();
     QCOMPARE(QString::fromLatin1(state.magic.data(), 4), expected["header"].toString());
@@ -88,10 +92,12 @@ class TestGameController : public QObject {
     // from those of 2014. The value beside them is what the program knew.
     if (!file.startsWith("v7compat")) compare("", expected, "gameType", state.gameType);
     if (expected.contains("gameTypeName")) {
-      QCOMPARE(QString::fromUtf8(gameTypeName(*state.gameType).data()), expected["gameTypeName"].toString());
+      QCOMPARE(QString::fromUtf8(gameTypeName(*state.gameType).data()),
+               expected["gameTypeName"].toString());
     }
     if (expected.contains("secGameStateName")) {
-      QCOMPARE(QString::fromUtf8(secStateName(*state.secState).data()), expected["secGameStateName"].toString());
+      QCOMPARE(QString::fromUtf8(secStateName(*state.secState).data()),
+               expected["secGameStateName"].toString());
     }
     if (expected.contains("secGameStateInfoHex")) {
       QByteArray info;
@@ -104,7 +110,8 @@ class TestGameController : public QObject {
       compare("extra", extra, "timeOut", state.extra2013->timeOut);
       compare("extra", extra, "subTime", state.extra2013->subTime);
       for (int i = 0; i < 2; ++i) {
-        QCOMPARE(state.extra2013->penaltyTries[std::size_t(i)], extra["penaltyTries"].toArray()[i].toInt());
+        QCOMPARE(state.extra2013->penaltyTries[std::size_t(i)],
+                 extra["penaltyTries"].toArray()[i].toInt());
       }
     }
     for (int t = 0; t < 2; ++t) compareTeam(state, expected["teams"].toArray()[t].toObject(), t);
@@ -114,8 +121,8 @@ class TestGameController : public QObject {
   void everyDocumentedSizeIsKnown_data() {
     QTest::addColumn<int>("version");
     QTest::addColumn<int>("size");
-    const int known[][2] = {{7, 116},  {8, 158},  {9, 244}, {10, 588}, {11, 592}, {12, 640},
-                            {12, 688}, {11, 58},  {12, 54}, {13, 54},  {14, 62},  {15, 118},
+    const int known[][2] = {{7, 116},  {8, 158},  {9, 244},  {10, 588}, {11, 592}, {12, 640},
+                            {12, 688}, {11, 58},  {12, 54},  {13, 54},  {14, 62},  {15, 118},
                             {16, 118}, {17, 118}, {18, 118}, {19, 198}, {20, 158}};
     for (const auto& k : known) {
       QTest::addRow("v%d %d", k[0], k[1]) << k[0] << k[1];
@@ -138,7 +145,8 @@ class TestGameController : public QObject {
     const auto unknown = decode(packet(21, 200));
     QVERIFY(!unknown);
     QCOMPARE(unknown.error().code, pitchboard::ErrorCode::Unsupported);
-    QVERIFY(QByteArray::fromStdString(unknown.error().text()).contains("version 21 with 200 bytes"));
+    QVERIFY(
+        QByteArray::fromStdString(unknown.error().text()).contains("version 21 with 200 bytes"));
   }
 
   void otherPacketsOnThePort() {
@@ -148,19 +156,25 @@ class TestGameController : public QObject {
     QVERIFY(!decode(QByteArray("RGme")));
 
     QByteArray v2 = packet(2, 8, "RGrt");
-    v2[5] = 12; v2[6] = 3; v2[7] = 2;
+    v2[5] = 12;
+    v2[6] = 3;
+    v2[7] = 2;
     const auto reply = std::get<RobotReply>(*decode(v2));
     QCOMPARE(reply.team, 12);
     QCOMPARE(reply.player, 3);
     QCOMPARE(reply.message, std::optional(2));
 
     QByteArray v1 = packet(1, 16, "RGrt");
-    v1[8] = 7; v1[10] = 4; v1[12] = 1;
+    v1[8] = 7;
+    v1[10] = 4;
+    v1[12] = 1;
     QCOMPARE(std::get<RobotReply>(*decode(v1)).team, 7);
     QCOMPARE(std::get<RobotReply>(*decode(v1)).player, 4);
 
     QByteArray v4 = packet(4, 32, "RGrt");
-    v4[5] = 5; v4[6] = 24; v4[7] = 1;
+    v4[5] = 5;
+    v4[6] = 24;
+    v4[7] = 1;
     const float x = -1500.5F;
     std::memcpy(v4.data() + 8, &x, 4);
     const auto status = std::get<RobotReply>(*decode(v4));
@@ -170,7 +184,8 @@ class TestGameController : public QObject {
     QCOMPARE((*status.pose)[0], x);
     QVERIFY(!status.message);
 
-    const auto forwarded = std::get<ForwardedReply>(*decode(QByteArray("\x0a\x00\x01\x07", 4) + v4));
+    const auto forwarded =
+        std::get<ForwardedReply>(*decode(QByteArray("\x0a\x00\x01\x07", 4) + v4));
     QCOMPARE(forwarded.robot, 0x0a000107U);
     QCOMPARE(forwarded.reply.player, 5);
     QVERIFY(!decode(packet(3, 9, "RGrt")));
@@ -186,12 +201,15 @@ class TestGameController : public QObject {
 
   void codesAreWordsOfTheirVersion() {
     RefereeState state;
-    state.version = 12; state.size = 688;
+    state.version = 12;
+    state.size = 688;
     QVERIFY(penaltyWords(state, 34) == "pickup or incapable");
     QVERIFY(penaltyName(state, 77) == "UNKNOWN");
-    state.version = 19; state.size = 198;
+    state.version = 19;
+    state.size = 198;
     QVERIFY(isSubstitute(state, {1, 11, 0, {}, {}, {}, {}, {}, false}));
-    state.version = 20; state.size = 158;
+    state.version = 20;
+    state.size = 158;
     QVERIFY(!isSubstitute(state, {1, 11, 0, {}, {}, {}, {}, {}, false}));
     QVERIFY(isSubstitute(state, {1, 13, 0, {}, {}, {}, {}, {}, false}));
     QVERIFY(setPlayWords(League::HumanoidSoccer, 5) == "goal kick");
@@ -236,7 +254,8 @@ class TestGameController : public QObject {
     compare(name, expected, "goalkeeperColor", team.goalkeeperColour);
     compare(name, expected, "goalkeeper", team.goalkeeper);
     const QJsonArray players = expected["players"].toArray();
-    if (players.size() != static_cast<int>(team.slotCount)) differences << name + ": number of slots";
+    if (players.size() != static_cast<int>(team.slotCount))
+      differences << name + ": number of slots";
     for (int i = 0; i < static_cast<int>(team.players().size()); ++i) {
       const QJsonObject wanted = players[i].toObject();
       const RefereePlayer& player = team.players()[static_cast<std::size_t>(i)];
@@ -251,7 +270,8 @@ class TestGameController : public QObject {
       compare(slot, wanted, "goalkeeper", player.goalkeeper);
       if (player.unreliable != wanted.contains("unreliable")) differences << slot + ".unreliable";
       if (wanted.contains("penaltyName") &&
-          wanted["penaltyName"].toString() != QString::fromUtf8(penaltyName(state, player.penalty).data())) {
+          wanted["penaltyName"].toString() !=
+              QString::fromUtf8(penaltyName(state, player.penalty).data())) {
         differences << slot + ".penaltyName";
       }
     }

@@ -21,11 +21,13 @@ struct Rig {
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
     DatagramView datagram;
-    datagram.time = zero + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
+    datagram.time =
+        zero + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
     datagram.sender = {parseAddress(from).value(), 1234};
     datagram.payload = text;
     const auto verdict = monitor.take(datagram);
-    if (verdict == TeamMonitor::Verdict::Used) rows.take(datagram, monitor.decoded(), monitor.decoder());
+    if (verdict == TeamMonitor::Verdict::Used)
+      rows.take(datagram, monitor.decoded(), monitor.decoder());
     return verdict;
   }
   void report(double time) {

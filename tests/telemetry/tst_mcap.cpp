@@ -47,10 +47,10 @@ class TestMcap : public QObject {
   Q_OBJECT
 
   QTemporaryDir m_folder;
-  std::string m_bytes;        // a small whole session
+  std::string m_bytes;  // a small whole session
   std::vector<Row> m_rows;
-  std::vector<std::uint64_t> m_chunkEnds;   // offsets behind the chunks
-  std::vector<std::size_t> m_rowsUntil;     // rows in the chunks up to there
+  std::vector<std::uint64_t> m_chunkEnds;  // offsets behind the chunks
+  std::vector<std::size_t> m_rowsUntil;    // rows in the chunks up to there
 
  private slots:
   void initTestCase() {
@@ -119,7 +119,9 @@ class TestMcap : public QObject {
       if (found.rows.size() != expected || found.complete ||
           !std::equal(found.rows.begin(), found.rows.end(), m_rows.begin())) {
         QFAIL(qPrintable(QStringLiteral("cut at %1: %2 rows instead of %3")
-                             .arg(size).arg(found.rows.size()).arg(expected)));
+                             .arg(size)
+                             .arg(found.rows.size())
+                             .arg(expected)));
       }
     }
   }
@@ -171,23 +173,28 @@ class TestMcap : public QObject {
     };
     row("nothing", "");
     row("header without end", "\x01" + number64(~0ULL));
-    row("header of 4 GB", std::string("\x01") + number64(8) + std::string("\xff\xff\xff\xff....", 8));
+    row("header of 4 GB",
+        std::string("\x01") + number64(8) + std::string("\xff\xff\xff\xff....", 8));
     std::string chunk = number64(1) + number64(2) + number64(100ULL << 20) + std::string(4, '\0') +
                         std::string("\x04\0\0\0zstd", 8) + number64(3) + "abc";
     row("chunk that says 100 MB", "\x06" + number64(chunk.size()) + chunk);
-    chunk = number64(1) + number64(2) + number64(~0ULL) + std::string(4, '\0') + std::string(4, '\0') +
-            number64(~0ULL);
+    chunk = number64(1) + number64(2) + number64(~0ULL) + std::string(4, '\0') +
+            std::string(4, '\0') + number64(~0ULL);
     row("chunk longer than the file", "\x06" + number64(chunk.size()) + chunk);
     std::string many;
-    for (int i = 0; i < 20'000; ++i) many += "\x06" + number64(60) + std::string(28, 'x') + std::string("\x04\0\0\0zstd", 8) + number64(~0ULL) + std::string(16, 'y');
+    for (int i = 0; i < 20'000; ++i)
+      many += "\x06" + number64(60) + std::string(28, 'x') + std::string("\x04\0\0\0zstd", 8) +
+              number64(~0ULL) + std::string(16, 'y');
     row("many marks of chunks", "\x00" + many);
     row("a megabyte of zeros", std::string(1 << 20, '\0'));
     std::string empty;
     for (int i = 0; i < 100'000; ++i) empty += "\x85" + number64(0);
     row("many unknown records", empty);
-    std::string footer = "\x02" + number64(20) + number64(8) + number64(~0ULL) + std::string(4, '\0') + magic;
+    std::string footer =
+        "\x02" + number64(20) + number64(8) + number64(~0ULL) + std::string(4, '\0') + magic;
     row("summary from the beginning", footer);
-    footer = "\x02" + number64(20) + number64(~0ULL) + number64(~0ULL) + std::string(4, '\0') + magic;
+    footer =
+        "\x02" + number64(20) + number64(~0ULL) + number64(~0ULL) + std::string(4, '\0') + magic;
     row("summary behind the end", footer);
   }
   void lengthsThatLie() {
@@ -213,7 +220,8 @@ class TestMcap : public QObject {
     // Other writers may leave messages loose in the file.
     std::string bytes(mcapMagic.data(), 8);
     bytes += "\x01" + number64(8) + std::string(8, '\0');
-    const std::string channel = std::string("\x01\0\0\0", 4) + std::string("\x07\0\0\0/events", 11) +
+    const std::string channel = std::string("\x01\0\0\0", 4) +
+                                std::string("\x07\0\0\0/events", 11) +
                                 std::string("\x04\0\0\0json", 8) + std::string(4, '\0');
     bytes += "\x04" + number64(channel.size()) + channel;
     for (int i = 0; i < 3; ++i) {

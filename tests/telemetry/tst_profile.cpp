@@ -47,8 +47,9 @@ class TestProfile : public QObject {
     QTest::newRow("no name") << QByteArray("{\"fields\": []}") << QByteArray("name");
     QTest::newRow("unknown key") << profileWith(robot, "\"colour\": 1, ") << QByteArray("colour");
     QTest::newRow("field is text") << profileWith("\"n\"") << QByteArray("fields[0]");
-    QTest::newRow("bad type") << profileWith(robot + ",\n  {\"name\": \"A\", \"type\": \"double\"}")
-                              << QByteArray("p.json:5: fields[1]: type: \"double\" is not one of int, float, flag");
+    QTest::newRow("bad type")
+        << profileWith(robot + ",\n  {\"name\": \"A\", \"type\": \"double\"}")
+        << QByteArray("p.json:5: fields[1]: type: \"double\" is not one of int, float, flag");
     QTest::newRow("bad meaning")
         << profileWith(robot + ",\n\n  {\"name\": \"A\", \"type\": \"int\", \"meaning\": \"ball\"}")
         << QByteArray("p.json:6: fields[1]: meaning");
@@ -61,10 +62,12 @@ class TestProfile : public QObject {
         << QByteArray("Two fields have the meaning \"robot\"");
     QTest::newRow("no robot") << profileWith("  {\"name\": \"A\", \"type\": \"int\"}")
                               << QByteArray("No field has the meaning \"robot\"");
-    QTest::newRow("reserved") << profileWith(robot + ",\n  {\"name\": \"OTHER_1\", \"type\": \"int\"}")
+    QTest::newRow("reserved") << profileWith(robot +
+                                             ",\n  {\"name\": \"OTHER_1\", \"type\": \"int\"}")
                               << QByteArray("OTHER_");
-    QTest::newRow("name with space") << profileWith(robot + ",\n  {\"name\": \"A B\", \"type\": \"int\"}")
-                                     << QByteArray("p.json:5");
+    QTest::newRow("name with space")
+        << profileWith(robot + ",\n  {\"name\": \"A B\", \"type\": \"int\"}")
+        << QByteArray("p.json:5");
     QTest::newRow("robot is a float")
         << profileWith("  {\"name\": \"n\", \"type\": \"float\", \"meaning\": \"robot\"}")
         << QByteArray("has the type int");

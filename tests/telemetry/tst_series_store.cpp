@@ -41,8 +41,8 @@ class Source {
 
   NaiveRow next() {
     const auto kind = m_random() % 100;
-    if (kind >= 10) m_time += 1.0 / 60.0;          // else: the same time again
-    if (kind == 99) m_time += 3.0;                 // a pause
+    if (kind >= 10) m_time += 1.0 / 60.0;  // else: the same time again
+    if (kind == 99) m_time += 3.0;         // a pause
     return at(m_time);
   }
   NaiveRow at(double time) {
@@ -50,7 +50,10 @@ class Source {
     if (m_random() % 97 == 0) m_rare = static_cast<std::int32_t>(m_random() % 5) - 2;
     const double noise = std::normal_distribution<double>(1e6, 3.0)(m_random);
     const auto hole = m_random() % 50;
-    const double holes = hole == 0 ? notANumber : hole == 1 ? infinity : hole == 2 ? -infinity : noise;
+    const double holes = hole == 0   ? notANumber
+                         : hole == 1 ? infinity
+                         : hole == 2 ? -infinity
+                                     : noise;
     const auto f = [](double v) { return std::bit_cast<std::uint32_t>(static_cast<float>(v)); };
     return {time,
             {7, static_cast<std::uint32_t>(m_rare), static_cast<std::uint32_t>(m_random()), f(-0.0),
@@ -64,10 +67,16 @@ class Source {
   std::int32_t m_rare = 0;
 };
 
-bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
-bool near(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)}); }
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+bool near(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)});
+}
 
-RowView viewOf(const NaiveRow& row) { return {row.time, row.words, row.values}; }
+RowView viewOf(const NaiveRow& row) {
+  return {row.time, row.words, row.values};
+}
 
 }  // namespace
 
@@ -86,14 +95,16 @@ class TestSeriesStore : public QObject {
     std::uniform_real_distribution<double> anywhere(first - 1.0, last + 1.0);
     for (std::uint32_t c = 0; c < naive.info.columns.size(); ++c) {
       const auto latest = view.latest(c);
-      QVERIFY(latest && latest->time == last && same(latest->value, naive.value(c, naive.rows.back())));
+      QVERIFY(latest && latest->time == last &&
+              same(latest->value, naive.value(c, naive.rows.back())));
       QCOMPARE(*view.lastChange(c), naive.lastChange(c));
       for (int repeat = 0; repeat < 4; ++repeat) {
         TimeRange range{anywhere(random), anywhere(random)};
         if (repeat == 1) range = {first, last};
         // Exactly on rows, so that the closed and open ends are told apart.
-        if (repeat == 2) range = {naive.rows[random() % naive.rows.size()].time,
-                                  naive.rows[random() % naive.rows.size()].time};
+        if (repeat == 2)
+          range = {naive.rows[random() % naive.rows.size()].time,
+                   naive.rows[random() % naive.rows.size()].time};
         if (range.end < range.begin) std::swap(range.begin, range.end);
 
         const NaiveRow* row = naive.at(range.begin);
@@ -111,9 +122,10 @@ class TestSeriesStore : public QObject {
 
         const auto a = view.statistics(c, range), b = naive.statistics(c, range);
         QCOMPARE(a.samples, b.samples);
-        QVERIFY2(near(a.mean, b.mean) && near(a.sigma, b.sigma) && near(a.rms, b.rms) &&
-                     a.min == b.min && a.max == b.max,
-                 qPrintable(QString("column %1: σ %2, wanted %3").arg(c).arg(a.sigma).arg(b.sigma)));
+        QVERIFY2(
+            near(a.mean, b.mean) && near(a.sigma, b.sigma) && near(a.rms, b.rms) &&
+                a.min == b.min && a.max == b.max,
+            qPrintable(QString("column %1: σ %2, wanted %3").arg(c).arg(a.sigma).arg(b.sigma)));
 
         if (!(range.begin < range.end)) continue;
         std::vector<SeriesBucket> buckets(repeat == 0 ? 7 : 300);
@@ -124,7 +136,12 @@ class TestSeriesStore : public QObject {
           QVERIFY2(x.samples == y.samples && same(x.first, y.first) && same(x.last, y.last) &&
                        same(x.min, y.min) && same(x.max, y.max),
                    qPrintable(QString("column %1 bucket %2: %3 to %4, wanted %5 to %6")
-                                  .arg(c).arg(i).arg(x.min).arg(x.max).arg(y.min).arg(y.max)));
+                                  .arg(c)
+                                  .arg(i)
+                                  .arg(x.min)
+                                  .arg(x.max)
+                                  .arg(y.min)
+                                  .arg(y.max)));
         }
       }
     }
@@ -192,7 +209,7 @@ class TestSeriesStore : public QObject {
       naive.append(row);
       row = source.next();
     }
-    QCOMPARE(before->rows(), static_cast<std::size_t>(rows));   // a view does not change
+    QCOMPARE(before->rows(), static_cast<std::size_t>(rows));  // a view does not change
     compare(*store.view(id), naive, 3);
   }
 
@@ -230,9 +247,9 @@ class TestSeriesStore : public QObject {
     view->buckets(2, {-1.7e308, 1.7e308}, buckets);
     std::uint32_t sum = 0;
     for (const auto& bucket : buckets) sum += bucket.samples;
-    QCOMPARE(sum, 5U);   // the end is open
-    for (const TimeRange range : {TimeRange{notANumber, 1.0}, TimeRange{0.0, notANumber}, TimeRange{2.0, 1.0},
-                                  TimeRange{-infinity, infinity}}) {
+    QCOMPARE(sum, 5U);  // the end is open
+    for (const TimeRange range : {TimeRange{notANumber, 1.0}, TimeRange{0.0, notANumber},
+                                  TimeRange{2.0, 1.0}, TimeRange{-infinity, infinity}}) {
       view->buckets(2, range, buckets);
       for (const auto& bucket : buckets) QCOMPARE(bucket.samples, 0U);
     }
@@ -271,14 +288,15 @@ class TestSeriesStore : public QObject {
     const auto a = store.view(slow)->range(), b = store.view(fast)->range();
     QVERIFY(a && b && a->begin > 100.0 && b->begin > 100.0);
     // What is left begins about together: a chunk of the slow group is 41 s long.
-    QVERIFY2(std::abs(a->begin - b->begin) < 410.0, qPrintable(QString::number(a->begin - b->begin)));
+    QVERIFY2(std::abs(a->begin - b->begin) < 410.0,
+             qPrintable(QString::number(a->begin - b->begin)));
     QCOMPARE(b->end, 59'999 * 0.01);
     const auto held = store.view(fast);
     store.setMemoryBudget(1);
     QVERIFY(store.view(fast)->rows() < 64);
     QVERIFY(store.memoryBytes() < 20'000);
     QVERIFY(held->rows() > 1000);
-    QVERIFY(held->statistics(7, {0.0, 600.0}).samples > 1000);   // a view keeps its chunks alive
+    QVERIFY(held->statistics(7, {0.0, 600.0}).samples > 1000);  // a view keeps its chunks alive
     store.append(fast, viewOf(source.at(700.0)));
     QCOMPARE(store.view(fast)->latest(0)->time, 700.0);
   }
@@ -319,9 +337,11 @@ class TestSeriesStore : public QObject {
   /// A row's values all follow from its time, so a reader sees at once when it read something torn.
   void readersBesideTheWriter() {
     SeriesStore store({.memoryBudget = 600'000});
-    GroupInfo info{"B1", {{"I", ColumnType::Int32, "", "", ColumnKind::Number, {}},
-                          {"SLOW", ColumnType::Int32, "", "", ColumnKind::Number, {}},
-                          {"D", ColumnType::Float64, "", "", ColumnKind::Number, {}}}, {}};
+    GroupInfo info{"B1",
+                   {{"I", ColumnType::Int32, "", "", ColumnKind::Number, {}},
+                    {"SLOW", ColumnType::Int32, "", "", ColumnKind::Number, {}},
+                    {"D", ColumnType::Float64, "", "", ColumnKind::Number, {}}},
+                   {}};
     const GroupId id = store.addGroup(info);
     std::atomic<bool> stop{false};
     std::atomic<int> wrong{0}, looks{0};

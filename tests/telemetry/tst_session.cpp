@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is recorded is read back bit for bit; what goes wrong is said and never costs what stands.
 
+#include <sys/resource.h>
+#include <unistd.h>
 #include <QtTest>
 #include <csignal>
 #include <filesystem>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <telemetry/mcap_writer.h>
 #include <telemetry/session_repair.h>
@@ -78,10 +78,11 @@ class TestSession : public QObject {
       return true;
     });
     QCOMPARE(seen, 2);
-    reader->messages(SessionStream::Checkpoints, everything, [&](double time, std::string_view json) {
-      seen += time == 0.1 && json == R"({"time":0.1})";
-      return true;
-    });
+    reader->messages(SessionStream::Checkpoints, everything,
+                     [&](double time, std::string_view json) {
+                       seen += time == 0.1 && json == R"({"time":0.1})";
+                       return true;
+                     });
     reader->messages(SessionStream::Log, everything, [&](double, std::string_view json) {
       seen += sessionLogLine(json) == SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""};
       return true;
@@ -125,9 +126,8 @@ class TestSession : public QObject {
     QVERIFY(part == std::vector<Row>(rows.begin() + 300, rows.begin() + 309));
     int count = 0;
     const std::vector<GroupId> only{1};
-    reader->rows(everything, only, [&](GroupId group, const RowView&) {
-      return group == 1 && ++count < 10;
-    });
+    reader->rows(everything, only,
+                 [&](GroupId group, const RowView&) { return group == 1 && ++count < 10; });
     QCOMPARE(count, 10);
   }
 
@@ -136,7 +136,8 @@ class TestSession : public QObject {
     auto writer = SessionWriter::create(path, sessionInfo());
     const GroupId group = (*writer)->addGroup(matchGroup());
     const std::vector<double> values{1.0, 2.0};
-    for (const double time : {0.0, 1.0, 2.0, 0.5, 0.75}) (*writer)->append(group, {time, {}, values});
+    for (const double time : {0.0, 1.0, 2.0, 0.5, 0.75})
+      (*writer)->append(group, {time, {}, values});
     (*writer)->append(group, {0.74, {}, values});  // disorder, not a new pass
     QVERIFY((*writer)->finish());
     const auto reader = SessionReader::open(path);
@@ -160,9 +161,9 @@ class TestSession : public QObject {
     QVERIFY((*writer)->finish());
     const auto reader = SessionReader::open(path);
     const std::string text = reader->file().schemas().begin()->second.data;
-    for (const char* field : {"float64 source_time ", "float64 vision_x ", "float64 vision_x_2 ",
-                              "float64 v9lives ", "float64 v ", "float64 source_time_2 ",
-                              "float64 a ", "float64 a_2 "}) {
+    for (const char* field :
+         {"float64 source_time ", "float64 vision_x ", "float64 vision_x_2 ", "float64 v9lives ",
+          "float64 v ", "float64 source_time_2 ", "float64 a ", "float64 a_2 "}) {
       QVERIFY2(text.find(field) != std::string::npos, field);
     }
     QVERIFY(reader->groups()[0].info == group);
@@ -183,10 +184,12 @@ class TestSession : public QObject {
 
   void diskFull() {
     // A file that may not grow beyond this is what a full disk looks like to a program.
-    struct rlimit old {}, small {};
+    struct rlimit old {
+    }, small{};
     QVERIFY(getrlimit(RLIMIT_FSIZE, &old) == 0);
     small = {60'000, old.rlim_max};
-    struct sigaction ignore {}, before {};
+    struct sigaction ignore {
+    }, before{};
     ignore.sa_handler = SIG_IGN;
     sigaction(SIGXFSZ, &ignore, &before);
     QVERIFY(setrlimit(RLIMIT_FSIZE, &small) == 0);
@@ -250,7 +253,8 @@ class TestSession : public QObject {
     record(**writer, 10);
     std::filesystem::remove(path);
     int tick = 10;
-    QTRY_VERIFY_WITH_TIMEOUT((append(**writer, rowOf(0, tick++)), !(*writer)->status().recording), 5000);
+    QTRY_VERIFY_WITH_TIMEOUT((append(**writer, rowOf(0, tick++)), !(*writer)->status().recording),
+                             5000);
     QVERIFY((*writer)->status().problem.find("removed") != std::string::npos);
     QVERIFY(!(*writer)->finish());
   }
@@ -304,15 +308,17 @@ class TestSession : public QObject {
     {
       auto file = McapWriter::create(path);
       // The check is a CRC-32 over keys and values, each with its final zero (docs/SESSIONS.md).
-      QVERIFY(file->metadata("pitchboard", {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"},
-                                            {"check", "3914321931"}}));
+      QVERIFY(file->metadata(
+          "pitchboard",
+          {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"}, {"check", "3914321931"}}));
       McapChunk chunk;
       chunk.add(McapSchema{1, "other/msg/Thing", "ros2msg", "int8 a"});
       chunk.add(McapChannel{1, 1, "/other", "cdr", {}});
       chunk.add(McapChannel{2, 0, "/events", "json", {}});
       chunk.add(McapChannel{3, 0, "/robots/B1/row", "cdr", {{"pitchboard.group", "{\"name\":1}"}}});
       chunk.add(McapMessage{1, 0, 6'000'000'000, 6'000'000'000, "abc"});
-      chunk.add(McapMessage{2, 0, 6'000'000'000, 6'000'000'000, R"({"time":1,"kind":"goal","later":[]})"});
+      chunk.add(McapMessage{2, 0, 6'000'000'000, 6'000'000'000,
+                            R"({"time":1,"kind":"goal","later":[]})"});
       chunk.add(McapMessage{2, 1, 6'000'000'000, 6'000'000'000, "[not an event"});
       QVERIFY(file->writeChunk(chunk));
       QVERIFY(file->finish());

@@ -37,7 +37,8 @@ class TestSessionExport : public QObject {
     });
     if (!report) qFatal("%s", report.error().text().c_str());
     if (report->bytes != static_cast<std::uint64_t>(text.size())) qFatal("another count of bytes");
-    if (report->lines != static_cast<std::uint64_t>(text.count('\n'))) qFatal("another count of lines");
+    if (report->lines != static_cast<std::uint64_t>(text.count('\n')))
+      qFatal("another count of lines");
     text.chop(1);
     return text.split('\n');
   }
@@ -45,8 +46,9 @@ class TestSessionExport : public QObject {
     double read = 0.0;
     const auto [end, code] = std::from_chars(text.begin(), text.end(), read);
     return code == std::errc() && end == text.end() &&
-           (std::isnan(value) ? std::isnan(read)
-                              : std::bit_cast<std::uint64_t>(read) == std::bit_cast<std::uint64_t>(value));
+           (std::isnan(value)
+                ? std::isnan(read)
+                : std::bit_cast<std::uint64_t>(read) == std::bit_cast<std::uint64_t>(value));
   }
   static double value(const Row& row, std::size_t column) {
     if (column >= row.words.size()) return row.values[column - row.words.size()];
@@ -69,9 +71,11 @@ class TestSessionExport : public QObject {
 
   void wide() {
     const auto lines = textOf(session(), ExportFormat::CsvWide);
-    QCOMPARE(lines[0], QByteArray("time,B1.DECISION_ACTION_A,B1.VISION_WORKING,B1.VISION_BALL_DIST,B1.TRUTH_X,"
-                                  "B1.TRUTH_YAW,B2.DECISION_ACTION_A,B2.VISION_WORKING,B2.VISION_BALL_DIST,"
-                                  "B2.TRUTH_X,B2.TRUTH_YAW,match.BALL_X,match.ball x"));
+    QCOMPARE(
+        lines[0],
+        QByteArray("time,B1.DECISION_ACTION_A,B1.VISION_WORKING,B1.VISION_BALL_DIST,B1.TRUTH_X,"
+                   "B1.TRUTH_YAW,B2.DECISION_ACTION_A,B2.VISION_WORKING,B2.VISION_BALL_DIST,"
+                   "B2.TRUTH_X,B2.TRUTH_YAW,match.BALL_X,match.ball x"));
     QCOMPARE(lines.size(), 301);
     for (int tick = 0; tick < 300; ++tick) {
       const auto cells = lines[tick + 1].split(',');
@@ -186,7 +190,8 @@ class TestSessionExport : public QObject {
 
     const std::string path = newPath();
     std::ofstream(path) << "precious";
-    QVERIFY(exportFile(session(), ExportFormat::CsvWide, {}, path).error().code == ErrorCode::Conflict);
+    QVERIFY(exportFile(session(), ExportFormat::CsvWide, {}, path).error().code ==
+            ErrorCode::Conflict);
     QCOMPARE(bytesOf(path), std::string("precious"));
     for (const ExportFormat format : {ExportFormat::CsvLong, ExportFormat::Mcap}) {
       const std::string stopped = newPath();
@@ -195,7 +200,8 @@ class TestSessionExport : public QObject {
     }
     const auto full = exportFile(session(), ExportFormat::CsvWide, {}, "/dev/full");
     QVERIFY(!full);
-    const auto sink = exportText(session(), ExportFormat::CsvLong, {}, [](std::string_view) { return false; });
+    const auto sink =
+        exportText(session(), ExportFormat::CsvLong, {}, [](std::string_view) { return false; });
     QVERIFY(!sink);
   }
 };

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording process is killed at random moments: every file repairs and lacks the last second at most.
+// A recording process is killed at random moments: every file repairs and lacks the last second at
+// most.
 
-#include <QTemporaryDir>
-#include <QtTest>
-#include <atomic>
-#include <csignal>
 #include <fcntl.h>
-#include <random>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <atomic>
+#include <csignal>
+#include <random>
 
 #include <telemetry/session_reader.h>
 #include <telemetry/session_repair.h>
@@ -112,7 +113,8 @@ class TestSessionKilled : public QObject {
       });
       QVERIFY(inOrder);
       QCOMPARE(report->messages, rows);
-      QVERIFY2(written - last <= 1.0, qPrintable(QStringLiteral("%1 s are lost").arg(written - last)));
+      QVERIFY2(written - last <= 1.0,
+               qPrintable(QStringLiteral("%1 s are lost").arg(written - last)));
       mostLost = std::max(mostLost, written - last);
       munmap(child.shared, sizeof(Shared));
     }

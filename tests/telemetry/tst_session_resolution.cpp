@@ -24,17 +24,20 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 GroupInfo group(int words) {
   GroupInfo info{"match", {}, {}};
   for (int i = 0; i < words; ++i) {
-    info.columns.push_back({"W" + std::to_string(i), ColumnType::Int32, "", "", ColumnKind::Number, {}});
+    info.columns.push_back(
+        {"W" + std::to_string(i), ColumnType::Int32, "", "", ColumnKind::Number, {}});
   }
   info.columns.push_back({"COARSE", ColumnType::Float64, "cm", "", ColumnKind::Number, {}, 0.25});
   info.columns.push_back({"EXACT", ColumnType::Float64, "m", "", ColumnKind::Number, {}});
-  info.columns.push_back({"FINE", ColumnType::Float64, "m/s", "", ColumnKind::Number, {}, 1.0 / 1024});
+  info.columns.push_back(
+      {"FINE", ColumnType::Float64, "m/s", "", ColumnKind::Number, {}, 1.0 / 1024});
   info.columns.push_back({"SPARE", ColumnType::Float64, "m/s", "", ColumnKind::Number, {}, 1.0});
   return info;
 }
 
 bool same(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  return (std::isnan(a) && std::isnan(b)) ||
+         std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 }  // namespace
@@ -75,8 +78,9 @@ class TestSessionResolution : public QObject {
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         QVERIFY(found[i].words == numbers);
         for (std::size_t c = 0; c < wanted[i].size(); ++c) {
-          QVERIFY2(same(found[i].values[c], wanted[i][c]),
-                   qPrintable(QString("row %1, column %2: %3").arg(i).arg(c).arg(found[i].values[c])));
+          QVERIFY2(
+              same(found[i].values[c], wanted[i][c]),
+              qPrintable(QString("row %1, column %2: %3").arg(i).arg(c).arg(found[i].values[c])));
         }
       }
     };
@@ -96,7 +100,8 @@ class TestSessionResolution : public QObject {
     QTest::addColumn<QByteArray>("resolution");
     QTest::addColumn<bool>("good");
     QTest::newRow("a number") << QByteArray("0.5") << true;
-    for (const char* bad : {"0", "-1", "\"x\"", "null", "[]", "1e999"}) QTest::newRow(bad) << QByteArray(bad) << false;
+    for (const char* bad : {"0", "-1", "\"x\"", "null", "[]", "1e999"})
+      QTest::newRow(bad) << QByteArray(bad) << false;
   }
   void whatIsNoResolutionIsNoGroup() {
     QFETCH(QByteArray, resolution);

@@ -23,7 +23,8 @@ std::string text(int robot, int flags = 1, int voltage = 124, const std::string&
          std::to_string(voltage) + extra + " OUT";
 }
 
-Verdict give(TeamMonitor& monitor, const std::string& payload, WallTime time, Sender sender = from(1)) {
+Verdict give(TeamMonitor& monitor, const std::string& payload, WallTime time,
+             Sender sender = from(1)) {
   return monitor.take({time, sender, 1241, false, payload});
 }
 
@@ -76,7 +77,8 @@ class TestTeamMonitor : public QObject {
     for (int i = 5; i < 15; ++i) {
       give(monitor, text(1, 0), start + i * 1s);
       const ProcessStatus decision = monitor.status(start + i * 1s).robots[0].processes[3];
-      if (decision.state == ProcessState::Silent && silentAt == WallTime{}) silentAt = start + i * 1s;
+      if (decision.state == ProcessState::Silent && silentAt == WallTime{})
+        silentAt = start + i * 1s;
     }
     QVERIFY(silentAt != WallTime{});
     const RobotStatus robot = monitor.status(start + 15s).robots[0];
@@ -205,7 +207,8 @@ class TestTeamMonitor : public QObject {
     MonitorOptions options;
     QVERIFY(options.senders.add("10.0.0.0/30"));
     QVERIFY(options.senders.add("192.168.7.9"));
-    for (const char* bad : {"", "10.0.0", "10.0.0.0/33", "10.0.0.0/", "host", "1.2.3.4.5", "10.0.0.0/-1"}) {
+    for (const char* bad :
+         {"", "10.0.0", "10.0.0.0/33", "10.0.0.0/", "host", "1.2.3.4.5", "10.0.0.0/-1"}) {
       QVERIFY2(!options.senders.add(bad), bad);
     }
     TeamMonitor monitor(publishedProfile(), options);

@@ -27,13 +27,18 @@ void* operator new(std::size_t bytes) {
   if (void* memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
   std::abort();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 #endif
 
 namespace {
 
-const char* const good = "1 258 448 -8 56.3184547424 184.634048462 41.0279350281 1 1 1 1 1 8 0.0578 189 OUT";
+const char* const good =
+    "1 258 448 -8 56.3184547424 184.634048462 41.0279350281 1 1 1 1 1 8 0.0578 189 OUT";
 
 QStringList names(TextErrors errors) {
   QStringList out;
@@ -157,8 +162,8 @@ class TestTextDecoder : public QObject {
     row("robot without a port", "64296" + message().mid(1), {"bad-robot"}, false);
     row("robot as text", "one" + message().mid(1), {"bad-robot", "not-a-number"}, false);
     row("over-long", QByteArray(65537, '1'), {"too-long"}, false);
-    row("longest", QByteArray(65536, '1'), {"missing-fields", "missing-end", "bad-robot", "too-large"},
-        false);
+    row("longest", QByteArray(65536, '1'),
+        {"missing-fields", "missing-end", "bad-robot", "too-large"}, false);
   }
   void countsWhatIsWrong() {
     QFETCH(QByteArray, text);
@@ -233,10 +238,17 @@ class TestTextDecoder : public QObject {
       for (unsigned i = 0; i < changes && !text.empty(); ++i) {
         const std::size_t at = random() % text.size();
         switch (random() % 4) {
-          case 0: text[at] = interesting[random() % sizeof interesting]; break;
-          case 1: text.erase(at, 1 + random() % 8); break;
-          case 2: text.insert(at, text.substr(random() % text.size(), random() % 24)); break;
-          default: text.resize(at);
+          case 0:
+            text[at] = interesting[random() % sizeof interesting];
+            break;
+          case 1:
+            text.erase(at, 1 + random() % 8);
+            break;
+          case 2:
+            text.insert(at, text.substr(random() % text.size(), random() % 24));
+            break;
+          default:
+            text.resize(at);
         }
       }
       decoder.decode(text, decoded);

@@ -58,8 +58,7 @@ class TestTextProtocol : public QObject {
       int at = 0;
       for (int* value : {&m.robot, &m.x, &m.y, &m.theta}) *value = field[at++].toInt();
       for (float* value : {&m.belief, &m.ballDist, &m.ballAngle}) *value = field[at++].toFloat();
-      for (int* value :
-           {&m.control, &m.vision, &m.localization, &m.decision, &m.imu, &m.actionA}) {
+      for (int* value : {&m.control, &m.vision, &m.localization, &m.decision, &m.imu, &m.actionA}) {
         *value = field[at++].toInt();
       }
       m.imuEulerZ = field[at++].toFloat();
@@ -71,17 +70,36 @@ class TestTextProtocol : public QObject {
   }
 
   void fieldsInTheirOrder() {
-    const TextMessage m{.robot = 1, .x = 2, .y = 3, .theta = -4, .belief = 5.5F, .ballDist = -1,
-                        .ballAngle = 1e-5F, .control = 7, .vision = 8, .localization = 9,
-                        .decision = 10, .imu = 11, .actionA = 12, .imuEulerZ = notANumber, .voltage = 13};
-    QCOMPARE(encode(m), std::string("1 2 3 -4 5.5 -1.0 9.99999974738e-06 7 8 9 10 11 12 nan 13 OUT"));
+    const TextMessage m{.robot = 1,
+                        .x = 2,
+                        .y = 3,
+                        .theta = -4,
+                        .belief = 5.5F,
+                        .ballDist = -1,
+                        .ballAngle = 1e-5F,
+                        .control = 7,
+                        .vision = 8,
+                        .localization = 9,
+                        .decision = 10,
+                        .imu = 11,
+                        .actionA = 12,
+                        .imuEulerZ = notANumber,
+                        .voltage = 13};
+    QCOMPARE(encode(m),
+             std::string("1 2 3 -4 5.5 -1.0 9.99999974738e-06 7 8 9 10 11 12 nan 13 OUT"));
   }
 
   void extremeNumbers() {
     constexpr int low = std::numeric_limits<int>::min(), high = std::numeric_limits<int>::max();
-    const TextMessage m{.robot = 64, .x = low, .y = high, .theta = low, .belief = inf,
-                        .ballDist = -inf, .ballAngle = std::numeric_limits<float>::max(),
-                        .imuEulerZ = std::numeric_limits<float>::denorm_min(), .voltage = low};
+    const TextMessage m{.robot = 64,
+                        .x = low,
+                        .y = high,
+                        .theta = low,
+                        .belief = inf,
+                        .ballDist = -inf,
+                        .ballAngle = std::numeric_limits<float>::max(),
+                        .imuEulerZ = std::numeric_limits<float>::denorm_min(),
+                        .voltage = low};
     QCOMPARE(encode(m),
              std::string("64 -2147483648 2147483647 -2147483648 inf -inf 3.40282346639e+38 "
                          "0 0 0 0 0 0 1.40129846432e-45 -2147483648 OUT"));
@@ -131,8 +149,10 @@ class TestTextProtocol : public QObject {
   void manyNumbers() {
     std::mt19937 random(1);
     const auto bits = [&random] { return static_cast<std::uint32_t>(random()); };
-    QList<double> values{0.0, -0.0, inf, -inf, notANumber, 99999999999.96, 1e11, 123456789012.0,
-                         999999999999.6, 1e12, 5e-324, std::numeric_limits<double>::max()};
+    QList<double> values{0.0,  -0.0,           inf,
+                         -inf, notANumber,     99999999999.96,
+                         1e11, 123456789012.0, 999999999999.6,
+                         1e12, 5e-324,         std::numeric_limits<double>::max()};
     for (int i = 0; i < 4000; ++i) values.append(std::bit_cast<float>(bits()));  // any float32
     for (int i = 0; i < 2000; ++i) {  // around the places where the form changes
       const int decade = static_cast<int>(bits() % 22) - 6;

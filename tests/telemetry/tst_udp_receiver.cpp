@@ -152,7 +152,8 @@ class TestUdpReceiver : public QObject {
     QVERIFY(!livePorts(1240, 16, 1250));
     QVERIFY(!livePorts(1240, 16, 70000));
     QVERIFY(parseAddress("255.255.255.255"));
-    for (const char* bad : {"", "1.2.3", "256.1.1.1", "localhost", "::1"}) QVERIFY2(!parseAddress(bad), bad);
+    for (const char* bad : {"", "1.2.3", "256.1.1.1", "localhost", "::1"})
+      QVERIFY2(!parseAddress(bad), bad);
   }
 
   void receivingIsSilent() {

@@ -15,7 +15,8 @@
 
 namespace live_rig {
 
-/// Base of ports below those that the system gives away; other test programs use others at this time.
+/// Base of ports below those that the system gives away; other test programs use others at this
+/// time.
 inline int freePortBase() {
   static int next = 0;
   return 12000 + static_cast<int>(getpid() % 180) * 110 + 20 * (next++ % 5);

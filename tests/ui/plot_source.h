@@ -4,8 +4,8 @@
 // A source whose rows a test writes: groups B1 and B2 with a few columns, and what the plots' dock
 // needs around it.
 
-#include <QTemporaryDir>
 #include <QSettings>
+#include <QTemporaryDir>
 #include <cmath>
 #include <functional>
 
@@ -53,8 +53,8 @@ class PlotSource : public FrameSource {
     const std::array<double, 3> values{dist, angle, noisy};
     store->append(group, {time, words, values});
   }
-  /// `seconds` of rows at 60 Hz from time 0: DIST is distanceAt(t), ANGLE 90 t, ACTION changes every
-  /// second.
+  /// `seconds` of rows at 60 Hz from time 0: DIST is distanceAt(t), ANGLE 90 t, ACTION changes
+  /// every second.
   telemetry::GroupId fill(const char* name, double seconds, double shift = 0.0) {
     const telemetry::GroupId group = addRobot(name);
     for (int i = 0; i <= static_cast<int>(seconds * 60); ++i) {

@@ -43,9 +43,7 @@ struct Studio {
   bool played(std::uint64_t tick) const {
     return controller.frame() && controller.frame()->snapshot.tick >= tick;
   }
-  QToolButton* record() const {
-    return window.findChild<QToolButton*>(QStringLiteral("record"));
-  }
+  QToolButton* record() const { return window.findChild<QToolButton*>(QStringLiteral("record")); }
   QAction* action(const char* name) const {
     return window.findChild<QAction*>(QLatin1String(name));
   }

@@ -14,7 +14,9 @@ using namespace pitchboard::ui;
 
 namespace {
 
-TimelineEvent at(double time, EventType type = EventType::Kick) { return {time, type, {}, {}}; }
+TimelineEvent at(double time, EventType type = EventType::Kick) {
+  return {time, type, {}, {}};
+}
 
 std::vector<double> timesOf(const EventList& list) {
   std::vector<double> times;
@@ -101,7 +103,8 @@ class TestEventList : public QObject {
     }
     QCOMPARE(names.size(), qsizetype(eventTypeCount));
     QCOMPARE(eventTypeNamed(QStringLiteral("of tomorrow")), EventType::Warning);
-    QCOMPARE(sentenceOf({1, EventType::Goal, QStringLiteral("BLUE"), {}}), QStringLiteral("goal for BLUE"));
+    QCOMPARE(sentenceOf({1, EventType::Goal, QStringLiteral("BLUE"), {}}),
+             QStringLiteral("goal for BLUE"));
   }
 
   void momentsAreWritten_data() {
@@ -204,7 +207,8 @@ class TestEventList : public QObject {
     list.add(std::move(many));
     QElapsedTimer clock;
     clock.start();
-    const auto marks = layOutMarks(list.events(), {{0, 7400}, 0, 1900}, {10, 8}, QFontMetrics{QFont()});
+    const auto marks =
+        layOutMarks(list.events(), {{0, 7400}, 0, 1900}, {10, 8}, QFontMetrics{QFont()});
     QVERIFY(marks.size() <= 191);
     QVERIFY2(clock.elapsed() < 100, qPrintable(QString::number(clock.elapsed())));
   }

@@ -173,10 +173,13 @@ class TestFieldKeys : public QObject {
     QTest::addColumn<QString>("text");
     QTest::newRow("along x") << QPointF(1, 1) << QPointF(3, 1) << QStringLiteral("2.00 m   0.0°");
     QTest::newRow("3-4-5") << QPointF(0, 0) << QPointF(3, 4) << QStringLiteral("5.00 m   53.1°");
-    QTest::newRow("down, real minus") << QPointF(0, 2) << QPointF(0, 0.5) << QStringLiteral("1.50 m   −90.0°");
-    QTest::newRow("back") << QPointF(0, 0) << QPointF(-1.234, 0) << QStringLiteral("1.23 m   180.0°");
+    QTest::newRow("down, real minus")
+        << QPointF(0, 2) << QPointF(0, 0.5) << QStringLiteral("1.50 m   −90.0°");
+    QTest::newRow("back") << QPointF(0, 0) << QPointF(-1.234, 0)
+                          << QStringLiteral("1.23 m   180.0°");
     QTest::newRow("nothing") << QPointF(2, 2) << QPointF(2, 2) << QStringLiteral("0.00 m   0.0°");
-    QTest::newRow("no minus zero") << QPointF(0, 0) << QPointF(3, -0.001) << QStringLiteral("3.00 m   0.0°");
+    QTest::newRow("no minus zero")
+        << QPointF(0, 0) << QPointF(3, -0.001) << QStringLiteral("3.00 m   0.0°");
   }
   void rulerReadsMetresAndDegrees() {
     QFETCH(QPointF, from);

@@ -326,11 +326,11 @@ class TestFieldView : public QObject {
       return sim::RobotIdentity{};
     };
     QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
-    QCOMPARE(identity(1).number, 4);            // 1 to 3 are worn
-    QVERIFY(identity(1).imuStartsAt180);        // it attacks to the left now
+    QCOMPARE(identity(1).number, 4);      // 1 to 3 are worn
+    QVERIFY(identity(1).imuStartsAt180);  // it attacks to the left now
     QVERIFY(near(pose(1), before));
     QCOMPARE(m_controller->undoStack()->undoText(), QString("Put B1 in team red"));
-    QVERIFY(trigger(before.position, "Red"));   // is there already
+    QVERIFY(trigger(before.position, "Red"));  // is there already
     QCOMPARE(m_controller->undoStack()->count(), 1);
     m_controller->undoStack()->undo();
     QTRY_COMPARE(int(identity(1).team), int(TeamColor::Blue));
@@ -436,7 +436,7 @@ class TestFieldView : public QObject {
       QVERIFY(!action->isChecked());  // off at first
       action->setChecked(true);
       QVERIFY(view.picture(size) != without);
-      view.select({RobotId{2}});      // of selected robots only, and this one tells nothing
+      view.select({RobotId{2}});  // of selected robots only, and this one tells nothing
       const QImage other = view.picture(size);
       view.select({RobotId{1}});
       QVERIFY(view.picture(size) != other);
@@ -532,8 +532,9 @@ class TestFieldView : public QObject {
   // QTest::mouseMove() tells no buttons, which a drag needs.
   void moveTo(const QPoint& to, Qt::MouseButtons held = Qt::LeftButton,
               Qt::KeyboardModifiers modifiers = {}) {
-    QMouseEvent event(QEvent::MouseMove, QPointF(to), m_canvas->viewport()->mapToGlobal(QPointF(to)),
-                      Qt::NoButton, held, modifiers);
+    QMouseEvent event(QEvent::MouseMove, QPointF(to),
+                      m_canvas->viewport()->mapToGlobal(QPointF(to)), Qt::NoButton, held,
+                      modifiers);
     QCoreApplication::sendEvent(m_canvas->viewport(), &event);
   }
   void drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers = {}) {

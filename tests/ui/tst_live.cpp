@@ -23,8 +23,6 @@
 #include <ui/main_window.h>
 #include <ui/match_controller.h>
 
-
-
 #include "live_rig.h"
 
 using namespace pitchboard;
@@ -71,13 +69,9 @@ class TestLive : public QObject {
     }
     std::size_t robots() { return live()->frame()->health.size(); }
     const link::RobotHealth& health(std::size_t i = 0) { return live()->frame()->health.at(i); }
-    QList<RobotCard*> cards() {
-      return window.findChild<RobotsDock*>()->cards();
-    }
+    QList<RobotCard*> cards() { return window.findChild<RobotsDock*>()->cards(); }
     QGraphicsView* canvas() { return window.field()->findChild<QGraphicsView*>(); }
-    Scoreboard* scoreboard() {
-      return window.findChild<Scoreboard*>(QStringLiteral("scoreboard"));
-    }
+    Scoreboard* scoreboard() { return window.findChild<Scoreboard*>(QStringLiteral("scoreboard")); }
     QString label(const char* name) {
       return window.findChild<QLabel*>(QLatin1String(name))->text();
     }
@@ -108,7 +102,8 @@ class TestLive : public QObject {
     QVERIFY(health.poseKnown && health.ball && health.battery);
     QVERIFY(qAbs(health.battery->volts - 16.5) < 1e-9);
     QVERIFY(qAbs(std::hypot(health.ball->x - believed.position.x,
-                            health.ball->y - believed.position.y) - 1.0) < 1e-6);
+                            health.ball->y - believed.position.y) -
+                 1.0) < 1e-6);
     QCOMPARE(health.action, std::optional(8));
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QCOMPARE(s.cards()[0]->state().action, QStringLiteral("walk forward, slow"));
@@ -238,7 +233,7 @@ class TestLive : public QObject {
     const Robot one(s.options, 4), two(s.options, 4);
     for (int i = 0; i < 3; ++i) {
       QVERIFY(one.say());
-      QTest::qWait(1);   // two programs take turns; the order is what matters
+      QTest::qWait(1);  // two programs take turns; the order is what matters
       telemetry::TextMessage other = live_rig::message(4);
       other.x += 100 + i;
       QVERIFY(two.say(other));
@@ -271,9 +266,9 @@ class TestLive : public QObject {
   void theRefereesPacketsFillTheScoreboard_data() {
     QTest::addColumn<QString>("file");
     const QDir folder(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/gamecontroller"));
-    for (const QString& file : folder.entryList({QStringLiteral("*_PENALISED*.bin"),
-                                                 QStringLiteral("*_PLAYING*.bin"),
-                                                 QStringLiteral("*_SET*.bin")})) {
+    for (const QString& file :
+         folder.entryList({QStringLiteral("*_PENALISED*.bin"), QStringLiteral("*_PLAYING*.bin"),
+                           QStringLiteral("*_SET*.bin")})) {
       if (!file.contains(QStringLiteral("truedata"))) QTest::newRow(qPrintable(file)) << file;
     }
   }
@@ -301,8 +296,7 @@ class TestLive : public QObject {
 
   void penaltiesOfOurTeamAreMarked() {
     const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
-    const auto state =
-        std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());
+    const auto state = std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());
     int team = 0, player = 0;
     for (const auto& side : state.teams) {
       for (const auto& slot : side.players()) {
@@ -370,7 +364,10 @@ class TestLive : public QObject {
 
   void aFloodOfNonsenseIsCounted() {
     Studio s;
-    s.change([](link::LiveOptions& o) { o.robots = 64; o.refereePort = o.portBase + 66; });
+    s.change([](link::LiveOptions& o) {
+      o.robots = 64;
+      o.refereePort = o.portBase + 66;
+    });
     s.window.showSource(SourceKind::Live);
     QTRY_COMPARE(s.bound(), std::size_t(65));
     const TestSocket sender;
@@ -384,8 +381,9 @@ class TestLive : public QObject {
       sender.send(port(3), "");
       sender.send(port(4), std::string(60000, '7'));
       sender.send(port(5), "5 1 2");
-      sender.send(port(6), "6 999999999999999999999 -999999999 2147483647 1e38 1e38 1e38 1 1 1 1 1 "
-                           "2147483647 1 99999 OUT");
+      sender.send(port(6),
+                  "6 999999999999999999999 -999999999 2147483647 1e38 1e38 1e38 1 1 1 1 1 "
+                  "2147483647 1 99999 OUT");
       sender.send(static_cast<std::uint16_t>(s.options.refereePort), "RGme nonsense");
     }
     for (int robot = 1; robot <= 70; ++robot) {
@@ -419,8 +417,8 @@ class TestLive : public QObject {
   }
 
   void aRecordedMatchIsReplayedThroughSockets() {
-    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR
-                              "/tests/data/telemetry_capture_1_robot_60s.txt"));
+    QFile file(
+        QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/telemetry_capture_1_robot_60s.txt"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     Studio s;
     s.goLive();
@@ -492,7 +490,8 @@ class TestLive : public QObject {
     dock->setParts(parts);
     QVERIFY(!first->grab().isNull());
     QCOMPARE(s.settings.value(QStringLiteral("cards/values")).toStringList().size(), qsizetype(2));
-    QVERIFY(s.settings.value(QStringLiteral("cards/hidden")).toStringList()
+    QVERIFY(s.settings.value(QStringLiteral("cards/hidden"))
+                .toStringList()
                 .contains(QStringLiteral("battery")));
   }
 

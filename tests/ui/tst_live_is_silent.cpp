@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rule of the league: Live sends nothing to robots. Every function of the C library that sends is
-// replaced by one that counts, in this whole program, Qt included; the studio is then used in Live.
+// The rule of the league: Live sends nothing to robots. Every function of the C library that sends
+// is replaced by one that counts, in this whole program, Qt included; the studio is then used in
+// Live.
+#include <dlfcn.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <atomic>
-#include <dlfcn.h>
 #include <mutex>
-#include <sys/socket.h>
-#include <sys/syscall.h>
-#include <sys/uio.h>
 
 #include <ui/live_controller.h>
 #include <ui/main_window.h>

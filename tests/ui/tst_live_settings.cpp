@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The settings of Live, the profile editor and the table of bad messages, by their widgets.
+#include <QAbstractItemModelTester>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -12,7 +13,6 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QToolButton>
-#include <QAbstractItemModelTester>
 #include <QtTest>
 
 #include <live/bad_messages_model.h>
@@ -34,7 +34,9 @@ class TestLiveSettings : public QObject {
     Dialog() { dialog->show(); }
     ~Dialog() { delete dialog; }
     template <class T>
-    T* box(const char* name) { return dialog->findChild<T*>(QLatin1String(name)); }
+    T* box(const char* name) {
+      return dialog->findChild<T*>(QLatin1String(name));
+    }
     QString problem() {
       auto* label = box<QLabel>("liveProblem");
       return label->isVisible() ? label->text() : QString();
@@ -68,10 +70,18 @@ class TestLiveSettings : public QObject {
     QTest::addColumn<QString>("box");
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("said");
-    QTest::newRow("address") << "bind" << "localhost" << "Listen at";
-    QTest::newRow("sender") << "senders" << "1.2.3.4/77" << "Only from";
-    QTest::newRow("ports") << "portBase" << "65530" << "port";
-    QTest::newRow("collision") << "refereePort" << "1245" << "robots'";
+    QTest::newRow("address") << "bind"
+                             << "localhost"
+                             << "Listen at";
+    QTest::newRow("sender") << "senders"
+                            << "1.2.3.4/77"
+                            << "Only from";
+    QTest::newRow("ports") << "portBase"
+                           << "65530"
+                           << "port";
+    QTest::newRow("collision") << "refereePort"
+                               << "1245"
+                               << "robots'";
   }
   void mistakesAreSaidInTheDialog() {
     QFETCH(QString, box);
@@ -79,8 +89,10 @@ class TestLiveSettings : public QObject {
     QFETCH(QString, said);
     Dialog d;
     auto* widget = d.dialog->findChild<QWidget*>(box);
-    if (auto* edit = qobject_cast<QLineEdit*>(widget)) edit->setText(text);
-    else qobject_cast<QSpinBox*>(widget)->setValue(text.toInt());
+    if (auto* edit = qobject_cast<QLineEdit*>(widget))
+      edit->setText(text);
+    else
+      qobject_cast<QSpinBox*>(widget)->setValue(text.toInt());
     QVERIFY(!d.dialog->apply());
     QVERIFY2(d.problem().contains(said), qPrintable(d.problem()));
     QCOMPARE(d.live.options().portBase, 1240);
@@ -129,7 +141,8 @@ class TestLiveSettings : public QObject {
     QCOMPARE(table->rowCount(), 16);
     table->item(15, 0)->setText(QStringLiteral("TEMPERATURE"));
     QVERIFY(editor.saveTo(folder.filePath(QStringLiteral("p.json"))));
-    const auto loaded = telemetry::loadProfile(folder.filePath(QStringLiteral("p.json")).toStdString());
+    const auto loaded =
+        telemetry::loadProfile(folder.filePath(QStringLiteral("p.json")).toStdString());
     QVERIFY(loaded);
     QCOMPARE(loaded->fields.back().name, std::string("TEMPERATURE"));
     QCOMPARE(*loaded, editor.profile());
@@ -167,8 +180,8 @@ class TestLiveSettings : public QObject {
     telemetry::TeamMonitor monitor;
     const telemetry::WallTime now{std::chrono::seconds(1'700'000'000)};
     const telemetry::Sender sender{{0x7f000001}, 4000};
-    monitor.take({now, sender, 1241, false,
-                  "1 258 448 -8 56.3 184.6 41.0 1 1 1 1 1 8 0.05 189 OUT"});
+    monitor.take(
+        {now, sender, 1241, false, "1 258 448 -8 56.3 184.6 41.0 1 1 1 1 1 8 0.05 189 OUT"});
     monitor.take({now, sender, 1241, false, "1 2 3 OUT"});
     link::LiveDetails details;
     details.team = monitor.status(now);
@@ -179,10 +192,13 @@ class TestLiveSettings : public QObject {
     model.update({});
     QCOMPARE(model.rowCount(), 0);
     model.update(details);
-    QCOMPARE(model.rowCount(), 4);   // everybody, robot 1, its sender, the referee's port
-    QCOMPARE(model.index(0, BadMessagesModel::Sample).data().toString(), QStringLiteral("1 2 3 OUT"));
-    QVERIFY(model.index(1, BadMessagesModel::Who).data().toString().startsWith(
-        QStringLiteral("robot 1")));
+    QCOMPARE(model.rowCount(), 4);  // everybody, robot 1, its sender, the referee's port
+    QCOMPARE(model.index(0, BadMessagesModel::Sample).data().toString(),
+             QStringLiteral("1 2 3 OUT"));
+    QVERIFY(model.index(1, BadMessagesModel::Who)
+                .data()
+                .toString()
+                .startsWith(QStringLiteral("robot 1")));
     details.unknownReferee = 3;
     QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
     model.update(details);

@@ -29,8 +29,7 @@ class TestMainWindow : public QObject {
     QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
     MatchController controller;
     MainWindow window;
-    explicit Studio(bool paused = true)
-        : controller(options()), window(&controller, &settings) {
+    explicit Studio(bool paused = true) : controller(options()), window(&controller, &settings) {
       controller.open(link::loadScenario("match-3v3").value(), paused);
       window.files()->showCurrent(QStringLiteral("match-3v3"));
       window.resize(1280, 800);
@@ -45,9 +44,7 @@ class TestMainWindow : public QObject {
       auto* bar = window.findChild<QToolBar*>(QStringLiteral("transportBar"));
       return bar->widgetForAction(window.findChild<QAction*>(QLatin1String(action)));
     }
-    QDockWidget* dock(const char* id) {
-      return window.findChild<QDockWidget*>(QLatin1String(id));
-    }
+    QDockWidget* dock(const char* id) { return window.findChild<QDockWidget*>(QLatin1String(id)); }
     QAction* menuAction(const QString& text) {
       for (QAction* action : window.findChildren<QAction*>()) {
         if (action->text().remove(QLatin1Char('&')).startsWith(text)) return action;

@@ -50,11 +50,12 @@ class TestPlotCurves : public QObject {
  private slots:
   void derivedCurves_data() {
     QTest::addColumn<CurveSpec>("spec");
-    QTest::addColumn<double>("atTwoSeconds");   // ANGLE is 90 t
+    QTest::addColumn<double>("atTwoSeconds");  // ANGLE is 90 t
     QTest::addColumn<QString>("unit");
     QTest::newRow("derivative") << derivedOf(CurveKind::Derivative) << 90.0 << "°/s";
     QTest::newRow("integral") << derivedOf(CurveKind::Integral) << 180.0 << "°·s";
-    // The mean of the 30 samples in (1.5, 2]: their middle lies a quarter second less half a tick ago.
+    // The mean of the 30 samples in (1.5, 2]: their middle lies a quarter second less half a tick
+    // ago.
     QTest::newRow("average") << derivedOf(CurveKind::MovingAverage, 0.5)
                              << 90.0 * (2.0 - 0.25 + 0.5 / 60) << "°";
     QTest::newRow("wrap") << derivedOf(CurveKind::WrapAngle, 360.0) << 180.0 << "°";
@@ -109,16 +110,26 @@ class TestPlotCurves : public QObject {
   void expressionsThatCannotWorkSaySo_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("says");
-    QTest::newRow("empty") << "  " << "empty";
-    QTest::newRow("no variable") << "1 + 2" << "no variable";
-    QTest::newRow("no group") << "VISION_BALL_DIST * 2" << "VISION_BALL_DIST";
-    QTest::newRow("open") << "(B1.X + 2" << "parenthes";
-    QTest::newRow("operator") << "B1.X + * 2" << "position";
-    QTest::newRow("function") << "sinus(B1.X)" << "position 5";
-    QTest::newRow("arguments") << "hypot(B1.X)" << "hypot";
-    QTest::newRow("brace") << "{B1/X + 2" << "brace";
-    QTest::newRow("brace without group") << "{X}" << "GROUP/NAME";
-    QTest::newRow("assignment") << "B1.X = 4" << "character 6";
+    QTest::newRow("empty") << "  "
+                           << "empty";
+    QTest::newRow("no variable") << "1 + 2"
+                                 << "no variable";
+    QTest::newRow("no group") << "VISION_BALL_DIST * 2"
+                              << "VISION_BALL_DIST";
+    QTest::newRow("open") << "(B1.X + 2"
+                          << "parenthes";
+    QTest::newRow("operator") << "B1.X + * 2"
+                              << "position";
+    QTest::newRow("function") << "sinus(B1.X)"
+                              << "position 5";
+    QTest::newRow("arguments") << "hypot(B1.X)"
+                               << "hypot";
+    QTest::newRow("brace") << "{B1/X + 2"
+                           << "brace";
+    QTest::newRow("brace without group") << "{X}"
+                                         << "GROUP/NAME";
+    QTest::newRow("assignment") << "B1.X = 4"
+                                << "character 6";
     QTest::newRow("too long") << QString(5000, QLatin1Char('1')) << "longer";
     QTest::newRow("odd characters") << QString::fromUtf8("B1.X + §ß") << "cannot be read";
   }
@@ -144,14 +155,15 @@ class TestPlotCurves : public QObject {
 
   void expressionsCompute_data() {
     QTest::addColumn<QString>("text");
-    QTest::addColumn<double>("value");   // B1.A = 3, B1.B = 4, t = 2
+    QTest::addColumn<double>("value");  // B1.A = 3, B1.B = 4, t = 2
     QTest::newRow("arithmetic") << "B1.A * 2 - B1.B / 8 + 2 ^ 3" << 13.5;
     QTest::newRow("functions") << "hypot(B1.A, B1.B) + sqrt(16) + 0 * B1.A" << 9.0;
     QTest::newRow("condition") << "B1.A > 2 ? B1.B : -1" << 4.0;
     QTest::newRow("angles") << "deg(pi) + wrap(B1.A * 100, 360) + rad(0)" << 120.0;
     QTest::newRow("time") << "t * B1.A" << 6.0;
     QTest::newRow("braces") << "{B1/A} + {B1/B}" << 7.0;
-    QTest::newRow("division by zero") << "B1.A / (B1.B - 4)" << std::numeric_limits<double>::infinity();
+    QTest::newRow("division by zero")
+        << "B1.A / (B1.B - 4)" << std::numeric_limits<double>::infinity();
   }
   void expressionsCompute() {
     QFETCH(QString, text);
@@ -210,12 +222,15 @@ class TestPlotCurves : public QObject {
     QTest::newRow("no json") << QByteArray("hello") << "not a layout";
     QTest::newRow("other json") << QByteArray("{\"a\": 1}") << "not a layout";
     QTest::newRow("later") << QByteArray("{\"pitchboardPlots\": 7}") << "version 7";
-    QTest::newRow("kind") << QByteArray(R"({"pitchboardPlots":1,"tabs":[{"plots":[{"kind":"pie"}]}]})")
+    QTest::newRow("kind") << QByteArray(
+                                 R"({"pitchboardPlots":1,"tabs":[{"plots":[{"kind":"pie"}]}]})")
                           << "tabs[0].plots[0].kind";
     QTest::newRow("inputs") << QByteArray(R"({"pitchboardPlots":1,"tabs":[{"plots":[{"curves":
-        [{"kind":"difference","inputs":["B1/X"]}]}]}]})") << "curves[0].inputs";
+        [{"kind":"difference","inputs":["B1/X"]}]}]}]})")
+                            << "curves[0].inputs";
     QTest::newRow("limits") << QByteArray(R"({"pitchboardPlots":1,"tabs":[{"plots":[
-        {"values":[3,1]}]}]})") << "values";
+        {"values":[3,1]}]}]})")
+                            << "values";
   }
   void brokenLayoutsAreRefused() {
     QFETCH(QByteArray, text);
@@ -277,7 +292,6 @@ class TestPlotCurves : public QObject {
     QCOMPARE(decimalsOf(20), 0);
   }
 };
-
 
 QTEST_MAIN(TestPlotCurves)
 #include "tst_plot_curves.moc"

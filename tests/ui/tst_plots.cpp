@@ -39,8 +39,8 @@ void dropOn(QWidget* page, const QStringList& names, const QPoint& at) {
 }
 
 void wheel(QWidget* at, const QPoint& position, int notches, Qt::KeyboardModifiers keys = {}) {
-  QWheelEvent event(position, at->mapToGlobal(position), {}, {0, 120 * notches}, Qt::NoButton,
-                    keys, Qt::NoScrollPhase, false);
+  QWheelEvent event(position, at->mapToGlobal(position), {}, {0, 120 * notches}, Qt::NoButton, keys,
+                    Qt::NoScrollPhase, false);
   QApplication::sendEvent(at, &event);
 }
 
@@ -279,7 +279,7 @@ class TestPlots : public QObject {
     for (int i = 0; i < 60; ++i) source.append(group, i / 60.0, 0, i == 30 ? std::nan("") : 1.0);
     for (int i = 0; i < 60; ++i) source.append(group, 30.0 + i / 60.0, 0, 1.0);
     const ColumnView view{source.store->view(group), 1};
-    for (const int columns : {2000, 20}) {   // samples one by one; in columns
+    for (const int columns : {2000, 20}) {  // samples one by one; in columns
       const CurveTrace trace = traceOf(view, {0.0, columns == 20 ? 60.0 : 32.0}, columns);
       const auto lines = polylines(trace, {{0.0, 32.0}, 0, 800}, {{0.0, 2.0}, 0, 100}, false);
       QCOMPARE(lines.size(), std::size_t(columns == 20 ? 2 : 3));
@@ -299,8 +299,8 @@ class TestPlots : public QObject {
     QCOMPARE(trace.low, -300.0);
     QCOMPARE(trace.high, 500.0);
     std::size_t points = 0;
-    for (const QPolygonF& line : polylines(trace, {{0.0, 200.0}, 0, 1000}, {{-300, 500}, 0, 100},
-                                           false)) {
+    for (const QPolygonF& line :
+         polylines(trace, {{0.0, 200.0}, 0, 1000}, {{-300, 500}, 0, 100}, false)) {
       points += std::size_t(line.size());
     }
     QVERIFY(points <= 2 * trace.columns.size());
@@ -408,9 +408,10 @@ class TestPlots : public QObject {
     for (int i = 0; i <= 30 * 60; ++i) {
       const double time = i / 60.0;
       const bool lost = time > 20.2 && time < 22.3;
-      s.source.append(second, time, 0, lost ? std::nan("") : 210 + 30 * std::tanh((time - 23) / 2) +
-                                                2 * std::sin(i * 1.3),
-                      85.0 * time + 6 * std::sin(time * 3));
+      s.source.append(
+          second, time, 0,
+          lost ? std::nan("") : 210 + 30 * std::tanh((time - 23) / 2) + 2 * std::sin(i * 1.3),
+          85.0 * time + 6 * std::sin(time * 3));
     }
     s.dock->resize(size);
     PageSpec page{"approach", {}};
@@ -447,7 +448,8 @@ class TestPlots : public QObject {
           for (int x = where.left(); x < where.right() && !found; ++x) {
             const QColor is = image.pixelColor(x, y);
             found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
-                        std::abs(is.blue() - wanted.blue()) < 60;
+                        std::abs(is.blue() - wanted.blue()) <
+                    60;
           }
         }
         QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));

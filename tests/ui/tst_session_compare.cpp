@@ -53,7 +53,8 @@ class TestSessionCompare : public QObject {
     QCOMPARE(compared->offset(), 0.0);
     compared->alignHere(3.0);
     QCOMPARE(compared->offset(), -8.0);
-    QVERIFY2(compared->caption().contains(QStringLiteral("8.00 s")), qPrintable(compared->caption()));
+    QVERIFY2(compared->caption().contains(QStringLiteral("8.00 s")),
+             qPrintable(compared->caption()));
     QTRY_COMPARE(ghosts(), 6);
     // In Replay, of itself: ghosts stand where the robots stand.
     compared->alignByTime();

@@ -55,7 +55,8 @@ class TestSessionExportDialog : public QObject {
     QTest::addColumn<bool>("fromMemory");
     for (const bool memory : {false, true}) {
       const QByteArray of = memory ? " of memory" : " of a file";
-      QTest::newRow("csv" + of) << QStringLiteral("row per time") << QStringLiteral(".csv") << memory;
+      QTest::newRow("csv" + of) << QStringLiteral("row per time") << QStringLiteral(".csv")
+                                << memory;
       QTest::newRow("mcap" + of) << QStringLiteral("MCAP") << QStringLiteral(".mcap") << memory;
       QTest::newRow("report" + of) << QStringLiteral("Report") << QStringLiteral(".html") << memory;
       QTest::newRow("svg" + of) << QStringLiteral("(SVG)") << QStringLiteral(".svg") << memory;
@@ -130,7 +131,8 @@ class TestSessionExportDialog : public QObject {
     QVERIFY(dialog->isWriting());
     auto* bar = dialog->findChild<QProgressBar*>(QStringLiteral("exportProgress"));
     QTRY_VERIFY_WITH_TIMEOUT(bar->value() > 0, 20'000);
-    QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("exportButton")), Qt::LeftButton);
+    QTest::mouseClick(dialog->findChild<QPushButton*>(QStringLiteral("exportButton")),
+                      Qt::LeftButton);
     QCOMPARE(failed.size(), 1);
     QVERIFY(!dialog->isWriting());
     QVERIFY2(message(dialog).contains(QStringLiteral("Cancelled")), qPrintable(message(dialog)));

@@ -21,11 +21,13 @@ class TestSessionLive : public QObject {
   static bool hear(Studio& s, const link::LiveOptions& options) {
     s.window.live()->setOptions(options);
     s.window.showSource(SourceKind::Live);
-    const bool bound = QTest::qWaitFor([&s] {
-      const auto ports = s.window.live()->details().network.ports;
-      return !ports.empty() && std::all_of(ports.begin(), ports.end(),
-                                           [](const auto& port) { return port.bound; });
-    }, 10'000);
+    const bool bound = QTest::qWaitFor(
+        [&s] {
+          const auto ports = s.window.live()->details().network.ports;
+          return !ports.empty() && std::all_of(ports.begin(), ports.end(),
+                                               [](const auto& port) { return port.bound; });
+        },
+        10'000);
     return bound && talk(s, options, 10);
   }
   static bool talk(Studio& s, const link::LiveOptions& options, int times) {
@@ -34,10 +36,12 @@ class TestSessionLive : public QObject {
     for (int i = 0; i < times; ++i) {
       const double before = live->frame() ? live->frame()->snapshot.time : -1.0;
       if (!one.say() || !two.say()) return false;
-      const bool heard = QTest::qWaitFor([live, before] {
-        return live->frame() && live->frame()->snapshot.robots.size() == 2 &&
-               live->frame()->snapshot.time > before;
-      }, 10'000);
+      const bool heard = QTest::qWaitFor(
+          [live, before] {
+            return live->frame() && live->frame()->snapshot.robots.size() == 2 &&
+                   live->frame()->snapshot.time > before;
+          },
+          10'000);
       if (!heard) return false;
     }
     return true;

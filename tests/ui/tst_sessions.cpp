@@ -136,7 +136,8 @@ class TestSessions : public QObject {
     // The last moment is the match's.
     timeline->seek(timeline->available()->end);
     QTRY_COMPARE(s.window.replay()->frame()->snapshot.tick, std::uint64_t(900));
-    QVERIFY(std::abs(s.window.replay()->frame()->snapshot.robots[0].pose.position.x - lastX) < 1e-9);
+    QVERIFY(std::abs(s.window.replay()->frame()->snapshot.robots[0].pose.position.x - lastX) <
+            1e-9);
     QTRY_COMPARE(s.window.replay()->loaded(), 1.0);
     QVERIFY(s.window.replay()->series()->range());
     // It plays with the tool bar's buttons.
@@ -163,8 +164,7 @@ class TestSessions : public QObject {
     QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
     s.window.recording()->stop();
     QTRY_COMPARE(saved.size(), 1);
-    const auto session =
-        telemetry::SessionReader::open(saved.at(0).at(0).toString().toStdString());
+    const auto session = telemetry::SessionReader::open(saved.at(0).at(0).toString().toStdString());
     QVERIFY(session);
     bool found = false;
     for (const auto& event : session->events()) {
@@ -179,8 +179,7 @@ class TestSessions : public QObject {
     QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
     s.window.recording()->saveLast(3);
     QTRY_VERIFY2(saved.size() == 1, qPrintable(s.notice()));
-    const auto session =
-        telemetry::SessionReader::open(saved.at(0).at(0).toString().toStdString());
+    const auto session = telemetry::SessionReader::open(saved.at(0).at(0).toString().toStdString());
     QVERIFY(session && session->range());
     QVERIFY(std::abs(session->range()->end - 10.0) < 0.1);
     QVERIFY(session->range()->begin >= 5.9);
@@ -278,8 +277,9 @@ class TestSessions : public QObject {
       auto file = McapWriter::create(path.toStdString());
       QVERIFY(file.has_value());
       // The check is a CRC-32 over keys and values, each with its final zero (docs/SESSIONS.md).
-      QVERIFY(file->metadata("pitchboard", {{"format", "9"}, {"start_ns", "5000000000"},
-                                            {"new", "x"}, {"check", "3914321931"}}));
+      QVERIFY(file->metadata(
+          "pitchboard",
+          {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"}, {"check", "3914321931"}}));
       McapChunk chunk;
       chunk.add(McapSchema{1, "other/msg/Thing", "ros2msg", "int8 a"});
       chunk.add(McapChannel{1, 1, "/other", "cdr", {}});
@@ -292,7 +292,8 @@ class TestSessions : public QObject {
     }
     s.window.openSession(path);
     QTRY_VERIFY(s.window.replay()->isOpen());
-    QTRY_VERIFY2(s.notice().contains(QStringLiteral("newer version (format 9")), qPrintable(s.notice()));
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("newer version (format 9")),
+                 qPrintable(s.notice()));
     QVERIFY(s.notice().contains(QStringLiteral("/other")));
     QCOMPARE(s.window.timeline()->events()->rowCount(), 1);
   }

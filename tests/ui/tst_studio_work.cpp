@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the window does to the match behind it: opening without waiting, notices with buttons,
 // processes, noise, two studios on one key base, and the same numbers as the command line.
-#include <QDoubleSpinBox>
+#include <sys/shm.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
@@ -17,9 +20,6 @@
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QtTest>
-#include <sys/shm.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <robotlink/system_v.h>
 #include <shell/notice_bar.h>
@@ -114,11 +114,12 @@ class TestStudioWork : public QObject {
     auto* label = s.window.findChild<QLabel*>(QStringLiteral("openingLabel"));
     QTRY_VERIFY(label->isVisible());
     QTRY_VERIFY(s.window.findChild<QLabel*>(QStringLiteral("noRobots"))->isVisible());
-    QVERIFY(s.window.findChild<QLabel*>(QStringLiteral("noRobots"))->text().startsWith(
-        QStringLiteral("Opening")));
+    QVERIFY(s.window.findChild<QLabel*>(QStringLiteral("noRobots"))
+                ->text()
+                .startsWith(QStringLiteral("Opening")));
     sim::NoiseParameters noise;
     noise.forward = 0.25;
-    s.controller.setNoise(noise);   // reaches the match once it is there
+    s.controller.setNoise(noise);  // reaches the match once it is there
     gate.release();
     QTRY_VERIFY(s.controller.frame());
     QTRY_COMPARE(s.controller.frame()->noise.forward, 0.25);
@@ -163,7 +164,7 @@ class TestStudioWork : public QObject {
   void removeTakesTheOrphanAwayAndKeepKeepsIt() {
     QFETCH(QString, button);
     QFETCH(bool, stays);
-    const int key = m_keyBase + 100 * 40;   // no robot of the match has it
+    const int key = m_keyBase + 100 * 40;  // no robot of the match has it
     leaveOrphan(key);
     Studio s(options(link::Cognition::None));
     s.window.offerToRemoveOrphans();
@@ -273,8 +274,9 @@ class TestStudioWork : public QObject {
     QVERIFY(second.window.notices()->isVisible());
     QVERIFY2(second.window.notices()->text().contains(QStringLiteral("decide inside the studio")),
              qPrintable(second.window.notices()->text()));
-    QVERIFY(second.window.findChild<QLabel*>(QStringLiteral("noProcesses"))->text().contains(
-        QStringLiteral("could not be started")));
+    QVERIFY(second.window.findChild<QLabel*>(QStringLiteral("noProcesses"))
+                ->text()
+                .contains(QStringLiteral("could not be started")));
     QCOMPARE(link::SystemVSegments::list(m_keyBase).size(), std::size_t(6));
   }
 

@@ -41,8 +41,8 @@ class TestTheme : public QObject {
   }
 
   void iconsAreSharpAtTwiceTheSize() {
-    const QPixmap drawn = themedIcon(QStringLiteral("media-playback-start"))
-                              .pixmap(QSize(22, 22), 2.0);
+    const QPixmap drawn =
+        themedIcon(QStringLiteral("media-playback-start")).pixmap(QSize(22, 22), 2.0);
     QCOMPARE(drawn.size(), QSize(44, 44));
   }
 

@@ -81,9 +81,7 @@ struct Bench {
     window.show();
     for (int i = 0; i <= 100; ++i) source.goTo(i);
   }
-  QPoint above(double time) const {
-    return {qRound(strip->axis().pixel(time)), 20};
-  }
+  QPoint above(double time) const { return {qRound(strip->axis().pixel(time)), 20}; }
   QPoint inBand(double time) const {
     return {qRound(strip->axis().pixel(time)), strip->bandRect().center().y()};
   }
@@ -105,7 +103,7 @@ struct Bench {
   }
 };
 
-constexpr double onePixel = 0.2;   // s, at this size
+constexpr double onePixel = 0.2;  // s, at this size
 
 }  // namespace
 
@@ -160,7 +158,7 @@ class TestTimeline : public QObject {
     Bench b;
     b.source.happen(30, sim::EventKind::Goal, 1);
     b.source.happen(60, sim::EventKind::Fall);
-    QCOMPARE(b.timeline.events()->rowCount(), 3);   // the first is the state of the game
+    QCOMPARE(b.timeline.events()->rowCount(), 3);  // the first is the state of the game
     QCOMPARE(b.strip->marks().size(), std::size_t(3));
     QCOMPARE(b.strip->marks()[1].label, QStringLiteral("goal RED"));
     // On the mark's icon: exactly its time.

@@ -4,10 +4,10 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSpinBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
+#include <QSpinBox>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QtTest>
@@ -43,14 +43,16 @@ telemetry::GroupInfo robotGroup(const std::string& name, int robot, int extra = 
   telemetry::GroupInfo info;
   info.name = name;
   info.attributes = {{"robot", std::to_string(robot)}, {"team", "blue"}, {"number", "1"}};
-  ColumnInfo action{"DECISION_ACTION_A", ColumnType::Int32, "", "Decision",
-                    ColumnKind::Enumeration, {{0, "stop"}, {1, "walk forward, fast"}}};
-  info.columns = {action,
-                  {"VISION_LOST", ColumnType::Int32, "", "Vision", ColumnKind::Flag, {}},
-                  {"VISION_BALL_DIST", ColumnType::Float32, "cm", "Vision", ColumnKind::Number, {}}};
+  ColumnInfo action{
+      "DECISION_ACTION_A", ColumnType::Int32,       "",
+      "Decision",          ColumnKind::Enumeration, {{0, "stop"}, {1, "walk forward, fast"}}};
+  info.columns = {
+      action,
+      {"VISION_LOST", ColumnType::Int32, "", "Vision", ColumnKind::Flag, {}},
+      {"VISION_BALL_DIST", ColumnType::Float32, "cm", "Vision", ColumnKind::Number, {}}};
   for (int i = 0; i < extra; ++i) {
-    info.columns.push_back({"EXTRA_" + std::to_string(i), ColumnType::Float32, "", "Extra",
-                            ColumnKind::Number, {}});
+    info.columns.push_back(
+        {"EXTRA_" + std::to_string(i), ColumnType::Float32, "", "Extra", ColumnKind::Number, {}});
   }
   info.columns.push_back({"TRUE_X", ColumnType::Float64, "m", "Truth", ColumnKind::Number, {}});
   return info;
@@ -110,7 +112,9 @@ std::shared_ptr<telemetry::SeriesStore> twoRobots() {
 // The dock with everything around it that it needs.
 struct Bench {
   explicit Bench(const QString& settingsFile = {})
-      : controller(inlineOptions()), source(&hand), plots(nullptr),
+      : controller(inlineOptions()),
+        source(&hand),
+        plots(nullptr),
         settings(settingsFile.isEmpty() ? folder.filePath(QStringLiteral("s.ini")) : settingsFile,
                  QSettings::IniFormat) {
     StudioContext context;
@@ -177,7 +181,8 @@ class TestVariablesDock : public QObject {
     model.setStore(store, SourceKind::Simulate);
     QCOMPARE(model.rowCount(), 2);
     QCOMPARE(model.variableCount(), 8);
-    const auto match = store->addGroup({"match", {{"SCORE", ColumnType::Float64, "", "", {}, {}}}, {}});
+    const auto match =
+        store->addGroup({"match", {{"SCORE", ColumnType::Float64, "", "", {}, {}}}, {}});
     store->addGroup(robotGroup("B3", 3));
     store->append(match, {1.0, {}, std::vector<double>{2.0}});
     model.updateGroups();
@@ -285,8 +290,10 @@ class TestVariablesDock : public QObject {
     QCOMPARE(filter->variableCount(), expected);
     auto* empty = bench.dock->findChild<QLabel*>(QStringLiteral("emptyVariables"));
     QCOMPARE(empty->isVisible(), expected == 0);
-    if (expected == 0) QVERIFY(empty->text().contains(QStringLiteral("words")));
-    else QVERIFY(bench.view->isExpanded(filter->index(0, 0)));
+    if (expected == 0)
+      QVERIFY(empty->text().contains(QStringLiteral("words")));
+    else
+      QVERIFY(bench.view->isExpanded(filter->index(0, 0)));
     box->clear();
     QCOMPARE(filter->variableCount(), 8);
   }
@@ -401,10 +408,12 @@ class TestVariablesDock : public QObject {
     QTest::addColumn<SourceKind>("kind");
     QTest::addColumn<QString>("path");
     QTest::addColumn<QString>("reason");
-    QTest::newRow("truth") << SourceKind::Simulate << "B1/TRUE_X" << "truth";
+    QTest::newRow("truth") << SourceKind::Simulate << "B1/TRUE_X"
+                           << "truth";
     QTest::newRow("live") << SourceKind::Live << distance << "live";
     QTest::newRow("replay") << SourceKind::Replay << distance << "recording";
-    QTest::newRow("attached") << SourceKind::Simulate << "key 900/VISION_LOST" << "only read";
+    QTest::newRow("attached") << SourceKind::Simulate << "key 900/VISION_LOST"
+                              << "only read";
   }
   void whatCannotBeEditedSaysWhy() {
     QFETCH(const SourceKind, kind);
@@ -423,22 +432,31 @@ class TestVariablesDock : public QObject {
     QTest::mouseDClick(bench.view->viewport(), Qt::LeftButton, {}, cell.center());
     QVERIFY(!bench.view->isEditing());
     QVERIFY2(bench.message().contains(reason), qPrintable(bench.message()));
-    QVERIFY(bench.at(path, VariablesModel::Value).data(Qt::ToolTipRole).toString()
-                .contains(reason));
+    QVERIFY(
+        bench.at(path, VariablesModel::Value).data(Qt::ToolTipRole).toString().contains(reason));
   }
 
   void badValuesAreRefusedBesideTheEditor_data() {
     QTest::addColumn<QString>("path");
     QTest::addColumn<QString>("typed");
     QTest::addColumn<QString>("problem");
-    QTest::newRow("not whole") << action << "1.5" << "whole";
-    QTest::newRow("too large") << action << "3000000000" << "32 bits";
-    QTest::newRow("no number") << distance << "far" << "not a number";
-    QTest::newRow("nan") << distance << "nan" << "not a number";
-    QTest::newRow("no float") << distance << "1e39" << "32-bit";
-    QTest::newRow("flag") << "B1/VISION_LOST" << "2" << "0 or 1";
-    QTest::newRow("words") << action << "dance" << "words of a code";
-    QTest::newRow("comma") << distance << "1,5" << "not a number";
+    QTest::newRow("not whole") << action << "1.5"
+                               << "whole";
+    QTest::newRow("too large") << action << "3000000000"
+                               << "32 bits";
+    QTest::newRow("no number") << distance << "far"
+                               << "not a number";
+    QTest::newRow("nan") << distance << "nan"
+                         << "not a number";
+    QTest::newRow("no float") << distance << "1e39"
+                              << "32-bit";
+    QTest::newRow("flag") << "B1/VISION_LOST"
+                          << "2"
+                          << "0 or 1";
+    QTest::newRow("words") << action << "dance"
+                           << "words of a code";
+    QTest::newRow("comma") << distance << "1,5"
+                           << "not a number";
   }
   void badValuesAreRefusedBesideTheEditor() {
     QFETCH(const QString, path);
@@ -472,7 +490,8 @@ class TestVariablesDock : public QObject {
     QTest::newRow("words") << action << "Walk forward, fast" << 1.0;
     QTest::newRow("float") << distance << "1.5e2" << 150.0;
     QTest::newRow("minus sign") << distance << QStringLiteral("−2.5") << -2.5;
-    QTest::newRow("flag") << "B1/VISION_LOST" << "1" << 1.0;
+    QTest::newRow("flag") << "B1/VISION_LOST"
+                          << "1" << 1.0;
   }
   void goodValuesAreHandedOn() {
     QFETCH(const QString, path);
@@ -569,8 +588,11 @@ class TestVariablesDock : public QObject {
     QVERIFY(catalog->isPublished());
     link::VariableCatalog own =
         link::VariableCatalog::fromJson(
-            QByteArray(R"({"int": {"OUR_STATE": 19, "COM_REFEREE": 51}, "float": {"OUR_SPEED": 3}})").toStdString(),
-            "own").value();
+            QByteArray(
+                R"({"int": {"OUR_STATE": 19, "COM_REFEREE": 51}, "float": {"OUR_SPEED": 3}})")
+                .toStdString(),
+            "own")
+            .value();
     save(QByteArray::fromStdString(own.toJson()));
     catalog->importFile(file);
     QVERIFY(bench.message().contains(QStringLiteral("3 variables")));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QJsonArray>
 #include <QPainter>
 
 #include "session/video_writer.h"
@@ -35,9 +35,11 @@ void feed(VideoWriter& writer, int pictures, QSize size) {
 
 QJsonObject probe(const QString& path) {
   QProcess process;
-  process.start("ffprobe", {"-v", "error", "-count_frames", "-show_entries",
-                            "stream=codec_name,width,height,nb_read_frames,r_frame_rate:format=duration,format_name",
-                            "-of", "json", path});
+  process.start(
+      "ffprobe",
+      {"-v", "error", "-count_frames", "-show_entries",
+       "stream=codec_name,width,height,nb_read_frames,r_frame_rate:format=duration,format_name",
+       "-of", "json", path});
   if (!process.waitForFinished(20000)) return {};
   return QJsonDocument::fromJson(process.readAllStandardOutput()).object();
 }
@@ -69,10 +71,12 @@ class TestVideoWriter : public QObject {
     QTest::addColumn<QSize>("size");
     QTest::addColumn<QSize>("expected");
     QTest::addColumn<double>("rate");
-    QTest::newRow("mp4") << "a.mp4" << "h264" << QSize(320, 200) << QSize(320, 200) << 30.0;
-    QTest::newRow("webm") << "a.webm" << "vp9" << QSize(320, 200) << QSize(320, 200) << 30.0;
-    QTest::newRow("odd size, upper case") << "odd.MP4" << "h264" << QSize(321, 201) << QSize(320, 200)
-                                          << 25.0;
+    QTest::newRow("mp4") << "a.mp4"
+                         << "h264" << QSize(320, 200) << QSize(320, 200) << 30.0;
+    QTest::newRow("webm") << "a.webm"
+                          << "vp9" << QSize(320, 200) << QSize(320, 200) << 30.0;
+    QTest::newRow("odd size, upper case") << "odd.MP4"
+                                          << "h264" << QSize(321, 201) << QSize(320, 200) << 25.0;
   }
   void theVideoIsWhatWasDrawn() {
     QFETCH(QString, name);
@@ -104,7 +108,8 @@ class TestVideoWriter : public QObject {
   void cancellingLeavesNothing() {
     VideoWriter writer;
     QSignalSpy finished(&writer, &VideoWriter::finished), failed(&writer, &VideoWriter::failed);
-    const VideoOptions options{m_folder.filePath("cancelled.mp4"), {320, 200}, 30.0, false, "ffmpeg"};
+    const VideoOptions options{
+        m_folder.filePath("cancelled.mp4"), {320, 200}, 30.0, false, "ffmpeg"};
     QVERIFY(writer.start(options));
     for (int i = 0; i < 10; ++i) writer.add(pictureOf(i, {320, 200}));
     writer.cancel();
@@ -124,11 +129,16 @@ class TestVideoWriter : public QObject {
     QTest::addColumn<QString>("program");
     QTest::addColumn<QString>("words");
     const QString path = m_folder.filePath("b.mp4");
-    QTest::newRow("suffix") << m_folder.filePath("b.avi") << QSize(320, 200) << 30.0 << "ffmpeg" << ".webm";
-    QTest::newRow("small") << path << QSize(8, 200) << 30.0 << "ffmpeg" << "16 to 8192 pixels";
-    QTest::newRow("huge") << path << QSize(320, 20000) << 30.0 << "ffmpeg" << "16 to 8192 pixels";
-    QTest::newRow("rate") << path << QSize(320, 200) << 0.0 << "ffmpeg" << "1 to 240";
-    QTest::newRow("not installed") << path << QSize(320, 200) << 30.0 << "no-such-ffmpeg" << "Install";
+    QTest::newRow("suffix") << m_folder.filePath("b.avi") << QSize(320, 200) << 30.0 << "ffmpeg"
+                            << ".webm";
+    QTest::newRow("small") << path << QSize(8, 200) << 30.0 << "ffmpeg"
+                           << "16 to 8192 pixels";
+    QTest::newRow("huge") << path << QSize(320, 20000) << 30.0 << "ffmpeg"
+                          << "16 to 8192 pixels";
+    QTest::newRow("rate") << path << QSize(320, 200) << 0.0 << "ffmpeg"
+                          << "1 to 240";
+    QTest::newRow("not installed") << path << QSize(320, 200) << 30.0 << "no-such-ffmpeg"
+                                   << "Install";
     QTest::newRow("folder") << "/nonexistent/b.mp4" << QSize(320, 200) << 30.0 << "ffmpeg"
                             << "cannot be written";
   }
@@ -149,11 +159,13 @@ class TestVideoWriter : public QObject {
   void errorsComeInWords_data() {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("words");
-    QTest::newRow("disk full") << QByteArray("cat >/dev/null; echo 'x.mp4: No space left on device' >&2; exit 1")
-                               << "the disk is full";
+    QTest::newRow("disk full")
+        << QByteArray("cat >/dev/null; echo 'x.mp4: No space left on device' >&2; exit 1")
+        << "the disk is full";
     QTest::newRow("encoder") << QByteArray("echo \"Unknown encoder 'libx264'\" >&2; exit 1")
                              << "cannot write MP4 videos";
-    QTest::newRow("other") << QByteArray("cat >/dev/null; echo first >&2; echo 'it broke' >&2; exit 3")
+    QTest::newRow("other") << QByteArray(
+                                  "cat >/dev/null; echo first >&2; echo 'it broke' >&2; exit 3")
                            << "(it broke)";
     QTest::newRow("silent") << QByteArray("exit 1") << "no reason";
     QTest::newRow("killed") << QByteArray("kill -9 $$") << "from outside";

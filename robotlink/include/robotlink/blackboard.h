@@ -36,7 +36,7 @@ class Blackboard {
  public:
   static constexpr int words = 512;
   static constexpr int bytes = words * 4;
-  static constexpr int floatOffset = 125;   ///< word of float variable 0
+  static constexpr int floatOffset = 125;  ///< word of float variable 0
   static constexpr int intVariables = words;
   static constexpr int floatVariables = words - floatOffset;
 
@@ -51,8 +51,7 @@ class Blackboard {
     return std::bit_cast<std::int32_t>(word(variable.index).load(std::memory_order_relaxed));
   }
   float read(FloatVar variable) const {
-    return std::bit_cast<float>(
-        word(floatOffset + variable.index).load(std::memory_order_relaxed));
+    return std::bit_cast<float>(word(floatOffset + variable.index).load(std::memory_order_relaxed));
   }
   void write(IntVar variable, int value) {
     word(variable.index).store(std::bit_cast<std::uint32_t>(value), std::memory_order_relaxed);

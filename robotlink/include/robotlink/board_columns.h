@@ -26,7 +26,7 @@ class BoardColumns {
 
  private:
   std::vector<telemetry::ColumnInfo> m_columns;
-  std::vector<std::uint16_t> m_words;   // place of each column on the blackboard
+  std::vector<std::uint16_t> m_words;  // place of each column on the blackboard
 };
 
 }  // namespace pitchboard::link

@@ -40,15 +40,15 @@ class CognitiveProcess {
 /// What a process is told when it is made.
 struct ProcessOptions {
   RobotId robot{1};
-  std::string behaviour = "striker";   ///< decision only
-  double distanceToKick = 25.0;        ///< cm; 25 in simulation, 40 on the published real robot
+  std::string behaviour = "striker";     ///< decision only
+  double distanceToKick = 25.0;          ///< cm; 25 in simulation, 40 on the published real robot
   std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
-  int telemetryPortBase = 1240;        ///< telemetry goes to this + robot number
-  double telemetryPeriod = 1.0;        ///< s between two telemetry datagrams
-  int teamPortBase = 1230;             ///< team messages go to this + 1..4
+  int telemetryPortBase = 1240;          ///< telemetry goes to this + robot number
+  double telemetryPeriod = 1.0;          ///< s between two telemetry datagrams
+  int teamPortBase = 1230;               ///< team messages go to this + 1..4
   /// communication: our team's number in the GameController; absent = do not listen to one.
   std::optional<int> refereeTeam;
-  std::optional<int> shirt;            ///< number in the GameController; absent = the robot's
+  std::optional<int> shirt;  ///< number in the GameController; absent = the robot's
   int refereePort = 3838;
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are
@@ -57,20 +57,20 @@ struct ProcessOptions {
   bool publishedLocalization = false;  ///< localization: the published filter's parameters
   /// Starts facing the left goal, so the IMU's zero is 180 degrees; absent = found out by itself.
   std::optional<bool> facesLeft;
-  int team = 0;                        ///< team: robots of one number hear each other, 0..99
+  int team = 0;  ///< team: robots of one number hear each other, 0..99
   /// team: the in-process channel of lock-step runs; empty = UDP.
   std::shared_ptr<TeamChannel> teamChannel;
 };
 
 struct ProcessInfo {
-  std::string_view name;               ///< "decision", "communication"
-  std::string_view description;        ///< a sentence for --help
+  std::string_view name;         ///< "decision", "communication"
+  std::string_view description;  ///< a sentence for --help
   Result<std::unique_ptr<CognitiveProcess>> (*make)(const ProcessOptions& options);
-  bool deterministic;                  ///< may run inline (touches nothing but the blackboard)
-  bool hasBehaviour;                   ///< ProcessOptions::behaviour matters to it
+  bool deterministic;  ///< may run inline (touches nothing but the blackboard)
+  bool hasBehaviour;   ///< ProcessOptions::behaviour matters to it
   /// Only behaviours with usesPose need it: lock-step runs leave it out for the others.
   bool forPose;
-  std::string_view example;            ///< a command line for --help
+  std::string_view example;  ///< a command line for --help
 };
 
 /// Every reference process, in starting order: the one list that programs and tests read.
@@ -80,7 +80,7 @@ const ProcessInfo* findProcess(std::string_view name);
 struct BehaviourInfo {
   std::string_view name;
   std::string_view description;
-  bool usesPose;                       ///< needs localization and the team's messages
+  bool usesPose;  ///< needs localization and the team's messages
 };
 /// Behaviours of the decision process, the default first.
 std::span<const BehaviourInfo> behaviours();

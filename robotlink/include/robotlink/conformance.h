@@ -13,12 +13,12 @@ namespace pitchboard::link {
 
 struct ConformanceReport {
   std::string name;
-  int rows = 0;                    ///< compared, the initial state included
-  long long values = 0;            ///< compared
-  double largestDeviation = 0.0;   ///< of the doubles: cm, degrees, cm per frame
-  std::string largestWhere;        ///< "frame 12, r1_x"; empty when nothing deviates
-  long long differences = 0;       ///< doubles off by more than 1e-9, other values not identical
-  std::string firstDifference;     ///< "frame 12, r1_x: 320.5 recorded, 320.6 computed"
+  int rows = 0;                   ///< compared, the initial state included
+  long long values = 0;           ///< compared
+  double largestDeviation = 0.0;  ///< of the doubles: cm, degrees, cm per frame
+  std::string largestWhere;       ///< "frame 12, r1_x"; empty when nothing deviates
+  long long differences = 0;      ///< doubles off by more than 1e-9, other values not identical
+  std::string firstDifference;    ///< "frame 12, r1_x: 320.5 recorded, 320.6 computed"
 
   bool conforms() const { return differences == 0; }
 };

@@ -15,8 +15,9 @@
 
 namespace pitchboard::link {
 
-/// How the referee stands in a session: one JSON object with "time", the packet (names: docs/LIVE.md)
-/// and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft", ...).
+/// How the referee stands in a session: one JSON object with "time", the packet (names:
+/// docs/LIVE.md) and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft",
+/// ...).
 std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& referee,
                           double time);
 /// Nothing when the text is not of that form; what is missing stays at its default.
@@ -61,8 +62,8 @@ class LiveRecorder : public LiveObserver {
   std::shared_ptr<telemetry::SessionWriter> m_writer;
   const int m_refereePort;
   telemetry::LiveRows m_rows;
-  std::optional<telemetry::RefereeState> m_refereeNews;   // not in a frame yet
-  std::string m_refereeState;         // as last recorded, for events
+  std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
+  std::string m_refereeState;                            // as last recorded, for events
 };
 
 }  // namespace pitchboard::link

@@ -20,21 +20,21 @@
 
 namespace pitchboard::link {
 
-/// Limits of a five-cell battery that warn and fill the bar as the cards of simulated robots do: low
-/// below 16.0 V, empty at 14.65 V, full at 19.15 V.
+/// Limits of a five-cell battery that warn and fill the bar as the cards of simulated robots do:
+/// low below 16.0 V, empty at 14.65 V, full at 19.15 V.
 inline constexpr telemetry::BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
 
 struct LiveOptions {
   LiveOptions() { team.battery = usualBattery; }
-  telemetry::Address bind{};     ///< 0.0.0.0: every interface, unicast and broadcast
-  int portBase = 1240;           ///< robot n sends to portBase + n
-  int robots = 16;               ///< ports after the base
+  telemetry::Address bind{};  ///< 0.0.0.0: every interface, unicast and broadcast
+  int portBase = 1240;        ///< robot n sends to portBase + n
+  int robots = 16;            ///< ports after the base
   int refereePort = 3838;
   telemetry::Profile profile = telemetry::publishedProfile();
   telemetry::MonitorOptions team;
-  int ourTeam = 0;               ///< the referee's number of our team; 0: not chosen
+  int ourTeam = 0;                     ///< the referee's number of our team; 0: not chosen
   TeamColor colour = TeamColor::Blue;  ///< of our robots while the referee says none
-  bool colourByNumber = false;   ///< as the published telemetry: a colour for each number
+  bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
   sim::FieldSpec field;
   std::optional<telemetry::Address> monitor;  ///< the referee to ask for monitor mode; empty: off
   std::uint16_t monitorPort = telemetry::monitorRequestPort;
@@ -47,13 +47,13 @@ Result<void> validate(const LiveOptions& options);
 struct LiveDetails {
   telemetry::TeamStatus team;
   telemetry::ReceiverStatus network;
-  std::string networkProblem;          ///< why nothing can be received at all; empty otherwise
+  std::string networkProblem;  ///< why nothing can be received at all; empty otherwise
   telemetry::RefereeTracker::Counts referee;
-  std::uint64_t unknownReferee = 0;    ///< packets on the referee's port that could not be decoded
-  std::string unknownRefereeReason;    ///< of the last one
+  std::uint64_t unknownReferee = 0;  ///< packets on the referee's port that could not be decoded
+  std::string unknownRefereeReason;  ///< of the last one
   std::string unknownRefereeSample;
-  std::uint64_t robotStates = 0;       ///< robots' replies passed on by a referee in monitor mode
-  std::string monitorProblem;          ///< why the last monitor request was not sent
+  std::uint64_t robotStates = 0;  ///< robots' replies passed on by a referee in monitor mode
+  std::string monitorProblem;     ///< why the last monitor request was not sent
 };
 
 /// Sees every datagram that is used, for rows and recording. Called on the watch's thread: must not
@@ -82,11 +82,12 @@ class LiveWatch {
   /// `onFrame` is called from the watch's thread when a frame is there that was not taken yet; it
   /// must return at once. The options must be valid.
   explicit LiveWatch(LiveOptions options, std::function<void()> onFrame = {});
-  ~LiveWatch();   ///< stops receiving, joins
+  ~LiveWatch();  ///< stops receiving, joins
   LiveWatch(const LiveWatch&) = delete;
   LiveWatch& operator=(const LiveWatch&) = delete;
 
-  /// From the next moment on. Robots, health and counters stay; ports are bound anew if they differ.
+  /// From the next moment on. Robots, health and counters stay; ports are bound anew if they
+  /// differ.
   void setOptions(LiveOptions options);
   /// Forgets robots, referee and counters.
   void clear();

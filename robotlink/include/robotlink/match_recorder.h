@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Records a simulated match into a session file while it is played: rows, events, log lines, process
-// starts and deaths, and pieces that can be entered again exactly; the scenario and the catalog are
-// attached. The match never waits: the file has a thread of its own (SessionWriter).
+// Records a simulated match into a session file while it is played: rows, events, log lines,
+// process starts and deaths, and pieces that can be entered again exactly; the scenario and the
+// catalog are attached. The match never waits: the file has a thread of its own (SessionWriter).
 
 #include <memory>
 #include <optional>
@@ -25,7 +25,7 @@ inline constexpr const char* profileAttachment = "profile.json";
 
 struct RecorderOptions {
   telemetry::SessionWriterOptions writer;
-  int everyNth = 1;            ///< ticks per row
+  int everyNth = 1;  ///< ticks per row
   /// Version of the program, for the file: "pitchboard 0.1.0".
   std::string program = "pitchboard";
 };
@@ -33,8 +33,8 @@ struct RecorderOptions {
 /// What the session is to say of a simulated match: title, seed, start.
 telemetry::SessionInfo sessionInfo(const Scenario& scenario, const RecorderOptions& options);
 
-/// The same of a match that may have been played already; its source was at 0 s when `now` minus its
-/// time.
+/// The same of a match that may have been played already; its source was at 0 s when `now` minus
+/// its time.
 telemetry::SessionInfo sessionInfo(const SimulatedMatch& match, std::string_view program,
                                    telemetry::WallTime now);
 /// The scenario and the catalog, as files of the session.
@@ -47,7 +47,8 @@ telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldSt
 class MatchRecorder : public TickObserver {
  public:
   /// Error Conflict when the file exists, SystemError when it cannot be made. Hand it to
-  /// MatchRunner::observe() (or make it one of the first observers); it records from that moment on.
+  /// MatchRunner::observe() (or make it one of the first observers); it records from that moment
+  /// on.
   static Result<std::shared_ptr<MatchRecorder>> create(const std::string& path,
                                                        const Scenario& scenario,
                                                        const VariableCatalog& catalog,
@@ -77,19 +78,19 @@ class MatchRecorder : public TickObserver {
   std::shared_ptr<telemetry::SessionWriter> m_writer;
   MatchSampler m_sampler;
   StateSegmenter m_segmenter;
-  std::vector<sim::Event> m_events;        // of the tick that ticked() is about to show
-  std::vector<ChildState> m_children;      // as last seen
+  std::vector<sim::Event> m_events;    // of the tick that ticked() is about to show
+  std::vector<ChildState> m_children;  // as last seen
 };
 
-/// What has just happened, from memory into a new session file: the rows of the last `seconds` of the
-/// store, the pieces of the archive, the events and log lines of that time. Times stay those of the
-/// source. Errors as SessionWriter::create(); NotFound when there is no row yet.
+/// What has just happened, from memory into a new session file: the rows of the last `seconds` of
+/// the store, the pieces of the archive, the events and log lines of that time. Times stay those of
+/// the source. Errors as SessionWriter::create(); NotFound when there is no row yet.
 struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
-  const StateArchive* archive = nullptr;           ///< null: a live source
+  const StateArchive* archive = nullptr;  ///< null: a live source
   std::vector<telemetry::SessionEvent> events;
   std::vector<telemetry::SessionLogLine> log;
-  std::string scenario, catalog, profile;          ///< JSON texts; empty: there is none
+  std::string scenario, catalog, profile;  ///< JSON texts; empty: there is none
 };
 Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seconds,
                                             const RecentPast& past,

@@ -30,8 +30,9 @@ class TickObserver {
   virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
   /// Before ticked() of the tick in which they happened.
   virtual void happened(std::span<const sim::Event> /*events*/) {}
-  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on from
-  /// here and not from what ticked() has shown. Before the ticked() of a match that stands still.
+  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on
+  /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
+  /// still.
   virtual void worldChanged(const SimulatedMatch& /*match*/) {}
   virtual void logged(const LogLine& /*line*/) {}
 };
@@ -47,7 +48,7 @@ class MatchRunner {
       const Scenario& scenario, const MatchOptions& options, bool paused = false,
       const VariableCatalog& catalog = VariableCatalog::published(),
       std::vector<std::shared_ptr<TickObserver>> observers = {});
-  ~MatchRunner();                    ///< stops, ends processes, joins
+  ~MatchRunner();  ///< stops, ends processes, joins
 
   void setPaused(bool paused);
   /// One tick, then pause.

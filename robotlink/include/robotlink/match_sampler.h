@@ -3,8 +3,8 @@
 
 // Samples a simulated match: after each tick one row for every robot (its whole blackboard, truth,
 // belief errors) and one for the match. The groups are named like the robots ("B1") and "match"; a
-// robot's attributes hold its identity: "robot" (number of its blackboard), "team", "number" (on the
-// shirt), "key" (System V, 0: heap), "imu180" (0 or 1), "behaviour". The match's attributes:
+// robot's attributes hold its identity: "robot" (number of its blackboard), "team", "number" (on
+// the shirt), "key" (System V, 0: heap), "imu180" (0 or 1), "behaviour". The match's attributes:
 // "physics", "seed", "tick_rate". Columns: docs/PLOTS.md.
 
 #include <memory>
@@ -18,11 +18,11 @@
 namespace pitchboard::link {
 
 struct MatchSamplerOptions {
-  int everyNth = 1;   ///< ticks per row; at least 1
+  int everyNth = 1;  ///< ticks per row; at least 1
 };
 
-/// One for each match. Called on the match's thread. Allocates when robots come, go or change; otherwise only what the
-/// sink needs (the series store: once in 64 rows of a group).
+/// One for each match. Called on the match's thread. Allocates when robots come, go or change;
+/// otherwise only what the sink needs (the series store: once in 64 rows of a group).
 class MatchSampler : public TickObserver {
  public:
   static constexpr const char* matchGroup = "match";
@@ -46,9 +46,9 @@ class MatchSampler : public TickObserver {
   std::shared_ptr<telemetry::RowSink> m_sink;
   const MatchSamplerOptions m_options;
   std::unique_ptr<BoardColumns> m_board;
-  const VariableCatalog* m_catalog = nullptr;   // of which m_board is
+  const VariableCatalog* m_catalog = nullptr;  // of which m_board is
   telemetry::GroupId m_match = 0;
-  std::vector<Seat> m_seats;                    // in the order of the snapshot's robots
+  std::vector<Seat> m_seats;  // in the order of the snapshot's robots
   sim::Snapshot m_snapshot;
   std::vector<std::uint32_t> m_words;
   std::vector<double> m_truth, m_matchValues;

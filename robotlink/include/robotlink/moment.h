@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A recorded moment of a simulated match: the exact state of the world, and what stood on the robots'
-// blackboards. From memory (StateArchive and SeriesStore) or from a session file. Plain values.
+// A recorded moment of a simulated match: the exact state of the world, and what stood on the
+// robots' blackboards. From memory (StateArchive and SeriesStore) or from a session file. Plain
+// values.
 
 #include <cstdint>
 #include <string>
@@ -28,7 +29,7 @@ struct BoardWord {
 struct MomentRobot {
   RobotId id;
   std::string behaviour;
-  std::vector<BoardWord> words;   ///< those that are known; the others are left as they are
+  std::vector<BoardWord> words;  ///< those that are known; the others are left as they are
   void writeTo(Blackboard& board) const;
 };
 
@@ -49,8 +50,8 @@ std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
 Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::SeriesStore& rows,
                                 std::uint64_t tick, const VariableCatalog& catalog);
 
-/// The moment at or before `seconds` of a session file. Error NotFound when the file has no state of
-/// a simulated match there (a live recording, or another program's file).
+/// The moment at or before `seconds` of a session file. Error NotFound when the file has no state
+/// of a simulated match there (a live recording, or another program's file).
 Result<Moment> momentFromSession(const telemetry::SessionReader& session, double seconds,
                                  const VariableCatalog& catalog);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// From a moment to a simulation: whatever frame a person looks at (live, recorded, simulated) becomes
-// a scenario that starts from it.
+// From a moment to a simulation: whatever frame a person looks at (live, recorded, simulated)
+// becomes a scenario that starts from it.
 
 #include <string>
 #include <vector>
@@ -15,8 +15,8 @@ namespace pitchboard::link {
 struct MomentOptions {
   enum class Poses : std::uint8_t { True, Believed };
   enum class Ball : std::uint8_t { True, Perceived };
-  Poses poses = Poses::True;   ///< Believed is taken where the truth is not known
-  Ball ball = Ball::True;      ///< Perceived likewise
+  Poses poses = Poses::True;  ///< Believed is taken where the truth is not known
+  Ball ball = Ball::True;     ///< Perceived likewise
   /// Given to robots whose own is not known (live ones). A name of behaviours(), or noBehaviour.
   std::string behaviour = "striker";
   /// Physics, noise, stop conditions and scripted writes are taken over from here; the field too,
@@ -26,12 +26,13 @@ struct MomentOptions {
 
 struct MomentScenario {
   Scenario scenario;
-  /// What could not be taken over as it was, in sentences: "B2 stood outside the walls and was moved
-  /// inside." Empty: nothing.
+  /// What could not be taken over as it was, in sentences: "B2 stood outside the walls and was
+  /// moved inside." Empty: nothing.
   std::vector<std::string> notes;
 };
 
-/// Always a scenario that a match can be made of: numbers that no match has are corrected and noted.
+/// Always a scenario that a match can be made of: numbers that no match has are corrected and
+/// noted.
 MomentScenario scenarioFromMoment(const MatchFrame& frame, const MomentOptions& options = {});
 
 }  // namespace pitchboard::link

@@ -15,8 +15,8 @@
 // The symmetric field. Turned by 180 degrees about its centre the field looks the same, so unnamed
 // corners could never tell the two halves apart. Two things can: the published corners have colours
 // (each bearing belongs to one known corner), and the IMU, whose zero is the direction in which the
-// robot started, that is towards the opponents' goal. Robots that start facing left therefore have a
-// yaw that differs from the field's by 180 degrees (SYSTEM.md section 4, "IMU"). With
+// robot started, that is towards the opponents' goal. Robots that start facing left therefore have
+// a yaw that differs from the field's by 180 degrees (SYSTEM.md section 4, "IMU"). With
 // ImuZero::Right or ::Left the filter adds that offset. With ImuZero::Unknown both are taken as
 // equally likely, and the coloured corners decide: nobody has to configure the side.
 
@@ -25,10 +25,10 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
 #include <base/geometry.h>
 #include <base/result.h>
 #include <simcore/field.h>
+#include <Eigen/Core>
 
 namespace pitchboard {
 class CounterRandom;
@@ -40,26 +40,26 @@ namespace pitchboard::link {
 enum class ImuZero { Unknown, Right, Left };
 
 struct LocalizationParameters {
-  int leastParticles = 200;        ///< bounds of the adaptive number; equal = a fixed number
+  int leastParticles = 200;  ///< bounds of the adaptive number; equal = a fixed number
   int mostParticles = 5000;
-  double bearingSigma = 0.105;     ///< rad, of a corner's bearing as the filter believes it (6 deg)
-  double outlierShare = 0.02;      ///< bearings that mean nothing, 0..1; 0 = every one is trusted
-  double imuSigma = 0.35;          ///< rad (20 deg); wide: successive values share their drift
-  double walkSigma = 0.025;        ///< m in one second of motion, grows with the square root of time
-  double walkShare = 0.08;         ///< of the distance walked, added to it
-  double turnSigma = 0.026;        ///< rad in one second of motion (1.5 deg)
-  double restSigma = 0.004;        ///< m (and rad) in one second at rest, keeps particles apart
-  double kldError = 0.05;          ///< Fox's epsilon
-  double kldQuantile = 2.326;      ///< Fox's z(1 - delta), delta = 1 %
-  double kldCell = 0.30;           ///< m, side of a histogram cell; headings have 16 cells
-  double slowRate = 0.05;          ///< Thrun's alpha_slow and alpha_fast, per second, so that the
-  double fastRate = 0.8;           ///< cycle time does not change them
+  double bearingSigma = 0.105;  ///< rad, of a corner's bearing as the filter believes it (6 deg)
+  double outlierShare = 0.02;   ///< bearings that mean nothing, 0..1; 0 = every one is trusted
+  double imuSigma = 0.35;       ///< rad (20 deg); wide: successive values share their drift
+  double walkSigma = 0.025;     ///< m in one second of motion, grows with the square root of time
+  double walkShare = 0.08;      ///< of the distance walked, added to it
+  double turnSigma = 0.026;     ///< rad in one second of motion (1.5 deg)
+  double restSigma = 0.004;     ///< m (and rad) in one second at rest, keeps particles apart
+  double kldError = 0.05;       ///< Fox's epsilon
+  double kldQuantile = 2.326;   ///< Fox's z(1 - delta), delta = 1 %
+  double kldCell = 0.30;        ///< m, side of a histogram cell; headings have 16 cells
+  double slowRate = 0.05;       ///< Thrun's alpha_slow and alpha_fast, per second, so that the
+  double fastRate = 0.8;        ///< cycle time does not change them
   /// Width of the kernel of the regularized particle filter (Musso, Oudjane, Le Gland 2001), as a
   /// share of the belief's sigma; keeps a small set from growing surer than its sensors allow.
   double kernel = 0.2;
-  bool recovery = true;            ///< sensor resetting; off in the published filter
-  bool yawByImu = true;            ///< turning is taken from the IMU while it agrees with commands
-  bool resampleAlways = false;     ///< else only when half of the particles count for nothing
+  bool recovery = true;         ///< sensor resetting; off in the published filter
+  bool yawByImu = true;         ///< turning is taken from the IMU while it agrees with commands
+  bool resampleAlways = false;  ///< else only when half of the particles count for nothing
 
   /// The published filter (SYSTEM.md section 5): 5000 particles, bearings with sigma 5 degrees, IMU
   /// yaw with sigma 30, resampling in every update, no recovery.
@@ -68,20 +68,20 @@ struct LocalizationParameters {
 
 /// What happened since the update before. Lengths in metres, angles in radians.
 struct LocalizationInput {
-  double seconds = 0.1;            ///< since the update before
-  double forward = 0.0;            ///< commanded displacement along the heading
-  double left = 0.0;               ///< and across it
-  double turn = 0.0;               ///< commanded rotation, counter-clockwise
-  bool inMotion = false;           ///< the gait runs (also in place)
+  double seconds = 0.1;   ///< since the update before
+  double forward = 0.0;   ///< commanded displacement along the heading
+  double left = 0.0;      ///< and across it
+  double turn = 0.0;      ///< commanded rotation, counter-clockwise
+  bool inMotion = false;  ///< the gait runs (also in place)
   /// Bearings of the corners top left (blue), top right (red), bottom left (yellow), bottom right
   /// (purple) from the heading, left positive; absent = not seen.
   std::array<std::optional<double>, 4> corners;
-  std::optional<double> imuYaw;    ///< as IMU_EULER_Z, relative to the IMU's zero
+  std::optional<double> imuYaw;  ///< as IMU_EULER_Z, relative to the IMU's zero
 };
 
 struct Belief {
-  Pose pose;                       ///< mean of the strongest cluster
-  double sigma = 0.0;              ///< m, standard deviation of all particles' positions
+  Pose pose;           ///< mean of the strongest cluster
+  double sigma = 0.0;  ///< m, standard deviation of all particles' positions
   int particles = 0;
 };
 
@@ -122,7 +122,7 @@ class MonteCarloLocalization {
   };
   struct Remembered {
     double bearing = 0.0;
-    double age = 1e9;              // s
+    double age = 1e9;  // s
   };
 
   MonteCarloLocalization(const sim::FieldSpec& field, const LocalizationParameters& parameters,
@@ -151,13 +151,13 @@ class MonteCarloLocalization {
   std::uint64_t m_updates = 0;
 
   int m_count = 0;
-  bool m_spread = false;           // particles have been placed
+  bool m_spread = false;  // particles have been placed
   Particles m_now, m_next;
   Array m_weight, m_noise, m_a, m_b, m_d;
   std::array<Remembered, 4> m_remembered;
   std::optional<double> m_lastImu;
   double m_slow = 0.0, m_fast = 0.0, m_sinceBearing = 0.0, m_resetShare = 0.0;
-  int m_columns, m_rows;           // of the histogram
+  int m_columns, m_rows;  // of the histogram
   std::vector<std::uint32_t> m_cellStamp;
   std::uint32_t m_stamp = 0;
   std::vector<float> m_cellWeight;

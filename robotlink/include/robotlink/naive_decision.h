@@ -13,9 +13,9 @@ namespace pitchboard::link {
 
 /// What one cycle of the naive behaviour writes while the referee says "play".
 struct NaiveOutput {
-  int actionA = 0;               ///< DECISION_ACTION_A
-  std::optional<int> actionB;    ///< DECISION_ACTION_B
-  bool searchOn = false;         ///< DECISION_SEARCH_ON = 1 is to be written
+  int actionA = 0;             ///< DECISION_ACTION_A
+  std::optional<int> actionB;  ///< DECISION_ACTION_B
+  bool searchOn = false;       ///< DECISION_SEARCH_ON = 1 is to be written
   bool operator==(const NaiveOutput&) const = default;
 
   /// B before A, because control reads B in the moment it sees a new A.

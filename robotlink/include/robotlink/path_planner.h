@@ -17,16 +17,16 @@ namespace pitchboard::link {
 /// Something to keep away from. The radius includes the robot's own.
 struct Obstacle {
   Point centre;
-  double radius = 0.0;             ///< m; obstacles without a positive finite radius are ignored
+  double radius = 0.0;  ///< m; obstacles without a positive finite radius are ignored
 };
 
 struct Path {
   /// From the start to the target, both included; at least two points. Empty only when start or
   /// target are not finite.
   std::vector<Point> points;
-  double length = 0.0;             ///< m
-  bool targetFree = true;          ///< false: the target lay in an obstacle, its rim is the end
-  bool complete = true;            ///< false: no way; the path ends where it comes nearest
+  double length = 0.0;     ///< m
+  bool targetFree = true;  ///< false: the target lay in an obstacle, its rim is the end
+  bool complete = true;    ///< false: no way; the path ends where it comes nearest
 
   /// Where to walk to now: the first bend, or the target. Requires a path that is not empty.
   const Point& next() const { return points[1]; }
@@ -60,8 +60,8 @@ class PathPlanner {
   double m_halfLength, m_halfWidth;
   std::vector<Obstacle> m_obstacles;
   std::vector<char> m_active;
-  std::vector<Node> m_nodes;       // 0 start, 1 target, then corners
-  int m_end = 1;                   // node where the last search ended
+  std::vector<Node> m_nodes;  // 0 start, 1 target, then corners
+  int m_end = 1;              // node where the last search ended
 };
 
 }  // namespace pitchboard::link

@@ -5,13 +5,13 @@
 // starts one again that died or that shows no sign of life, and ends all of them.
 //
 // Signs of life. A process that has a *_WORKING variable sets it in every cycle; communication
-// clears it once a second. When it stays 0 for `silentAfter`, the process counts as silent. (Without
-// communication among the processes nobody would clear the flags, so the manager does.) A process
-// without such a variable is silent while the kernel counts no more of its sleeps, whether it is
-// stopped or calculates for ever.
+// clears it once a second. When it stays 0 for `silentAfter`, the process counts as silent.
+// (Without communication among the processes nobody would clear the flags, so the manager does.) A
+// process without such a variable is silent while the kernel counts no more of its sleeps, whether
+// it is stopped or calculates for ever.
 //
-// A process that has to be started again waits first: `firstWait`, twice as long every time, at most
-// `longestWait`; after `steadyAfter` of work it counts as sound again.
+// A process that has to be started again waits first: `firstWait`, twice as long every time, at
+// most `longestWait`; after `steadyAfter` of work it counts as sound again.
 
 #include <chrono>
 #include <cstdint>
@@ -25,14 +25,14 @@
 namespace pitchboard::link {
 
 struct ManagedProcess {
-  std::string name;                    ///< for people: "decision"
-  std::vector<std::string> command;    ///< program and arguments
-  IntVar workingFlag{-1};              ///< *_WORKING; absent: by the kernel's count
+  std::string name;                  ///< for people: "decision"
+  std::vector<std::string> command;  ///< program and arguments
+  IntVar workingFlag{-1};            ///< *_WORKING; absent: by the kernel's count
 };
 
 struct ManagerTiming {
   using Seconds = std::chrono::duration<double>;
-  Seconds startInterval{0.2};          ///< between the starts of two processes
+  Seconds startInterval{0.2};  ///< between the starts of two processes
   Seconds silentAfter{5.0};
   Seconds firstWait{0.5}, longestWait{10.0}, steadyAfter{30.0};
 };
@@ -45,7 +45,7 @@ class ProcessManager {
   /// `board` must outlive the manager. `clearFlags`: no process of the list clears *_WORKING.
   ProcessManager(RobotId robot, std::vector<ManagedProcess> processes, const ManagerTiming& timing,
                  Blackboard& board, bool clearFlags);
-  ~ProcessManager();                   ///< stop()
+  ~ProcessManager();  ///< stop()
 
   /// Starts what is due, collects what ended, looks for signs of life. Call it about 20 times a
   /// second; it waits only while a silent process is being ended (at most half a second). An error
@@ -64,9 +64,9 @@ class ProcessManager {
  private:
   struct Entry {
     ManagedProcess process;
-    int handle = 0;                    // of the running child, 0 = none
+    int handle = 0;  // of the running child, 0 = none
     bool everStarted = false;
-    Time due{};                        // of the next start
+    Time due{};  // of the next start
     Time started{}, lastSign{};
     ManagerTiming::Seconds wait{};
     std::uint64_t sleeps = 0;

@@ -9,12 +9,12 @@
 // error collected line by line. When it ends, what it started itself ends with it: the rest of its
 // group is killed.
 
+#include <sys/types.h>
 #include <chrono>
 #include <cstdint>
 #include <deque>
 #include <map>
 #include <string>
-#include <sys/types.h>
 #include <vector>
 
 #include <base/ids.h>
@@ -24,8 +24,8 @@ namespace pitchboard::link {
 
 struct ChildSpec {
   RobotId robot;
-  std::string name;                    ///< for people: "decision"
-  std::vector<std::string> command;    ///< program (looked for in PATH without a '/') and arguments
+  std::string name;                  ///< for people: "decision"
+  std::vector<std::string> command;  ///< program (looked for in PATH without a '/') and arguments
   bool operator==(const ChildSpec&) const = default;
 };
 
@@ -33,19 +33,19 @@ struct ChildSpec {
 enum class ChildState { Running, Ended, Failed };
 
 struct ChildStatus {
-  int handle = 0;                      ///< stays valid; unique within a supervisor
+  int handle = 0;  ///< stays valid; unique within a supervisor
   ChildSpec spec;
   pid_t pid = 0;
   ChildState state = ChildState::Running;
-  std::string detail;                  ///< "exit code 2", "killed by signal 9 (Killed)"; empty while running
-  std::string lastOutput;              ///< last line that it wrote to stdout or stderr
+  std::string detail;      ///< "exit code 2", "killed by signal 9 (Killed)"; empty while running
+  std::string lastOutput;  ///< last line that it wrote to stdout or stderr
   bool operator==(const ChildStatus&) const = default;
 };
 
 /// A line written by a child, for the log.
 struct ChildLine {
   int handle = 0;
-  std::string text;                    ///< at most 1000 bytes; the rest of a longer line is dropped
+  std::string text;  ///< at most 1000 bytes; the rest of a longer line is dropped
 };
 
 class ProcessSupervisor {
@@ -56,7 +56,7 @@ class ProcessSupervisor {
   ProcessSupervisor() = default;
   ProcessSupervisor(const ProcessSupervisor&) = delete;
   ProcessSupervisor& operator=(const ProcessSupervisor&) = delete;
-  ~ProcessSupervisor();                ///< stopAll()
+  ~ProcessSupervisor();  ///< stopAll()
 
   /// The child's handle. Fails when the program cannot be executed (the reason of the system in the
   /// sentence). Returns once the program is running: it waits for fork and exec only.
@@ -80,10 +80,10 @@ class ProcessSupervisor {
   void forget(int handle);
 
  private:
-  struct Output {                      // of a running child
-    int fd = -1;                       // read end of its pipe
-    std::string partial;               // the line that has no end yet
-    bool asked = false;                // stop() told it to end
+  struct Output {         // of a running child
+    int fd = -1;          // read end of its pipe
+    std::string partial;  // the line that has no end yet
+    bool asked = false;   // stop() told it to end
   };
 
   void stopThose(const std::vector<int>& handles, std::chrono::milliseconds grace);
@@ -94,7 +94,7 @@ class ProcessSupervisor {
   void collect(ChildStatus& child, Output& output);
 
   std::vector<ChildStatus> m_children;
-  std::map<int, Output> m_outputs;     // by handle, running children only
+  std::map<int, Output> m_outputs;  // by handle, running children only
   std::deque<ChildLine> m_lines;
   std::uint64_t m_droppedLines = 0;
   int m_nextHandle = 1;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rebuilds what a person saw at a recorded moment from rows: of the series store (looking back) or of
-// a session file (replay). Simulated recordings have truth and blackboards, live ones what the robots
-// believed. Whatever a recording does not have stays at its default and says so in the frame; unknown
-// columns are passed over. Not thread-safe: one object for one source, in one thread.
+// Rebuilds what a person saw at a recorded moment from rows: of the series store (looking back) or
+// of a session file (replay). Simulated recordings have truth and blackboards, live ones what the
+// robots believed. Whatever a recording does not have stays at its default and says so in the
+// frame; unknown columns are passed over. Not thread-safe: one object for one source, in one
+// thread.
 
 #include <array>
 #include <map>
@@ -29,7 +30,8 @@ struct FrameBackdrop {
   std::optional<telemetry::Profile> profile;  ///< what live robots' fields mean
 };
 
-/// From the scenario and the profile that the session holds; the published field where there is none.
+/// From the scenario and the profile that the session holds; the published field where there is
+/// none.
 FrameBackdrop backdropOf(const telemetry::SessionReader& session);
 
 class RecordedFrames {
@@ -57,7 +59,7 @@ class RecordedFrames {
   FrameBackdrop m_backdrop;
   std::uint64_t m_serial = 0;
   double m_lastTime = 0.0;
-  std::vector<const telemetry::GroupInfo*> m_groups;   // of the frame being built
+  std::vector<const telemetry::GroupInfo*> m_groups;  // of the frame being built
   std::vector<telemetry::SessionRow> m_rows;
   std::vector<std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<std::size_t, std::unique_ptr<Layout>> m_layouts;

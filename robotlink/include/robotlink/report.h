@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A match on one page: an HTML file that needs nothing but itself (style, curves and the picture are
-// in it), for a browser of any kind, light or dark, and for printing.
+// A match on one page: an HTML file that needs nothing but itself (style, curves and the picture
+// are in it), for a browser of any kind, light or dark, and for printing.
 
 #include <string>
 #include <vector>
@@ -13,14 +13,14 @@
 namespace pitchboard::link {
 
 struct ReportContent {
-  std::string title;                 ///< of the match
-  telemetry::SessionInfo session;    ///< source, seed, wall time; an empty program is left out
+  std::string title;               ///< of the match
+  telemetry::SessionInfo session;  ///< source, seed, wall time; an empty program is left out
   SessionStatistics statistics;
   std::vector<telemetry::SessionEvent> events;
   /// The field at a moment of the caller's choice: SVG text, or the bytes of a PNG. Empty: none.
   std::string picture;
   std::string pictureCaption;
-  std::vector<std::string> notes;    ///< what a reader must know, e.g. that the recording broke off
+  std::vector<std::string> notes;  ///< what a reader must know, e.g. that the recording broke off
 };
 
 /// The page. Everything that came from a file or the network is escaped; an SVG picture is shown as

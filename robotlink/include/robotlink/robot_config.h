@@ -21,14 +21,14 @@ inline constexpr int highestRobotNumber = 64;
 
 struct IniEntry {
   std::string section;
-  std::string name;                ///< in lower case
-  std::string value;               ///< without blanks and comment; may be empty
-  int line = 0;                    ///< from 1
+  std::string name;   ///< in lower case
+  std::string value;  ///< without blanks and comment; may be empty
+  int line = 0;       ///< from 1
 };
 
 /// The lines of an INI file that have a name and a value, in their order.
 struct IniFile {
-  std::string source;              ///< for messages
+  std::string source;  ///< for messages
   std::vector<IniEntry> entries;
 
   /// The last one wins, as in the published processes; nullptr when there is none.

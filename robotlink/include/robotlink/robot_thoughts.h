@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the reference processes have in mind, for drawing: the particles of localization, the path of
-// decision. It is no part of the Cross Architecture: nothing but a display uses it, and unchanged
-// robots have none. Metres and radians in the studio's frame, weights as shares.
+// What the reference processes have in mind, for drawing: the particles of localization, the path
+// of decision. It is no part of the Cross Architecture: nothing but a display uses it, and
+// unchanged robots have none. Metres and radians in the studio's frame, weights as shares.
 //
 // Two ways to the reader. Processes that run inside this program are asked
 // (CognitiveProcess::tellThoughts). Processes of their own send datagrams to a UDP port of this
-// computer's loopback device, five times a second, and only when `--thoughts-port` names one; nothing
-// stays behind when either side dies. A datagram is text; lengths are whole millimetres, angles
-// milliradians, weights millionths:
+// computer's loopback device, five times a second, and only when `--thoughts-port` names one;
+// nothing stays behind when either side dies. A datagram is text; lengths are whole millimetres,
+// angles milliradians, weights millionths:
 //   PBT1 cloud ROBOT COUNT X Y YAW SIGMA  x y yaw weight  x y yaw weight ...   (at most 500)
 //   PBT1 path ROBOT COMPLETE  x y  x y ...                                     (at most 64 points)
 
@@ -27,27 +27,27 @@
 namespace pitchboard::link {
 
 struct Particle {
-  Point position;                  ///< m
-  double yaw = 0.0;                ///< rad
-  double weight = 0.0;             ///< shares of the sample add up to 1
+  Point position;       ///< m
+  double yaw = 0.0;     ///< rad
+  double weight = 0.0;  ///< shares of the sample add up to 1
   bool operator==(const Particle&) const = default;
 };
 
 /// What localization believes.
 struct ParticleCloud {
   static constexpr std::size_t most = 500;
-  std::vector<Particle> particles; ///< an evenly drawn sample of at most `most`
-  int count = 0;                   ///< particles that the filter has
-  Pose pose;                       ///< the belief
-  double sigma = 0.0;              ///< m
+  std::vector<Particle> particles;  ///< an evenly drawn sample of at most `most`
+  int count = 0;                    ///< particles that the filter has
+  Pose pose;                        ///< the belief
+  double sigma = 0.0;               ///< m
   bool operator==(const ParticleCloud&) const = default;
 };
 
 /// Where decision wants to walk.
 struct PlannedPath {
   static constexpr std::size_t most = 64;
-  std::vector<Point> points;       ///< m, from the robot to the target; empty = it walks nowhere
-  bool complete = true;            ///< false: no way to the target, the path ends nearest to it
+  std::vector<Point> points;  ///< m, from the robot to the target; empty = it walks nowhere
+  bool complete = true;       ///< false: no way to the target, the path ends nearest to it
   bool operator==(const PlannedPath&) const = default;
 };
 

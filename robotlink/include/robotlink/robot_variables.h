@@ -2,7 +2,8 @@
 #pragma once
 
 // The variables that the bridge and the reference processes use, resolved once from a catalog into
-// indices. A team's catalog may lack some: readOr() gives 0 for those, writeIfPresent() does nothing.
+// indices. A team's catalog may lack some: readOr() gives 0 for those, writeIfPresent() does
+// nothing.
 
 #include <array>
 #include <vector>
@@ -22,15 +23,19 @@ struct RobotVariables {
       localizationX, localizationY, localizationTheta, robotNumber;
   FloatVar imuEulerX, imuEulerY, imuEulerZ, imuGyroX, imuGyroY, imuGyroZ, imuAccelX, imuAccelY,
       imuAccelZ, visionBallDist, visionBallAngle, visionPanDeg, visionTiltDeg, localizationBelief;
-  std::array<FloatVar, 4> landmarkDeg;   ///< blue, red, yellow, purple
+  std::array<FloatVar, 4> landmarkDeg;             ///< blue, red, yellow, purple
   std::array<FloatVar, 11> robotDist, robotAngle;  ///< VISION_RBT01.. _DIST / _ANGLE
-  std::vector<std::string> missing;      ///< names that the catalog does not have
+  std::vector<std::string> missing;                ///< names that the catalog does not have
 };
 
 // How bridge and processes use them: an absent variable reads as `fallback` and is never written.
 // (Blackboard::read and write take the index as it is.)
-constexpr bool isPresent(IntVar variable) { return variable.index >= 0; }
-constexpr bool isPresent(FloatVar variable) { return variable.index >= 0; }
+constexpr bool isPresent(IntVar variable) {
+  return variable.index >= 0;
+}
+constexpr bool isPresent(FloatVar variable) {
+  return variable.index >= 0;
+}
 
 inline int readOr(const Blackboard& board, IntVar variable, int fallback = 0) {
   return isPresent(variable) ? board.read(variable) : fallback;

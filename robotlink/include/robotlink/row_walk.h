@@ -10,11 +10,11 @@
 
 namespace pitchboard::link {
 
-using RowVisitor = std::function<void(telemetry::GroupId, const telemetry::GroupInfo&,
-                                      const telemetry::RowView&)>;
+using RowVisitor =
+    std::function<void(telemetry::GroupId, const telemetry::GroupInfo&, const telemetry::RowView&)>;
 
-/// Rows of all groups in the closed range, in order of time; rows of one time in order of the groups.
-/// The view is valid during the call.
+/// Rows of all groups in the closed range, in order of time; rows of one time in order of the
+/// groups. The view is valid during the call.
 void forEachRow(const telemetry::SeriesStore& rows, telemetry::TimeRange range,
                 const RowVisitor& visit);
 void forEachRow(const telemetry::SessionReader& session, telemetry::TimeRange range,

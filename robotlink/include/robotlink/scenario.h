@@ -19,10 +19,10 @@ namespace pitchboard::link {
 
 /// A value for a blackboard variable, by name; the type is the catalog's.
 struct BlackboardWrite {
-  RobotId robot;            ///< 0 = every robot
+  RobotId robot;  ///< 0 = every robot
   std::string variable;
-  double value = 0.0;       ///< exact for every int32 and float32
-  double time = 0.0;        ///< simulated s; written before the tick that starts then
+  double value = 0.0;  ///< exact for every int32 and float32
+  double time = 0.0;   ///< simulated s; written before the tick that starts then
   bool operator==(const BlackboardWrite&) const = default;
 };
 
@@ -32,30 +32,30 @@ constexpr std::string_view noBehaviour = "none";
 struct ScenarioRobot {
   sim::RobotIdentity identity;
   Pose pose;
-  std::string behaviour = "striker";   ///< a name of behaviours(), or noBehaviour
+  std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
   bool operator==(const ScenarioRobot&) const = default;
 };
 
 /// A run ends when any of these is met; none set = it goes on.
 struct StopConditions {
-  std::optional<double> duration;   ///< simulated s
+  std::optional<double> duration;  ///< simulated s
   bool goal = false;
   bool ballOut = false;
   bool operator==(const StopConditions&) const = default;
 };
 
 struct Scenario {
-  std::string name = "untitled";    ///< short, for --scenario and files
-  std::string title;                ///< for people
+  std::string name = "untitled";  ///< short, for --scenario and files
+  std::string title;              ///< for people
   std::string description;
   sim::SimulationSettings settings;
   std::vector<ScenarioRobot> robots;
   Point ball;
   Velocity ballVelocity;
   bool clockRunning = true;
-  double clock = 0.0;               ///< s of play so far, at least 0
+  double clock = 0.0;  ///< s of play so far, at least 0
   sim::Score score;
-  std::vector<BlackboardWrite> writes;   ///< in order of time
+  std::vector<BlackboardWrite> writes;  ///< in order of time
   StopConditions stop;
   bool operator==(const Scenario&) const = default;
 };

@@ -17,7 +17,7 @@ Result<StateSegment> checkpointFromJson(std::string_view json);
 void appendCheckpoint(telemetry::SessionWriter& session, const StateSegment& segment);
 
 struct SessionCheckpoint {
-  double time = 0.0;        ///< s of the session, at the segment's first tick
+  double time = 0.0;  ///< s of the session, at the segment's first tick
   StateSegment segment;
 };
 

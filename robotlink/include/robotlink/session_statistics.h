@@ -2,7 +2,8 @@
 #pragma once
 
 // What a match was like, in numbers: computed from rows, whether they stand in a session file or in
-// memory. Simulated matches are judged by the truth, live ones by what the robots believed and sent.
+// memory. Simulated matches are judged by the truth, live ones by what the robots believed and
+// sent.
 
 #include <array>
 #include <memory>
@@ -21,35 +22,35 @@ namespace pitchboard::link {
 inline constexpr double ballReach = 0.5;
 
 struct RobotSummary {
-  std::string name;                     ///< of its group: "B1"
+  std::string name;  ///< of its group: "B1"
   TeamColor team = TeamColor::Blue;
-  double seconds = 0.0;                 ///< for which there are rows
-  std::optional<double> distance;       ///< m walked (live: of its believed places)
-  std::uint32_t kicks = 0;              ///< live: kick actions that were sent
+  double seconds = 0.0;            ///< for which there are rows
+  std::optional<double> distance;  ///< m walked (live: of its believed places)
+  std::uint32_t kicks = 0;         ///< live: kick actions that were sent
   std::uint32_t falls = 0;
-  double ballSeconds = 0.0;             ///< with the ball; live: as it saw it itself
+  double ballSeconds = 0.0;                    ///< with the ball; live: as it saw it itself
   std::optional<double> errorMedian, error90;  ///< of the belief, cm; needs the truth
   /// Share of the time in which the process worked, 0 to 1; nothing where rows do not say.
   std::array<std::optional<double>, telemetry::processCount> uptime{};
-  std::vector<double> errorCurve;       ///< mean belief error, cm, in equal parts of the time; NaN: none
+  std::vector<double> errorCurve;  ///< mean belief error, cm, in equal parts of the time; NaN: none
 };
 
 struct TeamSummary {
   TeamColor team = TeamColor::Blue;
-  std::optional<int> score;             ///< at the end; nothing when it is not known
-  int scored = 0;                       ///< in this time
+  std::optional<int> score;  ///< at the end; nothing when it is not known
+  int scored = 0;            ///< in this time
   double ballSeconds = 0.0;
   std::uint32_t kicks = 0, falls = 0;
-  double distance = 0.0;                ///< m
-  std::vector<double> ballCurve;        ///< share of the time with the ball, 0 to 1, in equal parts
+  double distance = 0.0;          ///< m
+  std::vector<double> ballCurve;  ///< share of the time with the ball, 0 to 1, in equal parts
 };
 
 struct SessionStatistics {
-  telemetry::TimeRange range;           ///< s of the source
+  telemetry::TimeRange range;  ///< s of the source
   bool truthKnown = false;
   std::uint64_t rows = 0;
-  std::vector<RobotSummary> robots;     ///< by team, then name
-  std::vector<TeamSummary> teams;       ///< those that have robots
+  std::vector<RobotSummary> robots;  ///< by team, then name
+  std::vector<TeamSummary> teams;    ///< those that have robots
 };
 
 /// Takes rows in order of time.

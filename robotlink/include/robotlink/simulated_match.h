@@ -33,11 +33,11 @@ enum class Cognition {
 
 struct MatchOptions {
   Cognition cognition = Cognition::Inline;
-  bool systemV = false;              ///< with Inline: System V blackboards, for watching
-  int keyBase = 0;                   ///< key = keyBase + 100 × robot number
-  std::string robotProgram;          ///< pitchboard-robot; needed for External
-  ProcessOptions process;            ///< addresses and ports for the processes
-  bool thoughts = false;             ///< hear particles and paths, for display
+  bool systemV = false;      ///< with Inline: System V blackboards, for watching
+  int keyBase = 0;           ///< key = keyBase + 100 × robot number
+  std::string robotProgram;  ///< pitchboard-robot; needed for External
+  ProcessOptions process;    ///< addresses and ports for the processes
+  bool thoughts = false;     ///< hear particles and paths, for display
 };
 
 struct Moment;
@@ -46,8 +46,9 @@ class SimulatedMatch {
  public:
   /// Fails with the reason, and leaves no segment and no process behind. `catalog` must outlive the
   /// match.
-  static Result<SimulatedMatch> create(const Scenario& scenario, const MatchOptions& options,
-                                       const VariableCatalog& catalog = VariableCatalog::published());
+  static Result<SimulatedMatch> create(
+      const Scenario& scenario, const MatchOptions& options,
+      const VariableCatalog& catalog = VariableCatalog::published());
   SimulatedMatch(SimulatedMatch&&) noexcept;
   SimulatedMatch& operator=(SimulatedMatch&&) noexcept;
   ~SimulatedMatch();  ///< ends the processes, removes the segments that it created
@@ -74,8 +75,8 @@ class SimulatedMatch {
   std::vector<RobotThoughts> thoughts();
   const RobotVariables& variables() const { return m_variables; }
   const VariableCatalog& catalog() const { return *m_catalog; }
-  /// What the bridge read before the last tick, in the order of the simulation's robots (a robot that
-  /// came since has the default). With it and the state before, that tick can be repeated.
+  /// What the bridge read before the last tick, in the order of the simulation's robots (a robot
+  /// that came since has the default). With it and the state before, that tick can be repeated.
   std::span<const sim::RobotCommand> commands() const { return m_commands; }
   ProcessSupervisor& supervisor() { return *m_supervisor; }
   const ProcessSupervisor& supervisor() const { return *m_supervisor; }
@@ -95,10 +96,10 @@ class SimulatedMatch {
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
 
-  /// Puts a recorded moment back exactly: robots come and go until they are those of the moment, and
-  /// what is known of their blackboards is written. Stepping on repeats what followed as long as the
-  /// robots are told the same; what their processes remember is not part of a moment. Errors leave
-  /// the match as it was.
+  /// Puts a recorded moment back exactly: robots come and go until they are those of the moment,
+  /// and what is known of their blackboards is written. Stepping on repeats what followed as long
+  /// as the robots are told the same; what their processes remember is not part of a moment. Errors
+  /// leave the match as it was.
   Result<void> reenter(const Moment& moment);
 
   /// The present moment as a scenario that starts from it. Scripted writes of the past are kept at
@@ -138,12 +139,12 @@ class SimulatedMatch {
   const VariableCatalog* m_catalog;
   RobotVariables m_variables;
   BlackboardBridge m_bridge;
-  std::vector<ResolvedWrite> m_writes;          // in order of tick
-  std::vector<std::unique_ptr<Seat>> m_seats;   // same order as the simulation's robots
+  std::vector<ResolvedWrite> m_writes;         // in order of tick
+  std::vector<std::unique_ptr<Seat>> m_seats;  // same order as the simulation's robots
   std::vector<sim::RobotCommand> m_commands;
   std::vector<sim::Percepts> m_percepts;
   std::size_t m_nextWrite = 0;
-  std::uint64_t m_expectedTick = 0;             // another one means that a moment was restored
+  std::uint64_t m_expectedTick = 0;  // another one means that a moment was restored
   bool m_goalSeen = false, m_outSeen = false;
   std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
   std::optional<ThoughtsReceiver> m_thoughts;

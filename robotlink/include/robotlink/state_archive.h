@@ -38,7 +38,7 @@ class StateSegmenter {
 };
 
 struct ArchiveOptions {
-  double interval = 1.0;                          ///< simulated s between checkpoints
+  double interval = 1.0;                             ///< simulated s between checkpoints
   std::size_t memoryBudget = std::size_t{64} << 20;  ///< bytes; about 10 hours of six robots
 };
 
@@ -70,7 +70,7 @@ class StateArchive : public TickObserver {
  private:
   void keep(std::optional<StateSegment> ended);
   const ArchiveOptions m_options;
-  mutable std::mutex m_mutex;   // guards everything below
+  mutable std::mutex m_mutex;  // guards everything below
   StateSegmenter m_segmenter;
   std::deque<std::shared_ptr<const StateSegment>> m_segments;  // by first tick
   std::size_t m_bytes = 0;

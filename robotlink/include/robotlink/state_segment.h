@@ -2,8 +2,9 @@
 #pragma once
 
 // A piece of a match that can be entered again at every tick: the exact state at its beginning (a
-// checkpoint) and the commands that the bridge read before each tick since. A step is a pure function
-// of state and commands, so stepping on from the checkpoint gives every later state bit for bit.
+// checkpoint) and the commands that the bridge read before each tick since. A step is a pure
+// function of state and commands, so stepping on from the checkpoint gives every later state bit
+// for bit.
 
 #include <cstdint>
 #include <span>
@@ -34,8 +35,8 @@ class StateSegment {
   /// Roughly the memory that it takes.
   std::size_t bytes() const { return sizeof *this + m_state.size() + m_commands.size(); }
 
-  /// The state at a tick from firstTick() to lastTick(). Error NotFound outside, ParseError when the
-  /// commands are damaged (only in a segment from a file).
+  /// The state at a tick from firstTick() to lastTick(). Error NotFound outside, ParseError when
+  /// the commands are damaged (only in a segment from a file).
   Result<sim::WorldState> at(std::uint64_t tick) const;
 
   /// For files. decode() refuses bytes that are no segment, with the offset; what it returns may
@@ -47,7 +48,7 @@ class StateSegment {
   std::uint64_t m_firstTick = 0;
   std::uint64_t m_ticks = 0;
   double m_tickRate = 60.0;
-  std::string m_state;       // encodeState()
+  std::string m_state;  // encodeState()
   // How many ticks said the same as before, then what changed, and so on: (count, {robot + 1, mask
   // of changed values, the values}..., 0).
   std::string m_commands;

@@ -5,8 +5,8 @@
 // published convention: key 100 × robot number, 2048 bytes, mode 0600, whoever comes first creates
 // it. Errors name the key and say what to do.
 
-#include <string>
 #include <sys/types.h>
+#include <string>
 #include <vector>
 
 #include <robotlink/blackboard.h>
@@ -21,19 +21,21 @@ enum class AttachMode {
 };
 
 /// Key of a robot's blackboard. `keyBase` is 0 for real robots; tests and second studios shift it.
-constexpr int blackboardKey(RobotId robot, int keyBase = 0) { return keyBase + 100 * robot.value; }
+constexpr int blackboardKey(RobotId robot, int keyBase = 0) {
+  return keyBase + 100 * robot.value;
+}
 
 struct SegmentInfo {
   int key = 0;
   int shmid = 0;
   std::size_t bytes = 0;
-  unsigned mode = 0;          ///< permission bits
+  unsigned mode = 0;  ///< permission bits
   uid_t owner = 0;
   pid_t creator = 0;
-  pid_t lastUser = 0;         ///< process of the last attach or detach
-  unsigned long attached = 0; ///< processes attached now
+  pid_t lastUser = 0;            ///< process of the last attach or detach
+  unsigned long attached = 0;    ///< processes attached now
   bool blackboardSized = false;  ///< exactly 2048 bytes
-  bool orphan = false;        ///< blackboard-sized, ours, nobody attached, its creator is gone
+  bool orphan = false;           ///< blackboard-sized, ours, nobody attached, its creator is gone
 };
 
 class SystemVSegments {

@@ -40,10 +40,10 @@ class InProcessTeamChannel final : public TeamChannel {
   std::vector<Box> m_boxes;
 };
 
-/// Broadcast on port 10000 + team, the convention of the Humanoid Soccer League 2026; a datagram has
-/// at most 512 bytes. `address` 127.0.0.1 keeps everything on this computer (127.255.255.255 is its
-/// broadcast address); a network's broadcast address reaches real robots. Fails with the reason when
-/// the address, the team (0..99) or the port cannot be used.
+/// Broadcast on port 10000 + team, the convention of the Humanoid Soccer League 2026; a datagram
+/// has at most 512 bytes. `address` 127.0.0.1 keeps everything on this computer (127.255.255.255 is
+/// its broadcast address); a network's broadcast address reaches real robots. Fails with the reason
+/// when the address, the team (0..99) or the port cannot be used.
 Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team);
 
 }  // namespace pitchboard::link

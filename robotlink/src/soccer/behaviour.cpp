@@ -8,8 +8,12 @@
 namespace pitchboard::link {
 namespace {
 
-double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-double direction(const Point& from, const Point& to) { return std::atan2(to.y - from.y, to.x - from.x); }
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+double direction(const Point& from, const Point& to) {
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
 
 }  // namespace
 
@@ -35,7 +39,8 @@ Choice Behaviour::choose(const WorldModel& world) {
   return {acts::stop, Intention::Idle, {}, true};
 }
 
-Choice Behaviour::walkTo(const WorldModel& world, const Pose& pose, Intention intention, double near) {
+Choice Behaviour::walkTo(const WorldModel& world, const Pose& pose, Intention intention,
+                         double near) {
   const auto act = m_walk.step(world, {pose, near, 0.35, true});
   return {act.value_or(acts::stop), intention, pose.position, !world.seesBall()};
 }
@@ -103,7 +108,8 @@ bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
   for (const auto& mate : world.mates()) {
     if (!mate || !mate->active || mate->intention == Intention::Keep) continue;
     somebodyAttacks = somebodyAttacks || mate->intention == Intention::Ball;
-    if (mate->intention == Intention::Ball) nearest = std::min(nearest, distance(mate->position, ball));
+    if (mate->intention == Intention::Ball)
+      nearest = std::min(nearest, distance(mate->position, ball));
   }
   if (!somebodyAttacks) return true;
   return own < nearest - (m_attacking ? 0.2 : 0.8);

@@ -13,8 +13,8 @@ namespace pitchboard::link {
 struct Choice {
   Act act;
   Intention intention = Intention::Idle;
-  std::optional<Point> target;     ///< where it is going, for the team and for display
-  bool search = false;             ///< vision shall turn the head to find the ball
+  std::optional<Point> target;  ///< where it is going, for the team and for display
+  bool search = false;          ///< vision shall turn the head to find the ball
 };
 
 class Behaviour {
@@ -38,7 +38,7 @@ class Behaviour {
   Walk m_walk;
   Search m_search;
   Attack m_attack;
-  double m_told = -1e9;            // when the ball was last where it was said to be
+  double m_told = -1e9;  // when the ball was last where it was said to be
 };
 
 /// Goes for the ball and the goal; leaves the ball to a team-mate that is there first.
@@ -86,9 +86,13 @@ class Idle : public Behaviour {
 template <class B>
 Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOptions& options);
 
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(const ProcessOptions&);
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Supporter>(const ProcessOptions&);
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Keeper>(const ProcessOptions&);
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Idle>(const ProcessOptions&);
+extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(
+    const ProcessOptions&);
+extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Supporter>(
+    const ProcessOptions&);
+extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Keeper>(
+    const ProcessOptions&);
+extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Idle>(
+    const ProcessOptions&);
 
 }  // namespace pitchboard::link

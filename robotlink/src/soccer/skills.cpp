@@ -14,20 +14,24 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double planPeriod = 0.2;         // s: 5 Hz
-constexpr double robotClearance = 0.12;    // m between two bodies
+constexpr double planPeriod = 0.2;       // s: 5 Hz
+constexpr double robotClearance = 0.12;  // m between two bodies
 constexpr double postClearance = 0.06;
 constexpr double ballClearance = 0.08;
-constexpr double behindBall = 0.36;        // m from the ball, where an attack begins
-constexpr double kickDistance = 0.245;     // m: the body touches at 0.22
-constexpr double kickBearing = 0.42;       // rad: the kick's sector reaches 30 degrees
+constexpr double behindBall = 0.36;     // m from the ball, where an attack begins
+constexpr double kickDistance = 0.245;  // m: the body touches at 0.22
+constexpr double kickBearing = 0.42;    // rad: the kick's sector reaches 30 degrees
 
-double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-double direction(const Point& from, const Point& to) { return std::atan2(to.y - from.y, to.x - from.x); }
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+double direction(const Point& from, const Point& to) {
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
 
 struct Gait {
   Act act;
-  double direction;                        // rad from the heading
+  double direction;  // rad from the heading
 };
 constexpr std::array<Gait, 4> gaits{{{acts::forward, 0.0},
                                      {acts::sidleLeft, pi / 2},
@@ -39,7 +43,9 @@ double speedOf(const Act& act) {
   return std::hypot(speed.forward, speed.left);
 }
 
-Act turn(double angle) { return angle > 0.0 ? acts::turnLeft : acts::turnRight; }
+Act turn(double angle) {
+  return angle > 0.0 ? acts::turnLeft : acts::turnRight;
+}
 
 }  // namespace
 
@@ -55,8 +61,8 @@ void Walk::plan(const WorldModel& world, const Goal& goal) {
     }
   }
   if (goal.roundBall && world.seesBall()) {
-    m_obstacles.push_back({world.toField(world.ballInFront()),
-                           field.robotRadius + field.ballRadius + ballClearance});
+    m_obstacles.push_back(
+        {world.toField(world.ballInFront()), field.robotRadius + field.ballRadius + ballClearance});
   }
   m_path = m_planner.plan(world.pose().position, goal.pose.position, m_obstacles);
   m_planned = world.now();
@@ -72,7 +78,8 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
     if (std::abs(facing) < goal.facing) return std::nullopt;
     return turn(facing);
   }
-  if (world.now() - m_planned >= planPeriod - 1e-9 || distance(m_plannedFor, goal.pose.position) > 0.15) {
+  if (world.now() - m_planned >= planPeriod - 1e-9 ||
+      distance(m_plannedFor, goal.pose.position) > 0.15) {
     plan(world, goal);
   }
   if (m_path.points.empty()) return acts::stop;
@@ -85,7 +92,7 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
   const double way = std::max(m_path.length, left);
 
   // The time each gait needs: turning into it, walking, turning to face what the goal asks.
-  constexpr double keepGait = 0.8;         // s that another gait must be better by
+  constexpr double keepGait = 0.8;  // s that another gait must be better by
   const double turnSpeed = gaitSpeed(acts::turnLeft.action, 0).turn;
   int best = 0;
   double least = 1e9;
@@ -111,7 +118,7 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
 }
 
 Act Search::step(const WorldModel& world, Walk& walk) {
-  constexpr double headTime = 4.5;         // s: one sweep of the head
+  constexpr double headTime = 4.5;  // s: one sweep of the head
   constexpr double turnTime = 6.0;
   constexpr double placeTime = 22.0;
   if (!m_since) m_since = world.now();
@@ -124,8 +131,8 @@ Act Search::step(const WorldModel& world, Walk& walk) {
   if ((!scored && time < headTime + turnTime) || !world.localized()) return acts::turnRight;
   const double x = 0.28 * world.field().length, y = 0.22 * world.field().width;
   const std::array<Point, 5> places{{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
-  const auto i =
-      static_cast<std::size_t>(std::max(0.0, time - headTime - turnTime) / placeTime) % places.size();
+  const auto i = static_cast<std::size_t>(std::max(0.0, time - headTime - turnTime) / placeTime) %
+                 places.size();
   const auto act = walk.step(world, {{places[i], world.pose().yaw}, 0.4, pi, false});
   return act.value_or(acts::turnRight);
 }
@@ -135,8 +142,8 @@ Act Attack::step(const WorldModel& world, Walk& walk, const Point& aim) {
   const Point ball = world.toField(local);
   const double yaw = world.pose().yaw;
   // Without a pose the IMU still knows where the opponents' goal is.
-  const double error = world.localized() ? wrapToPi(direction(ball, aim) - yaw)
-                                         : wrapToPi(-world.imuYaw());
+  const double error =
+      world.localized() ? wrapToPi(direction(ball, aim) - yaw) : wrapToPi(-world.imuYaw());
   const double d = world.ballDistance(), bearing = world.ballBearing();
   const double goalDistance = distance(ball, aim);
   const double opening = std::atan2(0.35 * world.field().goalWidth, goalDistance);
@@ -153,7 +160,8 @@ Act Attack::step(const WorldModel& world, Walk& walk, const Point& aim) {
   m_aligned = false;
 
   const double kickYaw = yaw + error;
-  const Point behind{ball.x - behindBall * std::cos(kickYaw), ball.y - behindBall * std::sin(kickYaw)};
+  const Point behind{ball.x - behindBall * std::cos(kickYaw),
+                     ball.y - behindBall * std::sin(kickYaw)};
   const auto act = walk.step(world, {{behind, kickYaw}, 0.08, 0.5, true});
   return act.value_or(atBall(world, error, tolerance));
 }

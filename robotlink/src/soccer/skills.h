@@ -37,9 +37,9 @@ class Walk {
 
   struct Goal {
     Pose pose;
-    double near = 0.10;            ///< m, close enough
-    double facing = 0.20;          ///< rad, turned well enough
-    bool roundBall = true;         ///< keeps clear of the ball
+    double near = 0.10;     ///< m, close enough
+    double facing = 0.20;   ///< rad, turned well enough
+    bool roundBall = true;  ///< keeps clear of the ball
   };
   /// Nothing when the robot is there.
   std::optional<Act> step(const WorldModel& world, const Goal& goal);

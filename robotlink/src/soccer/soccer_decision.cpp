@@ -54,9 +54,12 @@ Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOption
   return std::make_unique<SoccerDecision>(options, std::make_unique<B>(options.field));
 }
 
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(const ProcessOptions&);
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Supporter>(const ProcessOptions&);
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Keeper>(const ProcessOptions&);
+template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(
+    const ProcessOptions&);
+template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Supporter>(
+    const ProcessOptions&);
+template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Keeper>(
+    const ProcessOptions&);
 template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Idle>(const ProcessOptions&);
 
 }  // namespace pitchboard::link

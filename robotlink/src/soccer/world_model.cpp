@@ -15,13 +15,15 @@ namespace {
 namespace frame = sim::published_frame;
 
 constexpr int lookForBall = 0, lookForOpponents = 2;
-constexpr unsigned cyclesBetweenLooks = 8;   // one of them for opponents
-constexpr double ballGain = 0.45;            // of a new sighting against the prediction
-constexpr double ballJump = 0.5;             // m: farther from the prediction it has been kicked
-constexpr double ballMemory = 8.0;           // s
-constexpr double opponentMemory = 3.0;       // s
+constexpr unsigned cyclesBetweenLooks = 8;  // one of them for opponents
+constexpr double ballGain = 0.45;           // of a new sighting against the prediction
+constexpr double ballJump = 0.5;            // m: farther from the prediction it has been kicked
+constexpr double ballMemory = 8.0;          // s
+constexpr double opponentMemory = 3.0;      // s
 
-double length(const Point& p) { return std::hypot(p.x, p.y); }
+double length(const Point& p) {
+  return std::hypot(p.x, p.y);
+}
 
 }  // namespace
 
@@ -73,8 +75,8 @@ void WorldModel::findSide(double theta) {
 }
 
 void WorldModel::moveWithBody(const Blackboard& board, double seconds) {
-  const GaitSpeed speed = gaitSpeed(board.read(m_variables.controlAction),
-                                    board.read(m_variables.decisionActionB));
+  const GaitSpeed speed =
+      gaitSpeed(board.read(m_variables.controlAction), board.read(m_variables.decisionActionB));
   const double x = m_ballLocal.x - speed.forward * seconds;
   const double y = m_ballLocal.y - speed.left * seconds;
   const double c = std::cos(speed.turn * seconds), s = std::sin(speed.turn * seconds);
@@ -83,8 +85,10 @@ void WorldModel::moveWithBody(const Blackboard& board, double seconds) {
 
 void WorldModel::readBall(const Blackboard& board) {
   if (board.read(m_variables.visionLost) != 0) return;
-  const double distance = frame::metresFromCm(static_cast<double>(board.read(m_variables.visionBallDist)));
-  const double bearing = radiansFromDegrees(static_cast<double>(board.read(m_variables.visionPanDeg)));
+  const double distance =
+      frame::metresFromCm(static_cast<double>(board.read(m_variables.visionBallDist)));
+  const double bearing =
+      radiansFromDegrees(static_cast<double>(board.read(m_variables.visionPanDeg)));
   if (!std::isfinite(distance) || !std::isfinite(bearing) || distance <= 0.0) return;
   const Point seen{distance * std::cos(bearing), distance * std::sin(bearing)};
   const Point change{seen.x - m_ballLocal.x, seen.y - m_ballLocal.y};
@@ -97,9 +101,11 @@ void WorldModel::readBall(const Blackboard& board) {
 
 void WorldModel::readRobots(Blackboard& board) {
   for (std::size_t i = 0; i < m_opponents.size(); ++i) {
-    const double distance = frame::metresFromCm(static_cast<double>(board.read(m_variables.robotDist[i])));
+    const double distance =
+        frame::metresFromCm(static_cast<double>(board.read(m_variables.robotDist[i])));
     // Right positive: the published sign of this variable.
-    const double bearing = -radiansFromDegrees(static_cast<double>(board.read(m_variables.robotAngle[i])));
+    const double bearing =
+        -radiansFromDegrees(static_cast<double>(board.read(m_variables.robotAngle[i])));
     if (!(distance > 0.0) || !std::isfinite(distance) || !std::isfinite(bearing)) continue;
     m_opponents[i] = {toField({distance * std::cos(bearing), distance * std::sin(bearing)}), m_now};
   }
@@ -130,7 +136,8 @@ void WorldModel::readMates(const Blackboard& board) {
     const double x = static_cast<double>(readOr(board, m_team.mateX[i], -1.0F));
     const double y = static_cast<double>(readOr(board, m_team.mateY[i], -1.0F));
     // Zeros are fresh memory: nobody stands on the corner.
-    if (x >= 0.0 && y >= 0.0 && x + y > 0.0 && x < 1e5 && y < 1e5) m_matePlaces.push_back(fromCm(x, y));
+    if (x >= 0.0 && y >= 0.0 && x + y > 0.0 && x < 1e5 && y < 1e5)
+      m_matePlaces.push_back(fromCm(x, y));
   }
   if (!m_matePlaces.empty()) return;
   for (const auto& mate : m_mates) {  // another team's process writes these only
@@ -138,8 +145,12 @@ void WorldModel::readMates(const Blackboard& board) {
   }
 }
 
-double WorldModel::ballDistance() const { return length(m_ballLocal); }
-double WorldModel::ballBearing() const { return std::atan2(m_ballLocal.y, m_ballLocal.x); }
+double WorldModel::ballDistance() const {
+  return length(m_ballLocal);
+}
+double WorldModel::ballBearing() const {
+  return std::atan2(m_ballLocal.y, m_ballLocal.x);
+}
 
 std::optional<Point> WorldModel::ball() const {
   if (seesBall()) return toField(m_ballLocal);
@@ -181,8 +192,7 @@ Point WorldModel::toField(const Point& p) const {
 void WorldModel::tell(Blackboard& board, Intention intention,
                       const std::optional<Point>& target) const {
   const auto toCm = [this](const Point& p) {
-    return frame::localizationFromStudio(
-        m_field, {m_attacksLeft ? Point{-p.x, -p.y} : p, 0.0});
+    return frame::localizationFromStudio(m_field, {m_attacksLeft ? Point{-p.x, -p.y} : p, 0.0});
   };
   writeIfPresent(board, m_team.intention, static_cast<int>(intention));
   const bool known = seesBall() && localized();

@@ -5,9 +5,9 @@
 // robots. Everything is turned so that this robot's team attacks towards +x, whichever side it
 // plays on: a behaviour is written once. Metres, radians, seconds.
 //
-// Which goal is whose stands nowhere on the blackboard, but the IMU knows: its zero is the direction
-// of the opponents' goal (SYSTEM.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z is near 0
-// for a team that attacks right and near 180 degrees for one that attacks left.
+// Which goal is whose stands nowhere on the blackboard, but the IMU knows: its zero is the
+// direction of the opponents' goal (SYSTEM.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z
+// is near 0 for a team that attacks right and near 180 degrees for one that attacks left.
 
 #include <array>
 #include <optional>
@@ -27,8 +27,8 @@ enum class Referee { Silent = 0, Stop = 1, Play = 2, Ready = 11, Set = 12 };
 struct TeamMate {
   Point position;
   Intention intention = Intention::None;
-  bool active = false;             ///< heard of lately and standing
-  std::optional<Point> ball;       ///< as it saw it
+  bool active = false;        ///< heard of lately and standing
+  std::optional<Point> ball;  ///< as it saw it
 };
 
 class WorldModel {
@@ -107,7 +107,7 @@ class WorldModel {
   bool m_lookedForOpponents = false;
   Referee m_referee = Referee::Silent;
   bool m_fallen = false;
-  double m_side = 0.0;             // > 0 attacks right, low-passed
+  double m_side = 0.0;  // > 0 attacks right, low-passed
   bool m_attacksLeft = false;
   Pose m_pose;
   double m_sigma = 1e9, m_imuYaw = 0.0;

@@ -13,20 +13,20 @@ enum class ActionKind { Stop, Walk, Kick, InPlace, GetUp };
 
 /// When and how hard a kick acts. Angles in degrees from the heading, as published.
 struct KickRule {
-  double rightLimit = 0.0;     ///< reaches this far to the right of the heading ...
-  double leftLimit = 0.0;      ///< ... and this far to the left
-  double direction = 0.0;      ///< of the ball's motion, added to the heading
-  double strength = 0.0;       ///< L in force = min(10, L·exp(−((13 − d)/L)²)) cm/frame
-  double share = 1.0;          ///< of that force; weak kicks take half
+  double rightLimit = 0.0;  ///< reaches this far to the right of the heading ...
+  double leftLimit = 0.0;   ///< ... and this far to the left
+  double direction = 0.0;   ///< of the ball's motion, added to the heading
+  double strength = 0.0;    ///< L in force = min(10, L·exp(−((13 − d)/L)²)) cm/frame
+  double share = 1.0;       ///< of that force; weak kicks take half
 };
 
 struct Action {
   int code = 0;
-  std::string_view words;      ///< as on a robot's card
+  std::string_view words;  ///< as on a robot's card
   ActionKind kind = ActionKind::Stop;
-  double front = 0.0;          ///< cm per frame, forward positive
-  double turn = 0.0;           ///< degrees per frame, left positive
-  double drift = 0.0;          ///< cm per frame, to the LEFT positive (published sign: x −= sin·d)
+  double front = 0.0;  ///< cm per frame, forward positive
+  double turn = 0.0;   ///< degrees per frame, left positive
+  double drift = 0.0;  ///< cm per frame, to the LEFT positive (published sign: x −= sin·d)
   KickRule kick;
   bool inPublishedModel = true;  ///< the published simulator knows the code
 };

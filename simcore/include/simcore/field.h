@@ -15,12 +15,12 @@ namespace pitchboard::sim {
 /// All lengths in metres. The field is symmetric about both axes; the origin is its centre.
 struct FieldSpec {
   std::string name = "published";
-  double length = 9.0;             ///< goal line to goal line, outer edges
-  double width = 6.0;              ///< touch line to touch line
-  double border = 0.7;             ///< from a line to the wall round the field
-  double goalWidth = 1.8;          ///< between the centres of the posts
-  double goalDepth = 0.7;          ///< from the goal line to the back of the goal
-  double goalHeight = 1.1;         ///< for the record; the simulation is flat
+  double length = 9.0;      ///< goal line to goal line, outer edges
+  double width = 6.0;       ///< touch line to touch line
+  double border = 0.7;      ///< from a line to the wall round the field
+  double goalWidth = 1.8;   ///< between the centres of the posts
+  double goalDepth = 0.7;   ///< from the goal line to the back of the goal
+  double goalHeight = 1.1;  ///< for the record; the simulation is flat
   double goalPostRadius = 0.10;
   double goalAreaLength = 0.6;     ///< along x
   double goalAreaWidth = 3.45;     ///< along y

@@ -9,21 +9,21 @@
 namespace pitchboard::sim {
 
 struct NoiseParameters {
-  double forward = 0.0;           ///< m per 1/60 s, while the robot is in motion
-  double sideways = 0.0;          ///< m per 1/60 s, while the robot is in motion
-  double rotation = 0.0;          ///< rad per 1/60 s, while the robot is in motion
-  double kickSpeed = 0.0;         ///< m/s
-  double kickAngle = 0.0;         ///< rad
-  double visionDistance = 0.0;    ///< share of the distance to the ball (0.1 = 10 %)
-  double visionBearing = 0.0;     ///< rad, ball
-  double robotDistance = 0.0;     ///< m, team-mates and opponents
-  double robotBearing = 0.0;      ///< rad, team-mates and opponents
-  double landmarkBearing = 0.0;   ///< rad
+  double forward = 0.0;              ///< m per 1/60 s, while the robot is in motion
+  double sideways = 0.0;             ///< m per 1/60 s, while the robot is in motion
+  double rotation = 0.0;             ///< rad per 1/60 s, while the robot is in motion
+  double kickSpeed = 0.0;            ///< m/s
+  double kickAngle = 0.0;            ///< rad
+  double visionDistance = 0.0;       ///< share of the distance to the ball (0.1 = 10 %)
+  double visionBearing = 0.0;        ///< rad, ball
+  double robotDistance = 0.0;        ///< m, team-mates and opponents
+  double robotBearing = 0.0;         ///< rad, team-mates and opponents
+  double landmarkBearing = 0.0;      ///< rad
   double landmarkProbability = 1.0;  ///< that a landmark in view is seen in a frame, 0..1
-  double missedDetection = 0.0;   ///< probability that a ball or robot in view is not seen, 0..1
-  double visionDelay = 0.0;       ///< s between the moment seen and the moment published
-  double imuWhite = 0.0;          ///< rad, on the yaw, anew each tick
-  double imuDrift = 0.0;          ///< rad per 1/60 s, accumulating on the yaw
+  double missedDetection = 0.0;      ///< probability that a ball or robot in view is not seen, 0..1
+  double visionDelay = 0.0;          ///< s between the moment seen and the moment published
+  double imuWhite = 0.0;             ///< rad, on the yaw, anew each tick
+  double imuDrift = 0.0;             ///< rad per 1/60 s, accumulating on the yaw
 
   bool operator==(const NoiseParameters&) const = default;
 };

@@ -20,11 +20,19 @@ struct CmPose {
 
 constexpr double framesPerSecond = 60.0;
 
-constexpr double metresFromCm(double cm) { return cm / 100.0; }
-constexpr double cmFromMetres(double metres) { return metres * 100.0; }
+constexpr double metresFromCm(double cm) {
+  return cm / 100.0;
+}
+constexpr double cmFromMetres(double metres) {
+  return metres * 100.0;
+}
 /// m/s from cm per published frame of 1/60 s, and back.
-constexpr double mpsFromCmPerFrame(double v) { return v * framesPerSecond / 100.0; }
-constexpr double cmPerFrameFromMps(double v) { return v * 100.0 / framesPerSecond; }
+constexpr double mpsFromCmPerFrame(double v) {
+  return v * framesPerSecond / 100.0;
+}
+constexpr double cmPerFrameFromMps(double v) {
+  return v * 100.0 / framesPerSecond;
+}
 
 /// Window coordinates. `degrees` comes out in [0, 360).
 CmPose windowFromStudio(const FieldSpec& field, const Pose& pose);

@@ -16,9 +16,9 @@ namespace pitchboard::sim {
 struct RobotSnapshot {
   RobotIdentity identity;
   Pose pose;
-  double headYaw = 0.0;          ///< rad, in the field's frame
-  Velocity velocity;             ///< m/s
-  int action = 0;                ///< the code that control carries out
+  double headYaw = 0.0;  ///< rad, in the field's frame
+  Velocity velocity;     ///< m/s
+  int action = 0;        ///< the code that control carries out
   bool fallen = false;
   RobotStatistics statistics;
   bool operator==(const RobotSnapshot&) const = default;
@@ -26,12 +26,12 @@ struct RobotSnapshot {
 
 struct Snapshot {
   std::uint64_t tick = 0;
-  double time = 0.0;             ///< s simulated
-  double clock = 0.0;            ///< s of play
+  double time = 0.0;   ///< s simulated
+  double clock = 0.0;  ///< s of play
   bool clockRunning = false;
   Score score;
   Point ball;
-  Velocity ballVelocity;         ///< m/s
+  Velocity ballVelocity;  ///< m/s
   std::vector<RobotSnapshot> robots;
   bool operator==(const Snapshot&) const = default;
 };

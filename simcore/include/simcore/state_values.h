@@ -5,9 +5,9 @@
 // whatever else must not forget a value go through it. World is WorldState or const WorldState.
 //
 // A visitor has value(v) for std::string, double, bool, int, std::uint32_t, std::uint64_t and every
-// enumeration; count(vector) before the elements of a vector whose size is its own (a reader resizes
-// it there); sameCount(vector, size) where the size is known already; alternative(variant) before
-// the physics (a reader chooses it there).
+// enumeration; count(vector) before the elements of a vector whose size is its own (a reader
+// resizes it there); sameCount(vector, size) where the size is known already; alternative(variant)
+// before the physics (a reader chooses it there).
 
 #include <simcore/world_state.h>
 

@@ -20,8 +20,8 @@ namespace pitchboard::sim {
 
 /// What happens after a goal or when the ball is out, besides what the physics says.
 enum class AfterGoal : std::uint8_t {
-  StopClock,   ///< as published: the clock stops, the ball stays where it is
-  CentreBall   ///< the ball is put on the centre mark and play goes on
+  StopClock,  ///< as published: the clock stops, the ball stays where it is
+  CentreBall  ///< the ball is put on the centre mark and play goes on
 };
 
 struct SimulationSettings {
@@ -45,11 +45,11 @@ struct RobotIdentity {
 
 /// Counted for people; nothing in the physics reads it.
 struct RobotStatistics {
-  double distanceWalked = 0.0;           ///< m that the gait walked: without the jitter of motion
-                                         ///< noise, without being pushed or moved by hand
+  double distanceWalked = 0.0;  ///< m that the gait walked: without the jitter of motion
+                                ///< noise, without being pushed or moved by hand
   std::uint32_t kicks = 0;
   std::uint32_t falls = 0;
-  std::uint32_t unknownActions = 0;      ///< ticks on which an unknown action code was chosen anew
+  std::uint32_t unknownActions = 0;  ///< ticks on which an unknown action code was chosen anew
   int lastUnknownAction = 0;
   bool operator==(const RobotStatistics&) const = default;
 };
@@ -67,8 +67,8 @@ struct WorldState {
   std::uint64_t tick = 0;
   Score score;
   bool clockRunning = true;
-  std::uint64_t clockTicks = 0;          ///< ticks on which the clock ran
-  std::vector<RobotIdentity> robots;     ///< order of creation; the index of all per-robot vectors
+  std::uint64_t clockTicks = 0;       ///< ticks on which the clock ran
+  std::vector<RobotIdentity> robots;  ///< order of creation; the index of all per-robot vectors
   std::vector<RobotStatistics> statistics;
   std::variant<RigidBodyState, PublishedState> physics;
   bool operator==(const WorldState&) const = default;

@@ -23,7 +23,9 @@ class ArrivalStats {
 
  private:
   static constexpr std::size_t window = 32;
-  WallTime at(std::size_t index) const { return m_times[(m_next + window - m_count + index) % window]; }
+  WallTime at(std::size_t index) const {
+    return m_times[(m_next + window - m_count + index) % window];
+  }
   std::array<WallTime, window> m_times{};
   std::size_t m_next = 0, m_count = 0;
 };

@@ -39,10 +39,10 @@ struct Sender {
 
 /// One received datagram; the payload belongs to the batch it stands in.
 struct DatagramView {
-  WallTime time;             ///< when the kernel received it, or when it was read if the kernel does not say
+  WallTime time;  ///< when the kernel received it, or when it was read if the kernel does not say
   Sender sender;
   std::uint16_t localPort = 0;
-  bool truncated = false;    ///< longer than the receive buffer; the rest is lost
+  bool truncated = false;  ///< longer than the receive buffer; the rest is lost
   std::string_view payload;
 };
 

@@ -46,7 +46,7 @@ class MovingAverage {
 
  private:
   double m_window;
-  std::deque<Sample> m_samples;   // the finite ones in the window
+  std::deque<Sample> m_samples;  // the finite ones in the window
   // Summed with Neumaier's correction, because every value is added and taken away again.
   double m_sum = 0.0, m_correction = 0.0;
   void add(double value);
@@ -65,14 +65,12 @@ class WrapAngle {
 /// factor · v + offset.
 struct LinearConversion {
   double factor = 1.0, offset = 0.0;
-  Sample next(const Sample& sample) const {
-    return {sample.time, factor * sample.value + offset};
-  }
+  Sample next(const Sample& sample) const { return {sample.time, factor * sample.value + offset}; }
 };
 
 /// A conversion that a menu can offer: values in `from` become values in `to`.
 struct UnitConversion {
-  std::string_view from, to;   ///< as in ColumnInfo::unit
+  std::string_view from, to;  ///< as in ColumnInfo::unit
   LinearConversion conversion;
 };
 /// cm and m, ° and rad, tenths of a volt and V, ms, µs and s.

@@ -27,9 +27,9 @@ enum class League : std::uint8_t {
 
 /// One slot of a team. Codes as sent; words by penaltyName() and penaltyWords().
 struct RefereePlayer {
-  int number = 0;         ///< slot, from 1
+  int number = 0;  ///< slot, from 1
   int penalty = 0;
-  int secondsLeft = 0;    ///< as sent: some versions do not count down
+  int secondsLeft = 0;  ///< as sent: some versions do not count down
   std::optional<int> warnings, yellow, red, cautions, goalkeeper;
   /// The 2013 program writes other things over these bytes; penalty and secondsLeft are not what it
   /// sent but those of an unused slot.
@@ -39,12 +39,12 @@ struct RefereePlayer {
 
 struct RefereeTeam {
   static constexpr std::size_t maxPlayers = 20;
-  int number = 0;         ///< identifies a team; its place in the packet is its side of the field
-  int colour = 0;         ///< see colourWords()
+  int number = 0;  ///< identifies a team; its place in the packet is its side of the field
+  int colour = 0;  ///< see colourWords()
   int score = 0;
-  std::optional<int> goalColour;        ///< v7
-  std::optional<int> penaltyShot;       ///< penalty shots taken
-  std::optional<int> singleShots;       ///< one bit per penalty shot, set if it scored
+  std::optional<int> goalColour;   ///< v7
+  std::optional<int> penaltyShot;  ///< penalty shots taken
+  std::optional<int> singleShots;  ///< one bit per penalty shot, set if it scored
   std::optional<int> messageBudget;
   std::optional<int> goalkeeperColour, goalkeeper;
   std::array<RefereePlayer, maxPlayers> allSlots{};
@@ -67,22 +67,23 @@ struct RefereeExtra2013 {
 struct RefereeState {
   std::array<char, 4> magic{'R', 'G', 'm', 'e'};
   int version = 0;
-  int size = 0;           ///< bytes of the packet
+  int size = 0;  ///< bytes of the packet
   League league = League::Humanoid;
   int playersPerTeam = 0;
-  int state = 0;          ///< 0 INITIAL ... see stateName()
-  int firstHalf = 0;      ///< 1 in the first half
-  int kickOffRaw = 0;     ///< as sent: a colour in v7 and v8, then a team number
+  int state = 0;       ///< 0 INITIAL ... see stateName()
+  int firstHalf = 0;   ///< 1 in the first half
+  int kickOffRaw = 0;  ///< as sent: a colour in v7 and v8, then a team number
   int secsRemaining = 0;
-  std::optional<int> kickOffTeam;       ///< number of the team; empty: drop ball or nobody
+  std::optional<int> kickOffTeam;  ///< number of the team; empty: drop ball or nobody
   std::optional<int> packetNumber, secondaryTime;
-  std::optional<int> gameType;          ///< HL and SPL 2017
-  std::optional<int> secState;          ///< secondary state, HL
+  std::optional<int> gameType;  ///< HL and SPL 2017
+  std::optional<int> secState;  ///< secondary state, HL
   std::optional<std::array<int, 4>> secStateInfo;
   std::optional<int> gamePhase, setPlay, competitionPhase, competitionType, stopped;
   std::optional<int> dropInTeam, dropInTime;
   std::optional<RefereeExtra2013> extra2013;
-  std::array<RefereeTeam, 2> teams{};   ///< [0] is the left side (v7 beside v8 or v9: sorted by colour)
+  std::array<RefereeTeam, 2>
+      teams{};  ///< [0] is the left side (v7 beside v8 or v9: sorted by colour)
 
   /// RGTD: what really happens, sent to monitors only, without the league's delays. Not a referee
   /// state: robots do not get it.
@@ -97,10 +98,10 @@ struct RobotReply {
   int version = 0;
   int size = 0;
   int team = 0, player = 0;
-  std::optional<int> message;              ///< v1, v2: 0 penalise 1 unpenalise 2 alive 3 goalkeeper
-  std::optional<int> fallen;               ///< v4
+  std::optional<int> message;  ///< v1, v2: 0 penalise 1 unpenalise 2 alive 3 goalkeeper
+  std::optional<int> fallen;   ///< v4
   std::optional<std::array<float, 3>> pose;  ///< v4: mm, mm, rad
-  std::optional<float> ballAge;            ///< v4: seconds, negative if never seen
+  std::optional<float> ballAge;              ///< v4: seconds, negative if never seen
   std::optional<std::array<float, 2>> ball;  ///< v4: mm in the robot's frame
 };
 

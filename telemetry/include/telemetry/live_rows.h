@@ -2,8 +2,8 @@
 #pragma once
 
 // What live robots send as rows: a group for each robot, the profile's fields as columns, and how
-// well the messages come (heading "Link": AGE s, RATE 1/s, LOSS share, ERRORS count, VOLTS). One row
-// for each message, with its own time; while a robot is silent one row a health report, so that
+// well the messages come (heading "Link": AGE s, RATE 1/s, LOSS share, ERRORS count, VOLTS). One
+// row for each message, with its own time; while a robot is silent one row a health report, so that
 // its age is seen to grow. Times are seconds since `zero`.
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace pitchboard::telemetry {
 
 struct LiveRowsOptions {
-  WallTime zero{};   ///< the moment that counts as 0 s
+  WallTime zero{};  ///< the moment that counts as 0 s
   /// Name of the group of a robot with this number; empty function: "Robot 3".
   std::function<std::string(int number)> name;
 };
@@ -48,7 +48,7 @@ class LiveRows {
   std::shared_ptr<RowSink> m_sink;
   LiveRowsOptions m_options;
   std::vector<Robot> m_robots;
-  Profile m_profile;          // of which the groups are
+  Profile m_profile;  // of which the groups are
   std::uint64_t m_generation = 0;
 };
 

@@ -19,7 +19,7 @@
 namespace pitchboard::telemetry {
 
 struct McapReaderOptions {
-  std::size_t maxChunkBytes = std::size_t{128} << 20;       ///< unpacked; larger chunks are left out
+  std::size_t maxChunkBytes = std::size_t{128} << 20;  ///< unpacked; larger chunks are left out
   std::size_t maxAttachmentBytes = std::size_t{256} << 20;
   bool ignoreSummary = false;  ///< walk through the file in any case, checking every chunk
   /// Called now and then with the part of the file seen (0 to 1); false ends with an error.

@@ -2,8 +2,8 @@
 #pragma once
 
 // The records of MCAP, the open container of robotics logs, version "0". Source: the MCAP file
-// format specification (mcap.dev/spec). Little-endian; times are nanoseconds (uint64). Plain values;
-// mcap_writer.h writes them, mcap_reader.h reads them.
+// format specification (mcap.dev/spec). Little-endian; times are nanoseconds (uint64). Plain
+// values; mcap_writer.h writes them, mcap_reader.h reads them.
 
 #include <array>
 #include <cstdint>
@@ -17,9 +17,21 @@ namespace pitchboard::telemetry {
 inline constexpr std::array<char, 8> mcapMagic{'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
 enum class McapOp : std::uint8_t {
-  Header = 0x01, Footer = 0x02, Schema = 0x03, Channel = 0x04, Message = 0x05, Chunk = 0x06,
-  MessageIndex = 0x07, ChunkIndex = 0x08, Attachment = 0x09, AttachmentIndex = 0x0a,
-  Statistics = 0x0b, Metadata = 0x0c, MetadataIndex = 0x0d, SummaryOffset = 0x0e, DataEnd = 0x0f
+  Header = 0x01,
+  Footer = 0x02,
+  Schema = 0x03,
+  Channel = 0x04,
+  Message = 0x05,
+  Chunk = 0x06,
+  MessageIndex = 0x07,
+  ChunkIndex = 0x08,
+  Attachment = 0x09,
+  AttachmentIndex = 0x0a,
+  Statistics = 0x0b,
+  Metadata = 0x0c,
+  MetadataIndex = 0x0d,
+  SummaryOffset = 0x0e,
+  DataEnd = 0x0f
 };
 
 using McapMap = std::map<std::string, std::string, std::less<>>;
@@ -51,8 +63,8 @@ struct McapMessage {
 
 /// Where a chunk stands and what is in it.
 struct McapChunkInfo {
-  std::uint64_t offset = 0;  ///< of the record in the file
-  std::uint64_t length = 0;  ///< of the record, with its 9 bytes of head
+  std::uint64_t offset = 0;          ///< of the record in the file
+  std::uint64_t length = 0;          ///< of the record, with its 9 bytes of head
   std::uint64_t start = 0, end = 0;  ///< earliest and latest log time; both 0 without messages
   std::string compression;           ///< "zstd", "" or what this program does not read
   std::uint64_t compressedSize = 0, uncompressedSize = 0;

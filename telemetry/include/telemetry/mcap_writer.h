@@ -48,8 +48,8 @@ class McapChunk {
 struct McapWriterOptions {
   std::string profile;
   std::string library = "pitchboard";
-  int level = 3;      ///< of zstd
-  bool sync = true;   ///< every chunk is on the disk before writeChunk() returns
+  int level = 3;     ///< of zstd
+  bool sync = true;  ///< every chunk is on the disk before writeChunk() returns
 };
 
 /// One thread. Every function that writes fails with what the system said; nothing is written after
@@ -62,7 +62,8 @@ class McapWriter {
   McapWriter& operator=(McapWriter&&) noexcept;
   ~McapWriter();  ///< closes the file as it is
 
-  /// After an error the file ends behind the last whole chunk. Fails also when the file was removed.
+  /// After an error the file ends behind the last whole chunk. Fails also when the file was
+  /// removed.
   Result<void> writeChunk(const McapChunk& chunk);
   Result<void> attach(std::uint64_t logTime, std::uint64_t createTime, std::string_view name,
                       std::string_view mediaType, std::string_view data);

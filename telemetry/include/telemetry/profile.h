@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The order of the fields of a text datagram, as data: teams add and move fields, and a program that
-// knows only the published order would show the wrong numbers (docs/LIVE.md, "Profiles").
+// The order of the fields of a text datagram, as data: teams add and move fields, and a program
+// that knows only the published order would show the wrong numbers (docs/LIVE.md, "Profiles").
 
 #include <cstddef>
 #include <cstdint>
@@ -23,9 +23,23 @@ enum class FieldType : std::uint8_t {
 
 /// What the program itself does with a field; None is only shown.
 enum class FieldMeaning : std::uint8_t {
-  None, Robot, X, Y, Theta, Belief, BallDistance, BallAngle,
-  Control, Vision, Localization, Decision, Imu,  ///< processes, in the order of the message
-  Action, Yaw, Voltage, Sequence
+  None,
+  Robot,
+  X,
+  Y,
+  Theta,
+  Belief,
+  BallDistance,
+  BallAngle,
+  Control,
+  Vision,
+  Localization,
+  Decision,
+  Imu,  ///< processes, in the order of the message
+  Action,
+  Yaw,
+  Voltage,
+  Sequence
 };
 inline constexpr std::size_t fieldMeaningCount = 17;
 
@@ -33,7 +47,7 @@ inline constexpr std::size_t fieldMeaningCount = 17;
 std::string_view meaningName(FieldMeaning meaning);
 
 struct ProfileField {
-  std::string name;   ///< e.g. "BALL_DIST"
+  std::string name;  ///< e.g. "BALL_DIST"
   FieldType type = FieldType::Float;
   std::string unit;   ///< for the screen, e.g. "cm"; may be empty
   std::string group;  ///< heading under which it is shown

@@ -10,8 +10,8 @@
 
 namespace pitchboard::telemetry {
 
-/// One object. Codes stand beside their words (state and stateName); what a version does not have is
-/// left out. Texts may hold any bytes: dump with error_handler_t::replace.
+/// One object. Codes stand beside their words (state and stateName); what a version does not have
+/// is left out. Texts may hold any bytes: dump with error_handler_t::replace.
 nlohmann::ordered_json refereeJson(const RefereePacket& packet);
 
 }  // namespace pitchboard::telemetry

@@ -11,8 +11,8 @@
 
 namespace pitchboard::telemetry {
 
-/// Follows one referee. Controllers of 2014-2016 send an old v7 packet beside each v8 or v9 one, and
-/// a second controller may run by mistake: while the shown source is fresh, lower versions and
+/// Follows one referee. Controllers of 2014-2016 send an old v7 packet beside each v8 or v9 one,
+/// and a second controller may run by mistake: while the shown source is fresh, lower versions and
 /// other senders are counted and not shown, so that the display does not flicker. Not thread-safe.
 class RefereeTracker {
  public:

@@ -51,7 +51,7 @@ class StatisticsSum {
     out.min = m_min;
     out.max = m_max;
     out.sigma = std::sqrt(variance);
-    out.rms = std::hypot(m_mean, out.sigma);   // mean of squares = square of mean + variance
+    out.rms = std::hypot(m_mean, out.sigma);  // mean of squares = square of mean + variance
     return out;
   }
 
@@ -67,7 +67,7 @@ class StatisticsSum {
   }
 
   std::uint64_t m_count = 0;
-  double m_mean = 0.0, m_squares = 0.0, m_min = 0.0, m_max = 0.0;   // squares: around the mean
+  double m_mean = 0.0, m_squares = 0.0, m_min = 0.0, m_max = 0.0;  // squares: around the mean
 };
 
 }  // namespace pitchboard::telemetry

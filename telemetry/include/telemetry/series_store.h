@@ -3,8 +3,8 @@
 
 // The recent past of a source in memory: rows of every group, columnar in chunks, with min/max
 // summaries so that drawing costs what it shows and not what there is. Memory has a budget; the
-// oldest chunks leave first. One writer thread for each group; any number of readers on other threads,
-// which work on immutable views and never make a writer wait for a query.
+// oldest chunks leave first. One writer thread for each group; any number of readers on other
+// threads, which work on immutable views and never make a writer wait for a query.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +30,7 @@ struct SeriesId {
 };
 
 struct Sample {
-  double time = 0.0;   ///< s
+  double time = 0.0;  ///< s
   double value = 0.0;
   bool operator==(const Sample&) const = default;
 };
@@ -45,8 +45,8 @@ struct TimeRange {
 /// NaN where there is no other sample.
 struct SeriesBucket {
   double min = 0.0, max = 0.0;
-  double first = 0.0, last = 0.0;   ///< NaN where that sample is
-  std::uint32_t samples = 0;        ///< 0: there is no sample here
+  double first = 0.0, last = 0.0;  ///< NaN where that sample is
+  std::uint32_t samples = 0;       ///< 0: there is no sample here
 };
 
 /// Over the finite samples in a closed interval; sigma is that of the population.
@@ -69,7 +69,8 @@ class GroupView {
   virtual std::optional<Sample> latest(std::uint32_t column) const = 0;
   /// The last sample at or before `time`.
   virtual std::optional<Sample> at(std::uint32_t column, double time) const = 0;
-  /// The whole row at or before `time`: words and values as they were appended. False: there is none.
+  /// The whole row at or before `time`: words and values as they were appended. False: there is
+  /// none.
   virtual bool rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
                      std::vector<double>& values) const = 0;
   /// Time of the last change of value; the first row's when it never changed.
@@ -96,7 +97,8 @@ class SeriesStore : public RowSink {
   GroupId addGroup(const GroupInfo& info) override;
   /// Rows of one group in order of time; equal times are kept in order. A time before the last one
   /// means that the source was put back: the rows at and after the new time are dropped first.
-  /// A row of an unknown group, of another width, or whose time is not finite is refused and counted.
+  /// A row of an unknown group, of another width, or whose time is not finite is refused and
+  /// counted.
   void append(GroupId group, const RowView& row) override;
   /// Forgets every row; the groups stay.
   void clear();
@@ -105,8 +107,8 @@ class SeriesStore : public RowSink {
   /// Grows whenever groups came (lists are then to be read anew).
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;
-  /// Null for an id that was never given. A group that was replaced by one with other columns stays,
-  /// empty; findGroup() gives the other one.
+  /// Null for an id that was never given. A group that was replaced by one with other columns
+  /// stays, empty; findGroup() gives the other one.
   std::shared_ptr<const GroupView> view(GroupId group) const;
   std::optional<GroupId> findGroup(std::string_view name) const;
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;

@@ -22,15 +22,15 @@ enum class ColumnType : std::uint8_t {
 /// How a value reads to a person.
 enum class ColumnKind : std::uint8_t {
   Number,
-  Flag,         ///< 0 or 1
-  Enumeration   ///< `labels` has words for codes
+  Flag,        ///< 0 or 1
+  Enumeration  ///< `labels` has words for codes
 };
 
 struct ColumnInfo {
-  std::string name;      ///< "VISION_BALL_DIST"; unique in its group
+  std::string name;  ///< "VISION_BALL_DIST"; unique in its group
   ColumnType type = ColumnType::Float64;
-  std::string unit;      ///< "cm", "°", "m"; empty where there is none
-  std::string heading;   ///< "Vision", "Truth": where lists put it
+  std::string unit;     ///< "cm", "°", "m"; empty where there is none
+  std::string heading;  ///< "Vision", "Truth": where lists put it
   ColumnKind kind = ColumnKind::Number;
   std::map<std::int32_t, std::string> labels;  ///< words for codes: 1 → "walk forward, fast"
   /// Of a Float64 column: what is worth keeping of its values, a power of two. A session file keeps
@@ -41,7 +41,7 @@ struct ColumnInfo {
 
 /// One robot, or "match". 32-bit columns stand before the Float64 columns.
 struct GroupInfo {
-  std::string name;      ///< "B1", "match": unique in a source; presets and files use it
+  std::string name;  ///< "B1", "match": unique in a source; presets and files use it
   std::vector<ColumnInfo> columns;
   /// What else is known: "robot" (number of its blackboard), "team", "number" (on the shirt), ...
   std::map<std::string, std::string> attributes;

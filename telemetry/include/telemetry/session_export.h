@@ -17,8 +17,8 @@
 namespace pitchboard::telemetry {
 
 enum class ExportFormat : std::uint8_t {
-  CsvWide,    ///< a line per time; a column "B1.VISION_BALL_DIST" per variable, empty where no row is
-  CsvLong,    ///< a line per value: time, robot, variable, value
+  CsvWide,  ///< a line per time; a column "B1.VISION_BALL_DIST" per variable, empty where no row is
+  CsvLong,  ///< a line per value: time, robot, variable, value
   JsonLines,  ///< a line per row or message
   Mcap        ///< a session with the selected part
 };
@@ -28,10 +28,10 @@ Result<ExportFormat> exportFormat(std::string_view name);
 std::string_view fileExtension(ExportFormat format);
 
 struct ExportSelection {
-  SessionRange range{-1e18, 1e18};        ///< s, both ends included
-  std::vector<std::string> robots;        ///< names of groups; empty: all
-  std::vector<std::string> variables;     ///< names, * stands for any letters; empty: all
-  bool messages = true;                   ///< events, log, datagrams too (JsonLines and Mcap)
+  SessionRange range{-1e18, 1e18};     ///< s, both ends included
+  std::vector<std::string> robots;     ///< names of groups; empty: all
+  std::vector<std::string> variables;  ///< names, * stands for any letters; empty: all
+  bool messages = true;                ///< events, log, datagrams too (JsonLines and Mcap)
 };
 
 struct ExportReport {
@@ -47,15 +47,15 @@ Result<void> checkRange(SessionRange range);
 /// Error NotFound when a robot or a variable is not in the session; also as checkRange().
 Result<void> checkSelection(const SessionReader& session, const ExportSelection& selection);
 
-/// Text formats into a sink that takes some 100 kB at a time; when it says false the export ends with
-/// error SystemError. Errors also as checkSelection().
+/// Text formats into a sink that takes some 100 kB at a time; when it says false the export ends
+/// with error SystemError. Errors also as checkSelection().
 Result<ExportReport> exportText(const SessionReader& session, ExportFormat format,
                                 const ExportSelection& selection,
                                 const std::function<bool(std::string_view)>& sink,
                                 const ExportProgress& progress = {});
 
-/// Any format into a new file. Error Conflict when it exists; after other errors and when stopped it
-/// is removed.
+/// Any format into a new file. Error Conflict when it exists; after other errors and when stopped
+/// it is removed.
 Result<ExportReport> exportFile(const SessionReader& session, ExportFormat format,
                                 const ExportSelection& selection, const std::string& path,
                                 const ExportProgress& progress = {});

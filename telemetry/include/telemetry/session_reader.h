@@ -42,8 +42,8 @@ struct SessionItem {
   double time = 0.0;
   const McapMessage* message = nullptr;
   bool isRow = false;
-  GroupId group = 0;                           ///< with isRow
-  RowView row;                                 ///< with isRow
+  GroupId group = 0;                             ///< with isRow
+  RowView row;                                   ///< with isRow
   SessionStream stream = SessionStream::Events;  ///< otherwise; message->data is its JSON
 };
 
@@ -79,8 +79,8 @@ class SessionReader {
   /// The messages of a stream in the closed range, with their time, until the visitor says false.
   void messages(SessionStream stream, SessionRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
-  /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1) now
-  /// and then. Ends when one of them says false.
+  /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1)
+  /// now and then. Ends when one of them says false.
   bool walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
             const std::function<bool(double)>& progress = {}) const;
   /// The same with rows only.

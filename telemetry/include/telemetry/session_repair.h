@@ -14,14 +14,15 @@
 namespace pitchboard::telemetry {
 
 struct RepairReport {
-  std::uint64_t messages = 0;  ///< rows and others, all verified in the new file
-  std::uint64_t bytes = 0;     ///< of the new file
-  double seconds = 0.0;        ///< from the first message to the last
+  std::uint64_t messages = 0;     ///< rows and others, all verified in the new file
+  std::uint64_t bytes = 0;        ///< of the new file
+  double seconds = 0.0;           ///< from the first message to the last
   std::vector<std::string> lost;  ///< what could not be read and where, in sentences
 };
 
-/// `progress` gets 0 to 1; false stops and removes the new file. Error Conflict when `to` exists (it
-/// is left alone), ParseError when nothing in `from` can be read, and those of reading and writing.
+/// `progress` gets 0 to 1; false stops and removes the new file. Error Conflict when `to` exists
+/// (it is left alone), ParseError when nothing in `from` can be read, and those of reading and
+/// writing.
 Result<RepairReport> repairSession(const std::string& from, const std::string& to,
                                    const std::function<bool(double)>& progress = {});
 

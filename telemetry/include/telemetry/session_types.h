@@ -19,31 +19,32 @@ namespace pitchboard::telemetry {
 inline constexpr int sessionFormat = 1;
 
 struct SessionInfo {
-  std::string program;      ///< "pitchboard 0.1.0"
-  std::string source;       ///< "simulation" or "live"
-  std::string title;        ///< scenario, or what the user called it
+  std::string program;  ///< "pitchboard 0.1.0"
+  std::string source;   ///< "simulation" or "live"
+  std::string title;    ///< scenario, or what the user called it
   std::optional<std::uint64_t> seed;
-  WallTime start{};         ///< wall time at which the source was at 0 s; the files' times count on it
-  WallTime created{};       ///< when recording began
+  WallTime start{};    ///< wall time at which the source was at 0 s; the files' times count on it
+  WallTime created{};  ///< when recording began
   std::map<std::string, std::string> more;
   bool operator==(const SessionInfo&) const = default;
 };
 
 /// Streams of JSON messages.
 enum class SessionStream : std::uint8_t {
-  Events,       ///< SessionEvent
-  Log,          ///< SessionLogLine
-  Telemetry,    ///< SessionDatagram from a robot
-  RefereeRaw,   ///< SessionDatagram of the referee
-  Referee,      ///< a referee packet decoded
-  Checkpoints   ///< pieces of a simulated match that can be re-entered exactly
+  Events,      ///< SessionEvent
+  Log,         ///< SessionLogLine
+  Telemetry,   ///< SessionDatagram from a robot
+  RefereeRaw,  ///< SessionDatagram of the referee
+  Referee,     ///< a referee packet decoded
+  Checkpoints  ///< pieces of a simulated match that can be re-entered exactly
 };
 inline constexpr std::size_t sessionStreamCount = 6;
 
 /// Something that a timeline marks: a goal, a fall, a bookmark.
 struct SessionEvent {
   double time = 0.0;
-  std::string kind;   ///< "goal", "kick", "fall", "ball-out", "referee", "process", "timeout", "bookmark"
+  std::string
+      kind;  ///< "goal", "kick", "fall", "ball-out", "referee", "process", "timeout", "bookmark"
   std::string group;  ///< the robot's name, or empty
   std::string text;   ///< for people
   bool operator==(const SessionEvent&) const = default;

@@ -22,17 +22,18 @@ struct SessionWriterOptions {
   std::size_t queueBytes = std::size_t{64} << 20;  ///< waiting for the disk; beyond it is dropped
   std::size_t chunkBytes = std::size_t{2} << 20;   ///< a chunk is closed when it has these bytes,
   Duration chunkInterval = std::chrono::milliseconds(800);  ///< or this old
-  int level = 7;              ///< of zstd; 70 MB/s of rows, a tenth smaller than 3
-  bool waitWhenFull = false;  ///< append() waits for the disk instead: for runs faster than real time
-  bool sync = true;           ///< the disk must have each chunk, not only the kernel
+  int level = 7;  ///< of zstd; 70 MB/s of rows, a tenth smaller than 3
+  bool waitWhenFull =
+      false;         ///< append() waits for the disk instead: for runs faster than real time
+  bool sync = true;  ///< the disk must have each chunk, not only the kernel
 };
 
 struct SessionStatus {
   bool recording = true;
   /// Why it stopped, for the screen; empty unless something went wrong.
   std::string problem;
-  double seconds = 0.0;        ///< of the session so far
-  std::uint64_t bytes = 0;     ///< of the file
+  double seconds = 0.0;     ///< of the session so far
+  std::uint64_t bytes = 0;  ///< of the file
   std::uint64_t rows = 0;
   std::uint64_t messages = 0;  ///< events, log lines, datagrams, ...
   std::uint64_t dropped = 0;   ///< rows and messages for which the queue had no room

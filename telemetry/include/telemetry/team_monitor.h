@@ -22,7 +22,7 @@ namespace pitchboard::telemetry {
 
 /// When a battery is low. Volts of one cell (lithium polymer).
 struct BatteryLimits {
-  int cells = 0;             ///< cells in series; 0: the least that explain the highest voltage seen
+  int cells = 0;  ///< cells in series; 0: the least that explain the highest voltage seen
   double fullPerCell = 4.2;
   double lowPerCell = 3.5;
   double emptyPerCell = 3.3;
@@ -55,17 +55,18 @@ inline constexpr std::array<std::string_view, processCount> processNames{
 struct ProcessStatus {
   ProcessState state = ProcessState::Unknown;  ///< Unknown: not in the message, or robot timed out
   double probability = 0.5;
-  Duration since{};                            ///< how long it has been in this state
+  Duration since{};  ///< how long it has been in this state
 };
 
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus {
   int number = 0;
-  std::uint64_t serial = 0;    ///< of this robot as long as it is remembered, whatever port it sends from
+  std::uint64_t serial =
+      0;  ///< of this robot as long as it is remembered, whatever port it sends from
   Sender sender;
-  bool conflict = false;       ///< another sender uses the same number at the moment
+  bool conflict = false;  ///< another sender uses the same number at the moment
   bool timedOut = false;
-  Duration age{};              ///< since the last usable message
+  Duration age{};  ///< since the last usable message
   WallTime lastMessage{};
   std::uint64_t messages = 0;  ///< usable ones
   std::uint64_t bytes = 0;     ///< of all, payload only
@@ -112,10 +113,10 @@ class TeamMonitor {
   TeamMonitor& operator=(TeamMonitor&&) noexcept;
 
   enum class Verdict : std::uint8_t {
-    Used,            ///< the robot's values are new (single fields may have errors)
-    Refused,         ///< errors say why
+    Used,     ///< the robot's values are new (single fields may have errors)
+    Refused,  ///< errors say why
     Duplicate,
-    SenderRefused,   ///< not on the list
+    SenderRefused,  ///< not on the list
     TooManyRobots
   };
 

@@ -19,10 +19,11 @@ namespace pitchboard::telemetry {
 /// `count` is left over. `words` point into the datagram.
 struct DecodedText {
   static constexpr std::size_t maxValues = 128;
-  int robot = 0;            ///< 0 when even that could not be read
+  int robot = 0;  ///< 0 when even that could not be read
   TextErrors errors;
-  std::size_t badField = 0; ///< place of the first field with an error; errors say whether there is one
-  std::size_t count = 0;    ///< fields and extras that were read
+  std::size_t badField =
+      0;  ///< place of the first field with an error; errors say whether there is one
+  std::size_t count = 0;                          ///< fields and extras that were read
   std::array<double, maxValues> values;           ///< NaN where the field could not be used
   std::array<std::string_view, maxValues> words;  ///< the same fields as sent
 

@@ -34,7 +34,9 @@ inline constexpr std::size_t textErrorCount = 14;
 std::string_view errorName(TextError error);
 /// "no OUT at the end": for the screen.
 std::string_view errorWords(TextError error);
-constexpr bool refuses(TextError error) { return error <= TextError::BadRobot; }
+constexpr bool refuses(TextError error) {
+  return error <= TextError::BadRobot;
+}
 
 /// A set of errors in one word.
 class TextErrors {

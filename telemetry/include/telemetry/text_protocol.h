@@ -13,8 +13,8 @@ namespace pitchboard::telemetry {
 /// a volt: the units on the wire.
 struct TextMessage {
   int robot = 1;
-  int x = 0, y = 0, theta = 0;       ///< LOCALIZATION_X, _Y, _THETA
-  float belief = 0.0F;               ///< σ of the particles
+  int x = 0, y = 0, theta = 0;  ///< LOCALIZATION_X, _Y, _THETA
+  float belief = 0.0F;          ///< σ of the particles
   float ballDist = 0.0F, ballAngle = 0.0F;
   int control = 0, vision = 0, localization = 0, decision = 0, imu = 0;  ///< *_WORKING
   int actionA = 0;
@@ -28,8 +28,8 @@ struct TextMessage {
 /// whatever the locale.
 std::string encode(const TextMessage& message);
 
-/// A number as Python 2.7's str(float) writes it: %.12g, ".0" added to whole numbers, exponents from
-/// 1e+11 on (%.12g alone: from 1e+12), "nan", "inf", "-inf".
+/// A number as Python 2.7's str(float) writes it: %.12g, ".0" added to whole numbers, exponents
+/// from 1e+11 on (%.12g alone: from 1e+12), "nan", "inf", "-inf".
 std::string pythonFloat(double value);
 
 }  // namespace pitchboard::telemetry

@@ -15,10 +15,11 @@
 namespace pitchboard::telemetry {
 
 struct ReceiverOptions {
-  Address bind{};                       ///< 0.0.0.0: every interface, unicast and broadcast
-  std::vector<std::uint16_t> ports;     ///< see teamPorts(); 0 takes a free one (for tests)
-  int receiveBufferBytes = 4 << 20;     ///< asked of the kernel, per port; it may give less
-  std::size_t maxDatagrams = 1 << 16;   ///< waiting for take(); what comes beyond is dropped, counted
+  Address bind{};                    ///< 0.0.0.0: every interface, unicast and broadcast
+  std::vector<std::uint16_t> ports;  ///< see teamPorts(); 0 takes a free one (for tests)
+  int receiveBufferBytes = 4 << 20;  ///< asked of the kernel, per port; it may give less
+  std::size_t maxDatagrams =
+      1 << 16;  ///< waiting for take(); what comes beyond is dropped, counted
   std::size_t maxBytes = 32U << 20;
   Duration retry = std::chrono::seconds(3);  ///< between attempts to bind a port that is taken
 };
@@ -31,16 +32,16 @@ Result<std::vector<std::uint16_t>> livePorts(int base = 1240, int count = 16, in
 struct PortStatus {
   std::uint16_t port = 0;
   bool bound = false;
-  std::string problem;              ///< why it is not bound; empty when it is
+  std::string problem;  ///< why it is not bound; empty when it is
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
-  std::uint64_t kernelDrops = 0;    ///< the kernel's buffer was full
+  std::uint64_t kernelDrops = 0;  ///< the kernel's buffer was full
   std::uint64_t truncated = 0;
 };
 
 struct ReceiverStatus {
-  std::vector<PortStatus> ports;    ///< in the order of the options
-  std::uint64_t queueDrops = 0;     ///< nobody took them in time
+  std::vector<PortStatus> ports;  ///< in the order of the options
+  std::uint64_t queueDrops = 0;   ///< nobody took them in time
   std::uint64_t kernelDrops() const;
   std::uint64_t datagrams() const;
 };

@@ -20,8 +20,18 @@ struct FieldStyle;
 
 /// What can be shown or hidden on the field, in the order of the layers menu.
 enum class FieldLayer {
-  FieldOfView, Belief, Ghost, PerceivedBall, Trails, Numbers, Grid, Landmarks, Eopra, StarVars,
-  Particles, PlannedPath
+  FieldOfView,
+  Belief,
+  Ghost,
+  PerceivedBall,
+  Trails,
+  Numbers,
+  Grid,
+  Landmarks,
+  Eopra,
+  StarVars,
+  Particles,
+  PlannedPath
 };
 inline constexpr int fieldLayerCount = 12;
 
@@ -66,9 +76,9 @@ class FieldView : public QWidget {
   /// Cursor in metres on the field; not valid when the cursor left it.
   void cursorMoved(QPointF metres, bool valid);
   void saveScenarioRequested();
-  void loadMatchRequested();       ///< F2
-  void resetRequested();           ///< F3
-  void clearRequested();           ///< F4
+  void loadMatchRequested();  ///< F2
+  void resetRequested();      ///< F3
+  void clearRequested();      ///< F4
 
  private:
   struct Private;

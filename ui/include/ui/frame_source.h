@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where frames and rows come from: a simulated match, live robots, a recorded session. Field, cards,
-// inspector, plots and timeline take them from here and do not know which kind it is. UI thread only.
+// Where frames and rows come from: a simulated match, live robots, a recorded session. Field,
+// cards, inspector, plots and timeline take them from here and do not know which kind it is. UI
+// thread only.
 
 #include <QDateTime>
 #include <QObject>

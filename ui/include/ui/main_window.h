@@ -89,7 +89,7 @@ class MainWindow : public QMainWindow {
   LiveController* m_live;
   QSettings* m_settings;
   SourceSwitch* m_source;
-  QUndoGroup* m_undo;                  // nothing to undo while another source is shown
+  QUndoGroup* m_undo;  // nothing to undo while another source is shown
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
@@ -101,12 +101,12 @@ class MainWindow : public QMainWindow {
   FieldView* m_field;
   LiveOverlay* m_overlay;
   ComparedSession* m_compared;
-  QAction* m_overlayAction = nullptr;   // of the View menu
+  QAction* m_overlayAction = nullptr;  // of the View menu
   NoticeBar* m_notices;
   TransportBar* m_bar;
   StudioStatusBar* m_status;
   ScenarioFiles* m_files;
-  std::vector<QDockWidget*> m_docks;   // order of studioDocks()
+  std::vector<QDockWidget*> m_docks;  // order of studioDocks()
 };
 
 }  // namespace pitchboard::ui

@@ -3,8 +3,8 @@
 
 // The studio's hold on the match being simulated: owns the runner, polls it on the display timer,
 // and hands frames, events and log lines to docks and field as values. Everything done by hand goes
-// through here, as a command on the undo stack. UI thread only. Matches are made and ended on a worker
-// thread; only currentMoment() and stateHash() wait, for the tick in progress.
+// through here, as a command on the undo stack. UI thread only. Matches are made and ended on a
+// worker thread; only currentMoment() and stateHash() wait, for the tick in progress.
 
 #include <QObject>
 #include <QPointF>
@@ -83,10 +83,10 @@ class MatchController : public FrameSource {
   void stepOnce();
   /// Plays at full speed up to this tick of the match, then pauses; for repeatable pictures.
   void runTo(std::uint64_t tick);
-  void setSpeed(double timesRealTime);   ///< link::MatchRunner::unlimitedSpeed = maximum
+  void setSpeed(double timesRealTime);  ///< link::MatchRunner::unlimitedSpeed = maximum
   double speed() const { return m_speed; }
   bool isPaused() const { return m_paused; }
-  void restart();                        ///< the scenario from its beginning
+  void restart();  ///< the scenario from its beginning
   /// The same; `between` runs on the worker thread when the old match is gone and the new one is
   /// not made yet.
   void restartAfter(std::function<void()> between);
@@ -111,8 +111,8 @@ class MatchController : public FrameSource {
   /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
   void setSampling(int everyNth);
   int sampling() const { return m_everyNth; }
-  /// Where other blackboards of this computer are sampled to: their rows get the match's time. Another
-  /// one after `restarted`; null while there is no match.
+  /// Where other blackboards of this computer are sampled to: their rows get the match's time.
+  /// Another one after `restarted`; null while there is no match.
   std::shared_ptr<telemetry::RowSink> rowsBeside() const;
   /// Writes one word of the robot's blackboard between two ticks, as any process could; `value` is
   /// converted to the variable's type. `variableWritten` follows, or `errorOccurred`.
@@ -134,12 +134,13 @@ class MatchController : public FrameSource {
   /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
   std::uint64_t stateHash();
 
-  /// The exact states of the recent past; another one after `restarted`, null while there is no match.
-  /// Bytes that the rows of a match may take; the oldest leave first. At once and for matches to come.
+  /// The exact states of the recent past; another one after `restarted`, null while there is no
+  /// match. Bytes that the rows of a match may take; the oldest leave first. At once and for
+  /// matches to come.
   void setMemoryBudget(std::size_t bytes);
   std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
-  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and what
-  /// could be undone. `errorOccurred` when memory does not hold it any more.
+  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and
+  /// what could be undone. `errorOccurred` when memory does not hold it any more.
   void continueFrom(double time);
   /// Sees every tick from now on, until stopObserving() or `ending`. False: there is no match.
   bool observe(std::shared_ptr<link::TickObserver> observer);
@@ -150,10 +151,10 @@ class MatchController : public FrameSource {
   const link::ScenarioRobot* robot(RobotId id) const;
 
  signals:
-  void ending();             ///< the match goes now: its observers see it for the last time
-  void scenarioChanged();    ///< another match is being opened, or none; `restarted` follows
-  void opened();             ///< it is there, or failed
-  void transportChanged();   ///< paused, speed, or whether there is a match
+  void ending();            ///< the match goes now: its observers see it for the last time
+  void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
+  void opened();            ///< it is there, or failed
+  void transportChanged();  ///< paused, speed, or whether there is a match
   void errorOccurred(const QString& sentence);
   /// `time`: of the tick after which it was written, simulated s.
   void variableWritten(pitchboard::RobotId id, const QString& name, double time);
@@ -165,7 +166,7 @@ class MatchController : public FrameSource {
   friend class BallCommand;
   friend class TeamCommand;
 
-  struct Opening;            ///< what the worker made
+  struct Opening;  ///< what the worker made
   void poll();
   void openAfter(const link::Scenario& scenario, bool paused, std::function<void()> between);
   /// Forgets the match; the worker ends it.
@@ -173,8 +174,8 @@ class MatchController : public FrameSource {
   void take(Opening& opening);
   /// To the match, or to the one that is being opened.
   void post(link::MatchRunner::Command command);
-  /// Runs on the match's thread; a failure comes back as errorOccurred with `whatFailed` before it, after
-  /// `onFailure` has run here.
+  /// Runs on the match's thread; a failure comes back as errorOccurred with `whatFailed` before it,
+  /// after `onFailure` has run here.
   void postChecked(const QString& whatFailed,
                    std::function<Result<void>(link::SimulatedMatch&)> command,
                    std::function<void()> onFailure = {});
@@ -187,23 +188,23 @@ class MatchController : public FrameSource {
   link::MatchOptions m_options;
   link::Cognition m_cognition = link::Cognition::Inline;
   link::Scenario m_scenario;
-  std::map<RobotId, link::ScenarioRobot> m_robots;   // present, or about to be
+  std::map<RobotId, link::ScenarioRobot> m_robots;  // present, or about to be
   std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
-  std::shared_ptr<link::MatchRunner> m_runner;   // keeps its catalog
+  std::shared_ptr<link::MatchRunner> m_runner;  // keeps its catalog
   FramePtr m_frame;
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<MatchRows> m_rows;
   std::shared_ptr<link::MatchSampler> m_sampler;
   std::shared_ptr<link::StateArchive> m_archive;
-  mutable std::unique_ptr<link::RecordedFrames> m_past;   // rebuilds frames; made when asked for
+  mutable std::unique_ptr<link::RecordedFrames> m_past;  // rebuilds frames; made when asked for
   int m_everyNth = 1;
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;
-  std::optional<std::uint64_t> m_runTo;          // once it is open
+  std::optional<std::uint64_t> m_runTo;  // once it is open
   std::vector<link::MatchRunner::Command> m_whenOpen;
-  std::atomic<std::uint64_t> m_generation = 0;   // of the match; grows with every open() and close()
-  QThreadPool m_worker;                          // one thread: matches end and start in order
+  std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()
+  QThreadPool m_worker;                         // one thread: matches end and start in order
   QTimer* m_timer = nullptr;
   QUndoStack* m_undoStack = nullptr;
 };

@@ -2,8 +2,8 @@
 #pragma once
 
 // A recorded session as a source: shows its moments, plays, and reads its rows into memory for
-// inspector and plots while the first moment is already on the screen. UI thread only; files are read
-// on worker threads.
+// inspector and plots while the first moment is already on the screen. UI thread only; files are
+// read on worker threads.
 
 #include <QThreadPool>
 #include <atomic>
@@ -19,8 +19,8 @@ class ReplayController : public FrameSource {
   explicit ReplayController(QObject* parent = nullptr);
   ~ReplayController() override;
 
-  /// Opens this file; returns at once. `opened` or `failed` follows; on failure what was open stays.
-  /// Opening again supersedes.
+  /// Opens this file; returns at once. `opened` or `failed` follows; on failure what was open
+  /// stays. Opening again supersedes.
   void open(const QString& path);
   void close();
   bool isOpen() const { return m_file != nullptr; }
@@ -44,7 +44,8 @@ class ReplayController : public FrameSource {
   double loaded() const { return m_loaded; }
   /// Goes on without the rows that are not in memory yet: curves end there, moments do not.
   void stopLoading();
-  /// Bytes that rows may take. Of a session that does not fit, the end is in memory: noted() says so.
+  /// Bytes that rows may take. Of a session that does not fit, the end is in memory: noted() says
+  /// so.
   void setMemoryBudget(std::size_t bytes);
 
  signals:
@@ -55,7 +56,7 @@ class ReplayController : public FrameSource {
   void loadedChanged(double part);
 
  private:
-  struct File;      // what is open
+  struct File;  // what is open
   void take(std::shared_ptr<File> file);
   void wantMoment(double time);
   void readMoment();
@@ -69,10 +70,10 @@ class ReplayController : public FrameSource {
   bool m_opening = false;
   double m_loaded = 1.0;
   std::size_t m_budget = std::size_t{1} << 30;
-  std::optional<double> m_wanted;            // the moment to be shown next
-  bool m_reading = false;                    // a worker reads a moment
+  std::optional<double> m_wanted;  // the moment to be shown next
+  bool m_reading = false;          // a worker reads a moment
   std::atomic<std::uint64_t> m_generation = 0;
-  QThreadPool m_seeker, m_loader;            // one thread each: a reader belongs to one thread
+  QThreadPool m_seeker, m_loader;  // one thread each: a reader belongs to one thread
 };
 
 }  // namespace pitchboard::ui

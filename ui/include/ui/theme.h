@@ -26,7 +26,7 @@ struct ThemeColors {
   QColor accentLine, accentFill, selectedRow;
   QColor blueTeam, redTeam, blackTeam, orangeTeam, yellowTeam;
   QColor warningText, warningGround, errorText, errorGround, workingText, workingGround;
-  QColor workingMark;   ///< a lamp without its letter, on a collapsed card
+  QColor workingMark;  ///< a lamp without its letter, on a collapsed card
   QColor grass, fieldBorder, fieldLines, ball;
 
   QColor team(TeamColor color) const;

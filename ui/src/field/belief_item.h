@@ -13,11 +13,11 @@ namespace pitchboard::ui {
 
 struct BeliefLook {
   TeamColor team = TeamColor::Blue;
-  std::optional<Pose> believed;     ///< while localization works
-  double sigma = 0.0;               ///< metres, of the particles
-  std::optional<Point> ball;        ///< perceived, in the field's frame
-  bool ghost = true;                ///< false: the robot itself is drawn at the believed pose
-  Point origin;                     ///< where the line to the ball begins
+  std::optional<Pose> believed;  ///< while localization works
+  double sigma = 0.0;            ///< metres, of the particles
+  std::optional<Point> ball;     ///< perceived, in the field's frame
+  bool ghost = true;             ///< false: the robot itself is drawn at the believed pose
+  Point origin;                  ///< where the line to the ball begins
   double opacity = 1.0;
   bool operator==(const BeliefLook&) const = default;
 };

@@ -8,7 +8,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double labelReach_px = 26.0;   // number above a disc
+constexpr double labelReach_px = 26.0;  // number above a disc
 
 }  // namespace
 
@@ -19,8 +19,7 @@ void ComparedItem::setFrame(const FramePtr& frame) {
   if (frame) {
     for (std::size_t i = 0; i < frame->snapshot.robots.size(); ++i) {
       const sim::RobotSnapshot& robot = frame->snapshot.robots[i];
-      const bool heard = i < frame->health.size() &&
-                         frame->health[i].id == robot.identity.id;
+      const bool heard = i < frame->health.size() && frame->health[i].id == robot.identity.id;
       if (heard && !frame->health[i].poseKnown) continue;
       m_robots.push_back({robot.pose, robot.identity.team, robot.identity.number, robot.fallen});
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Robots and ball of another session at the moment that is compared: hatched discs, so that they are
-// told from robots, from what robots believe and from another source's dotted rings without colour.
+// Robots and ball of another session at the moment that is compared: hatched discs, so that they
+// are told from robots, from what robots believe and from another source's dotted rings without
+// colour.
 
 #include <QGraphicsItem>
 #include <vector>

@@ -30,8 +30,8 @@ void paintLines(QPainter& painter, const sim::FieldSpec& f, double lineWidth) {
     const double halfWidth = std::min(width / 2 - inset, y);
     for (const double side : {-1.0, 1.0}) {
       const double inner = side * (x - length + inset);
-      const QPointF line[] = {{side * x, -halfWidth}, {inner, -halfWidth},
-                              {inner, halfWidth}, {side * x, halfWidth}};
+      const QPointF line[] = {
+          {side * x, -halfWidth}, {inner, -halfWidth}, {inner, halfWidth}, {side * x, halfWidth}};
       painter.drawPolyline(line, 4);
     }
   };
@@ -81,8 +81,10 @@ void paintGoals(QPainter& painter, const sim::FieldSpec& f, double pixel) {
     painter.setBrush(Qt::NoBrush);
     const double line = side * f.halfLength();
     const double back = side * (f.halfLength() + f.goalDepth) - side * pixel;
-    const QPointF frame[] = {{line, -f.goalWidth / 2}, {back, -f.goalWidth / 2},
-                             {back, f.goalWidth / 2}, {line, f.goalWidth / 2}};
+    const QPointF frame[] = {{line, -f.goalWidth / 2},
+                             {back, -f.goalWidth / 2},
+                             {back, f.goalWidth / 2},
+                             {line, f.goalWidth / 2}};
     painter.drawPolyline(frame, 4);
     painter.setPen(QPen(theme().fieldBorder.darker(150), 1.2 * pixel));
     painter.setBrush(theme().fieldLines);
@@ -176,8 +178,8 @@ void paintFieldBackground(QPainter& painter, const FieldStyle& style, const QTra
 
 const QPixmap& FieldBackground::pixmap(const FieldStyle& style, const QTransform& sceneToView,
                                        QSize size, double devicePixelRatio) {
-  if (m_pixmap.isNull() || m_size != size || m_ratio != devicePixelRatio || m_layers != style.layers ||
-      m_transform != sceneToView || !(m_field == style.field)) {
+  if (m_pixmap.isNull() || m_size != size || m_ratio != devicePixelRatio ||
+      m_layers != style.layers || m_transform != sceneToView || !(m_field == style.field)) {
     const QSize device = size * devicePixelRatio;
     if (m_pixmap.size() != device) m_pixmap = QPixmap(device);
     m_pixmap.setDevicePixelRatio(devicePixelRatio);

@@ -15,12 +15,12 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double leastScale = 8.0;      // pixels per metre
+constexpr double leastScale = 8.0;  // pixels per metre
 constexpr double mostScale = 2000.0;
-constexpr double zoomStep = 1.15;       // for one notch of the wheel
-constexpr double notch = 120.0;         // eighths of a degree
-constexpr double roundField = 1.02;     // air round a field that fits
-constexpr double canvasHalf = 120.0;    // metres that can be panned over, each way
+constexpr double zoomStep = 1.15;     // for one notch of the wheel
+constexpr double notch = 120.0;       // eighths of a degree
+constexpr double roundField = 1.02;   // air round a field that fits
+constexpr double canvasHalf = 120.0;  // metres that can be panned over, each way
 
 }  // namespace
 
@@ -99,8 +99,8 @@ void FieldCanvas::drawBackground(QPainter* painter, const QRectF& exposed) {
                                               viewport()->size(), devicePixelRatioF());
   const QTransform before = painter->worldTransform();
   painter->resetTransform();
-  const QRectF area = before.mapRect(exposed).toAlignedRect().adjusted(-1, -1, 1, 1) &
-                      viewport()->rect();
+  const QRectF area =
+      before.mapRect(exposed).toAlignedRect().adjusted(-1, -1, 1, 1) & viewport()->rect();
   const double ratio = pixmap.devicePixelRatio();
   painter->drawPixmap(area, pixmap, QRectF(area.topLeft() * ratio, area.size() * ratio));
   painter->setWorldTransform(before);
@@ -178,8 +178,7 @@ void FieldCanvas::updateCursorShape() {
 
 void FieldCanvas::mousePressEvent(QMouseEvent* event) {
   m_cursor = metresAt(event->position());
-  if (event->button() == Qt::MiddleButton ||
-      (event->button() == Qt::LeftButton && m_spaceDown)) {
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && m_spaceDown)) {
     m_panning = true;
     m_spaceUsed = true;
     m_panFrom = event->position();
@@ -201,8 +200,7 @@ void FieldCanvas::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void FieldCanvas::mouseReleaseEvent(QMouseEvent* event) {
-  if (m_panning &&
-      (event->button() == Qt::MiddleButton || event->button() == Qt::LeftButton)) {
+  if (m_panning && (event->button() == Qt::MiddleButton || event->button() == Qt::LeftButton)) {
     m_panning = false;
   } else if (event->button() == Qt::LeftButton) {
     m_pointer->release(metresAt(event->position()), event->modifiers());

@@ -16,15 +16,25 @@ constexpr auto shift = Qt::ShiftModifier;
 constexpr auto alt = Qt::AltModifier;
 
 template <int color>
-void add(Target& t) { t.addRobotAtCursor(color); }
+void add(Target& t) {
+  t.addRobotAtCursor(color);
+}
 template <int number>
-void select(Target& t) { t.selectRobot(number); }
+void select(Target& t) {
+  t.selectRobot(number);
+}
 template <int action, int b = -1>
-void command(Target& t) { t.commandSelected(action, b); }
+void command(Target& t) {
+  t.commandSelected(action, b);
+}
 template <FieldLayer layer>
-void toggle(Target& t) { t.toggleLayer(static_cast<int>(layer)); }
+void toggle(Target& t) {
+  t.toggleLayer(static_cast<int>(layer));
+}
 template <int right, int up, bool coarse>
-void nudge(Target& t) { t.nudgeSelected(right, up, coarse); }
+void nudge(Target& t) {
+  t.nudgeSelected(right, up, coarse);
+}
 
 const char* const place = "Place";
 const char* const choose = "Select";
@@ -36,7 +46,8 @@ const std::array table{
     FieldKey{Qt::Key_A, none, place, "A", "add a blue robot at the cursor", add<0>},
     FieldKey{Qt::Key_A, ctrl, place, "Ctrl+A", "add a red robot", add<1>},
     FieldKey{Qt::Key_A, alt, place, "Alt+A", "add a black robot", add<2>},
-    FieldKey{Qt::Key_A, shift, place, "Shift+A", "add a yellow (left) or orange (right Shift) robot",
+    FieldKey{Qt::Key_A, shift, place, "Shift+A",
+             "add a yellow (left) or orange (right Shift) robot",
              [](Target& t) { t.addRobotByShift(); }},
     FieldKey{Qt::Key_B, none, place, "B", "put the ball at the cursor",
              [](Target& t) { t.placeBallAtCursor(); }},
@@ -103,18 +114,18 @@ const std::array table{
     FieldKey{Qt::Key_F9, none, show, "F9", "landmarks", toggle<FieldLayer::Landmarks>},
     FieldKey{Qt::Key_Home, none, show, "Home", "fit the field", [](Target& t) { t.fit(); }},
 
-    FieldKey{Qt::Key_F2, none, match, "F2", "load the match",
-             [](Target& t) { t.loadMatch(); }},
+    FieldKey{Qt::Key_F2, none, match, "F2", "load the match", [](Target& t) { t.loadMatch(); }},
     FieldKey{Qt::Key_F3, none, match, "F3", "reset score and load it again",
              [](Target& t) { t.reset(); }},
     FieldKey{Qt::Key_F4, none, match, "F4", "clear the field", [](Target& t) { t.clear(); }},
-    FieldKey{Qt::Key_F5, none, match, "F5", "pause or go on",
-             [](Target& t) { t.togglePause(); }},
+    FieldKey{Qt::Key_F5, none, match, "F5", "pause or go on", [](Target& t) { t.togglePause(); }},
 };
 
 }  // namespace
 
-std::span<const FieldKey> fieldKeys() { return table; }
+std::span<const FieldKey> fieldKeys() {
+  return table;
+}
 
 const FieldKey* findFieldKey(int key, Qt::KeyboardModifiers modifiers) {
   modifiers &= ~Qt::KeyboardModifiers(Qt::KeypadModifier);

@@ -15,10 +15,10 @@ namespace pitchboard::ui {
 class FieldKeyTarget;
 
 struct FieldKey {
-  int key = 0;                              ///< Qt::Key
-  Qt::KeyboardModifiers modifiers;          ///< exactly these (the keypad's is ignored)
-  const char* group;                        ///< heading in the overlay
-  const char* shown;                        ///< how the overlay writes the key; empty = not listed
+  int key = 0;                      ///< Qt::Key
+  Qt::KeyboardModifiers modifiers;  ///< exactly these (the keypad's is ignored)
+  const char* group;                ///< heading in the overlay
+  const char* shown;                ///< how the overlay writes the key; empty = not listed
   const char* meaning;
   void (*act)(FieldKeyTarget& target);
 };
@@ -31,17 +31,17 @@ const FieldKey* findFieldKey(int key, Qt::KeyboardModifiers modifiers);
 class FieldKeyTarget {
  public:
   virtual ~FieldKeyTarget() = default;
-  virtual void addRobotAtCursor(int color) = 0;     ///< index into teamColors
-  virtual void addRobotByShift() = 0;               ///< left Shift yellow, right Shift orange
+  virtual void addRobotAtCursor(int color) = 0;  ///< index into teamColors
+  virtual void addRobotByShift() = 0;            ///< left Shift yellow, right Shift orange
   virtual void placeBallAtCursor() = 0;
-  virtual void selectRobot(int number) = 0;         ///< RobotId
+  virtual void selectRobot(int number) = 0;  ///< RobotId
   virtual void selectAll() = 0;
   virtual void moveSelectedToCursor() = 0;
   virtual void removeSelected() = 0;
   virtual void commandSelected(int action, int actionB = -1) = 0;
   virtual void searchSelected(bool on) = 0;
   virtual void nudgeSelected(int right, int up, bool coarse) = 0;
-  virtual void toggleLayer(int layer) = 0;          ///< FieldLayer
+  virtual void toggleLayer(int layer) = 0;  ///< FieldLayer
   virtual void escape() = 0;
   virtual void fit() = 0;
   virtual void toggleHelp() = 0;

@@ -14,8 +14,7 @@
 namespace pitchboard::ui {
 namespace {
 
-void addPlaces(QMenu* menu, FieldScene* scene, MatchController* controller,
-               const QPointF& metres) {
+void addPlaces(QMenu* menu, FieldScene* scene, MatchController* controller, const QPointF& metres) {
   QMenu* add = menu->addMenu(themedIcon(QStringLiteral("list-add")), QObject::tr("Add robot here"));
   for (const TeamColorInfo& team : teamColors) {
     const Pose pose{fromScene(metres), team.facesLeft ? std::numbers::pi : 0.0};

@@ -14,7 +14,8 @@ namespace pitchboard::ui {
 /// scene is as before afterwards.
 QImage paintPicture(FieldScene& scene, QSize size);
 
-/// The same as an SVG document, whose user unit is one pixel of `size`. Empty when it cannot be made.
+/// The same as an SVG document, whose user unit is one pixel of `size`. Empty when it cannot be
+/// made.
 QByteArray svgPicture(FieldScene& scene, QSize size);
 
 }  // namespace pitchboard::ui

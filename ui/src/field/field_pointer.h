@@ -62,10 +62,10 @@ class FieldPointer : public QObject {
   FieldTool m_tool = FieldTool::Select;
   TeamColor m_team = TeamColor::Blue;
   Drag m_drag = Drag::None;
-  bool m_moved = false;              // beyond the distance of an unsteady click
+  bool m_moved = false;  // beyond the distance of an unsteady click
   QPointF m_from, m_at;
   std::vector<RobotPlacement> m_placements;
-  RobotId m_pivot;                   // the robot whose handle is held
+  RobotId m_pivot;  // the robot whose handle is held
   Point m_ballFrom;
   std::vector<RobotId> m_selectedBefore;
   std::vector<RobotPlacement> m_onTheWay;

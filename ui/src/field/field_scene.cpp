@@ -23,8 +23,17 @@ namespace pitchboard::ui {
 namespace {
 
 // From the ground up.
-enum Height { wedgeHeight, sectorHeight, trailHeight, particleHeight, beliefHeight, pathHeight,
-              ballHeight, robotHeight, toolHeight };
+enum Height {
+  wedgeHeight,
+  sectorHeight,
+  trailHeight,
+  particleHeight,
+  beliefHeight,
+  pathHeight,
+  ballHeight,
+  robotHeight,
+  toolHeight
+};
 
 constexpr double hitMargin_px = 3.0;
 
@@ -64,7 +73,8 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
   look.origin = origin.position;
   const double range = sim::published_frame::metresFromCm(static_cast<double>(board.ballDistCm));
   const double bearing = radiansFromDegrees(static_cast<double>(board.panDeg));
-  if (board.visionWorking && !board.visionLost && range > 0.0 && range < 2 * field.length && std::isfinite(bearing)) {
+  if (board.visionWorking && !board.visionLost && range > 0.0 && range < 2 * field.length &&
+      std::isfinite(bearing)) {
     look.ball = Point{origin.position.x + range * std::cos(origin.yaw + bearing),
                       origin.position.y + range * std::sin(origin.yaw + bearing)};
   }
@@ -75,12 +85,16 @@ BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView&
 
 struct FieldScene::Robot {
   Robot(FieldScene* scene, RobotId id)
-      : body(&scene->m_style, id), belief(&scene->m_style), trail(&scene->m_style),
-        wedge(&scene->m_style), other(&scene->m_style), particles(&scene->m_style),
+      : body(&scene->m_style, id),
+        belief(&scene->m_style),
+        trail(&scene->m_style),
+        wedge(&scene->m_style),
+        other(&scene->m_style),
+        particles(&scene->m_style),
         path(&scene->m_style) {
     const std::pair<QGraphicsItem*, Height> items[] = {
-        {&body, robotHeight}, {&belief, beliefHeight}, {&trail, trailHeight},
-        {&wedge, wedgeHeight}, {&other, beliefHeight}, {&particles, particleHeight},
+        {&body, robotHeight},  {&belief, beliefHeight}, {&trail, trailHeight},
+        {&wedge, wedgeHeight}, {&other, beliefHeight},  {&particles, particleHeight},
         {&path, pathHeight}};
     for (const auto& [item, height] : items) {
       item->setZValue(height);
@@ -108,13 +122,10 @@ FieldScene::FieldScene(QObject* parent)
       m_band(new RubberBandItem(&m_style)) {
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
-  const std::pair<QGraphicsItem*, Height> items[] = {{m_ball, ballHeight},
-                                                     {m_teamBall, ballHeight},
-                                                     {m_compared, beliefHeight},
-                                                     {m_eopra, sectorHeight},
-                                                     {m_starVars, sectorHeight},
-                                                     {m_ruler, toolHeight},
-                                                     {m_band, toolHeight}};
+  const std::pair<QGraphicsItem*, Height> items[] = {
+      {m_ball, ballHeight},    {m_teamBall, ballHeight},   {m_compared, beliefHeight},
+      {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_ruler, toolHeight},
+      {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
     item->setZValue(height);
     item->setVisible(false);
@@ -162,10 +173,10 @@ void FieldScene::showFrame(const FramePtr& frame) {
   matchRobots(snapshot);
   m_ball->setBall(snapshot.ball);
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
-    const bool known = i < frame->boards.size() &&
-                       frame->boards[i].id == snapshot.robots[i].identity.id;
-    const bool heard = i < frame->health.size() &&
-                       frame->health[i].id == snapshot.robots[i].identity.id;
+    const bool known =
+        i < frame->boards.size() && frame->boards[i].id == snapshot.robots[i].identity.id;
+    const bool heard =
+        i < frame->health.size() && frame->health[i].id == snapshot.robots[i].identity.id;
     showRobot(*m_robots.at(snapshot.robots[i].identity.id), snapshot.robots[i],
               known ? &frame->boards[i] : nullptr, heard ? &frame->health[i] : nullptr,
               snapshot.time);
@@ -179,7 +190,7 @@ void FieldScene::showThoughts() {
   if (!m_frame) return;
   for (auto& [id, robot] : m_robots) {
     const bool chosen = m_selection.empty() ||
-        std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+                        std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
     const auto told = std::find_if(m_frame->thoughts.begin(), m_frame->thoughts.end(),
                                    [&](const auto& one) { return one.robot == id; });
     const bool any = chosen && told != m_frame->thoughts.end();
@@ -245,7 +256,9 @@ void FieldScene::showOther(const FramePtr& frame) {
   if (m_frame) showFrame(m_frame);
 }
 
-void FieldScene::showCompared(const FramePtr& frame) { m_compared->setFrame(frame); }
+void FieldScene::showCompared(const FramePtr& frame) {
+  m_compared->setFrame(frame);
+}
 
 void FieldScene::showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown) {
   const auto difference =
@@ -297,9 +310,8 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
     RobotLook look = robot->body.look();
     look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
     robot->body.setLook(look);
-    robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) &&
-                            m_frame && m_frame->truthKnown &&
-                            (look.selected || m_style.wedgeForAll));
+    robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) && m_frame &&
+                            m_frame->truthKnown && (look.selected || m_style.wedgeForAll));
     robot->wedge.styleChanges();
   }
   showThoughts();
@@ -326,8 +338,9 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
     least = away;
     nearest = {FieldHit::Kind::Robot, id};
   }
-  const bool onBall = m_frame && m_frame->ballKnown && distance(toScene(m_frame->snapshot.ball), metres) <=
-                                     m_style.ballDrawRadius() + margin;
+  const bool onBall =
+      m_frame && m_frame->ballKnown &&
+      distance(toScene(m_frame->snapshot.ball), metres) <= m_style.ballDrawRadius() + margin;
   // A ball at a robot's foot is smaller and must still be reached.
   if (onBall && (nearest.kind == FieldHit::Kind::Nothing ||
                  distance(toScene(m_frame->snapshot.ball), metres) < least)) {
@@ -353,7 +366,9 @@ std::optional<Pose> FieldScene::pose(RobotId id) const {
   return found->second->body.look().pose;
 }
 
-Point FieldScene::ball() const { return m_frame ? m_frame->snapshot.ball : Point{}; }
+Point FieldScene::ball() const {
+  return m_frame ? m_frame->snapshot.ball : Point{};
+}
 
 void FieldScene::setTrailShown(RobotId id, bool shown) {
   if (shown) {

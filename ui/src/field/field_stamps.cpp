@@ -10,14 +10,14 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double largestReach = 128.0;            // pixels
-constexpr qsizetype mostPixels = 4 * 1024 * 1024; // 16 MB
-constexpr int phases = 4;                         // of a pixel, each way
+constexpr double largestReach = 128.0;             // pixels
+constexpr qsizetype mostPixels = 4 * 1024 * 1024;  // 16 MB
+constexpr int phases = 4;                          // of a pixel, each way
 
 struct Key {
   Stamp stamp;
   int phaseX = 0, phaseY = 0;
-  int ratio = 0;   // of device pixels, in hundredths
+  int ratio = 0;  // of device pixels, in hundredths
   bool operator==(const Key&) const = default;
 };
 
@@ -29,7 +29,7 @@ size_t qHash(const Key& key, size_t seed = 0) {
 
 struct Placed {
   QPixmap pixmap;
-  QPointF origin;   // in the pixmap, device-independent pixels
+  QPointF origin;  // in the pixmap, device-independent pixels
 };
 
 QCache<Key, Placed>& cache() {

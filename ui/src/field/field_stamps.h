@@ -17,15 +17,17 @@ namespace pitchboard::ui {
 struct Stamp {
   enum class Kind { Belief, Ghost, Disc, Ball, PerceivedBall, Ring, Text, BoldText };
   Kind kind = Kind::Disc;
-  int size = 0;             ///< of any unit that the kind likes
+  int size = 0;  ///< of any unit that the kind likes
   QRgb color = 0;
-  QRgb second = 0;          ///< of the outline or halo
+  QRgb second = 0;  ///< of the outline or halo
   QString text;
   bool operator==(const Stamp&) const = default;
 };
 
 /// A length in pixels as the `size` of a stamp.
-inline int stampSize(double pixels) { return static_cast<int>(pixels * 16 + 0.5); }
+inline int stampSize(double pixels) {
+  return static_cast<int>(pixels * 16 + 0.5);
+}
 
 /// Puts the stamp down with its origin at `centre`, to a quarter of a device pixel. The painter's
 /// transform must be a translation. `reach`: how far the picture goes each way from its origin, in

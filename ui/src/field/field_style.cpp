@@ -23,9 +23,13 @@ QRectF FieldStyle::playingArea() const {
   return {-x, -y, 2 * x, 2 * y};
 }
 
-double FieldStyle::robotDrawRadius() const { return atLeast(field.robotRadius, 5.0); }
+double FieldStyle::robotDrawRadius() const {
+  return atLeast(field.robotRadius, 5.0);
+}
 
-double FieldStyle::ballDrawRadius() const { return atLeast(field.ballRadius, 3.0); }
+double FieldStyle::ballDrawRadius() const {
+  return atLeast(field.ballRadius, 3.0);
+}
 
 ScreenPainting::ScreenPainting(QPainter* painter, const QPointF& itemPoint)
     : m_painter(painter), m_before(painter->worldTransform()) {
@@ -36,7 +40,9 @@ ScreenPainting::ScreenPainting(QPainter* painter, const QPointF& itemPoint)
   painter->setWorldTransform(QTransform::fromTranslate(origin.x(), origin.y()));
 }
 
-ScreenPainting::~ScreenPainting() { m_painter->setWorldTransform(m_before); }
+ScreenPainting::~ScreenPainting() {
+  m_painter->setWorldTransform(m_before);
+}
 
 QPointF ScreenPainting::pixels(const QPointF& metres) const {
   return {metres.x() * m_scale * m_signX, metres.y() * m_scale * m_signY};

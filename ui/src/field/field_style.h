@@ -21,16 +21,15 @@
 namespace pitchboard::ui {
 
 struct FieldStyle {
-  double pixelsPerMetre = 60.0;   ///< of the view; items size their bounding rectangles by it
-  bool flipped = false;           ///< seen from the other side
-  bool readOnly = false;          ///< no handles
-  bool ornaments = true;          ///< selection rings and handles; off in pictures for files
-  bool wedgeForAll = false;       ///< field of view of all robots, else of the selected ones
-  int eopraGranularity = 4;       ///< m = 4 or 6
+  double pixelsPerMetre = 60.0;  ///< of the view; items size their bounding rectangles by it
+  bool flipped = false;          ///< seen from the other side
+  bool readOnly = false;         ///< no handles
+  bool ornaments = true;         ///< selection rings and handles; off in pictures for files
+  bool wedgeForAll = false;      ///< field of view of all robots, else of the selected ones
+  int eopraGranularity = 4;      ///< m = 4 or 6
   sim::FieldSpec field;
-  std::array<bool, fieldLayerCount> layers{true,  true,  true,  true,  true,
-                                           true,  false, false, false, false,
-                                           false, false};
+  std::array<bool, fieldLayerCount> layers{true,  true,  true,  true,  true,  true,
+                                           false, false, false, false, false, false};
 
   bool shows(FieldLayer layer) const { return layers[static_cast<std::size_t>(layer)]; }
   /// A length that is at least so many pixels on the screen, metres.
@@ -41,8 +40,12 @@ struct FieldStyle {
   double ballDrawRadius() const;   ///< metres
 };
 
-inline QPointF toScene(const Point& p) { return {p.x, p.y}; }
-inline Point fromScene(const QPointF& p) { return {p.x(), p.y()}; }
+inline QPointF toScene(const Point& p) {
+  return {p.x, p.y};
+}
+inline Point fromScene(const QPointF& p) {
+  return {p.x(), p.y()};
+}
 
 /// Replaces the painter's transform by pixels round a scene point for its lifetime. Angles given to
 /// screenYaw() are field angles; on the screen y points down and the field may be turned round.

@@ -28,7 +28,7 @@ namespace {
 
 struct LayerText {
   const char* text;
-  const char* key;   // shown only; the field handles its keys itself
+  const char* key;  // shown only; the field handles its keys itself
 };
 constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "F6"},
                                                              {"Belief", ""},
@@ -183,7 +183,8 @@ void FieldView::Private::makeActions() {
   flip->setCheckable(true);
   flip->setToolTip(tr("See the field from the other side (Space)"));
   connect(flip, &QAction::toggled, q, [this](bool on) { canvas->setFlipped(on); });
-  fitAction = new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Fit the field\tHome"), q);
+  fitAction =
+      new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Fit the field\tHome"), q);
   fitAction->setToolTip(tr("Fit the field (Home)"));
   connect(fitAction, &QAction::triggered, q, [this] { canvas->fit(); });
   keys = new QAction(themedIcon(QStringLiteral("help-contextual")), tr("Keys of the field\tF1"), q);
@@ -206,7 +207,8 @@ void FieldView::Private::makeLayerOptions() {
     action->setChecked(scene->style().eopraGranularity == granularity);
     connect(action, &QAction::toggled, q, [this, granularity](bool on) {
       if (!on) return;
-      scene->changeStyle([granularity](FieldStyle& style) { style.eopraGranularity = granularity; });
+      scene->changeStyle(
+          [granularity](FieldStyle& style) { style.eopraGranularity = granularity; });
     });
     layerOptions.push_back(action);
   }
@@ -224,7 +226,8 @@ void FieldView::Private::makeToolStrip() {
     auto* teams = new QMenu(button);
     auto* group = new QActionGroup(teams);
     for (const TeamColorInfo& team : teamColors) {
-      QString name = QString::fromLatin1(team.name.data(), static_cast<qsizetype>(team.name.size()));
+      QString name =
+          QString::fromLatin1(team.name.data(), static_cast<qsizetype>(team.name.size()));
       name[0] = name[0].toUpper();
       auto* action = teams->addAction(name, q, [this, color = team.color] {
         pointer->setTeam(color);
@@ -263,7 +266,7 @@ void FieldView::Private::setReadOnly(bool readOnly) {
   pointer->cancel();
   if (readOnly && pointer->tool() == FieldTool::Add) pointer->setTool(FieldTool::Select);
   scene->changeStyle([readOnly](FieldStyle& style) { style.readOnly = readOnly; });
-  tools.back()->setEnabled(!readOnly);   // the one that adds robots
+  tools.back()->setEnabled(!readOnly);  // the one that adds robots
 }
 
 void FieldView::Private::addAtCursor(TeamColor color) {
@@ -299,7 +302,9 @@ void FieldView::Private::openPoseEditor(RobotId id) {
 void FieldView::Private::openBallEditor() {
   if (!editor() || !scene->frame()) return;
   const Point ball = scene->ball();
-  openEditor({tr("Position of the ball"), {ball, 0.0}, false,
+  openEditor({tr("Position of the ball"),
+              {ball, 0.0},
+              false,
               [this](const Pose& to) { controller->previewBall(to.position); },
               [this, ball](const Pose& to) { controller->moveBall(ball, to.position); }});
 }
@@ -393,16 +398,32 @@ void FieldView::showFrame(const FramePtr& frame) {
   }
 }
 
-void FieldView::showOther(const FramePtr& frame) { d->scene->showOther(frame); }
-void FieldView::showCompared(const FramePtr& frame) { d->scene->showCompared(frame); }
+void FieldView::showOther(const FramePtr& frame) {
+  d->scene->showOther(frame);
+}
+void FieldView::showCompared(const FramePtr& frame) {
+  d->scene->showCompared(frame);
+}
 
-std::vector<RobotId> FieldView::selection() const { return d->scene->selection(); }
-void FieldView::select(const std::vector<RobotId>& ids) { d->scene->select(ids); }
-void FieldView::follow(std::optional<RobotId> id) { d->scene->setFollowed(id); }
-std::optional<RobotId> FieldView::followed() const { return d->scene->followed(); }
-std::vector<QAction*> FieldView::layerActions() const { return d->layers; }
+std::vector<RobotId> FieldView::selection() const {
+  return d->scene->selection();
+}
+void FieldView::select(const std::vector<RobotId>& ids) {
+  d->scene->select(ids);
+}
+void FieldView::follow(std::optional<RobotId> id) {
+  d->scene->setFollowed(id);
+}
+std::optional<RobotId> FieldView::followed() const {
+  return d->scene->followed();
+}
+std::vector<QAction*> FieldView::layerActions() const {
+  return d->layers;
+}
 
-std::vector<QAction*> FieldView::layerOptionActions() const { return d->layerOptions; }
+std::vector<QAction*> FieldView::layerOptionActions() const {
+  return d->layerOptions;
+}
 
 std::vector<QAction*> FieldView::viewActions() const {
   std::vector<QAction*> actions = d->tools;
@@ -410,12 +431,24 @@ std::vector<QAction*> FieldView::viewActions() const {
   return actions;
 }
 
-void FieldView::fitField() { d->canvas->fit(); }
-void FieldView::setFlipped(bool flipped) { d->flip->setChecked(flipped); }
-bool FieldView::isFlipped() const { return d->flip->isChecked(); }
+void FieldView::fitField() {
+  d->canvas->fit();
+}
+void FieldView::setFlipped(bool flipped) {
+  d->flip->setChecked(flipped);
+}
+bool FieldView::isFlipped() const {
+  return d->flip->isChecked();
+}
 
-QImage FieldView::picture(QSize size) const { return paintPicture(*d->scene, size); }
-QByteArray FieldView::svgPicture(QSize size) const { return ui::svgPicture(*d->scene, size); }
-const FieldStyle& FieldView::style() const { return d->scene->style(); }
+QImage FieldView::picture(QSize size) const {
+  return paintPicture(*d->scene, size);
+}
+QByteArray FieldView::svgPicture(QSize size) const {
+  return ui::svgPicture(*d->scene, size);
+}
+const FieldStyle& FieldView::style() const {
+  return d->scene->style();
+}
 
 }  // namespace pitchboard::ui

@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 namespace {
 
 struct Line {
-  QString key;       // empty: `text` is a heading
+  QString key;  // empty: `text` is a heading
   QString text;
 };
 
@@ -58,7 +58,9 @@ bool HelpOverlay::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-void HelpOverlay::mousePressEvent(QMouseEvent*) { hide(); }
+void HelpOverlay::mousePressEvent(QMouseEvent*) {
+  hide();
+}
 
 void HelpOverlay::keyPressEvent(QKeyEvent*) {
   hide();
@@ -106,8 +108,8 @@ void HelpOverlay::paintEvent(QPaintEvent*) {
                    tr("Keys of the field"));
   painter.setFont(fieldFont(pixels, false));
   painter.setPen(theme().secondaryText);
-  painter.drawText(panel.adjusted(padding, padding - 2, -padding, 0),
-                   Qt::AlignRight | Qt::AlignTop, tr("any key closes"));
+  painter.drawText(panel.adjusted(padding, padding - 2, -padding, 0), Qt::AlignRight | Qt::AlignTop,
+                   tr("any key closes"));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int column = static_cast<int>(i) / perColumn;
     const int row = static_cast<int>(i) % perColumn;

@@ -9,7 +9,9 @@
 namespace pitchboard::ui {
 namespace {
 
-QColor halo() { return theme().fieldBorder.darker(isDarkTheme() ? 130 : 190); }
+QColor halo() {
+  return theme().fieldBorder.darker(isDarkTheme() ? 130 : 190);
+}
 
 }  // namespace
 

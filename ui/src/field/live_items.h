@@ -22,7 +22,7 @@ class TeamBallItem : public QGraphicsItem {
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
-  double radius() const;   // metres
+  double radius() const;  // metres
   const FieldStyle* m_style;
   link::TeamBall m_ball;
 };
@@ -30,9 +30,9 @@ class TeamBallItem : public QGraphicsItem {
 /// The same robot as another source shows it.
 struct OtherPose {
   Pose pose;
-  Point here;              ///< where this source shows it
+  Point here;  ///< where this source shows it
   TeamColor team = TeamColor::Blue;
-  QString words;           ///< "12 cm 4°"
+  QString words;  ///< "12 cm 4°"
   bool operator==(const OtherPose&) const = default;
 };
 

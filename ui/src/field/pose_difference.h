@@ -13,7 +13,7 @@ namespace pitchboard::ui {
 struct PoseDifference {
   Pose other;
   double metres = 0.0;
-  double radians = 0.0;   ///< of the heading, 0 to π
+  double radians = 0.0;  ///< of the heading, 0 to π
 };
 
 /// Robots are the same when their ids are: telemetry port 1240 + id. Nothing when the other source

@@ -44,8 +44,8 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
   form->addRow(QStringLiteral("y"), m_y);
   std::vector<QDoubleSpinBox*> boxes{m_x, m_y};
   if (m_edit.hasHeading) {
-    m_heading = spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1,
-                        QStringLiteral("°"));
+    m_heading =
+        spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1, QStringLiteral("°"));
     m_heading->setWrapping(true);
     form->addRow(tr("heading"), m_heading);
     boxes.push_back(m_heading);

@@ -19,8 +19,8 @@ struct PoseEdit {
   QString title;
   Pose from;
   bool hasHeading = true;
-  std::function<void(const Pose&)> preview;   ///< while typing, and `from` on Esc
-  std::function<void(const Pose&)> keep;      ///< at most once, and only for a change
+  std::function<void(const Pose&)> preview;  ///< while typing, and `from` on Esc
+  std::function<void(const Pose&)> keep;     ///< at most once, and only for a change
 };
 
 class PoseEditor : public QFrame {
@@ -41,7 +41,7 @@ class PoseEditor : public QFrame {
   bool m_cancelled = false;
   QDoubleSpinBox* m_x;
   QDoubleSpinBox* m_y;
-  QDoubleSpinBox* m_heading = nullptr;   // none for the ball
+  QDoubleSpinBox* m_heading = nullptr;  // none for the ball
 };
 
 }  // namespace pitchboard::ui

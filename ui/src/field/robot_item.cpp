@@ -20,7 +20,9 @@ void paintNumber(QPainter& painter, double radius, const QString& text) {
   painter.drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, text);
 }
 
-QPointF across(const QPointF& direction) { return {-direction.y(), direction.x()}; }
+QPointF across(const QPointF& direction) {
+  return {-direction.y(), direction.x()};
+}
 
 }  // namespace
 
@@ -38,10 +40,13 @@ void RobotItem::setLook(const RobotLook& look) {
 
 QPointF RobotItem::handlePosition(const FieldStyle& style, const Pose& pose) {
   const double reach = style.robotDrawRadius() * 1.7 + style.metres(handleGap_px);
-  return {pose.position.x + reach * std::cos(pose.yaw), pose.position.y + reach * std::sin(pose.yaw)};
+  return {pose.position.x + reach * std::cos(pose.yaw),
+          pose.position.y + reach * std::sin(pose.yaw)};
 }
 
-double RobotItem::handleRadius(const FieldStyle& style) { return style.metres(5.0); }
+double RobotItem::handleRadius(const FieldStyle& style) {
+  return style.metres(5.0);
+}
 
 QRectF RobotItem::boundingRect() const {
   double reach = m_style->robotDrawRadius() * 1.8 + m_style->metres(3.0);
@@ -129,7 +134,8 @@ void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, doubl
   if (m_look.fallen) {
     if (!text.isEmpty()) paintNumber(*painter, radius, text);
   } else {
-    drawStamp(painter, {}, {Stamp::Kind::Disc, stampSize(radius), team.rgba(), outline.rgba(), text},
+    drawStamp(painter, {},
+              {Stamp::Kind::Disc, stampSize(radius), team.rgba(), outline.rgba(), text},
               {radius + stroke, radius + stroke}, [&](QPainter& p) {
                 p.setPen(QPen(outline, stroke));
                 p.setBrush(team);

@@ -18,8 +18,8 @@ struct RobotLook {
   bool fallen = false;
   bool selected = false;
   bool followed = false;
-  QString word;            ///< beside the robot: "fallen", "penalised", "timeout 37 s"
-  double opacity = 1.0;    ///< 0.45 for a robot that has timed out
+  QString word;          ///< beside the robot: "fallen", "penalised", "timeout 37 s"
+  double opacity = 1.0;  ///< 0.45 for a robot that has timed out
   bool operator==(const RobotLook&) const = default;
 };
 

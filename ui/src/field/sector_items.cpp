@@ -13,9 +13,13 @@ constexpr int starVarsGranularity = 8;
 constexpr double starVarsReach = 2.5;  // metres; the rays have no end of their own
 constexpr double delta = 1.0;          // metres, the elevation distance of EOPRA
 
-QColor faint(double opacity) { return onGrass(theme().fieldLines, opacity); }
+QColor faint(double opacity) {
+  return onGrass(theme().fieldLines, opacity);
+}
 
-QColor shade() { return theme().fieldBorder.darker(isDarkTheme() ? 130 : 170); }
+QColor shade() {
+  return theme().fieldBorder.darker(isDarkTheme() ? 130 : 170);
+}
 
 }  // namespace
 

@@ -76,7 +76,9 @@ void ParticlesItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QW
   for (const link::Particle& particle : m_cloud->particles) {
     const QPointF at = toScene(particle.position);
     if (!area.contains(at)) continue;
-    const std::size_t shade = particle.weight < 0.3 * even ? 0 : particle.weight < 0.9 * even ? 1 : 2;
+    const std::size_t shade = particle.weight < 0.3 * even   ? 0
+                              : particle.weight < 0.9 * even ? 1
+                                                             : 2;
     const QPointF place = screen.pixels(at - origin);
     dots[shade].append(place);
     ticks[shade].append(QLineF(place, place + tickLength_px * screen.direction(particle.yaw)));
@@ -122,8 +124,10 @@ void PlannedPathItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, 
   const QPointF target = line.last(), before = line[line.size() - 2];
   const QPointF last = target - before;
   const double length = std::hypot(last.x(), last.y());
-  if (length > targetRadius_px) line.last() = target - last * (targetRadius_px / length);
-  else line.removeLast();
+  if (length > targetRadius_px)
+    line.last() = target - last * (targetRadius_px / length);
+  else
+    line.removeLast();
 
   const auto stroke = [&](const QColor& c, double width) {
     QPen pen(c, width);

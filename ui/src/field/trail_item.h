@@ -34,12 +34,14 @@ class TrailItem : public QGraphicsItem {
     QPointF at;
     double time = 0.0;
   };
-  const Mark& mark(int i) const { return m_marks[static_cast<std::size_t>((m_first + i) % capacity)]; }
+  const Mark& mark(int i) const {
+    return m_marks[static_cast<std::size_t>((m_first + i) % capacity)];
+  }
   void dropOld();
   void updateBounds();
 
   const FieldStyle* m_style;
-  std::array<Mark, capacity> m_marks;   // ring
+  std::array<Mark, capacity> m_marks;  // ring
   int m_first = 0;
   int m_count = 0;
   QPointF m_tip;

@@ -44,7 +44,9 @@ void ViewWedgeItem::setHead(const Point& position, double headYaw) {
   updateOutline();
 }
 
-void ViewWedgeItem::styleChanges() { updateOutline(); }
+void ViewWedgeItem::styleChanges() {
+  updateOutline();
+}
 
 void ViewWedgeItem::updateOutline() {
   prepareGeometryChange();

@@ -17,8 +17,11 @@ namespace {
 class BadMessagesDock : public QStackedWidget {
  public:
   BadMessagesDock(const StudioContext& context, QWidget* parent)
-      : QStackedWidget(parent), m_live(context.live), m_model(new BadMessagesModel(this)),
-        m_table(new QTableView(this)), m_empty(new QLabel(this)) {
+      : QStackedWidget(parent),
+        m_live(context.live),
+        m_model(new BadMessagesModel(this)),
+        m_table(new QTableView(this)),
+        m_empty(new QLabel(this)) {
     constexpr int refreshMilliseconds = 500;
     m_model->setObjectName(QStringLiteral("badMessages"));
     m_table->setModel(m_model);
@@ -52,10 +55,11 @@ class BadMessagesDock : public QStackedWidget {
  private:
   void refresh() {
     m_model->update(m_live->details());
-    m_empty->setText(m_live->isListening()
-                         ? tr("Every message could be used. Messages that cannot be read appear here, "
-                              "with the reason and their text.")
-                         : tr("Live is not listening. Choose Live in the tool bar."));
+    m_empty->setText(
+        m_live->isListening()
+            ? tr("Every message could be used. Messages that cannot be read appear here, "
+                 "with the reason and their text.")
+            : tr("Live is not listening. Choose Live in the tool bar."));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What was heard and could not be used: by kind, for each robot and each sender, with the last text.
+// What was heard and could not be used: by kind, for each robot and each sender, with the last
+// text.
 
 #include "shell/dock_list.h"
 

@@ -20,8 +20,9 @@ void BadMessagesModel::update(const link::LiveDetails& details) {
   std::vector<Row> rows;
   add(rows, tr("everybody"), details.team.errors);
   for (const telemetry::RobotStatus& robot : details.team.robots) {
-    add(rows, tr("robot %1 at %2").arg(robot.number)
-                  .arg(QString::fromStdString(robot.sender.text())), robot.errors);
+    add(rows,
+        tr("robot %1 at %2").arg(robot.number).arg(QString::fromStdString(robot.sender.text())),
+        robot.errors);
   }
   for (const telemetry::SenderStatus& sender : details.team.senders) {
     add(rows, tr("sender %1").arg(QString::fromStdString(sender.address.text())), sender.errors);
@@ -32,8 +33,7 @@ void BadMessagesModel::update(const link::LiveDetails& details) {
   };
   count(tr("referee's port"), QString::fromStdString(details.unknownRefereeReason),
         details.unknownReferee, QString::fromStdString(details.unknownRefereeSample));
-  count(tr("everybody"), tr("from senders that are not on the list"),
-        details.team.refusedByFilter);
+  count(tr("everybody"), tr("from senders that are not on the list"), details.team.refusedByFilter);
   count(tr("everybody"), tr("of robots beyond the 64th"), details.team.refusedRobots);
   count(tr("network"), tr("lost because nobody took them in time"), details.network.queueDrops);
   for (const telemetry::PortStatus& port : details.network.ports) {
@@ -71,11 +71,16 @@ QVariant BadMessagesModel::data(const QModelIndex& index, int role) const {
   }
   if (role != Qt::DisplayRole && role != Qt::ToolTipRole) return {};
   switch (index.column()) {
-    case Who: return row.who;
-    case Kind: return row.kind;
-    case Count: return countText(row.count);
-    case Sample: return row.sample;
-    default: return {};
+    case Who:
+      return row.who;
+    case Kind:
+      return row.kind;
+    case Count:
+      return countText(row.count);
+    case Sample:
+      return row.sample;
+    default:
+      return {};
   }
 }
 

@@ -16,8 +16,11 @@
 namespace pitchboard::ui {
 
 LiveBar::LiveBar(const StudioContext& context, QWidget* parent)
-    : QWidget(parent), m_context(context), m_ports(new QToolButton(this)),
-      m_team(new QComboBox(this)), m_monitor(new QToolButton(this)) {
+    : QWidget(parent),
+      m_context(context),
+      m_ports(new QToolButton(this)),
+      m_team(new QComboBox(this)),
+      m_monitor(new QToolButton(this)) {
   constexpr int refreshMilliseconds = 500;
   m_ports->setObjectName(QStringLiteral("livePorts"));
   m_ports->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -64,7 +67,8 @@ void LiveBar::refresh() {
   m_monitor->setChecked(options.monitor.has_value());
   m_monitor->setToolTip(
       options.monitor
-          ? tr("Monitor mode is on: once a second the referee's program at %1 is asked for true data. "
+          ? tr("Monitor mode is on: once a second the referee's program at %1 is asked for true "
+               "data. "
                "Nothing else is sent.%2")
                 .arg(QString::fromStdString(options.monitor->text()),
                      details.monitorProblem.empty()
@@ -104,8 +108,9 @@ void LiveBar::showTeams() {
     for (const Entry& entry : wanted) m_team->addItem(entry.text, entry.number);
   }
   m_team->setCurrentIndex(m_team->findData(ours));
-  m_team->setToolTip(tr("Whose robots are heard: decides whose penalties are shown on cards and field. "
-                        "The teams are those that the referee names."));
+  m_team->setToolTip(
+      tr("Whose robots are heard: decides whose penalties are shown on cards and field. "
+         "The teams are those that the referee names."));
 }
 
 void LiveBar::switchMonitor(bool on) {

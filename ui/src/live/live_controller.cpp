@@ -55,8 +55,8 @@ void LiveController::stop() {
 
 void LiveController::setOptions(const link::LiveOptions& options) {
   if (const auto good = link::validate(options); !good) {
-    emit errorOccurred(tr("Live keeps its settings: %1")
-                           .arg(QString::fromStdString(good.error().text())));
+    emit errorOccurred(
+        tr("Live keeps its settings: %1").arg(QString::fromStdString(good.error().text())));
     return;
   }
   m_options = options;
@@ -101,8 +101,8 @@ void LiveController::keepRows() {
 }
 
 void LiveController::remember() {
-  constexpr double step = 0.2;                  // s
-  constexpr std::size_t mostRobots = 40'000;    // about 2 KB each
+  constexpr double step = 0.2;                // s
+  constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
   if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
   m_past.push_back(m_frame);
   m_pastRobots += m_frame->health.size() + 1;
@@ -114,16 +114,15 @@ void LiveController::remember() {
 
 FramePtr LiveController::frameAt(double time) const {
   const auto after =
-      std::upper_bound(m_past.begin(), m_past.end(), time, [](double t, const FramePtr& frame) {
-        return t < frame->snapshot.time;
-      });
+      std::upper_bound(m_past.begin(), m_past.end(), time,
+                       [](double t, const FramePtr& frame) { return t < frame->snapshot.time; });
   return after == m_past.begin() ? nullptr : *std::prev(after);
 }
 
 std::optional<QDateTime> LiveController::clock() const {
   if (!m_watch) return {};
-  const auto began = std::chrono::duration_cast<std::chrono::milliseconds>(
-      m_watch->began().time_since_epoch());
+  const auto began =
+      std::chrono::duration_cast<std::chrono::milliseconds>(m_watch->began().time_since_epoch());
   return QDateTime::fromMSecsSinceEpoch(began.count());
 }
 
@@ -132,9 +131,8 @@ QString LiveController::portsText() const {
 }
 
 QString LiveController::emptyText() const {
-  const QString address = m_options.bind.value == 0
-                              ? tr("every address of this computer")
-                              : QString::fromStdString(m_options.bind.text());
+  const QString address = m_options.bind.value == 0 ? tr("every address of this computer")
+                                                    : QString::fromStdString(m_options.bind.text());
   return tr("Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
             "Robot 1 sends to port %4, robot 2 to %5. Check that this computer is in the robots' "
             "network and that no firewall keeps UDP out. Nothing is sent to robots.")
@@ -159,7 +157,7 @@ void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& ob
 }
 
 void LiveController::deliver() {
-  if (!m_watch) return;   // stopped while this was on its way
+  if (!m_watch) return;  // stopped while this was on its way
   m_frame = m_watch->latest();
   if (m_frame) {
     remember();
@@ -178,9 +176,10 @@ void LiveController::deliver() {
   }
   if (ports.empty()) return;
   const QString first = QString::fromStdString(ports.front()->text);
-  emit errorOccurred(ports.size() == 1 ? first
-                                       : tr("%1 ports cannot be received; the first: %2")
-                                             .arg(ports.size()).arg(first));
+  emit errorOccurred(
+      ports.size() == 1
+          ? first
+          : tr("%1 ports cannot be received; the first: %2").arg(ports.size()).arg(first));
 }
 
 }  // namespace pitchboard::ui

@@ -13,8 +13,8 @@ LiveOverlay::LiveOverlay(MatchController* controller, LiveController* live, Sour
                          FieldView* field, QObject* parent)
     : QObject(parent), m_controller(controller), m_live(live), m_shown(shown), m_field(field) {
   // Each source's frames are drawn when the shown one has a new one; the other's in between.
-  for (FrameSource* source : {static_cast<FrameSource*>(controller),
-                              static_cast<FrameSource*>(live)}) {
+  for (FrameSource* source :
+       {static_cast<FrameSource*>(controller), static_cast<FrameSource*>(live)}) {
     connect(source, &FrameSource::frameReceived, this, [this, source] {
       if (m_on && source != m_shown->current()) show();
     });
@@ -32,13 +32,18 @@ void LiveOverlay::setOn(bool on) {
 FramePtr LiveOverlay::other() const {
   if (!m_on) return nullptr;
   switch (m_shown->kind()) {
-    case SourceKind::Simulate: return m_live->frame();
-    case SourceKind::Live: return m_controller->frame();
-    case SourceKind::Replay: return nullptr;
+    case SourceKind::Simulate:
+      return m_live->frame();
+    case SourceKind::Live:
+      return m_controller->frame();
+    case SourceKind::Replay:
+      return nullptr;
   }
   return nullptr;
 }
 
-void LiveOverlay::show() { m_field->showOther(other()); }
+void LiveOverlay::show() {
+  m_field->showOther(other());
+}
 
 }  // namespace pitchboard::ui

@@ -46,8 +46,10 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
     live.problem = QString::fromStdString(error.text());
   };
   if (const QString bind = text(settings, "bind"); !bind.isEmpty()) {
-    if (const auto address = telemetry::parseAddress(bind.toStdString())) o.bind = *address;
-    else complain(address.error());
+    if (const auto address = telemetry::parseAddress(bind.toStdString()))
+      o.bind = *address;
+    else
+      complain(address.error());
   }
   o.portBase = number(settings, "portBase", o.portBase);
   o.robots = number(settings, "robots", o.robots);
@@ -63,8 +65,10 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
   battery.emptyPerCell = real(settings, "emptyPerCell", battery.emptyPerCell);
   if (const auto field = sim::fieldByName(text(settings, "field").toStdString())) o.field = *field;
   live.senders = text(settings, "senders");
-  if (const auto filter = sendersFromText(live.senders)) o.team.senders = *filter;
-  else complain(filter.error());
+  if (const auto filter = sendersFromText(live.senders))
+    o.team.senders = *filter;
+  else
+    complain(filter.error());
   live.monitorAddress = text(settings, "monitorAddress");
   live.profileFile = text(settings, "profileFile");
   if (!live.profileFile.isEmpty()) {

@@ -13,10 +13,10 @@ namespace pitchboard::ui {
 
 struct LiveSettings {
   link::LiveOptions options;
-  QString profileFile;       ///< empty: the published profile
-  QString senders;           ///< as typed: addresses and networks, separated by commas or blanks
-  QString monitorAddress;    ///< whom to ask; monitor mode itself is off at every start
-  QString problem;           ///< why something could not be taken; a sentence
+  QString profileFile;     ///< empty: the published profile
+  QString senders;         ///< as typed: addresses and networks, separated by commas or blanks
+  QString monitorAddress;  ///< whom to ask; monitor mode itself is off at every start
+  QString problem;         ///< why something could not be taken; a sentence
 };
 
 LiveSettings loadLiveSettings(const QSettings& settings);

@@ -54,8 +54,8 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   m_problem->setObjectName(QStringLiteral("liveProblem"));
   m_problem->setWordWrap(true);
   m_problem->hide();
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Apply |
-                                           QDialogButtonBox::Cancel, this);
+  auto* buttons = new QDialogButtonBox(
+      QDialogButtonBox::Ok | QDialogButtonBox::Apply | QDialogButtonBox::Cancel, this);
   connect(buttons, &QDialogButtonBox::accepted, this, [this] {
     if (apply()) accept();
   });
@@ -82,8 +82,7 @@ QSpinBox* LiveSettingsDialog::addNumber(QFormLayout* form, const char* name, con
 
 QDoubleSpinBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name,
                                             const QString& label, double low, double high,
-                                            int decimals, const QString& unit,
-                                            const QString& tip) {
+                                            int decimals, const QString& unit, const QString& tip) {
   auto* box = new QDoubleSpinBox(this);
   box->setObjectName(QLatin1String(name));
   box->setDecimals(decimals);
@@ -102,17 +101,20 @@ QWidget* LiveSettingsDialog::makeNetwork() {
   m_bind->setObjectName(QStringLiteral("bind"));
   m_bind->setToolTip(tr("0.0.0.0: every address of this computer, broadcasts included"));
   form->addRow(tr("Listen at"), m_bind);
-  m_portBase = addNumber(form, "portBase", tr("Port base"), 0, 65534,
-                         tr("Robot n sends to port base + n"));
+  m_portBase =
+      addNumber(form, "portBase", tr("Port base"), 0, 65534, tr("Robot n sends to port base + n"));
   m_robots = addNumber(form, "robots", tr("Robots"), 1, 64, tr("How many ports after the base"));
   m_refereePort = addNumber(form, "refereePort", tr("Referee's port"), 1, 65535, {});
   m_senders = new QLineEdit(widget);
   m_senders->setObjectName(QStringLiteral("senders"));
   m_senders->setPlaceholderText(tr("everybody"));
-  m_senders->setToolTip(tr("Addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: everybody"));
+  m_senders->setToolTip(
+      tr("Addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: everybody"));
   form->addRow(tr("Only from"), m_senders);
-  form->addRow(explanation(tr("A port that another program holds is named in the status bar and tried "
-                              "again every three seconds; the others work meanwhile."), widget));
+  form->addRow(
+      explanation(tr("A port that another program holds is named in the status bar and tried "
+                     "again every three seconds; the others work meanwhile."),
+                  widget));
   return widget;
 }
 
@@ -134,8 +136,10 @@ QWidget* LiveSettingsDialog::makeRobots() {
   form->addRow(tr("Colour"), m_colours);
   m_field = new QComboBox(widget);
   for (const sim::FieldSpec& field : sim::builtInFields()) {
-    m_field->addItem(tr("%1: %2 × %3 m").arg(QString::fromStdString(field.name))
-                         .arg(field.length).arg(field.width),
+    m_field->addItem(tr("%1: %2 × %3 m")
+                         .arg(QString::fromStdString(field.name))
+                         .arg(field.length)
+                         .arg(field.width),
                      QString::fromStdString(field.name));
   }
   form->addRow(tr("Field"), m_field);
@@ -156,11 +160,13 @@ QWidget* LiveSettingsDialog::makeReferee() {
   connect(m_monitor, &QCheckBox::toggled, m_monitorAddress, &QWidget::setEnabled);
   form->addRow(m_monitor);
   form->addRow(tr("Referee at"), m_monitorAddress);
-  form->addRow(explanation(
-      tr("Controllers of 2026 send more to programs that ask for it. While this is on, one packet of "
-         "five bytes (RGTr and a zero) goes to UDP port 3636 of that one address every second. It is the "
-         "only thing that Live ever sends, it never goes to a robot, and it is off at every start."),
-      widget));
+  form->addRow(explanation(tr("Controllers of 2026 send more to programs that ask for it. While "
+                              "this is on, one packet of "
+                              "five bytes (RGTr and a zero) goes to UDP port 3636 of that one "
+                              "address every second. It is the "
+                              "only thing that Live ever sends, it never goes to a robot, and it "
+                              "is off at every start."),
+                           widget));
   return widget;
 }
 
@@ -187,9 +193,11 @@ QWidget* LiveSettingsDialog::makeMessages() {
   add(tr("Edit…"), "editProfile", [this] { editProfile(); });
   row->addStretch(1);
   form->addRow(row);
-  form->addRow(explanation(tr("Teams insert fields of their own. A profile says in which order a "
-                              "message has its fields and what they mean. Fields after those of the "
-                              "profile are shown as OTHER_1, OTHER_2, ..."), widget));
+  form->addRow(
+      explanation(tr("Teams insert fields of their own. A profile says in which order a "
+                     "message has its fields and what they mean. Fields after those of the "
+                     "profile are shown as OTHER_1, OTHER_2, ..."),
+                  widget));
   return widget;
 }
 
@@ -222,13 +230,13 @@ void LiveSettingsDialog::adopt() {
 }
 
 void LiveSettingsDialog::showProfile() {
-  m_profileName->setText(
-      (m_profileFile.isEmpty()
-           ? tr("%1, %2 fields")
-           : tr("%1, %2 fields, from %3").arg(QStringLiteral("%1"), QStringLiteral("%2"),
-                                              QFileInfo(m_profileFile).fileName()))
-          .arg(QString::fromStdString(m_profile.name))
-          .arg(m_profile.fields.size()));
+  m_profileName->setText((m_profileFile.isEmpty()
+                              ? tr("%1, %2 fields")
+                              : tr("%1, %2 fields, from %3")
+                                    .arg(QStringLiteral("%1"), QStringLiteral("%2"),
+                                         QFileInfo(m_profileFile).fileName()))
+                             .arg(QString::fromStdString(m_profile.name))
+                             .arg(m_profile.fields.size()));
   m_profileName->setToolTip(m_profileFile);
 }
 

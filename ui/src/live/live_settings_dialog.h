@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Where Live listens, whom it believes, how it reads messages, and monitor mode. Not modal: the match
-// goes on. Errors are shown in the dialog. UI thread only.
+// Where Live listens, whom it believes, how it reads messages, and monitor mode. Not modal: the
+// match goes on. Errors are shown in the dialog. UI thread only.
 
 #include <QDialog>
 

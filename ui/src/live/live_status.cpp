@@ -57,25 +57,24 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
     m_refereeRate = rate(m_now.referee, m_before.referee);
   }
   LiveStatusText text;
-  quint64 lost = details.network.kernelDrops() + details.network.queueDrops +
-                 details.team.refusedRobots;
+  quint64 lost =
+      details.network.kernelDrops() + details.network.queueDrops + details.team.refusedRobots;
   for (const telemetry::RobotStatus& robot : details.team.robots) lost += robot.lost;
   text.network = QObject::tr("UDP %1/s, %2 lost, %3 bad")
-                     .arg(countText(static_cast<qulonglong>(std::llround(m_rate))),
-                          countText(lost),
+                     .arg(countText(static_cast<qulonglong>(std::llround(m_rate))), countText(lost),
                           countText(details.team.errors.total() + details.unknownReferee));
-  text.referee = frame == nullptr || !frame->referee
-                     ? QObject::tr("No referee heard")
-                     : QObject::tr("Referee: version %1, %2/s")
-                           .arg(frame->referee->version)
-                           .arg(numberText(m_refereeRate, 0));
+  text.referee = frame == nullptr || !frame->referee ? QObject::tr("No referee heard")
+                                                     : QObject::tr("Referee: version %1, %2/s")
+                                                           .arg(frame->referee->version)
+                                                           .arg(numberText(m_refereeRate, 0));
   text.trouble = troubleOf(details, frame);
   QStringList tip{QObject::tr("%1 datagrams; lost: %2 in the kernel, %3 here")
                       .arg(countText(details.network.datagrams()),
                            countText(details.network.kernelDrops()),
                            countText(details.network.queueDrops + details.team.refusedRobots))};
   for (const telemetry::PortStatus& port : details.network.ports) {
-    if (!port.bound) tip << QString::fromStdString(port.problem);
+    if (!port.bound)
+      tip << QString::fromStdString(port.problem);
     else if (port.datagrams > 0) {
       tip << QObject::tr("port %1: %2 datagrams").arg(port.port).arg(countText(port.datagrams));
     }

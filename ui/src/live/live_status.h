@@ -10,10 +10,10 @@
 namespace pitchboard::ui {
 
 struct LiveStatusText {
-  QString network;   ///< "UDP 24/s, 0 lost, 0 bad"
-  QString referee;   ///< "Referee: version 12, 2/s"
-  QString trouble;   ///< the most urgent thing, or nothing: shown in red
-  QString tip;       ///< every port and what is wrong with it
+  QString network;  ///< "UDP 24/s, 0 lost, 0 bad"
+  QString referee;  ///< "Referee: version 12, 2/s"
+  QString trouble;  ///< the most urgent thing, or nothing: shown in red
+  QString tip;      ///< every port and what is wrong with it
 };
 
 class LiveStatus {

@@ -43,8 +43,12 @@ QString meaningText(FieldMeaning meaning) {
 }  // namespace
 
 ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidget* parent)
-    : QDialog(parent), m_file(file), m_name(new QLineEdit(this)), m_end(new QLineEdit(this)),
-      m_table(new QTableWidget(0, columns, this)), m_problem(new QLabel(this)) {
+    : QDialog(parent),
+      m_file(file),
+      m_name(new QLineEdit(this)),
+      m_end(new QLineEdit(this)),
+      m_table(new QTableWidget(0, columns, this)),
+      m_problem(new QLabel(this)) {
   setObjectName(QStringLiteral("profileEditor"));
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowTitle(tr("Fields of a message"));
@@ -180,8 +184,10 @@ void ProfileEditor::check() {
   const Profile now = profile();
   const auto good = telemetry::validate(now);
   m_save->setEnabled(good.has_value());
-  if (good) say(tr("%1 fields. Saving puts the profile to use.").arg(now.fields.size()), false);
-  else say(QString::fromStdString(good.error().text()), true);
+  if (good)
+    say(tr("%1 fields. Saving puts the profile to use.").arg(now.fields.size()), false);
+  else
+    say(QString::fromStdString(good.error().text()), true);
 }
 
 bool ProfileEditor::saveTo(const QString& path) {

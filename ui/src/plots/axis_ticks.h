@@ -19,8 +19,8 @@ struct NiceLimits {
   ValueLimits limits;
   double step = 1.0;
 };
-/// Limits on whole steps around [low, high]; a flat line gets room on both sides. One step more than
-/// `mostSteps` where the ends are rounded.
+/// Limits on whole steps around [low, high]; a flat line gets room on both sides. One step more
+/// than `mostSteps` where the ends are rounded.
 NiceLimits niceLimits(double low, double high, int mostSteps);
 /// Decimals that tell multiples of `step` apart.
 int decimalsOf(double step);

@@ -16,7 +16,7 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr int pixelsPerValueStep = 18;   // px of the mock
+constexpr int pixelsPerValueStep = 18;  // px of the mock
 constexpr int lowestChart = 40;
 }  // namespace
 
@@ -53,10 +53,18 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   });
 }
 
-QWidget* ChartPane::surface() const { return m_chart->viewport(); }
-int ChartPane::wantedLeft() const { return m_chart->wantedLeft(); }
-void ChartPane::setBoxTool(bool on) { m_gestures->setBoxTool(on); }
-void ChartPane::restyle() { m_chart->applyTheme(); }
+QWidget* ChartPane::surface() const {
+  return m_chart->viewport();
+}
+int ChartPane::wantedLeft() const {
+  return m_chart->wantedLeft();
+}
+void ChartPane::setBoxTool(bool on) {
+  m_gestures->setBoxTool(on);
+}
+void ChartPane::restyle() {
+  m_chart->applyTheme();
+}
 
 ValueScale ChartPane::valueScale() const {
   const QRectF area = m_chart->plotArea();
@@ -75,7 +83,7 @@ void ChartPane::setValues(ValueLimits limits) {
 }
 
 void ChartPane::draw() {
-  const int room = scaled(this, 5);   // half a label above and below
+  const int room = scaled(this, 5);  // half a label above and below
   m_chart->setMargins(left(), room, scaled(this, rightMargin), room);
   const QRectF area = m_chart->plotArea();
   if (area.isEmpty()) return;
@@ -95,16 +103,16 @@ void ChartPane::draw() {
     high = any ? std::max(high, trace.high) : trace.high;
     any = true;
   }
-  const int steps = std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep),
-                               2, 12);
+  const int steps =
+      std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep), 2, 12);
   NiceLimits nice{m_spec.values, niceStep(m_spec.values.high - m_spec.values.low, steps)};
   if (m_spec.autoValues) nice = any ? niceLimits(low, high, steps) : niceLimits(0.0, 1.0, steps);
   const std::vector<AxisTick> ticks = ticksOf(timeScale(), *m_feed, this);
   const bool divided = ticks.size() > 1;
   const int before = wantedLeft();
-  m_chart->setAxes({range.begin, range.end}, divided ? ticks[1].time - ticks[0].time : range.end - range.begin,
-                   nice.limits, nice.step,
-                   ticks.empty() ? range.begin : ticks[0].time);
+  m_chart->setAxes({range.begin, range.end},
+                   divided ? ticks[1].time - ticks[0].time : range.end - range.begin, nice.limits,
+                   nice.step, ticks.empty() ? range.begin : ticks[0].time);
   m_chart->setTitles({}, m_spec.valueTitle);
   shape();
   m_chart->redraw();
@@ -119,13 +127,14 @@ void ChartPane::shape() {
   const ValueScale values = valueScale();
   for (const Curve& curve : m_curves) {
     const CurveSpec& spec = curve.spec();
-    m_shapes.push_back({{}, {curve.color(), spec.style, spec.width * scaled(this, 100) / 100.0,
-                             points > manyPoints}});
+    m_shapes.push_back(
+        {{},
+         {curve.color(), spec.style, spec.width * scaled(this, 100) / 100.0, points > manyPoints}});
   }
   sideBySide(static_cast<int>(m_shapes.size()), [&](int number) {
     const auto i = static_cast<std::size_t>(number);
-    m_shapes[i].lines = polylines(m_traces[i], m_shapedFor, values,
-                                  m_shapes[i].look.style == CurveStyle::Steps);
+    m_shapes[i].lines =
+        polylines(m_traces[i], m_shapedFor, values, m_shapes[i].look.style == CurveStyle::Steps);
   });
 }
 

@@ -40,7 +40,7 @@ class ChartPane : public PlotPane {
     TraceLook look;
   };
   std::vector<CurveTrace> m_traces;
-  std::vector<Shape> m_shapes;     // of the traces
+  std::vector<Shape> m_shapes;  // of the traces
   TimeScale m_shapedFor;
 };
 

@@ -8,7 +8,9 @@
 
 namespace pitchboard::ui {
 
-Curve::Curve(CurveSpec spec) { setSpec(spec); }
+Curve::Curve(CurveSpec spec) {
+  setSpec(spec);
+}
 Curve::~Curve() = default;
 Curve::Curve(Curve&&) noexcept = default;
 Curve& Curve::operator=(Curve&&) noexcept = default;
@@ -45,7 +47,9 @@ void Curve::update(PlotFeed& feed) {
   }
 }
 
-bool Curve::isWorking() const { return m_derived && m_derived->isWorking(); }
+bool Curve::isWorking() const {
+  return m_derived && m_derived->isWorking();
+}
 
 QString Curve::unit() const {
   if (!m_spec.unit.isEmpty()) return m_spec.unit;
@@ -58,8 +62,8 @@ QColor Curve::color() const {
 
 std::optional<double> Curve::valueAt(std::optional<double> time) const {
   if (!m_view) return {};
-  const auto sample = time ? m_view.group->at(m_view.column, *time)
-                           : m_view.group->latest(m_view.column);
+  const auto sample =
+      time ? m_view.group->at(m_view.column, *time) : m_view.group->latest(m_view.column);
   if (!sample) return {};
   return sample->value;
 }

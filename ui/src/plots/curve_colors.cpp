@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
 #include <ui/theme.h>
+#include <array>
 
 #include "curve.h"
 
@@ -38,9 +38,14 @@ QColor curveColor(int number) {
 }
 
 QColor laneColor(const QString& word, int code) {
-  static constexpr std::array<std::pair<const char*, std::size_t>, 8> words{
-      {{"walk", 0}, {"turn", 1}, {"stop", 2}, {"kick", 3}, {"pass", 3}, {"gait", 4}, {"off", 4},
-       {"on", 0}}};
+  static constexpr std::array<std::pair<const char*, std::size_t>, 8> words{{{"walk", 0},
+                                                                             {"turn", 1},
+                                                                             {"stop", 2},
+                                                                             {"kick", 3},
+                                                                             {"pass", 3},
+                                                                             {"gait", 4},
+                                                                             {"off", 4},
+                                                                             {"on", 0}}};
   for (const auto& [start, lane] : words) {
     if (word.startsWith(QLatin1String(start), Qt::CaseInsensitive)) return shade(lanes[lane]);
   }

@@ -60,10 +60,19 @@ QLabel* problemLabel(QWidget* parent) {
 }  // namespace
 
 CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent)
-    : QDialog(parent), m_feed(feed), m_curve(curve), m_form(new QFormLayout(this)),
-      m_kind(new QComboBox(this)), m_first(new QLineEdit(this)), m_second(new QLineEdit(this)),
-      m_expression(new QLineEdit(this)), m_parameter(numberBox(this)), m_offset(numberBox(this)),
-      m_unit(new QLineEdit(this)), m_title(new QLineEdit(this)), m_problem(problemLabel(this)) {
+    : QDialog(parent),
+      m_feed(feed),
+      m_curve(curve),
+      m_form(new QFormLayout(this)),
+      m_kind(new QComboBox(this)),
+      m_first(new QLineEdit(this)),
+      m_second(new QLineEdit(this)),
+      m_expression(new QLineEdit(this)),
+      m_parameter(numberBox(this)),
+      m_offset(numberBox(this)),
+      m_unit(new QLineEdit(this)),
+      m_title(new QLineEdit(this)),
+      m_problem(problemLabel(this)) {
   setWindowTitle(tr("Curve"));
   setMinimumWidth(scaled(this, 460));
   for (const char* name : kindNames) m_kind->addItem(tr(name));
@@ -82,9 +91,10 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
     edit->setPlaceholderText(tr("part of a name, e.g. ball_dist"));
   }
   m_expression->setPlaceholderText(QStringLiteral("B1.VISION_BALL_DIST / 100"));
-  m_expression->setToolTip(tr("Operators + - * / ^, comparisons, condition ? a : b; functions sin, "
-                              "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
-                              "pi; t is the time in seconds. Variables: GROUP.NAME"));
+  m_expression->setToolTip(
+      tr("Operators + - * / ^, comparisons, condition ? a : b; functions sin, "
+         "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
+         "pi; t is the time in seconds. Variables: GROUP.NAME"));
   m_title->setPlaceholderText(tr("as the variable"));
   m_unit->setPlaceholderText(tr("as the variable"));
   m_form->addRow(tr("Kind"), m_kind);
@@ -187,10 +197,14 @@ CurveSpec CurveDialog::curve() const {
 }
 
 AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, QWidget* parent)
-    : QDialog(parent), m_pane(pane), m_title(new QLineEdit(pane.title, this)),
+    : QDialog(parent),
+      m_pane(pane),
+      m_title(new QLineEdit(pane.title, this)),
       m_valueTitle(new QLineEdit(pane.valueTitle, this)),
-      m_fixed(new QCheckBox(tr("Fixed limits"), this)), m_low(new QLineEdit(this)),
-      m_high(new QLineEdit(this)), m_problem(problemLabel(this)) {
+      m_fixed(new QCheckBox(tr("Fixed limits"), this)),
+      m_low(new QLineEdit(this)),
+      m_high(new QLineEdit(this)),
+      m_problem(problemLabel(this)) {
   setWindowTitle(tr("Title and axes"));
   setMinimumWidth(scaled(this, 340));
   const ValueLimits limits = pane.autoValues ? shown : pane.values;
@@ -224,8 +238,10 @@ void AxesDialog::check() {
   const double low = m_low->text().toDouble(&lowIs);
   const double high = m_high->text().toDouble(&highIs);
   QString problem;
-  if (fixed && (!lowIs || !highIs)) problem = tr("Limits are numbers, with a decimal point.");
-  else if (fixed && !(low < high)) problem = tr("The first limit must be the smaller one.");
+  if (fixed && (!lowIs || !highIs))
+    problem = tr("Limits are numbers, with a decimal point.");
+  else if (fixed && !(low < high))
+    problem = tr("The first limit must be the smaller one.");
   m_problem->setText(problem);
   m_accept->setEnabled(problem.isEmpty());
 }

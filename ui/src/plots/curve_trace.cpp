@@ -18,13 +18,13 @@ using telemetry::TimeRange;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // A tall pixel column is filled; lower ones are corners of a smooth line.
-constexpr double tall = 2.0;   // px
+constexpr double tall = 2.0;  // px
 // Qt strokes a wide line as one area: its cost grows faster than its length.
-constexpr qsizetype strokedAtOnce = 24;   // points
+constexpr qsizetype strokedAtOnce = 24;  // points
 // Single samples get a dot only where dots do not run into each other.
-constexpr double dotDistance = 6.0;   // px
+constexpr double dotDistance = 6.0;  // px
 // Far outside of the picture Qt's line clipping loses precision.
-constexpr double farAway = 1e5;       // px
+constexpr double farAway = 1e5;  // px
 
 void note(CurveTrace& trace, double value) {
   if (!std::isfinite(value)) return;
@@ -75,8 +75,8 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
     const SeriesBucket& bucket = buckets[i];
     if (bucket.samples == 0) continue;
     const double time = begin + (static_cast<double>(i) + 0.5) * width;
-    const bool empty = std::isnan(bucket.first) && std::isnan(bucket.last) &&
-                       !(bucket.min < bucket.max);
+    const bool empty =
+        std::isnan(bucket.first) && std::isnan(bucket.last) && !(bucket.min < bucket.max);
     if (empty || !std::isfinite(bucket.min)) {
       trace.columns.push_back({time, nan, nan, nan, nan});
       continue;
@@ -125,8 +125,8 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
     if (std::abs(values.toY(column.min) - values.toY(column.max)) < tall) {
       point(x, (column.min + column.max) / 2);
     } else {
-      const bool rising = std::isnan(column.first) || std::isnan(column.last) ||
-                          column.first <= column.last;
+      const bool rising =
+          std::isnan(column.first) || std::isnan(column.last) || column.first <= column.last;
       point(x, rising ? column.min : column.max);
       point(x, rising ? column.max : column.min);
     }
@@ -162,7 +162,7 @@ void paintColumns(QPainter& painter, Stretch line, QList<QRectF>& rects) {
     if (flat.size() > 1) painter.drawPolyline(flat);
     flat.clear();
   };
-  double top = 0.0, bottom = 0.0;   // of the column before
+  double top = 0.0, bottom = 0.0;  // of the column before
   for (std::size_t i = 0; i < line.size(); ++i) {
     const QPointF& at = line[i];
     const bool first = i == 0;
@@ -254,8 +254,8 @@ void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QP
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.setBrush(Qt::NoBrush);
   if (look.style != CurveStyle::Points || !trace.exact) {
-    painter.setPen(QPen(look.color, look.thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap,
-                        Qt::BevelJoin));
+    painter.setPen(
+        QPen(look.color, look.thin ? 0.0 : look.width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
     QList<QRectF> rects;
     for (const QPolygonF& line : lines) {
       if (!look.thin) {
@@ -263,14 +263,15 @@ void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QP
         continue;
       }
       const Stretch part = visiblePart(line, left, right);
-      if (!trace.exact) paintColumns(painter, part, rects);
-      else painter.drawPolyline(part.data(), static_cast<int>(part.size()));
+      if (!trace.exact)
+        paintColumns(painter, part, rects);
+      else
+        painter.drawPolyline(part.data(), static_cast<int>(part.size()));
     }
     if (!rects.isEmpty()) paintRects(painter, rects, look.color);
   }
-  const double distance = trace.samples.empty()
-                              ? 0.0
-                              : (time.right - time.left) / double(trace.samples.size());
+  const double distance =
+      trace.samples.empty() ? 0.0 : (time.right - time.left) / double(trace.samples.size());
   painter.setPen(Qt::NoPen);
   painter.setBrush(look.color);
   for (const QPolygonF& line : lines) {

@@ -18,8 +18,8 @@ namespace pitchboard::ui {
 /// Where times stand in a widget.
 struct TimeScale {
   telemetry::TimeRange range{0.0, 1.0};
-  double left = 0.0;    ///< x of range.begin, px
-  double right = 1.0;   ///< x of range.end, px
+  double left = 0.0;   ///< x of range.begin, px
+  double right = 1.0;  ///< x of range.end, px
   double toX(double time) const {
     return left + (time - range.begin) / (range.end - range.begin) * (right - left);
   }
@@ -43,18 +43,18 @@ struct ValueScale {
 
 /// A curve is not drawn across a longer silence than this; it is the time after which a robot
 /// counts as timed out.
-inline constexpr double longestBridge = 10.0;   // s
+inline constexpr double longestBridge = 10.0;  // s
 
 struct CurveTrace {
   /// One per pixel column; times are the columns' middles.
   struct Column {
     double time, first, min, max, last;
   };
-  bool exact = true;                        ///< `samples` are all there are; else `columns`
-  std::vector<telemetry::Sample> samples;   ///< NaN breaks the line
-  std::vector<Column> columns;              ///< NaN in min breaks the line
-  bool any = false;                         ///< low and high hold
-  double low = 0.0, high = 0.0;             ///< of what is visible
+  bool exact = true;                       ///< `samples` are all there are; else `columns`
+  std::vector<telemetry::Sample> samples;  ///< NaN breaks the line
+  std::vector<Column> columns;             ///< NaN in min breaks the line
+  bool any = false;                        ///< low and high hold
+  double low = 0.0, high = 0.0;            ///< of what is visible
 
   bool operator==(const CurveTrace&) const = delete;
 };
@@ -70,14 +70,14 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
 struct TraceLook {
   QColor color;
   CurveStyle style = CurveStyle::Line;
-  double width = 1.5;   ///< px
+  double width = 1.5;  ///< px
   /// So many points that wide lines would take too long: they are one pixel wide.
   bool thin = false;
 };
 /// Points of all curves of a plot from which lines are thin.
 inline constexpr std::size_t manyPoints = 2500;
-/// `lines`: polylines() of the trace. Only what lies in the painter's clip is painted, so parts of one
-/// picture can be painted side by side. `time` is for the distance of dots. Any thread.
+/// `lines`: polylines() of the trace. Only what lies in the painter's clip is painted, so parts of
+/// one picture can be painted side by side. `time` is for the distance of dots. Any thread.
 void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QPolygonF>& lines,
                 const TimeScale& time, const TraceLook& look);
 

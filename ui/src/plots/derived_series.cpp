@@ -21,9 +21,9 @@ using telemetry::Sample;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t rowsAtOnce = 1 << 16;
-constexpr std::size_t memoryBudget = std::size_t{256} << 20;   // bytes of one derived curve
+constexpr std::size_t memoryBudget = std::size_t{256} << 20;  // bytes of one derived curve
 // An input that is silent for longer is not waited for; its last value holds.
-constexpr double longestWait = 1.0;   // s
+constexpr double longestWait = 1.0;  // s
 
 /// One row of inputs to one value; the first input's time is the row's.
 using Step = std::function<double(double time, std::span<const double> values)>;
@@ -42,10 +42,14 @@ double halfTurn(const CurveSpec& spec, const std::string& unit) {
 
 Step makeStep(const CurveSpec& spec, const std::string& unit) {
   switch (spec.kind) {
-    case CurveKind::Derivative: return stepOf(telemetry::Derivative());
-    case CurveKind::Integral: return stepOf(telemetry::Integral());
-    case CurveKind::MovingAverage: return stepOf(telemetry::MovingAverage(spec.parameter));
-    case CurveKind::WrapAngle: return stepOf(telemetry::WrapAngle(halfTurn(spec, unit)));
+    case CurveKind::Derivative:
+      return stepOf(telemetry::Derivative());
+    case CurveKind::Integral:
+      return stepOf(telemetry::Integral());
+    case CurveKind::MovingAverage:
+      return stepOf(telemetry::MovingAverage(spec.parameter));
+    case CurveKind::WrapAngle:
+      return stepOf(telemetry::WrapAngle(halfTurn(spec, unit)));
     case CurveKind::Conversion:
       return stepOf(telemetry::LinearConversion{spec.parameter, spec.offset});
     case CurveKind::Difference:
@@ -58,7 +62,8 @@ Step makeStep(const CurveSpec& spec, const std::string& unit) {
         return shared->evaluate(time, values);
       };
     }
-    case CurveKind::Variable: break;
+    case CurveKind::Variable:
+      break;
   }
   return {};
 }
@@ -66,11 +71,15 @@ Step makeStep(const CurveSpec& spec, const std::string& unit) {
 std::string unitOf(const CurveSpec& spec, const std::string& input) {
   if (!spec.unit.isEmpty()) return spec.unit.toStdString();
   switch (spec.kind) {
-    case CurveKind::Derivative: return input.empty() ? "1/s" : input + "/s";
-    case CurveKind::Integral: return input.empty() ? "s" : input + "·s";
+    case CurveKind::Derivative:
+      return input.empty() ? "1/s" : input + "/s";
+    case CurveKind::Integral:
+      return input.empty() ? "s" : input + "·s";
     case CurveKind::Conversion:
-    case CurveKind::Expression: return {};
-    default: return input;
+    case CurveKind::Expression:
+      return {};
+    default:
+      return input;
   }
 }
 
@@ -87,7 +96,7 @@ struct DerivedSeries::Work {
   telemetry::GroupId group = 0;
   std::atomic<bool> running = false;
   std::atomic<bool> cancelled = false;
-  double done = -infinity;        ///< time of the newest row computed
+  double done = -infinity;  ///< time of the newest row computed
   quint64 generation = 0;
   bool behind = false;
 
@@ -132,14 +141,20 @@ DerivedSeries::DerivedSeries(const CurveSpec& spec) : m_work(std::make_shared<Wo
   m_work->inputs = spec.inputs;
   if (spec.kind == CurveKind::Expression) {
     const auto expression = Expression::parse(spec.expression);
-    if (expression) m_work->inputs = expression->variables();
-    else m_work->fault = QString::fromStdString(expression.error().message);
+    if (expression)
+      m_work->inputs = expression->variables();
+    else
+      m_work->fault = QString::fromStdString(expression.error().message);
   }
 }
 
-DerivedSeries::~DerivedSeries() { m_work->cancelled = true; }
+DerivedSeries::~DerivedSeries() {
+  m_work->cancelled = true;
+}
 
-bool DerivedSeries::isFaulty() const { return !m_work->fault.isEmpty(); }
+bool DerivedSeries::isFaulty() const {
+  return !m_work->fault.isEmpty();
+}
 
 bool DerivedSeries::isWorking() const {
   return !isFaulty() && (m_work->running || m_work->behind);

@@ -14,20 +14,28 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr qsizetype longest = 2000;   // characters; a longer text is a mistake
+constexpr qsizetype longest = 2000;  // characters; a longer text is a mistake
 constexpr const char* nameCharacters =
     "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
-double radians(double degrees_) { return degrees_ * std::numbers::pi / 180.0; }
-double hypotenuse(double a, double b) { return std::hypot(a, b); }
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+double radians(double degrees_) {
+  return degrees_ * std::numbers::pi / 180.0;
+}
+double hypotenuse(double a, double b) {
+  return std::hypot(a, b);
+}
 double wrapped(double angle, double turn) {
   const double rest = std::remainder(angle, turn);
   return rest <= -turn / 2 ? rest + turn : rest;
 }
 
-QString tr(const char* text) { return QCoreApplication::translate("Expression", text); }
+QString tr(const char* text) {
+  return QCoreApplication::translate("Expression", text);
+}
 
 tl::unexpected<Error> wrong(const QString& sentence) {
   return failure(ErrorCode::ParseError, sentence.toStdString());
@@ -38,7 +46,7 @@ tl::unexpected<Error> wrong(const QString& sentence) {
 struct Expression::Private {
   mu::Parser parser;
   QStringList variables;
-  std::vector<double> values;   // addresses are the parser's: never resized after parse()
+  std::vector<double> values;  // addresses are the parser's: never resized after parse()
   double time = 0.0;
 };
 
@@ -47,7 +55,9 @@ Expression::Expression(Expression&&) noexcept = default;
 Expression& Expression::operator=(Expression&&) noexcept = default;
 Expression::~Expression() = default;
 
-const QStringList& Expression::variables() const { return d->variables; }
+const QStringList& Expression::variables() const {
+  return d->variables;
+}
 
 Result<Expression> Expression::parse(const QString& text) {
   if (text.trimmed().isEmpty()) return wrong(tr("the expression is empty"));
@@ -56,8 +66,8 @@ Result<Expression> Expression::parse(const QString& text) {
   }
   static const QRegularExpression assignment(QStringLiteral("(?<![=<>!])=(?!=)"));
   if (const auto found = assignment.match(text); found.hasMatch()) {
-    return wrong(tr("the '=' at character %1 would assign; '==' compares")
-                     .arg(found.capturedStart() + 1));
+    return wrong(
+        tr("the '=' at character %1 would assign; '==' compares").arg(found.capturedStart() + 1));
   }
   // `{B1/odd name}` becomes an identifier that the parser can read.
   QString plain;
@@ -99,7 +109,8 @@ Result<Expression> Expression::parse(const QString& text) {
       }
       if (name.isEmpty()) {
         return wrong(tr("'%1' is not known; a variable is written with its group, such as "
-                        "B1.VISION_BALL_DIST").arg(id));
+                        "B1.VISION_BALL_DIST")
+                         .arg(id));
       }
       used.push_back({plain.indexOf(id), {identifier, name}});
     }
@@ -111,7 +122,7 @@ Result<Expression> Expression::parse(const QString& text) {
       made->variables << used[i].second.second;
     }
     parser.DefineVar("t", &made->time);
-    parser.Eval();   // finds what only shows with every name known, such as missing arguments
+    parser.Eval();  // finds what only shows with every name known, such as missing arguments
   } catch (const mu::Parser::exception_type& error) {
     QString what = QString::fromStdString(error.GetMsg());
     while (what.endsWith(QLatin1Char('.'))) what.chop(1);
@@ -126,7 +137,7 @@ double Expression::evaluate(double time, std::span<const double> values) {
   try {
     return d->parser.Eval();
   } catch (const mu::Parser::exception_type&) {
-    return nan;   // a division by zero in integers, for one
+    return nan;  // a division by zero in integers, for one
   }
 }
 

@@ -15,12 +15,14 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int nameHeight = 14;   // px of the mock
+constexpr int nameHeight = 14;  // px of the mock
 constexpr int laneHeight = 18;
 constexpr int gap = 4;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
 
 void extend(std::vector<LaneStretch>& all, double begin, double end, double value, bool mixed) {
   if (!(end > begin)) return;
@@ -57,8 +59,8 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
       heldSince = begin;
     }
     last = begin + width;
-    const bool steady = same(bucket.first, bucket.last) &&
-                        (std::isnan(bucket.last) || bucket.min == bucket.max);
+    const bool steady =
+        same(bucket.first, bucket.last) && (std::isnan(bucket.last) || bucket.min == bucket.max);
     if (steady && same(bucket.last, held)) continue;
     // Where the change stands exactly is only worth a look when the column has few samples.
     inside.clear();
@@ -110,8 +112,12 @@ LanePane::LanePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   fitHeight();
 }
 
-QWidget* LanePane::surface() const { return m_lanes; }
-void LanePane::setBoxTool(bool on) { m_gestures->setBoxTool(on); }
+QWidget* LanePane::surface() const {
+  return m_lanes;
+}
+void LanePane::setBoxTool(bool on) {
+  m_gestures->setBoxTool(on);
+}
 
 int LanePane::laneAt(double y) const {
   const int lane = static_cast<int>(y) / scaled(this, nameHeight + laneHeight + gap);
@@ -119,8 +125,8 @@ int LanePane::laneAt(double y) const {
 }
 
 void LanePane::fitHeight() {
-  const int height = scaled(this, nameHeight + laneHeight + gap) *
-                     std::max(1, static_cast<int>(m_curves.size()));
+  const int height =
+      scaled(this, nameHeight + laneHeight + gap) * std::max(1, static_cast<int>(m_curves.size()));
   if (height == minimumHeight() && height == maximumHeight()) return;
   setFixedHeight(height);
   emit leftChanged();
@@ -129,15 +135,14 @@ void LanePane::fitHeight() {
 void LanePane::draw() {
   fitHeight();
   const TimeScale scale = timeScale();
-  const int columns = std::max(1, static_cast<int>((scale.right - scale.left) *
-                                                   devicePixelRatioF()));
+  const int columns =
+      std::max(1, static_cast<int>((scale.right - scale.left) * devicePixelRatioF()));
   m_stretches.clear();
   for (const Curve& curve : m_curves) {
     m_stretches.push_back(laneStretches(curve.view(), scale.range, columns));
   }
   m_lanes->update();
 }
-
 
 void LanePane::paintLanes(QPainter& painter) const {
   const ThemeColors& colors = theme();
@@ -161,8 +166,7 @@ void LanePane::paintLanes(QPainter& painter) const {
     }
     y += scaled(this, nameHeight);
     const double height = scaled(this, laneHeight);
-    painter.fillRect(QRectF(scale.left, y, scale.right - scale.left, height),
-                     colors.alternateRow);
+    painter.fillRect(QRectF(scale.left, y, scale.right - scale.left, height), colors.alternateRow);
     if (i < m_stretches.size()) {
       for (const LaneStretch& stretch : m_stretches[i]) {
         const double from = std::max(scale.toX(stretch.begin), scale.left);
@@ -180,9 +184,9 @@ void LanePane::paintLanes(QPainter& painter) const {
         const double room = box.width() - 2 * padding;
         if (room < painter.fontMetrics().averageCharWidth() * 2) continue;
         painter.setPen(colors.text);
-        painter.drawText(box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                         painter.fontMetrics().elidedText(word, Qt::ElideRight,
-                                                          static_cast<int>(room)));
+        painter.drawText(
+            box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
+            painter.fontMetrics().elidedText(word, Qt::ElideRight, static_cast<int>(room)));
       }
     }
     y += static_cast<int>(height) + scaled(this, gap);

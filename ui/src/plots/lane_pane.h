@@ -11,10 +11,10 @@ class TimeGestures;
 
 /// A time during which a code did not change.
 struct LaneStretch {
-  double begin = 0.0;   ///< s
-  double end = 0.0;     ///< s
-  double value = 0.0;   ///< NaN: nobody knows
-  bool mixed = false;   ///< it changed too often to be shown at this zoom
+  double begin = 0.0;  ///< s
+  double end = 0.0;    ///< s
+  double value = 0.0;  ///< NaN: nobody knows
+  bool mixed = false;  ///< it changed too often to be shown at this zoom
   bool operator==(const LaneStretch&) const = default;
 };
 

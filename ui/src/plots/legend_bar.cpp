@@ -10,7 +10,7 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr int rowHeight = 16;     // px of the mock
+constexpr int rowHeight = 16;  // px of the mock
 constexpr int strokeLength = 12;
 constexpr int gapAfterStroke = 5;
 constexpr int gapBetween = 24;
@@ -57,8 +57,8 @@ void LegendBar::arrange() {
   }
   m_rects.clear();
   for (const LegendEntry& entry : m_entries) {
-    const int value = entry.value.isEmpty() ? 0 : qMax(room, textWidth(font, entry.value)) +
-                                                      scaled(this, 6);
+    const int value =
+        entry.value.isEmpty() ? 0 : qMax(room, textWidth(font, entry.value)) + scaled(this, 6);
     const int wide = scaled(this, strokeLength + gapAfterStroke) + textWidth(font, entry.text) +
                      value + scaled(this, 4);
     if (x > m_left && x + wide > limit) {
@@ -102,7 +102,9 @@ void LegendBar::paintEvent(QPaintEvent*) {
   }
 }
 
-void LegendBar::resizeEvent(QResizeEvent*) { arrange(); }
+void LegendBar::resizeEvent(QResizeEvent*) {
+  arrange();
+}
 
 int LegendBar::entryAt(const QPoint& position) const {
   for (qsizetype i = 0; i < m_rects.size(); ++i) {
@@ -123,8 +125,10 @@ bool LegendBar::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     auto* help = static_cast<QHelpEvent*>(event);
     const int index = entryAt(help->pos());
-    if (index < 0) QToolTip::hideText();
-    else QToolTip::showText(help->globalPos(), m_entries[index].tip, this);
+    if (index < 0)
+      QToolTip::hideText();
+    else
+      QToolTip::showText(help->globalPos(), m_entries[index].tip, this);
     return true;
   }
   if (event->type() == QEvent::FontChange || event->type() == QEvent::PaletteChange) arrange();

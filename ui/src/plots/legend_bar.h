@@ -16,8 +16,8 @@ struct LegendEntry {
   QString value;
   QColor color;
   QString tip;
-  bool muted = false;    ///< no data yet
-  bool faulty = false;   ///< never will be
+  bool muted = false;   ///< no data yet
+  bool faulty = false;  ///< never will be
   bool operator==(const LegendEntry&) const = default;
 };
 
@@ -36,7 +36,7 @@ class LegendBar : public QWidget {
 
  signals:
   void menuRequested(int index, const QPoint& globalPosition);
-  void activated(int index);   ///< double click
+  void activated(int index);  ///< double click
 
  protected:
   void paintEvent(QPaintEvent* event) override;

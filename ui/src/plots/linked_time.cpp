@@ -6,7 +6,7 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr double maximumSpan = 1e7;   // s; a season of matches
+constexpr double maximumSpan = 1e7;  // s; a season of matches
 }
 
 using telemetry::TimeRange;
@@ -94,8 +94,10 @@ void LinkedTime::setMark(TimeMark mark, std::optional<double> time) {
 
 void LinkedTime::showMarks(bool on) {
   if (on == hasMarks()) return;
-  if (on) m_marks = {m_range.begin + 0.4 * span(), m_range.begin + 0.8 * span()};
-  else m_marks = {};
+  if (on)
+    m_marks = {m_range.begin + 0.4 * span(), m_range.begin + 0.8 * span()};
+  else
+    m_marks = {};
   emit marksChanged();
 }
 

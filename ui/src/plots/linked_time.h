@@ -17,8 +17,8 @@ enum class TimeMark { A, B };
 class LinkedTime : public QObject {
   Q_OBJECT
  public:
-  static constexpr double minimumSpan = 1e-3;   ///< s; less cannot be told apart on an axis
-  static constexpr double defaultWindow = 15.0; ///< s
+  static constexpr double minimumSpan = 1e-3;    ///< s; less cannot be told apart on an axis
+  static constexpr double defaultWindow = 15.0;  ///< s
   /// Windows offered for following, s.
   static constexpr std::array<double, 7> windows{5, 15, 30, 60, 120, 300, 600};
 

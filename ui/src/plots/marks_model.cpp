@@ -11,8 +11,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr std::array<const char*, MarksModel::columns> headings{
-    "Curve", "A", "B", "Δ", "mean", "σ", "min", "max", "RMS"};
+constexpr std::array<const char*, MarksModel::columns> headings{"Curve", "A",   "B",   "Δ",  "mean",
+                                                                "σ",     "min", "max", "RMS"};
 
 bool sameNumber(std::optional<double> a, std::optional<double> b) {
   if (a.has_value() != b.has_value()) return false;
@@ -78,20 +78,29 @@ QString MarksModel::cell(const MarksRow& row, int column) const {
     return row.between.samples > 0 && !coded ? valueText(value) : none;
   };
   switch (column) {
-    case Name: return row.unit.isEmpty() ? row.name : QStringLiteral("%1 [%2]").arg(row.name, row.unit);
-    case AtA: return coded && row.a ? row.aText : number(row.a);
-    case AtB: return coded && row.b ? row.bText : number(row.b);
+    case Name:
+      return row.unit.isEmpty() ? row.name : QStringLiteral("%1 [%2]").arg(row.name, row.unit);
+    case AtA:
+      return coded && row.a ? row.aText : number(row.a);
+    case AtB:
+      return coded && row.b ? row.bText : number(row.b);
     case Delta: {
       if (!row.a || !row.b || coded) return none;
       const double delta = *row.b - *row.a;
       return delta > 0 ? QLatin1Char('+') + valueText(delta) : valueText(delta);
     }
-    case Mean: return between(row.between.mean);
-    case Sigma: return between(row.between.sigma);
-    case Min: return between(row.between.min);
-    case Max: return between(row.between.max);
-    case Rms: return between(row.between.rms);
-    default: return {};
+    case Mean:
+      return between(row.between.mean);
+    case Sigma:
+      return between(row.between.sigma);
+    case Min:
+      return between(row.between.min);
+    case Max:
+      return between(row.between.max);
+    case Rms:
+      return between(row.between.rms);
+    default:
+      return {};
   }
 }
 
@@ -99,23 +108,28 @@ QVariant MarksModel::data(const QModelIndex& index, int role) const {
   if (!checkIndex(index, CheckIndexOption::IndexIsValid)) return {};
   const MarksRow& row = m_rows[index.row()];
   switch (role) {
-    case Qt::DisplayRole: return cell(row, index.column());
+    case Qt::DisplayRole:
+      return cell(row, index.column());
     case Qt::ToolTipRole:
       return index.column() == Name
                  ? tr("%1: %2 samples between A and B").arg(row.name).arg(row.between.samples)
                  : QVariant();
-    case Qt::DecorationRole: return index.column() == Name ? QVariant(row.color) : QVariant();
+    case Qt::DecorationRole:
+      return index.column() == Name ? QVariant(row.color) : QVariant();
     case Qt::TextAlignmentRole:
       return index.column() == Name ? int(Qt::AlignLeft | Qt::AlignVCenter)
                                     : int(Qt::AlignRight | Qt::AlignVCenter);
-    case Qt::FontRole: return themeFont(TypeRole::Secondary);
-    default: return {};
+    case Qt::FontRole:
+      return themeFont(TypeRole::Secondary);
+    default:
+      return {};
   }
 }
 
 QVariant MarksModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section < 0 || section >= columns) return {};
-  if (role == Qt::DisplayRole) return QString::fromUtf8(headings[static_cast<std::size_t>(section)]);
+  if (role == Qt::DisplayRole)
+    return QString::fromUtf8(headings[static_cast<std::size_t>(section)]);
   if (role == Qt::TextAlignmentRole) {
     return section == Name ? int(Qt::AlignLeft | Qt::AlignVCenter)
                            : int(Qt::AlignRight | Qt::AlignVCenter);

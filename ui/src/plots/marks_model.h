@@ -16,9 +16,9 @@ struct MarksRow {
   QString name;
   QString unit;
   QColor color;
-  std::optional<double> a, b;              ///< the last sample at or before the mark
-  telemetry::SeriesStatistics between;     ///< no samples: nothing lies between
-  QString aText, bText;                    ///< words of codes; empty for numbers
+  std::optional<double> a, b;           ///< the last sample at or before the mark
+  telemetry::SeriesStatistics between;  ///< no samples: nothing lies between
+  QString aText, bText;                 ///< words of codes; empty for numbers
   bool operator==(const MarksRow&) const;
 };
 

@@ -38,13 +38,20 @@ QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double 
   const auto more = (last - first) - named.size();
   const QString all = named.join(QStringLiteral(", "));
   return more > 0 ? QCoreApplication::translate("MarksPanel", "Between A and B: %1 and %2 more.")
-                        .arg(all).arg(more)
+                        .arg(all)
+                        .arg(more)
                   : QCoreApplication::translate("MarksPanel", "Between A and B: %1.").arg(all);
 }
 
 MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
-    : QWidget(parent), m_feed(feed), m_timeline(timeline), m_model(new MarksModel(this)), m_times(new QLabel(this)),
-      m_difference(new QLabel(this)), m_table(new QTableView(this)), m_events(new QLabel(this)) {
+    : QWidget(parent),
+      m_feed(feed),
+      m_timeline(timeline),
+      m_model(new MarksModel(this)),
+      m_times(new QLabel(this)),
+      m_difference(new QLabel(this)),
+      m_table(new QTableView(this)),
+      m_events(new QLabel(this)) {
   setObjectName(QStringLiteral("marksPanel"));
   setBackgroundRole(QPalette::Base);
   setAutoFillBackground(true);
@@ -88,9 +95,13 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   hide();
 }
 
-QSize MarksPanel::sizeHint() const { return {scaled(this, 372), scaled(this, 120)}; }
+QSize MarksPanel::sizeHint() const {
+  return {scaled(this, 372), scaled(this, 120)};
+}
 
-void MarksPanel::copyTable() const { QApplication::clipboard()->setText(m_model->text()); }
+void MarksPanel::copyTable() const {
+  QApplication::clipboard()->setText(m_model->text());
+}
 
 void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   LinkedTime* time = m_feed->time();
@@ -100,17 +111,17 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   const double b = *time->mark(TimeMark::B);
   m_times->setText(QStringLiteral("<b>A</b> %1 &nbsp;&nbsp; <b>B</b> %2")
                        .arg(m_feed->timeText(a, 3), m_feed->timeText(b, 3)));
-  m_difference->setText(QStringLiteral("Δt %1 s").arg(QString::number(b - a, 'f', 3).replace(
-      QLatin1Char('-'), QStringLiteral("\u2212"))));
+  m_difference->setText(QStringLiteral("Δt %1 s").arg(
+      QString::number(b - a, 'f', 3).replace(QLatin1Char('-'), QStringLiteral("\u2212"))));
   QList<MarksRow> rows;
   for (const PlotPane* pane : panes) {
     if (!pane->isOverTime()) continue;
     for (const Curve& curve : pane->curves()) rows << marksRow(curve, a, b);
   }
   m_model->setRows(std::move(rows));
-  m_events->setText(m_timeline != nullptr ? eventsBetween(m_timeline->events()->events(), a, b,
-                                                      *m_feed)
-                                          : QString());
+  m_events->setText(m_timeline != nullptr
+                        ? eventsBetween(m_timeline->events()->events(), a, b, *m_feed)
+                        : QString());
 }
 
 }  // namespace pitchboard::ui

@@ -41,7 +41,8 @@ class MarksPanel : public QWidget {
 };
 
 /// "Between A and B: B1 kicks at 05:04.60, goal for BLUE at 05:06.10 and 2 more." Events in order
-/// of time, written as the feed writes it; the marks (s) in either order. Empty when there are none.
+/// of time, written as the feed writes it; the marks (s) in either order. Empty when there are
+/// none.
 QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
                       const PlotFeed& feed);
 

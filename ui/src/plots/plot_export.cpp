@@ -20,7 +20,8 @@ constexpr double pngRatio = 2.0;
 tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
   return failure(ErrorCode::SystemError,
                  QCoreApplication::translate("PlotExport", "The file could not be written: %1.")
-                     .arg(file.errorString()).toStdString(),
+                     .arg(file.errorString())
+                     .toStdString(),
                  file.fileName().toStdString());
 }
 
@@ -69,8 +70,7 @@ class SampleReader {
     if (!m_done) {
       const double last = m_samples.back().time;
       while (m_samples.size() > 1 && m_samples.back().time == last) m_samples.pop_back();
-      m_rest.begin = std::nextafter(m_samples.back().time,
-                                    std::numeric_limits<double>::infinity());
+      m_rest.begin = std::nextafter(m_samples.back().time, std::numeric_limits<double>::infinity());
     }
   }
 
@@ -144,8 +144,10 @@ void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeR
       line += ',';
       if (reader.time() != time) continue;
       const double value = reader.take();
-      if (std::isfinite(value)) line += QByteArray::number(value, 'g', 17);
-      else line += std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+      if (std::isfinite(value))
+        line += QByteArray::number(value, 'g', 17);
+      else
+        line += std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
     }
     if (device.write(line + "\r\n") < 0) return;
   }

@@ -55,8 +55,8 @@ ColumnView PlotFeed::find(const QString& name) {
   if (known == m_found.end()) {
     const qsizetype slash = name.indexOf(QLatin1Char('/'));
     if (slash <= 0) return {};
-    const auto id = m_store->find(name.left(slash).toStdString(),
-                                  name.mid(slash + 1).toStdString());
+    const auto id =
+        m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
     if (!id) return {};
     known = m_found.emplace(name, *id).first;
   }

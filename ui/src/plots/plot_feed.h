@@ -43,7 +43,8 @@ class PlotFeed : public QObject {
   ColumnView find(const QString& name);
   /// Every variable there is, `GROUP/COLUMN`.
   QStringList names() const;
-  /// Wall clock at second 0, where the source has one (Live): then times are written as time of day.
+  /// Wall clock at second 0, where the source has one (Live): then times are written as time of
+  /// day.
   const std::optional<QDateTime>& clock() const { return m_clock; }
   void setClock(const std::optional<QDateTime>& clock) { m_clock = clock; }
   /// "05:03.250", or the time of day; s of the source.

@@ -16,7 +16,7 @@ constexpr std::array<const char*, 8> curveKinds{"variable",   "derivative", "int
 constexpr std::array<const char*, 4> styles{"line", "steps", "points", "line-and-points"};
 constexpr std::array<const char*, 3> paneKinds{"chart", "lane", "xy"};
 constexpr int formatVersion = 1;
-constexpr int mostOfAnything = 200;   // pages, plots, curves: a file with more is not one of ours
+constexpr int mostOfAnything = 200;  // pages, plots, curves: a file with more is not one of ours
 
 using Words = std::span<const char* const>;
 
@@ -60,11 +60,12 @@ Result<CurveSpec> curveFromJson(const QJsonObject& o, const QString& where) {
   CurveSpec curve;
   if (!readWord(curveKinds, o["kind"], curve.kind)) {
     return wrong(where + ".kind", QStringLiteral("'%1' is not a kind of curve that this version "
-                                                 "knows").arg(o["kind"].toString()));
+                                                 "knows")
+                                      .arg(o["kind"].toString()));
   }
   if (!readWord(styles, o["style"], curve.style)) {
-    return wrong(where + ".style", QStringLiteral("'%1' is not a style of curve")
-                                       .arg(o["style"].toString()));
+    return wrong(where + ".style",
+                 QStringLiteral("'%1' is not a style of curve").arg(o["style"].toString()));
   }
   for (const QJsonValue& input : o["inputs"].toArray()) curve.inputs << input.toString();
   curve.expression = o["expression"].toString();
@@ -72,8 +73,9 @@ Result<CurveSpec> curveFromJson(const QJsonObject& o, const QString& where) {
                            : curve.kind == CurveKind::Difference ? 2
                                                                  : 1;
   if (curve.inputs.size() < wanted || curve.inputs.size() > mostOfAnything) {
-    return wrong(where + ".inputs", QStringLiteral("needs %1 variable name(s), not %2")
-                                        .arg(wanted).arg(curve.inputs.size()));
+    return wrong(
+        where + ".inputs",
+        QStringLiteral("needs %1 variable name(s), not %2").arg(wanted).arg(curve.inputs.size()));
   }
   curve.parameter = o["parameter"].toDouble();
   curve.offset = o["offset"].toDouble();
@@ -100,7 +102,8 @@ Result<PaneSpec> paneFromJson(const QJsonObject& o, const QString& where) {
   PaneSpec pane;
   if (!readWord(paneKinds, o["kind"], pane.kind)) {
     return wrong(where + ".kind", QStringLiteral("'%1' is not a kind of plot that this version "
-                                                 "knows").arg(o["kind"].toString()));
+                                                 "knows")
+                                      .arg(o["kind"].toString()));
   }
   pane.title = o["title"].toString();
   pane.valueTitle = o["valueTitle"].toString();
@@ -110,15 +113,14 @@ Result<PaneSpec> paneFromJson(const QJsonObject& o, const QString& where) {
     pane.autoValues = false;
     pane.values = {values.at(0).toDouble(), values.at(1).toDouble()};
     if (values.size() != 2 || !(pane.values.low < pane.values.high)) {
-      return wrong(where + ".values",
-                   QStringLiteral("needs two numbers, the smaller one first"));
+      return wrong(where + ".values", QStringLiteral("needs two numbers, the smaller one first"));
     }
   }
   const QJsonArray curves = o["curves"].toArray();
   if (curves.size() > mostOfAnything) return wrong(where, QStringLiteral("has too many curves"));
   for (qsizetype i = 0; i < curves.size(); ++i) {
-    auto curve = curveFromJson(curves[i].toObject(), QStringLiteral("%1.curves[%2]").arg(where)
-                                                         .arg(i));
+    auto curve =
+        curveFromJson(curves[i].toObject(), QStringLiteral("%1.curves[%2]").arg(where).arg(i));
     if (!curve) return tl::unexpected<Error>(curve.error());
     if (pane.kind == PaneKind::Xy && curve->inputs.size() != 2) {
       return wrong(where, QStringLiteral("an XY plot needs two variables for each curve"));
@@ -146,7 +148,9 @@ Result<PlotLayout> layoutFromJson(const QJsonObject& object) {
     return wrong(QStringLiteral("pitchboardPlots"),
                  version == 0 ? QStringLiteral("this is not a layout of plots")
                               : QStringLiteral("this layout has version %1, this program reads "
-                                               "version %2").arg(version).arg(formatVersion));
+                                               "version %2")
+                                    .arg(version)
+                                    .arg(formatVersion));
   }
   PlotLayout layout;
   const QJsonArray pages = object["tabs"].toArray();
@@ -161,8 +165,8 @@ Result<PlotLayout> layoutFromJson(const QJsonObject& object) {
       return wrong(QStringLiteral("tabs[%1]").arg(i), QStringLiteral("there are too many plots"));
     }
     for (qsizetype p = 0; p < panes.size(); ++p) {
-      auto pane = paneFromJson(panes[p].toObject(), QStringLiteral("tabs[%1].plots[%2]").arg(i)
-                                                        .arg(p));
+      auto pane =
+          paneFromJson(panes[p].toObject(), QStringLiteral("tabs[%1].plots[%2]").arg(i).arg(p));
       if (!pane) return tl::unexpected<Error>(pane.error());
       page.panes << *pane;
     }
@@ -183,19 +187,25 @@ QString curveName(const CurveSpec& curve) {
   const auto shown = [&curve](qsizetype i) {
     const QString name = curve.inputs.value(i);
     const qsizetype slash = name.indexOf(QLatin1Char('/'));
-    return slash < 0 ? name
-                     : name.mid(slash + 1) + QLatin1Char(' ') + name.left(slash);
+    return slash < 0 ? name : name.mid(slash + 1) + QLatin1Char(' ') + name.left(slash);
   };
   switch (curve.kind) {
-    case CurveKind::Variable: return shown(0);
-    case CurveKind::Derivative: return QStringLiteral("d/dt ") + shown(0);
-    case CurveKind::Integral: return QStringLiteral("∫ ") + shown(0);
+    case CurveKind::Variable:
+      return shown(0);
+    case CurveKind::Derivative:
+      return QStringLiteral("d/dt ") + shown(0);
+    case CurveKind::Integral:
+      return QStringLiteral("∫ ") + shown(0);
     case CurveKind::MovingAverage:
       return QStringLiteral("mean %1 s %2").arg(curve.parameter).arg(shown(0));
-    case CurveKind::Difference: return shown(0) + QStringLiteral(" \u2212 ") + shown(1);
-    case CurveKind::WrapAngle: return QStringLiteral("wrapped ") + shown(0);
-    case CurveKind::Conversion: return shown(0);
-    case CurveKind::Expression: return curve.expression;
+    case CurveKind::Difference:
+      return shown(0) + QStringLiteral(" \u2212 ") + shown(1);
+    case CurveKind::WrapAngle:
+      return QStringLiteral("wrapped ") + shown(0);
+    case CurveKind::Conversion:
+      return shown(0);
+    case CurveKind::Expression:
+      return curve.expression;
   }
   return {};
 }

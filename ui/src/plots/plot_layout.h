@@ -22,9 +22,9 @@ enum class CurveKind {
   Integral,       ///< over time, from the first sample kept
   MovingAverage,  ///< `parameter`: window in s
   Difference,     ///< first input minus second
-  WrapAngle,      ///< into (−parameter/2, parameter/2]; parameter: a full turn in the input's unit
-  Conversion,     ///< input × parameter + offset, shown in `unit`
-  Expression      ///< `expression` over variables
+  WrapAngle,   ///< into (−parameter/2, parameter/2]; parameter: a full turn in the input's unit
+  Conversion,  ///< input × parameter + offset, shown in `unit`
+  Expression   ///< `expression` over variables
 };
 
 enum class CurveStyle { Line, Steps, Points, LineAndPoints };
@@ -35,30 +35,30 @@ struct CurveSpec {
   QString expression;
   double parameter = 0.0;
   double offset = 0.0;
-  QString unit;               ///< instead of the variable's; empty: the variable's
-  QString title;              ///< instead of its name; empty: the name
-  int colorNumber = 0;        ///< of the palette of curves, which has one for each theme
-  QColor color;               ///< chosen by hand; not valid: the palette's
+  QString unit;         ///< instead of the variable's; empty: the variable's
+  QString title;        ///< instead of its name; empty: the name
+  int colorNumber = 0;  ///< of the palette of curves, which has one for each theme
+  QColor color;         ///< chosen by hand; not valid: the palette's
   CurveStyle style = CurveStyle::Line;
-  double width = 1.5;         ///< px of the mock
+  double width = 1.5;  ///< px of the mock
   bool operator==(const CurveSpec&) const = default;
 };
 
 enum class PaneKind {
-  Chart,   ///< curves over time
-  Lane,    ///< codes and flags in words over time
-  Xy       ///< each curve: its second input over its first
+  Chart,  ///< curves over time
+  Lane,   ///< codes and flags in words over time
+  Xy      ///< each curve: its second input over its first
 };
 
 struct PaneSpec {
   PaneKind kind = PaneKind::Chart;
   QString title;
-  QString valueTitle;         ///< beside the value axis
-  bool autoValues = true;     ///< limits follow what is visible
-  ValueLimits values;         ///< when not automatic
-  bool equalScales = false;   ///< Xy: a metre is a metre in both directions
+  QString valueTitle;        ///< beside the value axis
+  bool autoValues = true;    ///< limits follow what is visible
+  ValueLimits values;        ///< when not automatic
+  bool equalScales = false;  ///< Xy: a metre is a metre in both directions
   QList<CurveSpec> curves;
-  int share = 100;            ///< of the height, relative to the other plots
+  int share = 100;  ///< of the height, relative to the other plots
   bool operator==(const PaneSpec&) const = default;
 };
 

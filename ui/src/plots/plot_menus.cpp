@@ -26,7 +26,9 @@
 namespace pitchboard::ui {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("PlotMenus", text); }
+QString tr(const char* text) {
+  return QCoreApplication::translate("PlotMenus", text);
+}
 
 /// Asks where to, puts the suffix there, writes, and says what went wrong.
 void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QString& filter,
@@ -68,16 +70,18 @@ void addExports(QMenu* menu, PlotsDock* dock) {
 }
 
 void openLayout(PlotsDock* dock, const Result<PlotLayout>& layout) {
-  if (layout) dock->setLayoutSpec(*layout);
-  else dock->showNotice(QString::fromStdString(layout.error().text()));
+  if (layout)
+    dock->setLayoutSpec(*layout);
+  else
+    dock->showNotice(QString::fromStdString(layout.error().text()));
 }
 
 void addPresets(QMenu* menu, PlotsDock* dock) {
   menu->addAction(tr("Save layout as…"), dock, [dock] {
     bool taken = false;
-    const QString name = QInputDialog::getText(dock, tr("Save layout"), tr("Name of the layout:"),
-                                               QLineEdit::Normal, dock->currentPage()->name(),
-                                               &taken);
+    const QString name =
+        QInputDialog::getText(dock, tr("Save layout"), tr("Name of the layout:"), QLineEdit::Normal,
+                              dock->currentPage()->name(), &taken);
     if (!taken || name.trimmed().isEmpty()) return;
     PlotPresets(dock->context().settings).save(name.trimmed(), dock->layoutSpec());
   });
@@ -103,8 +107,7 @@ void addPresets(QMenu* menu, PlotsDock* dock) {
   });
   menu->addAction(tr("Export layout…"), dock, [dock] {
     saveAs(dock, tr("Export the layout of the plots"), QStringLiteral("plots.json"),
-           tr("Layouts (*.json)"),
-           [dock](const QString& path) {
+           tr("Layouts (*.json)"), [dock](const QString& path) {
              return PlotPresets::writeFile(path, dock->layoutSpec());
            });
   });
@@ -118,15 +121,14 @@ QIcon swatch(const QColor& color) {
 
 /// A menu of values of one member of a curve.
 template <class Value>
-void addChoices(QMenu* menu, PlotPane* pane, int curve, Value CurveSpec::* member,
+void addChoices(QMenu* menu, PlotPane* pane, int curve, Value CurveSpec::*member,
                 const std::vector<std::pair<QString, Value>>& choices) {
   const CurveSpec now = pane->curves()[static_cast<std::size_t>(curve)].spec();
   for (const auto& [name, value] : choices) {
     CurveSpec changed = now;
     changed.*member = value;
-    QAction* action = menu->addAction(name, pane, [pane, curve, changed] {
-      pane->setCurve(curve, changed);
-    });
+    QAction* action =
+        menu->addAction(name, pane, [pane, curve, changed] { pane->setCurve(curve, changed); });
     action->setCheckable(true);
     action->setChecked(now.*member == value);
   }
@@ -143,8 +145,8 @@ void addLooks(QMenu* menu, PlotPane* pane, int curve) {
                       [pane, curve, changed] { pane->setCurve(curve, changed); });
   }
   colors->addAction(tr("Other…"), pane, [pane, curve, now] {
-    const QColor color = QColorDialog::getColor(
-        now.color.isValid() ? now.color : curveColor(now.colorNumber), pane);
+    const QColor color =
+        QColorDialog::getColor(now.color.isValid() ? now.color : curveColor(now.colorNumber), pane);
     if (!color.isValid()) return;
     CurveSpec changed = now;
     changed.color = color;
@@ -155,9 +157,9 @@ void addLooks(QMenu* menu, PlotPane* pane, int curve) {
                           {tr("Steps"), CurveStyle::Steps},
                           {tr("Points"), CurveStyle::Points},
                           {tr("Line and points"), CurveStyle::LineAndPoints}});
-  addChoices<double>(menu->addMenu(tr("Width")), pane, curve, &CurveSpec::width,
-                     {{tr("Thin"), 1.0}, {tr("Normal"), 1.5}, {tr("Thick"), 2.5},
-                      {tr("Very thick"), 4.0}});
+  addChoices<double>(
+      menu->addMenu(tr("Width")), pane, curve, &CurveSpec::width,
+      {{tr("Thin"), 1.0}, {tr("Normal"), 1.5}, {tr("Thick"), 2.5}, {tr("Very thick"), 4.0}});
 }
 
 /// Curves that can be computed from this one.
@@ -214,9 +216,8 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
     menu->addAction(name, page, [page, pane, spec] { page->replacePane(pane, spec); });
   };
   const PaneSpec spec = pane->spec();
-  const auto plain = std::all_of(spec.curves.begin(), spec.curves.end(), [](const CurveSpec& c) {
-    return c.kind == CurveKind::Variable;
-  });
+  const auto plain = std::all_of(spec.curves.begin(), spec.curves.end(),
+                                 [](const CurveSpec& c) { return c.kind == CurveKind::Variable; });
   if (pane->kind() == PaneKind::Chart && spec.curves.size() >= 2 && plain) {
     PaneSpec xy = spec;
     xy.autoValues = true;
@@ -268,8 +269,10 @@ void askForCurve(PlotsDock* dock) {
   CurveDialog dialog(dock->feed(), CurveSpec{}, dock);
   if (dialog.exec() != QDialog::Accepted) return;
   const CurveSpec curve = dialog.curve();
-  if (curve.kind == CurveKind::Variable) dock->currentPage()->addVariables(curve.inputs);
-  else dock->currentPage()->addCurve(curve);
+  if (curve.kind == CurveKind::Variable)
+    dock->currentPage()->addVariables(curve.inputs);
+  else
+    dock->currentPage()->addCurve(curve);
 }
 
 void editCurve(PlotsDock* dock, PlotPane* pane, int curve) {

@@ -17,9 +17,9 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr int plainLeft = 40;     // px of the mock: at least this for the numbers of values
-constexpr int edge = 14;          // a drop this close to an edge makes a plot of its own
-constexpr int mostNames = 200;    // of one drop
+constexpr int plainLeft = 40;   // px of the mock: at least this for the numbers of values
+constexpr int edge = 14;        // a drop this close to an edge makes a plot of its own
+constexpr int mostNames = 200;  // of one drop
 }  // namespace
 
 QStringList draggedVariables(const QMimeData* data) {
@@ -35,8 +35,12 @@ QStringList draggedVariables(const QMimeData* data) {
 }
 
 PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent)
-    : QWidget(parent), m_feed(feed), m_name(spec.name), m_stack(new QWidget(this)),
-      m_panes(new QSplitter(Qt::Vertical, m_stack)), m_empty(new QLabel(m_stack)),
+    : QWidget(parent),
+      m_feed(feed),
+      m_name(spec.name),
+      m_stack(new QWidget(this)),
+      m_panes(new QSplitter(Qt::Vertical, m_stack)),
+      m_empty(new QLabel(m_stack)),
       m_marks(new MarksPanel(feed, timeline, this)) {
   setObjectName(QStringLiteral("plotPage"));
   setAcceptDrops(true);
@@ -49,8 +53,9 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   m_panes->setChildrenCollapsible(false);
   m_panes->setHandleWidth(scaled(this, 4));
   m_empty->setObjectName(QStringLiteral("emptyPlots"));
-  m_empty->setText(tr("Drag variables here, or press Enter on one in Variables.\n"
-                      "Add curve chooses from a list."));
+  m_empty->setText(
+      tr("Drag variables here, or press Enter on one in Variables.\n"
+         "Add curve chooses from a list."));
   m_empty->setAlignment(Qt::AlignCenter);
   m_empty->setForegroundRole(QPalette::PlaceholderText);
   auto* column = new QVBoxLayout(m_stack);
@@ -74,8 +79,10 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   connect(feed->time(), &LinkedTime::cursorChanged, this, [this] {
     if (!isVisible()) return;
     for (PlotPane* pane : panes()) {
-      if (pane->isOverTime()) pane->showValues();
-      else pane->refresh();
+      if (pane->isOverTime())
+        pane->showValues();
+      else
+        pane->refresh();
       if (pane->kind() == PaneKind::Lane) pane->surface()->update();
     }
   });
@@ -118,9 +125,8 @@ PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
   connect(pane, &PlotPane::leftChanged, this, &PlotPage::align);
   connect(pane, &PlotPane::changed, this, &PlotPage::changed);
   connect(pane, &PlotPane::changed, this, [this] { m_marks->refresh(panes()); });
-  connect(pane, &PlotPane::menuRequested, this, [this, pane](int curve, const QPoint& at) {
-    emit menuRequested(pane, curve, at);
-  });
+  connect(pane, &PlotPane::menuRequested, this,
+          [this, pane](int curve, const QPoint& at) { emit menuRequested(pane, curve, at); });
   connect(pane, &PlotPane::editRequested, this,
           [this, pane](int curve) { emit editRequested(pane, curve); });
   pane->refresh();
@@ -159,10 +165,13 @@ void PlotPage::addVariables(const QStringList& names) {
     const PaneKind kind = isCoded(name) ? PaneKind::Lane : PaneKind::Chart;
     PlotPane* taker = nullptr;
     for (PlotPane* pane : panes()) {
-      if (pane->kind() == kind) taker = pane;   // the last one: where somebody worked last
+      if (pane->kind() == kind) taker = pane;  // the last one: where somebody worked last
     }
-    if (taker != nullptr) taker->addCurve(variableCurve(name));
-    else insertPane(m_panes->count(), PaneSpec{kind, {}, {}, true, {}, false, {variableCurve(name)}, 100});
+    if (taker != nullptr)
+      taker->addCurve(variableCurve(name));
+    else
+      insertPane(m_panes->count(),
+                 PaneSpec{kind, {}, {}, true, {}, false, {variableCurve(name)}, 100});
   }
 }
 
@@ -194,9 +203,9 @@ PlotPage::Target PlotPage::targetAt(const QPoint& position, qsizetype count) con
     }
   }
   // Below the last plot, or on an empty page.
-  target.area = all.isEmpty() ? m_stack->rect()
-                              : QRect(0, m_stack->height() - 2 * reach, m_stack->width(),
-                                      2 * reach);
+  target.area = all.isEmpty()
+                    ? m_stack->rect()
+                    : QRect(0, m_stack->height() - 2 * reach, m_stack->width(), 2 * reach);
   const int third = m_stack->width() / 3;
   if (count == 2 && at.x() > m_stack->width() - third) {
     target.place = Place::NewXy;
@@ -250,7 +259,9 @@ void PlotPage::dragMoveEvent(QDragMoveEvent* event) {
   m_lines->setHint(DropHint{target.area, words});
 }
 
-void PlotPage::dragLeaveEvent(QDragLeaveEvent*) { m_lines->setHint({}); }
+void PlotPage::dragLeaveEvent(QDragLeaveEvent*) {
+  m_lines->setHint({});
+}
 
 void PlotPage::dropEvent(QDropEvent* event) {
   m_lines->setHint({});
@@ -323,8 +334,8 @@ void PlotPage::placeLines() {
 }
 
 bool PlotPage::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == m_stack && (event->type() == QEvent::Resize ||
-                             event->type() == QEvent::LayoutRequest)) {
+  if (watched == m_stack &&
+      (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest)) {
     placeLines();
   }
   return QWidget::eventFilter(watched, event);

@@ -72,7 +72,7 @@ class PlotPage : public QWidget {
     Place place = Place::NewPane;
     PlotPane* pane = nullptr;
     int index = 0;
-    QRect area;   // in m_stack
+    QRect area;  // in m_stack
   };
   Target targetAt(const QPoint& position, qsizetype count) const;
   bool isCoded(const QString& name) const;

@@ -16,7 +16,10 @@
 namespace pitchboard::ui {
 
 PlotPane::PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
-    : QWidget(parent), m_feed(feed), m_spec(spec), m_legend(new LegendBar(this)),
+    : QWidget(parent),
+      m_feed(feed),
+      m_spec(spec),
+      m_legend(new LegendBar(this)),
       m_column(new QVBoxLayout(this)) {
   setObjectName(QStringLiteral("plot"));
   m_spec.curves.clear();
@@ -30,7 +33,9 @@ PlotPane::PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
 
 PlotPane::~PlotPane() = default;
 
-void PlotPane::setSurface(QWidget* surface) { m_column->addWidget(surface, 1); }
+void PlotPane::setSurface(QWidget* surface) {
+  m_column->addWidget(surface, 1);
+}
 
 PaneSpec PlotPane::spec() const {
   PaneSpec all = m_spec;
@@ -57,8 +62,8 @@ int PlotPane::freeColor() const {
 bool PlotPane::hasCurve(const CurveSpec& curve) const {
   return std::any_of(m_curves.begin(), m_curves.end(), [&curve](const Curve& mine) {
     return mine.spec().kind == curve.kind && mine.spec().inputs == curve.inputs &&
-           mine.spec().expression == curve.expression &&
-           mine.spec().parameter == curve.parameter && mine.spec().offset == curve.offset;
+           mine.spec().expression == curve.expression && mine.spec().parameter == curve.parameter &&
+           mine.spec().offset == curve.offset;
   });
 }
 
@@ -133,7 +138,9 @@ void PlotPane::contextMenuEvent(QContextMenuEvent* event) {
   emit menuRequested(-1, event->globalPos());
 }
 
-void PlotPane::resizeEvent(QResizeEvent*) { draw(); }
+void PlotPane::resizeEvent(QResizeEvent*) {
+  draw();
+}
 
 void PlotPane::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
@@ -145,9 +152,12 @@ void PlotPane::changeEvent(QEvent* event) {
 
 PlotPane* makePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent) {
   switch (spec.kind) {
-    case PaneKind::Lane: return new LanePane(feed, spec, parent);
-    case PaneKind::Xy: return new XyPane(feed, spec, parent);
-    case PaneKind::Chart: break;
+    case PaneKind::Lane:
+      return new LanePane(feed, spec, parent);
+    case PaneKind::Xy:
+      return new XyPane(feed, spec, parent);
+    case PaneKind::Chart:
+      break;
   }
   return new ChartPane(feed, spec, parent);
 }

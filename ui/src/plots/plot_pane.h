@@ -60,9 +60,9 @@ class PlotPane : public QWidget {
   virtual void extendMenu(QMenu*) {}
 
  signals:
-  void changed();          ///< something that a preset holds
-  void leftChanged();      ///< wantedLeft() or a fixed height did
-  void menuRequested(int curve, const QPoint& globalPosition);   ///< curve: -1 for the plot
+  void changed();      ///< something that a preset holds
+  void leftChanged();  ///< wantedLeft() or a fixed height did
+  void menuRequested(int curve, const QPoint& globalPosition);  ///< curve: -1 for the plot
   void editRequested(int curve);
 
  protected:
@@ -77,7 +77,7 @@ class PlotPane : public QWidget {
   virtual bool wantsLegend() const { return true; }
 
   PlotFeed* m_feed;
-  PaneSpec m_spec;                 // without curves
+  PaneSpec m_spec;  // without curves
   std::vector<Curve> m_curves;
 
  private:

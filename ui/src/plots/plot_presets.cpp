@@ -9,7 +9,7 @@
 namespace pitchboard::ui {
 namespace {
 const QString presetsKey = QStringLiteral("plots/presets");
-constexpr qint64 largestFile = 4 << 20;   // bytes; a layout has some kilobytes
+constexpr qint64 largestFile = 4 << 20;  // bytes; a layout has some kilobytes
 }  // namespace
 
 QJsonObject PlotPresets::all() const {
@@ -17,7 +17,9 @@ QJsonObject PlotPresets::all() const {
   return QJsonDocument::fromJson(m_settings->value(presetsKey).toByteArray()).object();
 }
 
-QStringList PlotPresets::names() const { return all().keys(); }
+QStringList PlotPresets::names() const {
+  return all().keys();
+}
 
 void PlotPresets::save(const QString& name, const PlotLayout& layout) {
   if (m_settings == nullptr) return;

@@ -33,8 +33,7 @@ const QString layoutKey = QStringLiteral("plots/layout");
 const QString windowKey = QStringLiteral("plots/window");
 
 QString windowText(double seconds) {
-  return seconds < 60 ? QObject::tr("%1 s").arg(seconds)
-                      : QObject::tr("%1 min").arg(seconds / 60);
+  return seconds < 60 ? QObject::tr("%1 s").arg(seconds) : QObject::tr("%1 min").arg(seconds / 60);
 }
 
 QToolButton* toolButton(QAction* action, QWidget* parent) {
@@ -52,9 +51,13 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 }  // namespace
 
 PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
-    : QWidget(parent), m_context(context), m_time(context.time),
-      m_feed(new PlotFeed(context.source, context.time, this)), m_tabs(new QTabWidget(this)),
-      m_notices(new NoticeBar(this)), m_window(new QComboBox(this)) {
+    : QWidget(parent),
+      m_context(context),
+      m_time(context.time),
+      m_feed(new PlotFeed(context.source, context.time, this)),
+      m_tabs(new QTabWidget(this)),
+      m_notices(new NoticeBar(this)),
+      m_window(new QComboBox(this)) {
   setObjectName(QStringLiteral("plots"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -96,9 +99,13 @@ PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
   setLayoutSpec(layout);
 }
 
-PlotsDock::~PlotsDock() { save(); }
+PlotsDock::~PlotsDock() {
+  save();
+}
 
-QSize PlotsDock::sizeHint() const { return {scaled(this, 800), scaled(this, 248)}; }
+QSize PlotsDock::sizeHint() const {
+  return {scaled(this, 800), scaled(this, 248)};
+}
 
 void PlotsDock::makeTools() {
   auto* corner = new QWidget(this);
@@ -136,7 +143,8 @@ void PlotsDock::makeTools() {
   connect(time, &LinkedTime::marksChanged, m_marks,
           [this, time] { m_marks->setChecked(time->hasMarks()); });
 
-  m_box = new QAction(themedIcon(QStringLiteral("select-rectangular")), tr("Zoom into a box"), this);
+  m_box =
+      new QAction(themedIcon(QStringLiteral("select-rectangular")), tr("Zoom into a box"), this);
   m_box->setToolTip(tr("Drag a box to zoom into it (also Shift-drag)"));
   m_box->setCheckable(true);
   connect(m_box, &QAction::toggled, this, [this](bool on) {
@@ -211,13 +219,12 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
     if (!m_restoring) m_saveSoon.start();
     scheduleDraw();
   });
-  connect(page, &PlotPage::menuRequested, this, [this, page](PlotPane* pane, int curve,
-                                                             const QPoint& at) {
-    showPlotMenu(this, page, pane, curve, at);
-  });
-  connect(page, &PlotPage::editRequested, this, [this](PlotPane* pane, int curve) {
-    editCurve(this, pane, curve);
-  });
+  connect(page, &PlotPage::menuRequested, this,
+          [this, page](PlotPane* pane, int curve, const QPoint& at) {
+            showPlotMenu(this, page, pane, curve, at);
+          });
+  connect(page, &PlotPage::editRequested, this,
+          [this](PlotPane* pane, int curve) { editCurve(this, pane, curve); });
   if (!m_restoring) m_saveSoon.start();
   return page;
 }
@@ -263,12 +270,14 @@ void PlotsDock::setLayoutSpec(const PlotLayout& layout) {
 
 void PlotsDock::save() {
   if (m_context.settings == nullptr) return;
-  m_context.settings->setValue(
-      layoutKey, QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
+  m_context.settings->setValue(layoutKey,
+                               QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
   if (m_time) m_context.settings->setValue(windowKey, m_time->window());
 }
 
-void PlotsDock::showNotice(const QString& sentence) { m_notices->show(sentence); }
+void PlotsDock::showNotice(const QString& sentence) {
+  m_notices->show(sentence);
+}
 
 void PlotsDock::plotVariables(const QStringList& names) {
   m_feed->refresh();
@@ -284,7 +293,9 @@ void PlotsDock::showEvent(QShowEvent*) {
   scheduleDraw();
 }
 
-void PlotsDock::hideEvent(QHideEvent*) { m_feed->setRunning(false); }
+void PlotsDock::hideEvent(QHideEvent*) {
+  m_feed->setRunning(false);
+}
 
 void PlotsDock::takeRows() {
   const auto known = m_context.time->data();

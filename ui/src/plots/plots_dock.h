@@ -66,7 +66,7 @@ class PlotsDock : public QWidget {
   void showWindow();
 
   StudioContext m_context;
-  QPointer<LinkedTime> m_time;   // the window deletes it before its docks
+  QPointer<LinkedTime> m_time;  // the window deletes it before its docks
   PlotFeed* m_feed;
   QTabWidget* m_tabs;
   NoticeBar* m_notices;

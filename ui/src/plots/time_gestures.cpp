@@ -11,11 +11,11 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr double stepFactor = 0.8;      // one notch of the wheel
-constexpr double notch = 120.0;         // eighths of a degree, as Qt counts them
-constexpr double markReach = 4.0;       // px of the mock
-constexpr double smallestBox = 4.0;     // px; less is a click
-constexpr double flatBox = 10.0;        // px; lower boxes choose times only
+constexpr double stepFactor = 0.8;   // one notch of the wheel
+constexpr double notch = 120.0;      // eighths of a degree, as Qt counts them
+constexpr double markReach = 4.0;    // px of the mock
+constexpr double smallestBox = 4.0;  // px; less is a click
+constexpr double flatBox = 10.0;     // px; lower boxes choose times only
 }  // namespace
 
 TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeScale()> scale)
@@ -27,12 +27,16 @@ TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<Tim
 bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
   if (watched != m_surface) return false;
   switch (event->type()) {
-    case QEvent::Wheel: wheel(static_cast<QWheelEvent*>(event)); return true;
+    case QEvent::Wheel:
+      wheel(static_cast<QWheelEvent*>(event));
+      return true;
     case QEvent::MouseButtonPress:
       if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
       press(static_cast<QMouseEvent*>(event));
       return true;
-    case QEvent::MouseMove: move(static_cast<QMouseEvent*>(event)); return true;
+    case QEvent::MouseMove:
+      move(static_cast<QMouseEvent*>(event));
+      return true;
     case QEvent::MouseButtonRelease:
       if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
       release(static_cast<QMouseEvent*>(event));
@@ -42,8 +46,11 @@ bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
       m_time->fitAll();
       emit fitRequested();
       return true;
-    case QEvent::Leave: m_time->setCursor({}); return false;
-    default: return false;
+    case QEvent::Leave:
+      m_time->setCursor({});
+      return false;
+    default:
+      return false;
   }
 }
 
@@ -98,8 +105,10 @@ void TimeGestures::move(QMouseEvent* event) {
   const double time = scale.toTime(at.x());
   switch (m_drag) {
     case Drag::None:
-      if (markAt(at)) m_surface->setCursor(Qt::SplitHCursor);
-      else m_surface->unsetCursor();
+      if (markAt(at))
+        m_surface->setCursor(Qt::SplitHCursor);
+      else
+        m_surface->unsetCursor();
       break;
     case Drag::Pan: {
       m_time->pan(-(at.x() - m_last.x()) / (scale.right - scale.left) *
@@ -116,7 +125,9 @@ void TimeGestures::move(QMouseEvent* event) {
       m_band->setGeometry(box);
       break;
     }
-    case Drag::Mark: m_time->setMark(m_mark, time); break;
+    case Drag::Mark:
+      m_time->setMark(m_mark, time);
+      break;
   }
   m_last = at;
   const bool inside = at.x() >= scale.left && at.x() <= scale.right;

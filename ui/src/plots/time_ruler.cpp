@@ -7,18 +7,16 @@
 
 #include <ui/theme.h>
 
-
 namespace pitchboard::ui {
 namespace {
-constexpr int rulerHeight = 16;      // px of the mock
+constexpr int rulerHeight = 16;  // px of the mock
 constexpr int headRow = 14;
 constexpr int headWidth = 14;
 constexpr int pixelsPerStep = 64;
 constexpr TimeMark bothMarks[] = {TimeMark::A, TimeMark::B};
 }  // namespace
 
-std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed,
-                              const QWidget* widget) {
+std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed, const QWidget* widget) {
   return axisTicks({scale.range, scale.left, scale.right - scale.left},
                    scaled(widget, pixelsPerStep), feed.clock());
 }
@@ -28,7 +26,9 @@ TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWi
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 }
 
-QSize TimeRuler::sizeHint() const { return {100, scaled(this, rulerHeight)}; }
+QSize TimeRuler::sizeHint() const {
+  return {100, scaled(this, rulerHeight)};
+}
 
 void TimeRuler::paintEvent(QPaintEvent*) {
   QPainter painter(this);
@@ -53,7 +53,9 @@ MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeScale()> scale, QWidget
   connect(time, &LinkedTime::rangeChanged, this, [this] { update(); });
 }
 
-QSize MarkHeads::sizeHint() const { return {100, scaled(this, headRow)}; }
+QSize MarkHeads::sizeHint() const {
+  return {100, scaled(this, headRow)};
+}
 
 QRectF MarkHeads::headRect(TimeMark mark) const {
   const auto at = m_time->mark(mark);
@@ -75,8 +77,8 @@ void MarkHeads::paintEvent(QPaintEvent*) {
     painter.setBrush(theme().accentFill);
     painter.drawRoundedRect(head, 2, 2);
     painter.setPen(Qt::white);
-    painter.drawText(head, Qt::AlignCenter, mark == TimeMark::A ? QStringLiteral("A")
-                                                                : QStringLiteral("B"));
+    painter.drawText(head, Qt::AlignCenter,
+                     mark == TimeMark::A ? QStringLiteral("A") : QStringLiteral("B"));
   }
 }
 
@@ -106,8 +108,8 @@ TimeLines::TimeLines(LinkedTime* time, std::function<TimeScale()> scale, QWidget
     : QWidget(parent), m_time(time), m_scale(std::move(scale)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setAttribute(Qt::WA_NoSystemBackground);
-  for (const auto moved : {&LinkedTime::marksChanged, &LinkedTime::cursorChanged,
-                           &LinkedTime::rangeChanged}) {
+  for (const auto moved :
+       {&LinkedTime::marksChanged, &LinkedTime::cursorChanged, &LinkedTime::rangeChanged}) {
     connect(time, moved, this, &TimeLines::follow);
   }
 }

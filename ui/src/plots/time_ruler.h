@@ -53,8 +53,8 @@ class MarkHeads : public QWidget {
 
 /// Where something that is dragged over a page would go.
 struct DropHint {
-  QRect area;      ///< of the plot it would join, or the line of a new one
-  QString words;   ///< "add to this plot", "new plot"
+  QRect area;     ///< of the plot it would join, or the line of a new one
+  QString words;  ///< "add to this plot", "new plot"
   bool operator==(const DropHint&) const = default;
 };
 
@@ -79,7 +79,7 @@ class TimeLines : public QWidget {
 
   LinkedTime* m_time;
   std::function<TimeScale()> m_scale;
-  QList<double> m_drawn;   // x of each line
+  QList<double> m_drawn;  // x of each line
   std::optional<DropHint> m_hint;
 };
 

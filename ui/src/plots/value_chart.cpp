@@ -59,8 +59,9 @@ class ValueChart::Layer : public QGraphicsItem {
   bool stale = true;
 
  private:
-  // Parts stand side by side. They are narrow so that one stays in a core's cache while it is painted.
-  static constexpr int partWidth = 120;   // px
+  // Parts stand side by side. They are narrow so that one stays in a core's cache while it is
+  // painted.
+  static constexpr int partWidth = 120;  // px
 
   int leftOf(std::size_t part, const QSize& size) const {
     return static_cast<int>(static_cast<std::size_t>(size.width()) * part / parts.size());
@@ -89,13 +90,12 @@ class ValueChart::Layer : public QGraphicsItem {
 };
 
 ValueChart::ValueChart(QWidget* parent)
-    : QChartView(new QChart, parent), m_axisX(new QValueAxis(this)),
-      m_axisY(new QValueAxis(this)) {
+    : QChartView(new QChart, parent), m_axisX(new QValueAxis(this)), m_axisY(new QValueAxis(this)) {
   setFrameShape(NoFrame);
   setRubberBand(NoRubberBand);
-  setAcceptDrops(false);   // the page takes drops for all its plots
+  setAcceptDrops(false);  // the page takes drops for all its plots
   viewport()->setAcceptDrops(false);
-  setContextMenuPolicy(Qt::NoContextMenu);   // the plot has one
+  setContextMenuPolicy(Qt::NoContextMenu);  // the plot has one
   viewport()->setContextMenuPolicy(Qt::NoContextMenu);
   setMinimumSize(0, 0);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -169,8 +169,7 @@ void ValueChart::place() {
   redraw();
 }
 
-void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep,
-                         double xAnchor) {
+void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor) {
   const auto put = [](QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
                       double toStep) {
     if (now == to && step == toStep) return;
@@ -225,8 +224,7 @@ void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
   const int decimals = decimalsOf(m_stepY);
   const ValueLimits y = m_y;
   for (double k = std::ceil(y.low / m_stepY - 1e-9); k * m_stepY <= y.high + m_stepY * 1e-9; ++k) {
-    const double at = m_area.bottom() -
-                      (k * m_stepY - y.low) / (y.high - y.low) * m_area.height();
+    const double at = m_area.bottom() - (k * m_stepY - y.low) / (y.high - y.low) * m_area.height();
     painter->drawText(QRectF(0, at - half, m_area.left() - scaled(this, 6), 2 * half),
                       Qt::AlignRight | Qt::AlignVCenter, numberText(k * m_stepY, decimals));
   }

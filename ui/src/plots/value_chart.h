@@ -19,8 +19,8 @@ class ValueChart : public QChartView {
   Q_OBJECT
  public:
   using Painter = std::function<void(QPainter&)>;
-  /// Parts: the painter is called on several threads at once, each with a clip of its own, and paints
-  /// what lies in that; the chart's thread waits meanwhile.
+  /// Parts: the painter is called on several threads at once, each with a clip of its own, and
+  /// paints what lies in that; the chart's thread waits meanwhile.
   enum class Painting { Whole, Parts };
 
   explicit ValueChart(QWidget* parent = nullptr);

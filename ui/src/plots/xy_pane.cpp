@@ -17,8 +17,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr std::size_t mostPoints = 8000;   // more do not show on a screen
-constexpr int pixelsPerStepX = 64;         // px of the mock
+constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
+constexpr int pixelsPerStepX = 64;        // px of the mock
 constexpr int pixelsPerStepY = 24;
 constexpr double stepFactor = 0.8;
 constexpr double notch = 120.0;
@@ -31,14 +31,16 @@ void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
     const double middle = (limits.low + limits.high) / 2;
     limits = {middle - span / 2, middle + span / 2};
   };
-  if (perX < perY) widen(x, perY * size.width());
-  else widen(y, perX * size.height());
+  if (perX < perY)
+    widen(x, perY * size.width());
+  else
+    widen(y, perX * size.height());
 }
 
 }  // namespace
 
-std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y,
-                              telemetry::TimeRange range, std::size_t most) {
+std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetry::TimeRange range,
+                              std::size_t most) {
   std::vector<QPointF> points;
   if (!x || !y) return points;
   const auto add = [&](double time, double value) {
@@ -69,10 +71,18 @@ XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
 }
 
-QWidget* XyPane::surface() const { return m_chart->viewport(); }
-ValueLimits XyPane::xLimits() const { return m_chart->xLimits(); }
-ValueLimits XyPane::yLimits() const { return m_chart->yLimits(); }
-void XyPane::restyle() { m_chart->applyTheme(); }
+QWidget* XyPane::surface() const {
+  return m_chart->viewport();
+}
+ValueLimits XyPane::xLimits() const {
+  return m_chart->xLimits();
+}
+ValueLimits XyPane::yLimits() const {
+  return m_chart->yLimits();
+}
+void XyPane::restyle() {
+  m_chart->applyTheme();
+}
 
 void XyPane::draw() {
   m_chart->setMargins(std::max(left(), m_chart->wantedLeft()), scaled(this, 5),
@@ -83,8 +93,8 @@ void XyPane::draw() {
   ValueLimits x{INFINITY, -INFINITY}, y{INFINITY, -INFINITY};
   QString xTitle, yTitle;
   for (const Curve& curve : m_curves) {
-    m_points.push_back(xyPoints(curve.view(), curve.ordinate(), m_feed->time()->range(),
-                                mostPoints));
+    m_points.push_back(
+        xyPoints(curve.view(), curve.ordinate(), m_feed->time()->range(), mostPoints));
     for (const QPointF& point : m_points.back()) {
       if (!std::isfinite(point.x()) || !std::isfinite(point.y())) continue;
       x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
@@ -146,8 +156,8 @@ void XyPane::paintCurves(QPainter& painter) {
     // Where it was at the cursor, or is now.
     const auto x = curve.valueAt(cursor);
     const auto y = !curve.ordinate() ? std::nullopt
-                   : cursor ? curve.ordinate().group->at(curve.ordinate().column, *cursor)
-                            : curve.ordinate().group->latest(curve.ordinate().column);
+                   : cursor          ? curve.ordinate().group->at(curve.ordinate().column, *cursor)
+                                     : curve.ordinate().group->latest(curve.ordinate().column);
     if (!x || !y || !std::isfinite(*x) || !std::isfinite(y->value)) continue;
     painter.setPen(QPen(theme().view, 1.0));
     painter.drawEllipse(toView({*x, y->value}), scaled(this, 4), scaled(this, 4));
@@ -165,8 +175,8 @@ bool XyPane::eventFilter(QObject*, QEvent* event) {
                           anchor.x() + (m_x.high - anchor.x()) * factor};
       const ValueLimits y{anchor.y() + (m_y.low - anchor.y()) * factor,
                           anchor.y() + (m_y.high - anchor.y()) * factor};
-      const double size = std::max({std::abs(x.low), std::abs(x.high), std::abs(y.low),
-                                    std::abs(y.high)});
+      const double size =
+          std::max({std::abs(x.low), std::abs(x.high), std::abs(y.low), std::abs(y.high)});
       const double least = std::min(x.high - x.low, y.high - y.low);
       if (!(least > size * 1e-12) || size > 1e300) return true;
       m_x = x;
@@ -191,9 +201,14 @@ bool XyPane::eventFilter(QObject*, QEvent* event) {
       draw();
       return true;
     }
-    case QEvent::MouseButtonRelease: m_dragging = false; return false;
-    case QEvent::MouseButtonDblClick: showAll(); return true;
-    default: return false;
+    case QEvent::MouseButtonRelease:
+      m_dragging = false;
+      return false;
+    case QEvent::MouseButtonDblClick:
+      showAll();
+      return true;
+    default:
+      return false;
   }
 }
 

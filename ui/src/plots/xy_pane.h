@@ -13,8 +13,8 @@ class ValueChart;
 
 /// Points (x, y) at the times of x within the range; where rows are many, evenly chosen times. A
 /// point with NaN breaks the line.
-std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y,
-                              telemetry::TimeRange range, std::size_t most);
+std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetry::TimeRange range,
+                              std::size_t most);
 
 class XyPane : public PlotPane {
   Q_OBJECT
@@ -41,8 +41,8 @@ class XyPane : public PlotPane {
 
   ValueChart* m_chart;
   std::vector<std::vector<QPointF>> m_points;
-  bool m_fits = true;          // limits follow the points
-  ValueLimits m_x, m_y;        // when they do not
+  bool m_fits = true;    // limits follow the points
+  ValueLimits m_x, m_y;  // when they do not
   QPointF m_last;
   bool m_dragging = false;
 };

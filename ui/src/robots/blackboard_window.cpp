@@ -16,7 +16,10 @@
 namespace pitchboard::ui {
 
 BlackboardWindow::BlackboardWindow(MatchController* controller, RobotId id, QWidget* parent)
-    : QDialog(parent), m_controller(controller), m_id(id), m_where(new QLabel(this)),
+    : QDialog(parent),
+      m_controller(controller),
+      m_id(id),
+      m_where(new QLabel(this)),
       m_table(new QTableWidget(0, 3, this)) {
   constexpr int refreshMilliseconds = 200;
   setAttribute(Qt::WA_DeleteOnClose);
@@ -66,7 +69,8 @@ void BlackboardWindow::refresh() {
           ? tr("In the studio's own memory: other programs cannot reach it. Start the studio with "
                "--cognition external or none to share it.")
           : tr("System V shared memory, key %1, 2048 bytes. Every variable, in a terminal:\n"
-               "pitchboard-cli blackboard watch --key %1").arg(board->key));
+               "pitchboard-cli blackboard watch --key %1")
+                .arg(board->key));
   const auto whole = [](int value) { return numberText(value, 0); };
   int row = 0;
   setRow(row++, QStringLiteral("DECISION_ACTION_A"), whole(board->actionA),

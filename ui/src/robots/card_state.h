@@ -17,7 +17,7 @@ enum class LampState { Unknown, Working, Silent };
 
 struct Lamp {
   LampState state = LampState::Unknown;
-  int seconds = 0;     ///< silent for so long (real time); 0 otherwise
+  int seconds = 0;  ///< silent for so long (real time); 0 otherwise
   bool operator==(const Lamp&) const = default;
 };
 
@@ -32,29 +32,27 @@ struct CardValue {
 struct CardState {
   static constexpr int lampCount = 5;
   static constexpr std::array<char, lampCount> letters{'C', 'V', 'L', 'D', 'I'};
-  static constexpr std::array<const char*, lampCount> processes{
-      "communication", "vision", "localization", "decision", "IMU"};
+  static constexpr std::array<const char*, lampCount> processes{"communication", "vision",
+                                                                "localization", "decision", "IMU"};
 
   RobotId id;
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
-  int voltage = 0;                       ///< tenths of a volt, 0 = not told
+  int voltage = 0;  ///< tenths of a volt, 0 = not told
   std::array<Lamp, lampCount> lamps;
   QString tag;
   TagKind tagKind = TagKind::None;
   QString action;
-  QString detail;                        ///< age of the tick and distance walked; or how it is heard
+  QString detail;  ///< age of the tick and distance walked; or how it is heard
   QString detailTip;
-  bool live = false;                     ///< heard by network
-  bool timedOut = false;                 ///< greyed
+  bool live = false;                          ///< heard by network
+  bool timedOut = false;                      ///< greyed
   std::optional<telemetry::Battery> battery;  ///< as the robot's cells have it; else from `voltage`
-  std::vector<CardValue> values;         ///< shown where the user asked for them
+  std::vector<CardValue> values;              ///< shown where the user asked for them
   bool operator==(const CardState& other) const;
 
-  bool batteryLow() const {
-    return battery ? battery->low : voltage > 0 && voltage < lowVoltage;
-  }
+  bool batteryLow() const { return battery ? battery->low : voltage > 0 && voltage < lowVoltage; }
   /// Charge for the bar, 0..1, between empty and full of a four-cell battery.
   double charge() const;
 
@@ -74,7 +72,11 @@ class CardTracker {
   /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
   std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
   /// Forgets everything: another match.
-  void reset() { m_robots.clear(); m_age = 0.0; m_serial = 0; }
+  void reset() {
+    m_robots.clear();
+    m_age = 0.0;
+    m_serial = 0;
+  }
 
  private:
   struct History {
@@ -85,11 +87,11 @@ class CardTracker {
   void updateLamps(History& history, const link::MatchFrame& frame,
                    const link::RobotBoardView& board);
   std::map<RobotId, History> m_robots;
-  qint64 m_playing = 0;        // ms of unpaused time
+  qint64 m_playing = 0;  // ms of unpaused time
   qint64 m_last = -1;
-  qint64 m_changed = 0;        // when the frame's serial last changed, real ms
+  qint64 m_changed = 0;  // when the frame's serial last changed, real ms
   std::uint64_t m_serial = 0;
-  double m_age = 0.0;          // ms, smoothed
+  double m_age = 0.0;  // ms, smoothed
 };
 
 }  // namespace pitchboard::ui

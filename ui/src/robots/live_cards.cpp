@@ -15,8 +15,8 @@ QString secondsText(double seconds) {
 QString detailOf(const link::RobotHealth& robot) {
   // A small age would only flicker: robots speak about once a second.
   QStringList parts{QStringLiteral("%1 s").arg(secondsText(robot.age)),
-                    QStringLiteral("%1/s").arg(numberText(robot.timedOut ? 0.0 : robot.rate,
-                                                          robot.timedOut ? 0 : 1))};
+                    QStringLiteral("%1/s").arg(
+                        numberText(robot.timedOut ? 0.0 : robot.rate, robot.timedOut ? 0 : 1))};
   if (robot.loss && !robot.timedOut) {
     parts << QStringLiteral("%1 %").arg(numberText(*robot.loss * 100, 1));
   }
@@ -28,7 +28,8 @@ QString tipOf(const link::RobotHealth& robot) {
   QStringList tip{
       QStringLiteral("Heard from %1").arg(QString::fromStdString(robot.sender)),
       QStringLiteral("Last message %1 s ago, %2 per second, jitter %3 ms")
-          .arg(secondsText(robot.age), numberText(robot.rate, 1), numberText(robot.jitter * 1000, 0)),
+          .arg(secondsText(robot.age), numberText(robot.rate, 1),
+               numberText(robot.jitter * 1000, 0)),
       QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
           .arg(countText(robot.messages), countText(robot.bytes), countText(robot.errors)),
       robot.loss ? QStringLiteral("%1 % lost").arg(numberText(*robot.loss * 100, 1))
@@ -60,8 +61,8 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
              silent != card.lamps.end()) {
     put(TagKind::Error,
         QStringLiteral("%1 silent %2 s")
-            .arg(QLatin1Char(CardState::letters[static_cast<std::size_t>(silent -
-                                                                         card.lamps.begin())]))
+            .arg(QLatin1Char(
+                CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]))
             .arg(silent->seconds));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
@@ -71,9 +72,12 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
 Lamp lampOf(telemetry::ProcessState state, double since) {
   const auto seconds = static_cast<int>(std::min(since, 1e6));
   switch (state) {
-    case telemetry::ProcessState::Working: return {LampState::Working, 0};
-    case telemetry::ProcessState::Silent: return {LampState::Silent, seconds};
-    case telemetry::ProcessState::Unknown: break;
+    case telemetry::ProcessState::Working:
+      return {LampState::Working, 0};
+    case telemetry::ProcessState::Silent:
+      return {LampState::Silent, seconds};
+    case telemetry::ProcessState::Unknown:
+      break;
   }
   return {};
 }

@@ -29,8 +29,10 @@ void RobotCard::setState(const CardState& state) {
   if (taller) updateGeometry();
   setAccessibleName(state.name);
   setAccessibleDescription(QStringLiteral("%1, %2").arg(state.action, state.tag));
-  if (!footOnly) update();
-  else if (!m_collapsed) update(rowRect(2));
+  if (!footOnly)
+    update();
+  else if (!m_collapsed)
+    update(rowRect(2));
 }
 
 void RobotCard::setParts(const CardParts& parts) {
@@ -65,7 +67,9 @@ QSize RobotCard::sizeHint() const {
   return {scaled(this, 236), scaled(this, height)};
 }
 
-QSize RobotCard::minimumSizeHint() const { return {scaled(this, 190), sizeHint().height()}; }
+QSize RobotCard::minimumSizeHint() const {
+  return {scaled(this, 190), sizeHint().height()};
+}
 
 bool RobotCard::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
@@ -77,8 +81,10 @@ bool RobotCard::event(QEvent* event) {
     if (!m_collapsed && rowRect(2).contains(help->pos())) {
       tip = m_state.detailTip;
     }
-    if (tip.isEmpty()) QToolTip::hideText();
-    else QToolTip::showText(help->globalPos(), tip, this);
+    if (tip.isEmpty())
+      QToolTip::hideText();
+    else
+      QToolTip::showText(help->globalPos(), tip, this);
     return true;
   }
   return QFrame::event(event);
@@ -98,8 +104,10 @@ QString RobotCard::lampTip(int lamp) const {
 
 void RobotCard::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QFrame::mousePressEvent(event);
-  if (chevronRect().contains(event->pos())) setCollapsed(!m_collapsed);
-  else emit clicked(event->modifiers());
+  if (chevronRect().contains(event->pos()))
+    setCollapsed(!m_collapsed);
+  else
+    emit clicked(event->modifiers());
   m_pressed = event->pos();
   m_held = !chevronRect().contains(event->pos());
   m_dragging = false;
@@ -122,10 +130,17 @@ void RobotCard::keyPressEvent(QKeyEvent* event) {
   switch (event->key()) {
     case Qt::Key_Space:
     case Qt::Key_Return:
-    case Qt::Key_Enter: emit clicked(event->modifiers()); return;
-    case Qt::Key_Left: setCollapsed(true); return;
-    case Qt::Key_Right: setCollapsed(false); return;
-    default: QFrame::keyPressEvent(event);
+    case Qt::Key_Enter:
+      emit clicked(event->modifiers());
+      return;
+    case Qt::Key_Left:
+      setCollapsed(true);
+      return;
+    case Qt::Key_Right:
+      setCollapsed(false);
+      return;
+    default:
+      QFrame::keyPressEvent(event);
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// One robot's card: badge, name, battery, lamps, action, chosen values. Draws a CardState and nothing else; only
-// what changed is painted again. UI thread only.
+// One robot's card: badge, name, battery, lamps, action, chosen values. Draws a CardState and
+// nothing else; only what changed is painted again. UI thread only.
 
 #include <QFrame>
 #include <QStringList>
@@ -14,7 +14,7 @@ namespace pitchboard::ui {
 /// What cards show besides badge and name; the same for all of them.
 struct CardParts {
   bool battery = true, processes = true, action = true, health = true;
-  QStringList values;     ///< names, in the order shown
+  QStringList values;  ///< names, in the order shown
   bool operator==(const CardParts&) const = default;
 };
 
@@ -52,7 +52,7 @@ class RobotCard : public QFrame {
  private:
   // 0 name, 1 lamps and tag, 2 action and health, from 3 on the values; empty when not shown.
   QRect rowRect(int row) const;
-  int rowHeight(int row) const;         // mock pixels, 0 when not shown
+  int rowHeight(int row) const;  // mock pixels, 0 when not shown
   const CardValue* value(const QString& name) const;
   QRect lampRect(int lamp) const;
   QRect chevronRect() const;

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double corner = 3.0;
 
-QRectF sharp(const QRect& rect) { return QRectF(rect).adjusted(0.5, 0.5, -0.5, -0.5); }
+QRectF sharp(const QRect& rect) {
+  return QRectF(rect).adjusted(0.5, 0.5, -0.5, -0.5);
+}
 
 }  // namespace
 
@@ -108,10 +110,10 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.fillRect(inside, color);
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
-  painter.drawText(QRect(row.left(), row.top(), bar.left() - scaled(this, 6) - row.left(),
-                         row.height()),
-                   Qt::AlignRight | Qt::AlignVCenter,
-                   numberText(m_state.voltage / 10.0, 1) + QStringLiteral(" V"));
+  painter.drawText(
+      QRect(row.left(), row.top(), bar.left() - scaled(this, 6) - row.left(), row.height()),
+      Qt::AlignRight | Qt::AlignVCenter,
+      numberText(m_state.voltage / 10.0, 1) + QStringLiteral(" V"));
   painter.setOpacity(1.0);
 }
 
@@ -153,18 +155,18 @@ void RobotCard::paintTag(QPainter& painter) const {
   const bool error = m_state.tagKind == TagKind::Error;
   painter.setFont(themeFont(TypeRole::Small, true));
   const QRect row = rowRect(1);
-  const int wide = qMin(painter.fontMetrics().horizontalAdvance(m_state.tag) + scaled(this, 12),
-                        m_parts.processes
-                            ? row.right() - lampRect(CardState::lampCount - 1).right() - scaled(this, 4)
-                            : row.width());
+  const int wide = qMin(
+      painter.fontMetrics().horizontalAdvance(m_state.tag) + scaled(this, 12),
+      m_parts.processes ? row.right() - lampRect(CardState::lampCount - 1).right() - scaled(this, 4)
+                        : row.width());
   const QRect box(row.right() - wide + 1, row.top(), wide, row.height());
   painter.setPen(Qt::NoPen);
   painter.setBrush(error ? theme().errorGround : theme().warningGround);
   painter.drawRoundedRect(box, 2, 2);
   painter.setPen(error ? theme().errorText : theme().warningText);
-  painter.drawText(box, Qt::AlignCenter,
-                   painter.fontMetrics().elidedText(m_state.tag, Qt::ElideRight,
-                                                    wide - scaled(this, 6)));
+  painter.drawText(
+      box, Qt::AlignCenter,
+      painter.fontMetrics().elidedText(m_state.tag, Qt::ElideRight, wide - scaled(this, 6)));
 }
 
 void RobotCard::paintFoot(QPainter& painter) const {
@@ -197,9 +199,9 @@ void RobotCard::paintValues(QPainter& painter) const {
     const CardValue* known = value(m_parts.values[i]);
     const bool greyed = known == nullptr || m_state.timedOut;
     painter.setPen(theme().secondaryText);
-    painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter,
-                     painter.fontMetrics().elidedText(m_parts.values[i], Qt::ElideMiddle,
-                                                      row.width() * 6 / 10));
+    painter.drawText(
+        row, Qt::AlignLeft | Qt::AlignVCenter,
+        painter.fontMetrics().elidedText(m_parts.values[i], Qt::ElideMiddle, row.width() * 6 / 10));
     if (known == nullptr) continue;
     painter.drawText(row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
                      Qt::AlignLeft | Qt::AlignVCenter, known->unit);

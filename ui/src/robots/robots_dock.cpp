@@ -61,7 +61,9 @@ RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
   connect(context.selection, &RobotSelection::changed, this, &RobotsDock::showSelection);
 }
 
-QSize RobotsDock::sizeHint() const { return {scaled(this, 256), scaled(this, 300)}; }
+QSize RobotsDock::sizeHint() const {
+  return {scaled(this, 256), scaled(this, 300)};
+}
 
 std::vector<CardState> RobotsDock::states() {
   const FramePtr frame = m_context.source->frame();
@@ -87,7 +89,9 @@ std::vector<CardState> RobotsDock::states() {
   return cards;
 }
 
-void RobotsDock::refresh() { showCards(states()); }
+void RobotsDock::refresh() {
+  showCards(states());
+}
 
 void RobotsDock::showCards(const std::vector<CardState>& states) {
   m_empty->setVisible(states.empty());
@@ -124,8 +128,10 @@ RobotCard* RobotsDock::makeCard(RobotId id) {
   auto* card = new RobotCard(widget());
   card->setParts(m_parts);
   connect(card, &RobotCard::clicked, this, [this, id](Qt::KeyboardModifiers modifiers) {
-    if (modifiers & Qt::ControlModifier) m_context.selection->toggle(id);
-    else m_context.selection->set({id});
+    if (modifiers & Qt::ControlModifier)
+      m_context.selection->toggle(id);
+    else
+      m_context.selection->set({id});
   });
   connect(card, &RobotCard::menuRequested, this,
           [this, card](const QPoint& at) { showMenu(card, at); });
@@ -160,8 +166,8 @@ void RobotsDock::moveCard(RobotId id, qsizetype place) {
     if (card->state().id != id) ids.push_back(card->state().id);
   }
   const auto at = std::clamp<qsizetype>(place, 0, static_cast<qsizetype>(ids.size()));
-  const RobotId before = at < static_cast<qsizetype>(ids.size())
-                             ? ids[static_cast<std::size_t>(at)] : RobotId{};
+  const RobotId before =
+      at < static_cast<qsizetype>(ids.size()) ? ids[static_cast<std::size_t>(at)] : RobotId{};
   std::erase(m_order, id);
   m_order.insert(std::find(m_order.begin(), m_order.end(), before), id);
   arrange();

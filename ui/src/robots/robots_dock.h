@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The cards of all robots, refreshed ten times a second. Selects both ways with the field. Cards are
-// dragged into another order, or out of the list into a window of their own; what they show is chosen
-// in their menu and kept.
+// The cards of all robots, refreshed ten times a second. Selects both ways with the field. Cards
+// are dragged into another order, or out of the list into a window of their own; what they show is
+// chosen in their menu and kept.
 
 #include <QElapsedTimer>
 #include <QScrollArea>
@@ -60,7 +60,7 @@ class RobotsDock : public QScrollArea {
   CardParts m_parts;
   std::map<RobotId, RobotCard*> m_cards;
   std::map<RobotId, QDockWidget*> m_floating;
-  std::vector<RobotId> m_order;       // of all robots ever seen here
+  std::vector<RobotId> m_order;  // of all robots ever seen here
   QVBoxLayout* m_column;
   QLabel* m_empty;
 };

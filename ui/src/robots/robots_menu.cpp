@@ -17,14 +17,14 @@ namespace pitchboard::ui {
 namespace {
 
 struct Part {
-  const char* key;         // in the settings: never change it
+  const char* key;  // in the settings: never change it
   const char* text;
-  bool CardParts::* shown;
+  bool CardParts::*shown;
 };
 constexpr Part cardParts[] = {{"battery", "Battery", &CardParts::battery},
-                           {"processes", "Processes", &CardParts::processes},
-                           {"action", "Action", &CardParts::action},
-                           {"health", "Age, rate, loss, errors", &CardParts::health}};
+                              {"processes", "Processes", &CardParts::processes},
+                              {"action", "Action", &CardParts::action},
+                              {"health", "Age, rate, loss, errors", &CardParts::health}};
 
 const QString hiddenKey = QStringLiteral("cards/hidden");
 const QString valuesKey = QStringLiteral("cards/values");
@@ -34,7 +34,8 @@ const QString valuesKey = QStringLiteral("cards/values");
 void RobotsDock::loadParts() {
   if (m_context.settings == nullptr) return;
   const QStringList hidden = m_context.settings->value(hiddenKey).toStringList();
-  for (const Part& part : cardParts) m_parts.*part.shown = !hidden.contains(QLatin1String(part.key));
+  for (const Part& part : cardParts)
+    m_parts.*part.shown = !hidden.contains(QLatin1String(part.key));
   m_parts.values = m_context.settings->value(valuesKey).toStringList();
 }
 
@@ -88,8 +89,10 @@ void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
     action->setChecked(m_parts.values.contains(name));
     connect(action, &QAction::toggled, this, [this, name](bool on) {
       CardParts changed = m_parts;
-      if (on) changed.values << name;
-      else changed.values.removeAll(name);
+      if (on)
+        changed.values << name;
+      else
+        changed.values.removeAll(name);
       setParts(changed);
     });
   }

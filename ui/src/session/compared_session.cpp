@@ -3,10 +3,10 @@
 
 #include <QFileInfo>
 
+#include <ui/field_view.h>
 #include "timeline/event_collector.h"
 #include "timeline/playback.h"
 #include "timeline/timeline.h"
-#include <ui/field_view.h>
 
 namespace pitchboard::ui {
 
@@ -35,7 +35,9 @@ ComparedSession::ComparedSession(Timeline* timeline, FieldView* field, QObject* 
   connect(&m_file, &ReplayController::failed, this, &ComparedSession::failed);
 }
 
-void ComparedSession::open(const QString& path) { m_file.open(path); }
+void ComparedSession::open(const QString& path) {
+  m_file.open(path);
+}
 
 void ComparedSession::stop() {
   m_file.close();
@@ -43,7 +45,9 @@ void ComparedSession::stop() {
   emit changed();
 }
 
-const EventList* ComparedSession::events() const { return isOn() ? m_events->list() : nullptr; }
+const EventList* ComparedSession::events() const {
+  return isOn() ? m_events->list() : nullptr;
+}
 
 void ComparedSession::setOffset(double seconds) {
   m_offset = seconds;
@@ -62,8 +66,10 @@ void ComparedSession::alignThere(double there) {
 }
 
 void ComparedSession::align() {
-  if (m_here && m_there) setOffset(*m_here - *m_there);
-  else emit changed();
+  if (m_here && m_there)
+    setOffset(*m_here - *m_there);
+  else
+    emit changed();
 }
 
 void ComparedSession::alignByTime() {
@@ -76,7 +82,8 @@ QString ComparedSession::caption() const {
   if (!isOn()) return {};
   QString text = QFileInfo(m_file.path()).completeBaseName();
   if (m_offset != 0.0) {
-    text += tr(" · %1%2 s").arg(m_offset < 0 ? QChar(0x2212) : QLatin1Char('+'))
+    text += tr(" · %1%2 s")
+                .arg(m_offset < 0 ? QChar(0x2212) : QLatin1Char('+'))
                 .arg(std::abs(m_offset), 0, 'f', 2);
   }
   if (m_here && !m_there) text += tr(" · choose its event");

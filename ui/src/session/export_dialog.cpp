@@ -4,8 +4,8 @@
 #include <QBuffer>
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QDoubleSpinBox>
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -17,9 +17,9 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 
-#include "field/field_style.h"
 #include <ui/field_view.h>
 #include <ui/theme.h>
+#include "field/field_style.h"
 
 #include "video_export.h"
 
@@ -39,11 +39,18 @@ std::vector<std::string> namesOf(const QString& text) {
 
 ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range, FieldView* field,
                            QWidget* parent)
-    : QDialog(parent), m_source(std::move(source)), m_field(field),
-      m_format(new QComboBox(this)), m_begin(new QDoubleSpinBox(this)),
-      m_end(new QDoubleSpinBox(this)), m_robots(new QLineEdit(this)),
-      m_variables(new QLineEdit(this)), m_size(new QComboBox(this)),
-      m_rate(new QSpinBox(this)), m_rows(new QFormLayout), m_progress(new QProgressBar(this)),
+    : QDialog(parent),
+      m_source(std::move(source)),
+      m_field(field),
+      m_format(new QComboBox(this)),
+      m_begin(new QDoubleSpinBox(this)),
+      m_end(new QDoubleSpinBox(this)),
+      m_robots(new QLineEdit(this)),
+      m_variables(new QLineEdit(this)),
+      m_size(new QComboBox(this)),
+      m_rate(new QSpinBox(this)),
+      m_rows(new QFormLayout),
+      m_progress(new QProgressBar(this)),
       m_message(new QLabel(this)) {
   setWindowTitle(tr("Export"));
   setObjectName(QStringLiteral("exportDialog"));
@@ -55,7 +62,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range, Fiel
   m_rate->setObjectName(QStringLiteral("exportRate"));
   m_progress->setObjectName(QStringLiteral("exportProgress"));
   for (const ExportForm& form : exportForms()) m_format->addItem(tr(form.words));
-  for (const QSize size : {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
+  for (const QSize size :
+       {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
     m_size->addItem(tr("%1 × %2").arg(size.width()).arg(size.height()), size);
   }
   m_rate->setRange(1, 60);
@@ -95,8 +103,10 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range, Fiel
   showRows();
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(m_export, &QPushButton::clicked, this, [this] {
-    if (m_writing) cancel();
-    else ask();
+    if (m_writing)
+      cancel();
+    else
+      ask();
   });
 }
 
@@ -109,7 +119,9 @@ const ExportForm& ExportDialog::form() const {
   return exportForms()[static_cast<std::size_t>(m_format->currentIndex())];
 }
 
-QString ExportDialog::suffix() const { return QLatin1String(form().suffix); }
+QString ExportDialog::suffix() const {
+  return QLatin1String(form().suffix);
+}
 
 // Only what the chosen form asks for.
 void ExportDialog::showRows() {
@@ -125,8 +137,8 @@ void ExportDialog::showRows() {
 
 void ExportDialog::ask() {
   const QDir folder(m_source.folder);
-  QString path = QFileDialog::getSaveFileName(this, tr("Export"),
-                                              folder.filePath(m_source.name + suffix()));
+  QString path =
+      QFileDialog::getSaveFileName(this, tr("Export"), folder.filePath(m_source.name + suffix()));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += suffix();
   // The file dialog has asked whether the old one is to go.
@@ -172,16 +184,20 @@ void ExportDialog::exportTo(const QString& path) {
   }
   m_worker.start([this, request, make = std::move(make)] {
     const auto made = make(request.session);
-    QMetaObject::invokeMethod(this, [this, made, request] {
-      if (made && !m_cancelled) {
-        write(request);
-        return;
-      }
-      setWriting(false);
-      fail(m_cancelled ? tr("Cancelled; nothing was written.")
-                       : tr("Nothing was written: %1")
-                             .arg(QString::fromStdString(made.error().text())));
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, made, request] {
+          if (made && !m_cancelled) {
+            write(request);
+            return;
+          }
+          setWriting(false);
+          fail(
+              m_cancelled
+                  ? tr("Cancelled; nothing was written.")
+                  : tr("Nothing was written: %1").arg(QString::fromStdString(made.error().text())));
+        },
+        Qt::QueuedConnection);
   });
 }
 
@@ -197,21 +213,24 @@ void ExportDialog::write(const ExportRequest& request) {
   }
   m_worker.start([this, request, chosen = form(), picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
-      QMetaObject::invokeMethod(this, [this, part] {
-        m_progress->setValue(static_cast<int>(part * 1000));
-      }, Qt::QueuedConnection);
+      QMetaObject::invokeMethod(
+          this, [this, part] { m_progress->setValue(static_cast<int>(part * 1000)); },
+          Qt::QueuedConnection);
       return !m_cancelled;
     });
-    QMetaObject::invokeMethod(this, [this, done, path = request.path] {
-      setWriting(false);
-      if (done) {
-        succeed(path);
-      } else {
-        fail(m_cancelled ? tr("Cancelled; nothing was written.")
-                         : tr("Nothing was written: %1")
-                               .arg(QString::fromStdString(done.error().text())));
-      }
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, done, path = request.path] {
+          setWriting(false);
+          if (done) {
+            succeed(path);
+          } else {
+            fail(m_cancelled ? tr("Cancelled; nothing was written.")
+                             : tr("Nothing was written: %1")
+                                   .arg(QString::fromStdString(done.error().text())));
+          }
+        },
+        Qt::QueuedConnection);
   });
 }
 
@@ -268,8 +287,10 @@ void ExportDialog::cancel() {
 }
 
 void ExportDialog::succeed(const QString& path) {
-  tell(tr("Written: %1 (%2 MB)").arg(path)
-           .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1), false);
+  tell(tr("Written: %1 (%2 MB)")
+           .arg(path)
+           .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
+       false);
   emit written(path);
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Exports part of the session that Replay has open, or of what memory holds of the match or of Live:
-// numbers (CSV, JSON lines), a shorter session, a report, the field as a picture or a video. The dialog stays while a worker writes, shows how far it is, and can be cancelled; it never
-// stops the window. UI thread only.
+// Exports part of the session that Replay has open, or of what memory holds of the match or of
+// Live: numbers (CSV, JSON lines), a shorter session, a report, the field as a picture or a video.
+// The dialog stays while a worker writes, shows how far it is, and can be cancelled; it never stops
+// the window. UI thread only.
 
 #include <QDialog>
 #include <QThreadPool>
@@ -34,18 +35,18 @@ class VideoExport;
 
 /// What is exported from: a file, or memory.
 struct ExportSource {
-  QString session;                          ///< the file; empty: memory
-  std::function<SessionMaker()> make;       ///< from memory: what writes it (SessionRecording)
-  QString folder, name;                     ///< of the file that is proposed, without its ending
+  QString session;                     ///< the file; empty: memory
+  std::function<SessionMaker()> make;  ///< from memory: what writes it (SessionRecording)
+  QString folder, name;                ///< of the file that is proposed, without its ending
 };
 
 class ExportDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `range` is what is chosen at first. The field (it outlives the dialog) is what pictures show and
-  /// whose layers and side videos have.
+  /// `range` is what is chosen at first. The field (it outlives the dialog) is what pictures show
+  /// and whose layers and side videos have.
   ExportDialog(ExportSource source, telemetry::TimeRange range, FieldView* field, QWidget* parent);
-  ~ExportDialog() override;   ///< cancels what is being written
+  ~ExportDialog() override;  ///< cancels what is being written
 
   /// Writes in the chosen form; finished() or failed() follows. Never overwrites.
   void exportTo(const QString& path);
@@ -86,7 +87,7 @@ class ExportDialog : public QDialog {
   QLabel* m_message;
   QPushButton* m_export;
   QString m_program = QStringLiteral("ffmpeg");
-  std::unique_ptr<QTemporaryDir> m_memory;   // holds the session that is written from memory
+  std::unique_ptr<QTemporaryDir> m_memory;  // holds the session that is written from memory
   std::unique_ptr<VideoExport> m_video;
   bool m_writing = false;
   std::atomic<bool> m_cancelled = false;

@@ -58,6 +58,8 @@ Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm
   return report->bytes;
 }
 
-std::span<const ExportForm> exportForms() { return forms; }
+std::span<const ExportForm> exportForms() {
+  return forms;
+}
 
 }  // namespace pitchboard::ui

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The forms in which part of a session leaves the studio, and the writing of those that need nothing
-// but the session. Any thread.
+// The forms in which part of a session leaves the studio, and the writing of those that need
+// nothing but the session. Any thread.
 
 #include <QByteArray>
 #include <QString>
@@ -17,14 +17,14 @@ enum class ExportKind { Numbers, Report, Png, Svg, Video };
 struct ExportForm {
   const char* words;
   ExportKind kind;
-  const char* suffix;                     ///< ".csv"
-  telemetry::ExportFormat format = telemetry::ExportFormat::CsvWide;   ///< Numbers only
+  const char* suffix;                                                 ///< ".csv"
+  telemetry::ExportFormat format = telemetry::ExportFormat::CsvWide;  ///< Numbers only
 };
 std::span<const ExportForm> exportForms();
 
 struct ExportRequest {
-  QString session;                       ///< the file that is read
-  QString path;                          ///< the file that is written
+  QString session;  ///< the file that is read
+  QString path;     ///< the file that is written
   telemetry::ExportSelection selection;
 };
 

@@ -46,7 +46,7 @@ struct ReplayController::File {
   telemetry::SessionInfo info;
   telemetry::TimeRange range;
   link::RecordedFrames frames;
-  link::RecordedFrames memoryFrames;     // UI thread
+  link::RecordedFrames memoryFrames;  // UI thread
   std::shared_ptr<telemetry::SeriesStore> rows;
   std::vector<telemetry::SessionEvent> events;
   std::vector<link::LogLine> log;
@@ -57,8 +57,11 @@ struct ReplayController::File {
   FramePtr first;
 
   explicit File(telemetry::SessionReader reader)
-      : session(std::move(reader)), info(session.info()), frames(link::backdropOf(session)),
-        memoryFrames(link::backdropOf(session)), tickRate(link::backdropOf(session).tickRate) {}
+      : session(std::move(reader)),
+        info(session.info()),
+        frames(link::backdropOf(session)),
+        memoryFrames(link::backdropOf(session)),
+        tickRate(link::backdropOf(session).tickRate) {}
 };
 
 ReplayController::ReplayController(QObject* parent)
@@ -78,7 +81,9 @@ telemetry::SessionInfo ReplayController::info() const {
   return m_file ? m_file->info : telemetry::SessionInfo{};
 }
 
-bool ReplayController::isBroken() const { return m_file && m_file->broken; }
+bool ReplayController::isBroken() const {
+  return m_file && m_file->broken;
+}
 
 std::string ReplayController::attachedScenario() const {
   return m_file ? m_file->scenario : std::string();
@@ -92,7 +97,7 @@ QString ReplayController::emptyText() const {
   return isOpening() ? tr("Opening…")
          : isOpen()  ? tr("The session has no robots at this moment.")
                      : tr("No session is open.\nDrop a recorded session (.mcap) here, or choose "
-                          "File > Open session.");
+                           "File > Open session.");
 }
 
 std::optional<QDateTime> ReplayController::clock() const {
@@ -120,13 +125,13 @@ void ReplayController::open(const QString& path) {
           std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, range->begin));
       file->events = file->session.events();
       constexpr std::size_t maxLines = 10'000;
-      file->session.messages(telemetry::SessionStream::Log, *range,
-                             [&file](double time, std::string_view json) {
-                               if (const auto line = telemetry::sessionLogLine(json)) {
-                                 file->log.push_back({time, line->source, line->text, line->level > 2});
-                               }
-                               return file->log.size() < maxLines;
-                             });
+      file->session.messages(
+          telemetry::SessionStream::Log, *range, [&file](double time, std::string_view json) {
+            if (const auto line = telemetry::sessionLogLine(json)) {
+              file->log.push_back({time, line->source, line->text, line->level > 2});
+            }
+            return file->log.size() < maxLines;
+          });
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
         file->scenario = std::move(*scenario);
       }
@@ -135,16 +140,19 @@ void ReplayController::open(const QString& path) {
         file->notes << QString::fromStdString(note);
       }
     }
-    QMetaObject::invokeMethod(this, [this, file, problem, path, mine] {
-      if (mine != m_generation) return;
-      m_opening = false;
-      if (!file) {
-        emit failed(tr("The session was not opened: %1").arg(problem));
-        return;
-      }
-      m_path = path;
-      take(file);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, file, problem, path, mine] {
+          if (mine != m_generation) return;
+          m_opening = false;
+          if (!file) {
+            emit failed(tr("The session was not opened: %1").arg(problem));
+            return;
+          }
+          m_path = path;
+          take(file);
+        },
+        Qt::QueuedConnection);
   });
 }
 
@@ -204,18 +212,21 @@ void ReplayController::wantMoment(double time) {
 void ReplayController::readMoment() {
   if (m_reading || !m_wanted || !m_file) return;
   m_reading = true;
-  m_seeker.start([this, file = m_file, time = *std::exchange(m_wanted, {}),
-                  mine = m_generation.load()] {
-    auto frame = std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, time));
-    QMetaObject::invokeMethod(this, [this, frame, mine] {
-      m_reading = false;
-      if (mine == m_generation) {
-        m_frame = frame;
-        emit frameReceived(m_frame);
-      }
-      readMoment();
-    }, Qt::QueuedConnection);
-  });
+  m_seeker.start(
+      [this, file = m_file, time = *std::exchange(m_wanted, {}), mine = m_generation.load()] {
+        auto frame = std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, time));
+        QMetaObject::invokeMethod(
+            this,
+            [this, frame, mine] {
+              m_reading = false;
+              if (mine == m_generation) {
+                m_frame = frame;
+                emit frameReceived(m_frame);
+              }
+              readMoment();
+            },
+            Qt::QueuedConnection);
+      });
 }
 
 void ReplayController::load() {
@@ -223,12 +234,15 @@ void ReplayController::load() {
   emit loadedChanged(m_loaded);
   m_loader.start([this, path = m_path, rows = m_file->rows, mine = m_generation.load()] {
     const auto tell = [this, mine](double part) {
-      QMetaObject::invokeMethod(this, [this, part, mine] {
-        if (mine != m_generation) return;
-        m_loaded = part;
-        emit loadedChanged(part);
-        if (part >= 1.0) noteWhatDoesNotFit();
-      }, Qt::QueuedConnection);
+      QMetaObject::invokeMethod(
+          this,
+          [this, part, mine] {
+            if (mine != m_generation) return;
+            m_loaded = part;
+            emit loadedChanged(part);
+            if (part >= 1.0) noteWhatDoesNotFit();
+          },
+          Qt::QueuedConnection);
     };
     readRows(path, *rows, [this, mine, &tell](double part) {
       tell(part);
@@ -244,12 +258,14 @@ void ReplayController::setMemoryBudget(std::size_t bytes) {
 }
 
 void ReplayController::noteWhatDoesNotFit() {
-  constexpr double chunk = 1.0;   // s; groups do not begin all at once
+  constexpr double chunk = 1.0;  // s; groups do not begin all at once
   const auto held = m_file ? m_file->rows->range() : std::nullopt;
   if (!held || held->begin <= m_file->range.begin + chunk) return;
-  emit noted({tr("The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
-                 "can still be shown. Timeline > Memory for the past… gives it more.")
-                  .arg(m_budget >> 20).arg(held->end - held->begin, 0, 'f', 0)});
+  emit noted(
+      {tr("The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
+          "can still be shown. Timeline > Memory for the past… gives it more.")
+           .arg(m_budget >> 20)
+           .arg(held->end - held->begin, 0, 'f', 0)});
 }
 
 void ReplayController::stopLoading() {

@@ -27,20 +27,23 @@ TimelineEvent timelineEventOf(const telemetry::SessionEvent& event) {
       break;
     case EventType::Goal:
       // Whole sentences of the recorder; the mark says it shorter.
-      out.subject = out.text.contains(QStringLiteral("left")) ? QStringLiteral("left")
+      out.subject = out.text.contains(QStringLiteral("left"))    ? QStringLiteral("left")
                     : out.text.contains(QStringLiteral("right")) ? QStringLiteral("right")
                                                                  : out.subject;
       out.text.clear();
       break;
     case EventType::Kick:
     case EventType::Fall:
-    case EventType::BallOut: out.text.clear(); break;
+    case EventType::BallOut:
+      out.text.clear();
+      break;
     case EventType::Warning:
       if (event.kind != info(EventType::Warning).name) {
         out.text = QString::fromStdString(event.kind + ": " + event.text);
       }
       break;
-    default: break;
+    default:
+      break;
   }
   return out;
 }

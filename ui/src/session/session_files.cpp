@@ -6,12 +6,12 @@
 #include <QFileInfo>
 #include <QMimeData>
 
-#include "shell/notice_bar.h"
-#include "shell/source_switch.h"
 #include <telemetry/session_repair.h>
-#include "timeline/timeline.h"
 #include <ui/match_controller.h>
 #include <ui/replay_controller.h>
+#include "shell/notice_bar.h"
+#include "shell/source_switch.h"
+#include "timeline/timeline.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -40,8 +40,13 @@ QString repairedName(const QString& path) {
 SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller,
                            SourceSwitch* source, Timeline* timeline, NoticeBar* notices,
                            QWidget* window)
-    : QObject(window), m_replay(replay), m_controller(controller), m_source(source),
-      m_timeline(timeline), m_notices(notices), m_window(window) {
+    : QObject(window),
+      m_replay(replay),
+      m_controller(controller),
+      m_source(source),
+      m_timeline(timeline),
+      m_notices(notices),
+      m_window(window) {
   m_worker.setMaxThreadCount(1);
   window->setAcceptDrops(true);
   window->installEventFilter(this);
@@ -50,11 +55,12 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
   connect(replay, &ReplayController::opened, this, [this] {
     m_source->choose(m_replay);
     if (!m_replay->isBroken()) return;
-    m_notices->show(tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
-                       "be made beside it.").arg(QFileInfo(m_replay->path()).fileName()),
-                    {{tr("Repair into a new file"),
-                      [this, path = m_replay->path()] { repair(path); }},
-                     {tr("Not now"), {}}});
+    m_notices->show(
+        tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
+           "be made beside it.")
+            .arg(QFileInfo(m_replay->path()).fileName()),
+        {{tr("Repair into a new file"), [this, path = m_replay->path()] { repair(path); }},
+         {tr("Not now"), {}}});
   });
   connect(replay, &ReplayController::noted, this, [this](const QStringList& sentences) {
     constexpr int most = 3;
@@ -69,7 +75,9 @@ SessionFiles::~SessionFiles() {
   m_worker.waitForDone();
 }
 
-void SessionFiles::open(const QString& path) { m_replay->open(path); }
+void SessionFiles::open(const QString& path) {
+  m_replay->open(path);
+}
 
 void SessionFiles::askAndOpen() {
   const QString path = askForFile(tr("Open session"));
@@ -85,20 +93,25 @@ void SessionFiles::repair(const QString& path) {
   m_worker.start([this, path, to] {
     const auto report = telemetry::repairSession(path.toStdString(), to.toStdString(),
                                                  [this](double) { return !m_cancelled; });
-    QMetaObject::invokeMethod(this, [this, report, to] {
-      if (!report) {
-        m_notices->show(tr("The session was not repaired: %1")
-                            .arg(QString::fromStdString(report.error().text())));
-        return;
-      }
-      QString text = tr("Repaired into %1: %2 messages, %3 s.")
-                         .arg(to).arg(report->messages).arg(report->seconds, 0, 'f', 1);
-      if (!report->lost.empty()) {
-        text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
-      }
-      m_notices->show(text);
-      open(to);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, report, to] {
+          if (!report) {
+            m_notices->show(tr("The session was not repaired: %1")
+                                .arg(QString::fromStdString(report.error().text())));
+            return;
+          }
+          QString text = tr("Repaired into %1: %2 messages, %3 s.")
+                             .arg(to)
+                             .arg(report->messages)
+                             .arg(report->seconds, 0, 'f', 1);
+          if (!report->lost.empty()) {
+            text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
+          }
+          m_notices->show(text);
+          open(to);
+        },
+        Qt::QueuedConnection);
   });
 }
 

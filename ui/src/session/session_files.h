@@ -2,7 +2,8 @@
 #pragma once
 
 // Session files in the window: opened by menu, by dropping one, or from the command line; what is
-// wrong with one is a notice, and a broken one is repaired into a new file from there. UI thread only.
+// wrong with one is a notice, and a broken one is repaired into a new file from there. UI thread
+// only.
 
 #include <QObject>
 #include <QThreadPool>

@@ -9,10 +9,10 @@
 
 #include <robotlink/live_recorder.h>
 #include <robotlink/scenario.h>
-#include "shell/source_switch.h"
-#include "timeline/timeline.h"
 #include <ui/live_controller.h>
 #include <ui/match_controller.h>
+#include "shell/source_switch.h"
+#include "timeline/timeline.h"
 
 #include "session_events.h"
 
@@ -22,7 +22,9 @@ namespace {
 const QString folderKey = QStringLiteral("session/folder");
 constexpr std::size_t maxLogLines = 10'000;
 
-QString words(const Error& error) { return QString::fromStdString(error.text()); }
+QString words(const Error& error) {
+  return QString::fromStdString(error.text());
+}
 
 std::string programName() {
   return ("pitchboard " + QCoreApplication::applicationVersion()).trimmed().toStdString();
@@ -50,8 +52,13 @@ QString sessionFileName(const QDir& folder, const QString& title, const QDateTim
 SessionRecording::SessionRecording(MatchController* controller, LiveController* live,
                                    SourceSwitch* source, Timeline* timeline, QSettings* settings,
                                    QObject* parent)
-    : QObject(parent), m_controller(controller), m_live(live), m_source(source), m_timeline(timeline),
-      m_settings(settings), m_timer(new QTimer(this)) {
+    : QObject(parent),
+      m_controller(controller),
+      m_live(live),
+      m_source(source),
+      m_timeline(timeline),
+      m_settings(settings),
+      m_timer(new QTimer(this)) {
   constexpr int healthMilliseconds = 500;
   m_worker.setMaxThreadCount(1);
   m_timer->setInterval(healthMilliseconds);
@@ -90,7 +97,9 @@ QString SessionRecording::folder() const {
   return QDir(documents).filePath(QStringLiteral("Pitchboard"));
 }
 
-void SessionRecording::setFolder(const QString& folder) { m_settings->setValue(folderKey, folder); }
+void SessionRecording::setFolder(const QString& folder) {
+  m_settings->setValue(folderKey, folder);
+}
 
 bool SessionRecording::isPossible() const {
   if (m_source->kind() == SourceKind::Live) return m_live->isListening();
@@ -101,7 +110,8 @@ QString SessionRecording::newPath(const QString& title) {
   const QDir place(folder());
   if (!place.mkpath(QStringLiteral("."))) {
     emit failed(tr("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
-                   "Timeline > Folder for recordings…").arg(place.path()));
+                   "Timeline > Folder for recordings…")
+                    .arg(place.path()));
     return {};
   }
   return sessionFileName(place, title, QDateTime::currentDateTime());
@@ -116,8 +126,7 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::MatchRecorder> recorder = *made;
   m_controller->observe(recorder);
-  return Recorder{false,
-                  [recorder] { return recorder->status(); },
+  return Recorder{false, [recorder] { return recorder->status(); },
                   [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
                   [this, recorder] { m_controller->stopObserving(recorder); },
                   [recorder] { return recorder->finish(); }};
@@ -131,12 +140,12 @@ telemetry::WallTime SessionRecording::zeroOfLive() const {
 Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {
   link::RecorderOptions options;
   options.program = programName();
-  auto made = link::LiveRecorder::create(path.toStdString(), m_live->options(), zeroOfLive(), options);
+  auto made =
+      link::LiveRecorder::create(path.toStdString(), m_live->options(), zeroOfLive(), options);
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::LiveRecorder> recorder = *made;
   m_live->observe(recorder);
-  return Recorder{true,
-                  [recorder] { return recorder->status(); },
+  return Recorder{true, [recorder] { return recorder->status(); },
                   [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
                   [this, recorder] { m_live->stopObserving(recorder); },
                   [recorder] { return recorder->finish(); }};
@@ -146,15 +155,15 @@ void SessionRecording::start() {
   if (m_recorder || !isPossible()) return;
   const bool live = m_source->kind() == SourceKind::Live;
   const link::Scenario& scenario = m_controller->scenario();
-  const QString path = newPath(live ? tr("live")
-                                    : QString::fromStdString(scenario.title.empty()
-                                                                 ? scenario.name
-                                                                 : scenario.title));
+  const QString path = newPath(
+      live ? tr("live")
+           : QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title));
   if (path.isEmpty()) return;
   auto made = live ? recordLive(path) : recordMatch(path);
   if (!made) {
     emit failed(tr("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
-                   "recordings…").arg(words(made.error())));
+                   "recordings…")
+                    .arg(words(made.error())));
     return;
   }
   m_recorder = std::move(*made);
@@ -163,7 +172,9 @@ void SessionRecording::start() {
   emit changed();
 }
 
-void SessionRecording::stop() { finish(false); }
+void SessionRecording::stop() {
+  finish(false);
+}
 
 void SessionRecording::finish(bool matchEnds) {
   if (!m_recorder) return;
@@ -172,15 +183,19 @@ void SessionRecording::finish(bool matchEnds) {
   recorder.detach();
   m_worker.start([this, recorder, path = m_path, matchEnds] {
     const auto done = recorder.finish();
-    QMetaObject::invokeMethod(this, [this, done, path, matchEnds] {
-      if (!done) {
-        emit failed(tr("The recording %1 is not complete: %2. What was written before can be opened.")
-                        .arg(path, words(done.error())));
-        return;
-      }
-      if (matchEnds) emit failed(tr("The recording ended with the match: %1").arg(path));
-      emit saved(path);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, done, path, matchEnds] {
+          if (!done) {
+            emit failed(
+                tr("The recording %1 is not complete: %2. What was written before can be opened.")
+                    .arg(path, words(done.error())));
+            return;
+          }
+          if (matchEnds) emit failed(tr("The recording ended with the match: %1").arg(path));
+          emit saved(path);
+        },
+        Qt::QueuedConnection);
   });
   emit changed();
 }
@@ -202,7 +217,8 @@ void SessionRecording::checkHealth() {
   recorder.detach();
   m_worker.start([recorder] { static_cast<void>(recorder.finish()); });
   emit failed(tr("Recording has stopped: %1. The match goes on, and what was written before can be "
-                 "opened.").arg(problem));
+                 "opened.")
+                  .arg(problem));
   emit changed();
 }
 
@@ -228,14 +244,15 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     past.catalog = m_controller->catalog().toJson();
     archive = m_controller->archive();
   }
-  return [past = std::move(past), rows, archive, about, seconds](const QString& path) -> Result<void> {
-    link::RecentPast all = past;
-    all.rows = rows.get();
-    all.archive = archive.get();
-    const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
-    if (!done) return tl::unexpected(done.error());
-    return {};
-  };
+  return
+      [past = std::move(past), rows, archive, about, seconds](const QString& path) -> Result<void> {
+        link::RecentPast all = past;
+        all.rows = rows.get();
+        all.archive = archive.get();
+        const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
+        if (!done) return tl::unexpected(done.error());
+        return {};
+      };
 }
 
 void SessionRecording::saveLast(double seconds) {
@@ -251,10 +268,15 @@ void SessionRecording::saveLast(double seconds) {
   if (path.isEmpty()) return;
   m_worker.start([this, path, make = std::move(make)] {
     const auto done = make(path);
-    QMetaObject::invokeMethod(this, [this, done, path] {
-      if (done) emit saved(path);
-      else emit failed(tr("Nothing was saved: %1").arg(words(done.error())));
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, done, path] {
+          if (done)
+            emit saved(path);
+          else
+            emit failed(tr("Nothing was saved: %1").arg(words(done.error())));
+        },
+        Qt::QueuedConnection);
   });
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Record: keeps everything of the simulated match, or of what is heard live, in a session file from the
-// press of a button until the next, or until the match ends; and saves what has just happened from memory. Files get a name
-// of their own in the chosen folder and are never overwritten. UI thread only; the file is written by
-// a thread of its own, and what takes long runs on a worker.
+// Record: keeps everything of the simulated match, or of what is heard live, in a session file from
+// the press of a button until the next, or until the match ends; and saves what has just happened
+// from memory. Files get a name of their own in the chosen folder and are never overwritten. UI
+// thread only; the file is written by a thread of its own, and what takes long runs on a worker.
 
 #include <QDir>
 #include <QObject>
@@ -32,9 +32,9 @@ using SessionMaker = std::function<Result<void>(const QString& path)>;
 class SessionRecording : public QObject {
   Q_OBJECT
  public:
-  SessionRecording(MatchController* controller, LiveController* live, SourceSwitch* source, Timeline* timeline,
-                   QSettings* settings, QObject* parent);
-  ~SessionRecording() override;   ///< ends a recording that goes on
+  SessionRecording(MatchController* controller, LiveController* live, SourceSwitch* source,
+                   Timeline* timeline, QSettings* settings, QObject* parent);
+  ~SessionRecording() override;  ///< ends a recording that goes on
 
   /// Where files go: Documents/Pitchboard unless another one was chosen. Made when needed.
   QString folder() const;
@@ -51,13 +51,13 @@ class SessionRecording : public QObject {
 
   /// What happened in the last `seconds`, from memory into a new file; `saved` follows.
   void saveLast(double seconds);
-  /// Writes the last `seconds` of the simulated match or of what was heard, on any thread; the past is
-  /// what it is now. Empty when nothing is in memory, or a session is shown.
+  /// Writes the last `seconds` of the simulated match or of what was heard, on any thread; the past
+  /// is what it is now. Empty when nothing is in memory, or a session is shown.
   SessionMaker recentPast(double seconds) const;
 
  signals:
-  void changed();                          ///< started or stopped
-  void saved(const QString& path);         ///< a file is complete
+  void changed();                   ///< started or stopped
+  void saved(const QString& path);  ///< a file is complete
   void failed(const QString& sentence);
 
  private:
@@ -71,8 +71,8 @@ class SessionRecording : public QObject {
     bool live = false;
     std::function<telemetry::SessionStatus()> status;
     std::function<void(const telemetry::SessionEvent&)> append;
-    std::function<void()> detach;           ///< nothing reaches it any more
-    std::function<Result<void>()> finish;   ///< any thread, once detached
+    std::function<void()> detach;          ///< nothing reaches it any more
+    std::function<Result<void>()> finish;  ///< any thread, once detached
   };
   Result<Recorder> recordMatch(const QString& path);
   Result<Recorder> recordLive(const QString& path);
@@ -85,7 +85,7 @@ class SessionRecording : public QObject {
   QTimer* m_timer;
   std::optional<Recorder> m_recorder;
   QString m_path;
-  std::deque<telemetry::SessionLogLine> m_log;   // of the present match, for saveLast()
+  std::deque<telemetry::SessionLogLine> m_log;  // of the present match, for saveLast()
   QThreadPool m_worker;
 };
 

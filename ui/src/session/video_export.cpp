@@ -4,11 +4,11 @@
 #include <QPainter>
 #include <cmath>
 
+#include <robotlink/recorded_frame.h>
+#include <ui/theme.h>
 #include "field/field_picture.h"
 #include "field/field_scene.h"
-#include <robotlink/recorded_frame.h>
 #include "shell/scoreboard.h"
-#include <ui/theme.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -21,8 +21,12 @@ void paintCaption(QImage& picture, const link::MatchFrame& frame) {
   painter.setRenderHint(QPainter::Antialiasing);
   drawHaloText(&painter, {picture.width() / 2.0, high * 0.9},
                QStringLiteral("%1  %2 : %3  %4    %5")
-                   .arg(score.leftName).arg(score.left).arg(score.right).arg(score.rightName)
-                   .arg(frame.snapshot.time, 0, 'f', 1) + QStringLiteral(" s"),
+                       .arg(score.leftName)
+                       .arg(score.left)
+                       .arg(score.right)
+                       .arg(score.rightName)
+                       .arg(frame.snapshot.time, 0, 'f', 1) +
+                   QStringLiteral(" s"),
                fieldFont(high, true), theme().fieldLines, theme().fieldBorder.darker(150));
 }
 
@@ -78,8 +82,7 @@ VideoExport::~VideoExport() {
 Result<void> VideoExport::start(const QString& session, telemetry::TimeRange range,
                                 const VideoOptions& options) {
   if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
-    return tl::unexpected(
-        Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
+    return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
   }
   if (auto started = m_writer.start(options); !started) return started;
   m_reader = std::make_shared<Reader>();
@@ -110,17 +113,20 @@ void VideoExport::read() {
   const double time = m_range.begin + static_cast<double>(number) / m_rate;
   m_worker.start([this, reader = m_reader, time, job = m_job] {
     FramePtr frame = reader->frameAt(time);
-    QMetaObject::invokeMethod(this, [this, frame, job, problem = reader->problem] {
-      if (job != m_job) return;
-      m_reading = false;
-      if (!frame) {
-        cancel();
-        emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
-        return;
-      }
-      m_frame = frame;
-      next();
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, frame, job, problem = reader->problem] {
+          if (job != m_job) return;
+          m_reading = false;
+          if (!frame) {
+            cancel();
+            emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
+            return;
+          }
+          m_frame = frame;
+          next();
+        },
+        Qt::QueuedConnection);
   });
 }
 

@@ -11,21 +11,23 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr qint64 mostWaiting = qint64{64} << 20;   // bytes in the pipe's buffer
-constexpr qsizetype mostOutput = 16384;            // bytes of ffmpeg's complaints that are kept
+constexpr qint64 mostWaiting = qint64{64} << 20;  // bytes in the pipe's buffer
+constexpr qsizetype mostOutput = 16384;           // bytes of ffmpeg's complaints that are kept
 
 struct Format {
   QLatin1String suffix;
-  const char* name;        // for people
+  const char* name;  // for people
   QStringList arguments;
 };
 
 const std::array<Format, 2>& formats() {
   static const std::array<Format, 2> all{{
-      {QLatin1String("mp4"), "MP4",
+      {QLatin1String("mp4"),
+       "MP4",
        {"-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags",
         "+faststart", "-f", "mp4"}},
-      {QLatin1String("webm"), "WebM",
+      {QLatin1String("webm"),
+       "WebM",
        {"-c:v", "libvpx-vp9", "-crf", "32", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
         "-row-mt", "1", "-pix_fmt", "yuv420p", "-f", "webm"}},
   }};
@@ -49,13 +51,16 @@ QString sentenceOf(const QByteArray& output, const QString& path) {
   if (text.contains(QLatin1String("Unknown encoder")) ||
       text.contains(QLatin1String("Unrecognized option"))) {
     const Format* format = formatOf(path);
-    return QStringLiteral("This ffmpeg cannot write %1 videos. Choose the other format, or install a "
-                          "complete ffmpeg.")
+    return QStringLiteral(
+               "This ffmpeg cannot write %1 videos. Choose the other format, or install a "
+               "complete ffmpeg.")
         .arg(format ? QLatin1String(format->name) : QLatin1String("such"));
   }
   const QStringList lines = text.split('\n', Qt::SkipEmptyParts);
-  const QString last = lines.isEmpty() ? QStringLiteral("it gave no reason") : lines.last().trimmed();
-  return QStringLiteral("The video could not be written: ffmpeg ended with an error (%1).").arg(last);
+  const QString last =
+      lines.isEmpty() ? QStringLiteral("it gave no reason") : lines.last().trimmed();
+  return QStringLiteral("The video could not be written: ffmpeg ended with an error (%1).")
+      .arg(last);
 }
 
 tl::unexpected<Error> failure(ErrorCode code, const QString& sentence) {
@@ -82,7 +87,8 @@ VideoWriter::~VideoWriter() {
 }
 
 Result<void> VideoWriter::start(const VideoOptions& options) {
-  if (m_active) return failure(ErrorCode::Conflict, QStringLiteral("A video is being written already."));
+  if (m_active)
+    return failure(ErrorCode::Conflict, QStringLiteral("A video is being written already."));
   const Format* format = formatOf(options.path);
   if (!format) {
     return failure(ErrorCode::InvalidArgument,
@@ -92,7 +98,9 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
   if (size.width() < smallest || size.height() < smallest || size.width() > largest ||
       size.height() > largest) {
     return failure(ErrorCode::InvalidArgument,
-                   QStringLiteral("A video must be %1 to %2 pixels wide and high.").arg(smallest).arg(largest));
+                   QStringLiteral("A video must be %1 to %2 pixels wide and high.")
+                       .arg(smallest)
+                       .arg(largest));
   }
   if (!(options.framesPerSecond >= 1.0 && options.framesPerSecond <= 240.0)) {
     return failure(ErrorCode::InvalidArgument,
@@ -104,9 +112,10 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
   }
   const QString program = QStandardPaths::findExecutable(options.program);
   if (program.isEmpty()) {
-    return failure(ErrorCode::NotFound,
-                   QStringLiteral("Videos are made by ffmpeg, which is not installed here. Install the "
-                                  "package ffmpeg and try again."));
+    return failure(
+        ErrorCode::NotFound,
+        QStringLiteral("Videos are made by ffmpeg, which is not installed here. Install the "
+                       "package ffmpeg and try again."));
   }
   m_options = options;
   m_size = size;
@@ -114,19 +123,24 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
     // Here the reason is known; ffmpeg would only say "Invalid argument".
     QFile part(partPath());
     if (!part.open(QIODevice::WriteOnly | QIODevice::Truncate)) {
-      return failure(ErrorCode::SystemError, QStringLiteral("%1 cannot be written: %2.")
-                                                 .arg(options.path, part.errorString()));
+      return failure(
+          ErrorCode::SystemError,
+          QStringLiteral("%1 cannot be written: %2.").arg(options.path, part.errorString()));
     }
   }
   m_output.clear();
   m_pictures = 0;
   m_ending = false;
   m_active = true;
-  QStringList arguments{"-hide_banner", "-loglevel", "error", "-y",
-                        "-f", "rawvideo", "-pix_fmt", "bgr0",
-                        "-s", QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
-                        "-r", QString::number(options.framesPerSecond, 'g', 12),
-                        "-i", "pipe:0", "-an"};
+  QStringList arguments{
+      "-hide_banner", "-loglevel",
+      "error",        "-y",
+      "-f",           "rawvideo",
+      "-pix_fmt",     "bgr0",
+      "-s",           QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
+      "-r",           QString::number(options.framesPerSecond, 'g', 12),
+      "-i",           "pipe:0",
+      "-an"};
   arguments += format->arguments;
   arguments += QStringLiteral("file:") + partPath();
   m_process.setStandardOutputFile(QProcess::nullDevice());
@@ -195,9 +209,10 @@ void VideoWriter::onFinished(int exitCode, QProcess::ExitStatus status) {
   }
   if (m_options.overwrite) QFile::remove(m_options.path);
   if (!QFile::rename(partPath(), m_options.path)) {
-    fail(QStringLiteral("The video could not be given its name %1: a file of that name has appeared "
-                        "meanwhile.")
-             .arg(m_options.path));
+    fail(
+        QStringLiteral("The video could not be given its name %1: a file of that name has appeared "
+                       "meanwhile.")
+            .arg(m_options.path));
     return;
   }
   m_active = false;

@@ -34,26 +34,26 @@ struct StudioContext {
   SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
-  LinkedTime* time = nullptr;             ///< visible range, cursor and marks of plots and timeline
-  QSettings* settings = nullptr;          ///< the user's; may be null
-  PlotTarget* plots = nullptr;            ///< where variables can be sent to be plotted
-  Timeline* timeline = nullptr;           ///< the moment shown, events, looking back
+  LinkedTime* time = nullptr;     ///< visible range, cursor and marks of plots and timeline
+  QSettings* settings = nullptr;  ///< the user's; may be null
+  PlotTarget* plots = nullptr;    ///< where variables can be sent to be plotted
+  Timeline* timeline = nullptr;   ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
-  ReplayController* replay = nullptr;     ///< a recorded session
+  ReplayController* replay = nullptr;  ///< a recorded session
   SessionRecording* recording = nullptr;
-  LiveController* live = nullptr;         ///< listens once it was asked to
-  LiveOverlay* overlay = nullptr;         ///< the other source drawn beside the shown one
-  ComparedSession* compared = nullptr;    ///< a second session drawn over the shown one
+  LiveController* live = nullptr;       ///< listens once it was asked to
+  LiveOverlay* overlay = nullptr;       ///< the other source drawn beside the shown one
+  ComparedSession* compared = nullptr;  ///< a second session drawn over the shown one
 };
 
 struct DockInfo {
-  const char* id;              ///< in saved layouts: never change it
+  const char* id;  ///< in saved layouts: never change it
   const char* title;
-  Qt::DockWidgetArea area;     ///< docks of the bottom are tabbed together
+  Qt::DockWidgetArea area;  ///< docks of the bottom are tabbed together
   bool shownAtFirst;
-  int extent;                  ///< width (left, right) or height (bottom) at first, mock pixels
+  int extent;  ///< width (left, right) or height (bottom) at first, mock pixels
   QWidget* (*make)(const StudioContext& context, QWidget* parent);
-  bool ownRow = false;         ///< bottom: below the tabs, without a title while docked
+  bool ownRow = false;  ///< bottom: below the tabs, without a title while docked
 };
 
 std::span<const DockInfo> studioDocks();

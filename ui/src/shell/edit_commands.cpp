@@ -29,8 +29,12 @@ PlacementCommand::PlacementCommand(MatchController* controller,
   m_age.start();
 }
 
-void PlacementCommand::redo() { m_controller->placeRobots(m_placements, false); }
-void PlacementCommand::undo() { m_controller->placeRobots(m_placements, true); }
+void PlacementCommand::redo() {
+  m_controller->placeRobots(m_placements, false);
+}
+void PlacementCommand::undo() {
+  m_controller->placeRobots(m_placements, true);
+}
 
 bool PlacementCommand::mergeWith(const QUndoCommand* other) {
   const auto& later = static_cast<const PlacementCommand&>(*other);
@@ -53,8 +57,12 @@ BallCommand::BallCommand(MatchController* controller, Point from, Point to)
   m_age.start();
 }
 
-void BallCommand::redo() { m_controller->placeBall(m_to); }
-void BallCommand::undo() { m_controller->placeBall(m_from); }
+void BallCommand::redo() {
+  m_controller->placeBall(m_to);
+}
+void BallCommand::undo() {
+  m_controller->placeBall(m_from);
+}
 
 bool BallCommand::mergeWith(const QUndoCommand* other) {
   if (m_age.elapsed() > mergeMilliseconds) return false;
@@ -68,8 +76,12 @@ AddRobotCommand::AddRobotCommand(MatchController* controller, link::ScenarioRobo
   setText(QStringLiteral("Add ") + robotName(m_robot.identity));
 }
 
-void AddRobotCommand::redo() { m_controller->insertRobot(m_robot); }
-void AddRobotCommand::undo() { m_controller->eraseRobot(m_robot.identity.id); }
+void AddRobotCommand::redo() {
+  m_controller->insertRobot(m_robot);
+}
+void AddRobotCommand::undo() {
+  m_controller->eraseRobot(m_robot.identity.id);
+}
 
 RemoveRobotsCommand::RemoveRobotsCommand(MatchController* controller,
                                          std::vector<link::ScenarioRobot> robots)
@@ -91,8 +103,12 @@ TeamCommand::TeamCommand(MatchController* controller, std::vector<sim::RobotIden
                    QString::fromUtf8(team.data(), static_cast<qsizetype>(team.size()))));
 }
 
-void TeamCommand::redo() { m_controller->changeIdentities(m_after); }
-void TeamCommand::undo() { m_controller->changeIdentities(m_before); }
+void TeamCommand::redo() {
+  m_controller->changeIdentities(m_after);
+}
+void TeamCommand::undo() {
+  m_controller->changeIdentities(m_before);
+}
 
 void RemoveRobotsCommand::undo() {
   for (const link::ScenarioRobot& robot : m_robots) m_controller->insertRobot(robot);

@@ -59,7 +59,7 @@ class RemoveRobotsCommand : public QUndoCommand {
 
  private:
   MatchController* m_controller;
-  std::vector<link::ScenarioRobot> m_robots;   // with the poses they had
+  std::vector<link::ScenarioRobot> m_robots;  // with the poses they had
 };
 
 class TeamCommand : public QUndoCommand {

@@ -32,8 +32,10 @@ QByteArray fallbackIcon(const QString& name) {
   for (const Drawing& drawing : drawings) {
     if (name == QLatin1String(drawing.name)) path = drawing.path;
   }
-  return QByteArray("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 22 22\">"
-                    "<path fill-rule=\"evenodd\" d=\"") + path + "\"/></svg>";
+  return QByteArray(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 22 22\">"
+             "<path fill-rule=\"evenodd\" d=\"") +
+         path + "\"/></svg>";
 }
 
 }  // namespace pitchboard::ui

@@ -12,15 +12,19 @@ namespace {
 
 constexpr double corner = 3.0;
 
-int textGap() { return scaled(nullptr, 8); }
-int arrowRoom() { return scaled(nullptr, 22); }
+int textGap() {
+  return scaled(nullptr, 8);
+}
+int arrowRoom() {
+  return scaled(nullptr, 22);
+}
 
 void drawBox(QPainter* painter, const QStyleOption* option, bool pressed) {
   const bool enabled = option->state & QStyle::State_Enabled;
   const bool focused = (option->state & QStyle::State_HasFocus) &&
                        (option->state & QStyle::State_KeyboardFocusChange);
   const bool hovered = enabled && (option->state & QStyle::State_MouseOver);
-  painter->setPen(focused ? theme().accentLine
+  painter->setPen(focused   ? theme().accentLine
                   : hovered ? theme().disabledText
                             : theme().innerLine);
   painter->setBrush(pressed ? theme().selectedRow : enabled ? theme().button : theme().window);

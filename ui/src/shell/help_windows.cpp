@@ -14,7 +14,7 @@ namespace pitchboard::ui {
 namespace {
 
 struct Keys {
-  const char* keys;   ///< nullptr: `does` is a heading
+  const char* keys;  ///< nullptr: `does` is a heading
   const char* does;
 };
 

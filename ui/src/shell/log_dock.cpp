@@ -24,8 +24,12 @@ namespace {
 class LogDock : public QWidget {
  public:
   LogDock(const StudioContext& context, QWidget* parent)
-      : QWidget(parent), m_controller(context.controller), m_model(new LogModel(this)),
-        m_filter(new WordsFilter(this)), m_table(new QTableView(this)), m_empty(new QLabel(this)) {
+      : QWidget(parent),
+        m_controller(context.controller),
+        m_model(new LogModel(this)),
+        m_filter(new WordsFilter(this)),
+        m_table(new QTableView(this)),
+        m_empty(new QLabel(this)) {
     m_model->setObjectName(QStringLiteral("logModel"));
     m_filter->setSourceModel(m_model);
     m_table->setModel(m_filter);
@@ -64,7 +68,8 @@ class LogDock : public QWidget {
     m_empty->setAutoFillBackground(true);
     m_empty->setMargin(scaled(this, 12));
     m_empty->setWordWrap(true);
-    for (const auto changed : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
+    for (const auto changed :
+         {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
       connect(m_filter, changed, this, &LogDock::showEmpty);
     }
     connect(m_filter, &QAbstractItemModel::modelReset, this, &LogDock::showEmpty);

@@ -53,9 +53,12 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
         return clockText(tenths) + QLatin1Char('.') +
                QString::number(static_cast<int>(std::llround(tenths * 10)) % 10);
       }
-      case Origin: return QString::fromStdString(line.origin);
-      case Text: return QString::fromStdString(line.text);
-      default: return {};
+      case Origin:
+        return QString::fromStdString(line.origin);
+      case Text:
+        return QString::fromStdString(line.text);
+      default:
+        return {};
     }
   }
   if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
@@ -78,19 +81,25 @@ link::LogLine eventLine(const sim::Event& event, const QString& robot, double ti
   line.origin = robot.isEmpty() ? "simulation" : robot.toStdString();
   switch (event.kind) {
     case sim::EventKind::Goal:
-      line.text = event.value == 0 ? "goal for the team on the left"
-                                   : "goal for the team on the right";
+      line.text =
+          event.value == 0 ? "goal for the team on the left" : "goal for the team on the right";
       break;
-    case sim::EventKind::BallOut: line.text = "the ball is out"; break;
-    case sim::EventKind::Kick: line.text = "kicks the ball"; break;
+    case sim::EventKind::BallOut:
+      line.text = "the ball is out";
+      break;
+    case sim::EventKind::Kick:
+      line.text = "kicks the ball";
+      break;
     case sim::EventKind::Fall:
       line.text = "falls";
       line.warning = true;
       break;
-    case sim::EventKind::GotUp: line.text = "is up again"; break;
+    case sim::EventKind::GotUp:
+      line.text = "is up again";
+      break;
     case sim::EventKind::UnknownAction:
-      line.text = "chose the unknown action code " + std::to_string(event.value) +
-                  ", which counts as stop";
+      line.text =
+          "chose the unknown action code " + std::to_string(event.value) + ", which counts as stop";
       line.warning = true;
       break;
   }

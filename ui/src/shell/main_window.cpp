@@ -19,9 +19,9 @@
 #include <ui/scenario_files.h>
 
 #include "dock_list.h"
+#include "dock_title.h"
 #include "live/live_overlay.h"
 #include "live/live_settings.h"
-#include "dock_title.h"
 #include "menus.h"
 #include "notice_bar.h"
 #include "opening_label.h"
@@ -30,12 +30,12 @@
 #include "plots/plot_target.h"
 #include "robot_selection.h"
 #include "scenario_chooser.h"
-#include "source_switch.h"
-#include "status_bar.h"
 #include "session/compared_session.h"
 #include "session/export_dialog.h"
 #include "session/session_files.h"
 #include "session/session_recording.h"
+#include "source_switch.h"
+#include "status_bar.h"
 #include "timeline/looking_back_sign.h"
 #include "timeline/playback.h"
 #include "timeline/timeline.h"
@@ -53,11 +53,17 @@ const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
 
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
-    : QMainWindow(parent), m_controller(controller), m_live(new LiveController(this)),
-      m_settings(settings), m_source(new SourceSwitch(controller, this)),
-      m_undo(new QUndoGroup(this)), m_selection(new RobotSelection(this)),
-      m_time(new LinkedTime(this)), m_plots(new PlotTarget(this)),
-      m_timeline(new Timeline(m_source, this)), m_replay(new ReplayController(this)),
+    : QMainWindow(parent),
+      m_controller(controller),
+      m_live(new LiveController(this)),
+      m_settings(settings),
+      m_source(new SourceSwitch(controller, this)),
+      m_undo(new QUndoGroup(this)),
+      m_selection(new RobotSelection(this)),
+      m_time(new LinkedTime(this)),
+      m_plots(new PlotTarget(this)),
+      m_timeline(new Timeline(m_source, this)),
+      m_replay(new ReplayController(this)),
       m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
       m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   m_source->add(m_live);
@@ -90,9 +96,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connect(m_recording, &SessionRecording::failed, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
-    m_notices->show(tr("Saved: %1").arg(path),
-                    {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }},
-                     {tr("Close"), {}}});
+    m_notices->show(
+        tr("Saved: %1").arg(path),
+        {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }}, {tr("Close"), {}}});
   });
   connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
   const StudioContext context = this->context();
@@ -121,8 +127,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
           [this](const QString& sentence) { m_notices->show(sentence); });
   connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
-  connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files,
-          &ScenarioFiles::askAndOpen);
+  connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
   const LiveSettings live = loadLiveSettings(*settings);
   m_live->setOptions(live.options);
   if (!live.problem.isEmpty()) m_notices->show(tr("Live: %1").arg(live.problem));
@@ -134,11 +139,14 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
 MainWindow::~MainWindow() = default;
 
 StudioContext MainWindow::context() const {
-  return {m_controller, m_source, m_selection, m_field, m_time, m_settings, m_plots, m_timeline,
-          m_timelineActions, m_replay, m_recording, m_live, m_overlay, m_compared};
+  return {m_controller, m_source, m_selection, m_field,           m_time,
+          m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
+          m_recording,  m_live,   m_overlay,   m_compared};
 }
 
-void MainWindow::openSession(const QString& path) { m_sessions->open(path); }
+void MainWindow::openSession(const QString& path) {
+  m_sessions->open(path);
+}
 
 void MainWindow::showExport() {
   const auto all = m_timeline->available();
@@ -153,14 +161,16 @@ void MainWindow::showExport() {
     source.folder = file.path();
     source.name = file.completeBaseName() + tr(" part");
   } else {
-    source.make = [this] { return m_recording->recentPast(std::numeric_limits<double>::infinity()); };
+    source.make = [this] {
+      return m_recording->recentPast(std::numeric_limits<double>::infinity());
+    };
     source.folder = m_recording->folder();
     source.name = m_source->kind() == SourceKind::Live
                       ? tr("live")
                       : QString::fromStdString(m_controller->scenario().title);
   }
-  auto* dialog = new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field,
-                                  this);
+  auto* dialog =
+      new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field, this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->show();
 }
@@ -268,12 +278,15 @@ void MainWindow::resetLayout() {
       bottom = dock;
     }
     dock->setVisible(infos[i].shownAtFirst);
-    resizeDocks({dock}, {scaled(this, infos[i].extent)}, isBottom(i) ? Qt::Vertical : Qt::Horizontal);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)},
+                isBottom(i) ? Qt::Vertical : Qt::Horizontal);
   }
   if (firstBottom != nullptr) firstBottom->raise();
 }
 
-void MainWindow::offerToRemoveOrphans() { showOrphanNotice(m_notices, m_controller); }
+void MainWindow::offerToRemoveOrphans() {
+  showOrphanNotice(m_notices, m_controller);
+}
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   m_settings->setValue(geometryKey, saveGeometry());

@@ -23,8 +23,8 @@ struct RunnerWithCatalog {
 
 std::shared_ptr<link::MatchRunner> holding(CatalogPtr catalog,
                                            std::unique_ptr<link::MatchRunner> runner) {
-  const auto both = std::make_shared<RunnerWithCatalog>(
-      RunnerWithCatalog{std::move(catalog), std::move(runner)});
+  const auto both =
+      std::make_shared<RunnerWithCatalog>(RunnerWithCatalog{std::move(catalog), std::move(runner)});
   return {both, both->runner.get()};
 }
 
@@ -56,8 +56,8 @@ MatchController::~MatchController() {
 struct MatchController::Opening {
   std::shared_ptr<link::MatchRunner> runner;
   link::Cognition cognition = link::Cognition::Inline;
-  std::shared_ptr<link::TickObserver> sampler, archive;   // that the match was started with
-  QString error;   // of a match that plays otherwise than asked for, or not at all
+  std::shared_ptr<link::TickObserver> sampler, archive;  // that the match was started with
+  QString error;  // of a match that plays otherwise than asked for, or not at all
 
   void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
              CatalogPtr catalog);
@@ -78,11 +78,14 @@ void MatchController::Opening::start(const link::Scenario& scenario,
     if (made) {
       error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
                  "instead, and other programs cannot see their blackboards. Close the other "
-                 "program, then restart the match.").arg(words(reason));
+                 "program, then restart the match.")
+                  .arg(words(reason));
     }
   }
-  if (made) runner = holding(std::move(catalog), std::move(*made));
-  else error = tr("The match cannot be played: %1").arg(words(made.error()));
+  if (made)
+    runner = holding(std::move(catalog), std::move(*made));
+  else
+    error = tr("The match cannot be played: %1").arg(words(made.error()));
 }
 
 void MatchController::setMemoryBudget(std::size_t bytes) {
@@ -147,7 +150,9 @@ void MatchController::open(const link::Scenario& scenario, bool paused) {
   openAfter(scenario, paused, {});
 }
 
-void MatchController::restart() { restartAfter({}); }
+void MatchController::restart() {
+  restartAfter({});
+}
 
 void MatchController::restartAfter(std::function<void()> between) {
   const link::Scenario scenario = m_scenario;
@@ -170,8 +175,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
   }
   m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
                   options = m_options, catalog = m_catalog, sampler = m_sampler,
-                  archive = m_archive,
-                  generation = m_generation.load()]() mutable {
+                  archive = m_archive, generation = m_generation.load()]() mutable {
     old.reset();
     if (between) between();
     if (generation != m_generation) return;
@@ -179,10 +183,15 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
     opening->sampler = sampler;
     opening->archive = archive;
     opening->start(scenario, options, paused, catalog);
-    QMetaObject::invokeMethod(this, [this, opening, generation] {
-      if (generation == m_generation) take(*opening);
-      else m_worker.start([opening] { opening->runner.reset(); });
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, opening, generation] {
+          if (generation == m_generation)
+            take(*opening);
+          else
+            m_worker.start([opening] { opening->runner.reset(); });
+        },
+        Qt::QueuedConnection);
   });
   emit scenarioChanged();
   emit restarted();
@@ -243,8 +252,10 @@ void MatchController::stepOnce() {
 void MatchController::runTo(std::uint64_t tick) {
   if (!m_runner && !m_opening) return;
   m_paused = true;
-  if (m_runner) m_runner->runTo(tick);
-  else m_runTo = tick;
+  if (m_runner)
+    m_runner->runTo(tick);
+  else
+    m_runTo = tick;
   emit transportChanged();
 }
 
@@ -282,19 +293,24 @@ void MatchController::postChecked(const QString& whatFailed,
         generation = m_generation.load()](link::SimulatedMatch& match) {
     const Result<void> done = command(match);
     if (done) return;
-    const QString sentence = whatFailed + QStringLiteral(": ") +
-                             QString::fromStdString(done.error().text());
-    QMetaObject::invokeMethod(this, [this, sentence, onFailure, generation] {
-      if (generation != m_generation) return;
-      if (onFailure) onFailure();
-      emit errorOccurred(sentence);
-    }, Qt::QueuedConnection);
+    const QString sentence =
+        whatFailed + QStringLiteral(": ") + QString::fromStdString(done.error().text());
+    QMetaObject::invokeMethod(
+        this,
+        [this, sentence, onFailure, generation] {
+          if (generation != m_generation) return;
+          if (onFailure) onFailure();
+          emit errorOccurred(sentence);
+        },
+        Qt::QueuedConnection);
   });
 }
 
 void MatchController::post(link::MatchRunner::Command command) {
-  if (m_runner) m_runner->post(std::move(command));
-  else if (m_opening) m_whenOpen.push_back(std::move(command));
+  if (m_runner)
+    m_runner->post(std::move(command));
+  else if (m_opening)
+    m_whenOpen.push_back(std::move(command));
 }
 
 }  // namespace pitchboard::ui

@@ -36,7 +36,9 @@ void MatchController::previewRobots(const std::vector<RobotPlacement>& placement
   placeRobots(placements, false);
 }
 
-void MatchController::previewBall(Point position) { placeBall(position); }
+void MatchController::previewBall(Point position) {
+  placeBall(position);
+}
 
 void MatchController::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
   if (!m_runner) return;
@@ -55,8 +57,8 @@ void MatchController::addRobot(TeamColor team, const Pose& pose, std::optional<i
                     info(team).facesLeft};
   entry.pose = pose;
   if (numbers.count(entry.identity.number) != 0) {
-    emit errorOccurred(tr("%1 is on the field already. Choose another number.")
-                           .arg(robotName(entry.identity)));
+    emit errorOccurred(
+        tr("%1 is on the field already. Choose another number.").arg(robotName(entry.identity)));
     return;
   }
   m_undoStack->push(new AddRobotCommand(this, entry));
@@ -101,20 +103,22 @@ void MatchController::changeIdentities(const std::vector<sim::RobotIdentity>& id
     const auto known = m_robots.find(identity.id);
     if (known == m_robots.end()) continue;
     const sim::RobotIdentity before = std::exchange(known->second.identity, identity);
-    postChecked(tr("%1 stays in its team").arg(robotName(before)),
-                [identity](link::SimulatedMatch& match) { return match.setIdentity(identity); },
-                [this, before] {
-                  const auto still = m_robots.find(before.id);
-                  if (still != m_robots.end()) still->second.identity = before;
-                });
+    postChecked(
+        tr("%1 stays in its team").arg(robotName(before)),
+        [identity](link::SimulatedMatch& match) { return match.setIdentity(identity); },
+        [this, before] {
+          const auto still = m_robots.find(before.id);
+          if (still != m_robots.end()) still->second.identity = before;
+        });
   }
 }
 
 void MatchController::insertRobot(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
-  postChecked(tr("%1 cannot be added").arg(robotName(entry.identity)),
-              [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
-              [this, id = entry.identity.id] { m_robots.erase(id); });
+  postChecked(
+      tr("%1 cannot be added").arg(robotName(entry.identity)),
+      [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
+      [this, id = entry.identity.id] { m_robots.erase(id); });
 }
 
 void MatchController::eraseRobot(RobotId id) {
@@ -165,31 +169,33 @@ void MatchController::writeVariable(RobotId id, const QString& name, double valu
     emit errorOccurred(tr("%1: this match's catalog has no such variable.").arg(failed));
     return;
   }
-  postChecked(failed, [this, id, name, value, type = variable->type, index = variable->index,
-                       generation = m_generation.load()](
-                          link::SimulatedMatch& match) -> Result<void> {
-    link::Blackboard* board = match.blackboard(id);
-    if (board == nullptr) {
-      return failure(ErrorCode::NotFound, "the robot is not on the field any more");
-    }
-    if (type == link::VariableType::Int) {
-      board->write(link::IntVar{index}, static_cast<int>(value));
-    } else {
-      board->write(link::FloatVar{index}, static_cast<float>(value));
-    }
-    const sim::WorldState& state = match.simulation().state();
-    const double time = static_cast<double>(state.tick) / state.settings.tickRate;
-    QMetaObject::invokeMethod(this, [this, id, name, time, generation] {
-      if (generation == m_generation) emit variableWritten(id, name, time);
-    }, Qt::QueuedConnection);
-    return {};
-  });
+  postChecked(failed,
+              [this, id, name, value, type = variable->type, index = variable->index,
+               generation = m_generation.load()](link::SimulatedMatch& match) -> Result<void> {
+                link::Blackboard* board = match.blackboard(id);
+                if (board == nullptr) {
+                  return failure(ErrorCode::NotFound, "the robot is not on the field any more");
+                }
+                if (type == link::VariableType::Int) {
+                  board->write(link::IntVar{index}, static_cast<int>(value));
+                } else {
+                  board->write(link::FloatVar{index}, static_cast<float>(value));
+                }
+                const sim::WorldState& state = match.simulation().state();
+                const double time = static_cast<double>(state.tick) / state.settings.tickRate;
+                QMetaObject::invokeMethod(
+                    this,
+                    [this, id, name, time, generation] {
+                      if (generation == m_generation) emit variableWritten(id, name, time);
+                    },
+                    Qt::QueuedConnection);
+                return {};
+              });
 }
 
 void MatchController::setNoise(const sim::NoiseParameters& noise) {
-  postChecked(tr("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
-    return match.simulation().setNoise(noise);
-  });
+  postChecked(tr("The noise stays as it was"),
+              [noise](link::SimulatedMatch& match) { return match.simulation().setNoise(noise); });
 }
 
 void MatchController::setRigidBody(const sim::RigidBodySettings& settings) {
@@ -225,9 +231,7 @@ void MatchController::stopProcesses(RobotId id) {
 }
 
 void MatchController::setClockRunning(bool running) {
-  post([running](link::SimulatedMatch& match) {
-    match.simulation().setClockRunning(running);
-  });
+  post([running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
 }
 
 void MatchController::resetScore() {

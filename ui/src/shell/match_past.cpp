@@ -42,7 +42,8 @@ void MatchController::stopObserving(const std::shared_ptr<link::TickObserver>& o
 void MatchController::continueFrom(double time) {
   const auto rows = series();
   if (!m_runner || !m_archive || !rows || !m_frame) return;
-  const auto tick = static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * m_frame->tickRate));
+  const auto tick =
+      static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * m_frame->tickRate));
   setPaused(true);
   auto moment = link::momentFromMemory(*m_archive, *rows, tick, *m_catalog);
   if (!moment) {
@@ -62,10 +63,9 @@ void MatchController::continueFrom(double time) {
   }
   m_robots = std::move(robots);
   m_undoStack->clear();
-  postChecked(tr("The match cannot be continued from this moment"),
-              [moment = std::move(*moment)](link::SimulatedMatch& match) {
-                return match.reenter(moment);
-              });
+  postChecked(
+      tr("The match cannot be continued from this moment"),
+      [moment = std::move(*moment)](link::SimulatedMatch& match) { return match.reenter(moment); });
 }
 
 }  // namespace pitchboard::ui

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The rows of one simulated match, written by two kinds of threads: the match's, which brings its own
-// time, and the samplers of attached blackboards, whose rows get the match's time at that moment, so
-// that both can be compared.
+// The rows of one simulated match, written by two kinds of threads: the match's, which brings its
+// own time, and the samplers of attached blackboards, whose rows get the match's time at that
+// moment, so that both can be compared.
 
 #include <chrono>
 #include <memory>
@@ -16,7 +16,7 @@ namespace pitchboard::ui {
 
 class MatchRows : public telemetry::RowSink {
  public:
-  explicit MatchRows(std::size_t memoryBudget) : m_store({memoryBudget}) {}   ///< bytes
+  explicit MatchRows(std::size_t memoryBudget) : m_store({memoryBudget}) {}  ///< bytes
 
   // The match's thread.
   telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
@@ -34,10 +34,10 @@ class MatchRows : public telemetry::RowSink {
   using Clock = std::chrono::steady_clock;
   double timeBeside();
 
-  std::mutex m_mutex;                // of the time
+  std::mutex m_mutex;  // of the time
   telemetry::SeriesStore m_store;
-  double m_time = 0.0;               // of the match's newest row, s
-  double m_step = 0.0;               // between its last two
+  double m_time = 0.0;  // of the match's newest row, s
+  double m_step = 0.0;  // between its last two
   Clock::time_point m_arrived = Clock::now();
   bool m_matchBegan = false;
 };

@@ -5,8 +5,8 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QFileDialog>
-#include <QInputDialog>
 #include <QFileInfo>
+#include <QInputDialog>
 #include <QMenuBar>
 #include <QSettings>
 #include <QUndoGroup>
@@ -84,9 +84,9 @@ void StudioMenus::makeFile() {
                                   &ScenarioFiles::askAndSave);
   withIcon(save, "document-save", QKeySequence::Save);
   onlyWhenSimulating(save);
-  withIcon(menu->addAction(QObject::tr("Export &picture…"), files,
-                           &ScenarioFiles::askAndExportPicture),
-           "document-export");
+  withIcon(
+      menu->addAction(QObject::tr("Export &picture…"), files, &ScenarioFiles::askAndExportPicture),
+      "document-export");
   menu->addSeparator();
   withIcon(menu->addAction(QObject::tr("&Quit"), &m_window, &QWidget::close), "application-exit",
            QKeySequence(Qt::CTRL | Qt::Key_Q));
@@ -115,9 +115,9 @@ void StudioMenus::makeEdit() {
            // Ctrl+A is a key of the field: it adds a red robot.
            "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
-  QAction* remove = menu->addAction(
-      QObject::tr("&Delete selected robots"), controller,
-      [controller, selection] { controller->removeRobots(selection->ids()); });
+  QAction* remove =
+      menu->addAction(QObject::tr("&Delete selected robots"), controller,
+                      [controller, selection] { controller->removeRobots(selection->ids()); });
   withIcon(remove, "edit-delete");
   remove->setEnabled(false);
   QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
@@ -139,8 +139,7 @@ void StudioMenus::makeThemes(QMenu* menu) {
     QObject::connect(action, &QAction::triggered, &m_window,
                      [settings = m_window.m_settings, chosen = choice] {
                        setTheme(*qobject_cast<QApplication*>(QApplication::instance()), chosen);
-                       settings->setValue(QStringLiteral("window/theme"),
-                                          static_cast<int>(chosen));
+                       settings->setValue(QStringLiteral("window/theme"), static_cast<int>(chosen));
                      });
   }
 }
@@ -183,10 +182,10 @@ void StudioMenus::makeSimulation() {
   clock->setCheckable(true);
   QObject::connect(menu, &QMenu::aboutToShow, clock,
                    [clock, controller, source = m_window.m_source] {
-    const FramePtr frame = controller->frame();
-    clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
-    clock->setChecked(frame && frame->snapshot.clockRunning);
-  });
+                     const FramePtr frame = controller->frame();
+                     clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
+                     clock->setChecked(frame && frame->snapshot.clockRunning);
+                   });
   QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
   onlyWhenSimulating(
       menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore));
@@ -220,8 +219,8 @@ void StudioMenus::makeTimeline() {
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
   menu->addSeparator();
   ComparedSession* compared = m_window.m_compared;
-  QAction* compare = menu->addAction(
-      QObject::tr("Co&mpare with session…"), sessions, [sessions, compared] {
+  QAction* compare =
+      menu->addAction(QObject::tr("Co&mpare with session…"), sessions, [sessions, compared] {
         const QString path = sessions->askForFile(QObject::tr("Compare with session"));
         if (!path.isEmpty()) compared->open(path);
       });
@@ -238,8 +237,8 @@ void StudioMenus::makeTimeline() {
   showCompared();
   menu->addSeparator();
   SessionRecording* recording = m_window.m_recording;
-  QAction* exportAction = menu->addAction(
-      QObject::tr("&Export…"), &m_window, [this_ = &m_window] { this_->showExport(); });
+  QAction* exportAction = menu->addAction(QObject::tr("&Export…"), &m_window,
+                                          [this_ = &m_window] { this_->showExport(); });
   exportAction->setObjectName(QStringLiteral("exportSession"));
   QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, timeline] {
     exportAction->setEnabled(timeline->available().has_value());
@@ -252,11 +251,12 @@ void StudioMenus::makeTimeline() {
         this_->memoryBudget(), 16, 65536, 64, &chosen);
     if (chosen) this_->setMemoryBudget(megabytes);
   });
-  menu->addAction(QObject::tr("&Folder for recordings…"), recording, [this_ = &m_window, recording] {
-    const QString chosen = QFileDialog::getExistingDirectory(
-        this_, QObject::tr("Folder for recordings"), recording->folder());
-    if (!chosen.isEmpty()) recording->setFolder(chosen);
-  });
+  menu->addAction(QObject::tr("&Folder for recordings…"), recording,
+                  [this_ = &m_window, recording] {
+                    const QString chosen = QFileDialog::getExistingDirectory(
+                        this_, QObject::tr("Folder for recordings"), recording->folder());
+                    if (!chosen.isEmpty()) recording->setFolder(chosen);
+                  });
 }
 
 void StudioMenus::makePlots() {

@@ -145,18 +145,20 @@ class NoiseDock : public QScrollArea {
     for (const sim::PhysicsModelInfo& model : sim::physicsModels()) {
       const QString name = QString::fromUtf8(model.name.data(), qsizetype(model.name.size()));
       m_model->addItem(name, name);
-      m_model->setItemData(m_model->count() - 1,
-                           QString::fromUtf8(model.description.data(),
-                                             qsizetype(model.description.size())),
-                           Qt::ToolTipRole);
+      m_model->setItemData(
+          m_model->count() - 1,
+          QString::fromUtf8(model.description.data(), qsizetype(model.description.size())),
+          Qt::ToolTipRole);
     }
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
     column->addWidget(remark(tr("Changing the model goes on from this moment with everything at "
-                                "rest and forgets what can be undone."), form));
+                                "rest and forgets what can be undone."),
+                             form));
     m_exact = remark(tr("“published” follows the published simulator to the last bit: it has no "
-                        "constants to change. Choose “rigid-body” to change them."), form);
+                        "constants to change. Choose “rigid-body” to change them."),
+                     form);
     column->addWidget(m_exact);
     m_body = new QWidget(form);
     auto* grid = new QGridLayout(m_body);

@@ -43,7 +43,9 @@ void NoticeBar::show(const QString& sentence, std::vector<NoticeButton> buttons)
   present();
 }
 
-QString NoticeBar::text() const { return m_notices.empty() ? QString() : m_text->text(); }
+QString NoticeBar::text() const {
+  return m_notices.empty() ? QString() : m_text->text();
+}
 
 void NoticeBar::dismiss() {
   if (!m_notices.empty()) m_notices.erase(m_notices.begin());

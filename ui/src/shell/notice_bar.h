@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 
 struct NoticeButton {
   QString text;
-  std::function<void()> action;   ///< may be empty: the button only closes the notice
+  std::function<void()> action;  ///< may be empty: the button only closes the notice
 };
 
 class NoticeBar : public QFrame {
@@ -36,7 +36,7 @@ class NoticeBar : public QFrame {
   void present();
   void dismiss();
 
-  std::vector<Notice> m_notices;   // the first is shown
+  std::vector<Notice> m_notices;  // the first is shown
   QLabel* m_text;
   QLabel* m_more;
   QHBoxLayout* m_buttons;

@@ -29,8 +29,8 @@ bool OpeningLabel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void OpeningLabel::present() {
-  const bool wanted = !m_controller->frame() && (m_controller->isOpening() ||
-                                                 m_controller->isOpen());
+  const bool wanted =
+      !m_controller->frame() && (m_controller->isOpening() || m_controller->isOpen());
   if (!wanted) {
     hide();
     return;

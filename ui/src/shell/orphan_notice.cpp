@@ -23,25 +23,28 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   if (keys.empty()) return;
   const QString sentence =
       keys.size() == 1
-          ? QObject::tr("An earlier run left a blackboard behind (key %1), with its old values. "
-                        "Removing it restarts the match.").arg(names.front())
-          : QObject::tr("An earlier run left %1 blackboards behind (keys %2), with their old "
-                        "values. Removing them restarts the match.")
-                .arg(keys.size()).arg(names.join(QStringLiteral(", ")));
-  notices->show(sentence,
-                {{QObject::tr("Remove"),
-                  [controller, keys] {
-                    controller->restartAfter([keys] {
-                      for (const int key : keys) {
-                        const auto segment = link::SystemVSegments::info(key);
-                        // Somebody else may have come to use it meanwhile.
-                        if (segment && segment->attached == 0) {
-                          (void)link::SystemVSegments::remove(key);
-                        }
-                      }
-                    });
-                  }},
-                 {QObject::tr("Keep"), {}}});
+          ? QObject::tr(
+                "An earlier run left a blackboard behind (key %1), with its old values. "
+                "Removing it restarts the match.")
+                .arg(names.front())
+          : QObject::tr(
+                "An earlier run left %1 blackboards behind (keys %2), with their old "
+                "values. Removing them restarts the match.")
+                .arg(keys.size())
+                .arg(names.join(QStringLiteral(", ")));
+  notices->show(sentence, {{QObject::tr("Remove"),
+                            [controller, keys] {
+                              controller->restartAfter([keys] {
+                                for (const int key : keys) {
+                                  const auto segment = link::SystemVSegments::info(key);
+                                  // Somebody else may have come to use it meanwhile.
+                                  if (segment && segment->attached == 0) {
+                                    (void)link::SystemVSegments::remove(key);
+                                  }
+                                }
+                              });
+                            }},
+                           {QObject::tr("Keep"), {}}});
 }
 
 }  // namespace pitchboard::ui

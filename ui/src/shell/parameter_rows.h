@@ -18,12 +18,12 @@ namespace pitchboard::ui {
 template <class Values>
 struct Parameter {
   const char* name;
-  double Values::* member;
-  double factor;        ///< shown = stored × factor
-  double minimum;       ///< shown
-  double maximum;       ///< shown
+  double Values::*member;
+  double factor;   ///< shown = stored × factor
+  double minimum;  ///< shown
+  double maximum;  ///< shown
   int decimals;
-  const char* unit;     ///< " cm", with its leading space
+  const char* unit;  ///< " cm", with its leading space
   const char* tip;
 };
 
@@ -33,8 +33,10 @@ class ParameterRow : public QObject {
   ParameterRow(QGridLayout* grid, int row, const QString& name, const QString& unit,
                const QString& tip, double minimum, double maximum, int decimals,
                std::function<void(double)> edited, QWidget* parent)
-      : QObject(parent), m_slider(new QSlider(Qt::Horizontal, parent)),
-        m_box(new QDoubleSpinBox(parent)), m_edited(std::move(edited)) {
+      : QObject(parent),
+        m_slider(new QSlider(Qt::Horizontal, parent)),
+        m_box(new QDoubleSpinBox(parent)),
+        m_edited(std::move(edited)) {
     auto* label = new QLabel(name, parent);
     label->setToolTip(tip);
     label->setBuddy(m_box);
@@ -44,7 +46,7 @@ class ParameterRow : public QObject {
     m_box->setSingleStep((maximum - minimum) / 50);
     m_box->setAlignment(Qt::AlignRight);
     m_box->setKeyboardTracking(false);
-    m_box->setButtonSymbols(QAbstractSpinBox::NoButtons);   // the slider is the quick way
+    m_box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is the quick way
     m_box->setToolTip(tip);
     m_box->setAccessibleName(name);
     m_box->setMinimumWidth(scaled(parent, 108));

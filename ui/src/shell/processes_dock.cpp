@@ -23,15 +23,19 @@ QString emptyText(const MatchController& controller) {
   switch (controller.cognition()) {
     case link::Cognition::Inline:
       if (controller.options().cognition != link::Cognition::Inline) {
-        return QObject::tr("The robots decide inside the studio, because separate processes could "
-                           "not be started: the Log says why.");
+        return QObject::tr(
+            "The robots decide inside the studio, because separate processes could "
+            "not be started: the Log says why.");
       }
-      return QObject::tr("The robots decide inside the studio, so there are no separate processes to "
-                         "show. Start the studio with --cognition external to have them.");
+      return QObject::tr(
+          "The robots decide inside the studio, so there are no separate processes to "
+          "show. Start the studio with --cognition external to have them.");
     case link::Cognition::None:
-      return QObject::tr("Nothing was started. Attach your own processes to the robots' "
-                         "blackboards: key 100 × robot number (plus the key base).");
-    case link::Cognition::External: return QObject::tr("There are no robots, so no processes run.");
+      return QObject::tr(
+          "Nothing was started. Attach your own processes to the robots' "
+          "blackboards: key 100 × robot number (plus the key base).");
+    case link::Cognition::External:
+      return QObject::tr("There are no robots, so no processes run.");
   }
   return {};
 }
@@ -39,8 +43,11 @@ QString emptyText(const MatchController& controller) {
 class ProcessesDock : public QStackedWidget {
  public:
   ProcessesDock(const StudioContext& context, QWidget* parent)
-      : QStackedWidget(parent), m_controller(context.controller),
-        m_source(context.source), m_model(new ProcessesModel(this)), m_table(new QTableView(this)),
+      : QStackedWidget(parent),
+        m_controller(context.controller),
+        m_source(context.source),
+        m_model(new ProcessesModel(this)),
+        m_table(new QTableView(this)),
         m_empty(new QLabel(this)) {
     constexpr int refreshMilliseconds = 250;
     m_table->setObjectName(QStringLiteral("processesTable"));
@@ -77,11 +84,14 @@ class ProcessesDock : public QStackedWidget {
  private:
   void refresh() {
     const bool simulated = m_source->kind() == SourceKind::Simulate;
-    if (const FramePtr frame = m_source->frame()) m_model->update(*frame);
-    else m_model->clear();
-    m_empty->setText(simulated ? emptyText(*m_controller)
-                               : tr("These robots' processes run on the robots. The letters on the cards "
-                                    "tell which of them work."));
+    if (const FramePtr frame = m_source->frame())
+      m_model->update(*frame);
+    else
+      m_model->clear();
+    m_empty->setText(simulated
+                         ? emptyText(*m_controller)
+                         : tr("These robots' processes run on the robots. The letters on the cards "
+                              "tell which of them work."));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 

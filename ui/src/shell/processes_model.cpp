@@ -17,9 +17,12 @@ QString stateText(const link::ChildStatus& status) {
     return detail.isEmpty() ? word : word + QStringLiteral(" (") + detail + QLatin1Char(')');
   };
   switch (status.state) {
-    case link::ChildState::Running: return QStringLiteral("running");
-    case link::ChildState::Ended: return with(QStringLiteral("ended"));
-    case link::ChildState::Failed: return with(QStringLiteral("failed"));
+    case link::ChildState::Running:
+      return QStringLiteral("running");
+    case link::ChildState::Ended:
+      return with(QStringLiteral("ended"));
+    case link::ChildState::Failed:
+      return with(QStringLiteral("failed"));
   }
   return {};
 }
@@ -35,8 +38,10 @@ void ProcessesModel::update(const link::MatchFrame& frame) {
       const auto same = std::find_if(
           rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
           [&child](const Row& row) { return row.status.spec.name == child.spec.name; });
-      if (same != rows.end()) same->status = child;
-      else rows.push_back({child, robotName(robot.identity)});
+      if (same != rows.end())
+        same->status = child;
+      else
+        rows.push_back({child, robotName(robot.identity)});
     }
   }
   const auto sameKey = [](const Row& a, const Row& b) {
@@ -79,12 +84,18 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
   const Row& row = m_rows[static_cast<std::size_t>(index.row())];
   if (role == Qt::DisplayRole || role == Qt::ToolTipRole) {
     switch (index.column()) {
-      case Robot: return row.robot;
-      case Process: return QString::fromStdString(row.status.spec.name);
-      case Pid: return QString::number(row.status.pid);
-      case State: return stateText(row.status);
-      case LastOutput: return QString::fromStdString(row.status.lastOutput);
-      default: return {};
+      case Robot:
+        return row.robot;
+      case Process:
+        return QString::fromStdString(row.status.spec.name);
+      case Pid:
+        return QString::number(row.status.pid);
+      case State:
+        return stateText(row.status);
+      case LastOutput:
+        return QString::fromStdString(row.status.lastOutput);
+      default:
+        return {};
     }
   }
   if (role == Qt::ForegroundRole && index.column() == State) {

@@ -44,7 +44,8 @@ void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vecto
                        for (const RobotId id : ids) controller->setBehaviour(id, key);
                      });
   };
-  for (const link::BehaviourInfo& known : link::behaviours()) offer(known.name, capitalised(known.name));
+  for (const link::BehaviourInfo& known : link::behaviours())
+    offer(known.name, capitalised(known.name));
   behaviour->addSeparator();
   offer(link::noBehaviour, QObject::tr("None (your own process)"));
 }
@@ -58,7 +59,8 @@ void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<Rob
       return r.identity.team == color.color;
     });
     QObject::connect(addChoice(group, team, capitalised(color.name), chosen), &QAction::triggered,
-                     controller, [controller, ids, to = color.color] { controller->setTeam(ids, to); });
+                     controller,
+                     [controller, ids, to = color.color] { controller->setTeam(ids, to); });
   }
 }
 

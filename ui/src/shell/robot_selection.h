@@ -28,8 +28,10 @@ class RobotSelection : public QObject {
   void toggle(RobotId id) {
     std::vector<RobotId> ids = m_ids;
     const auto found = std::find(ids.begin(), ids.end(), id);
-    if (found != ids.end()) ids.erase(found);
-    else ids.push_back(id);
+    if (found != ids.end())
+      ids.erase(found);
+    else
+      ids.push_back(id);
     set(ids);
   }
 

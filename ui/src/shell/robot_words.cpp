@@ -36,9 +36,8 @@ QString numberText(double value, int decimals) {
 QString clockText(double seconds) {
   const auto whole = static_cast<long long>(std::floor(seconds));
   const QLatin1Char zero('0');
-  const QString minutes = QStringLiteral("%1:%2")
-                              .arg(whole / 60 % 60, 2, 10, zero)
-                              .arg(whole % 60, 2, 10, zero);
+  const QString minutes =
+      QStringLiteral("%1:%2").arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
   return whole < 3600 ? minutes : QString::number(whole / 3600) + QLatin1Char(':') + minutes;
 }
 

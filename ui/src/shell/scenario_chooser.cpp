@@ -27,8 +27,10 @@ ScenarioChooser::ScenarioChooser(QSettings* settings, QWidget* parent)
     if (picked == m_current) return;
     // Until it is really open, the old one is what is played.
     setCurrentIndex(findData(m_current));
-    if (picked.isEmpty()) emit openRequested();
-    else emit chosen(picked);
+    if (picked.isEmpty())
+      emit openRequested();
+    else
+      emit chosen(picked);
   });
   fill();
 }

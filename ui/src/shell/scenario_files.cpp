@@ -4,7 +4,6 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QSaveFile>
-#include <QSaveFile>
 
 #include <ui/field_view.h>
 #include <ui/match_controller.h>
@@ -15,14 +14,17 @@ namespace pitchboard::ui {
 
 ScenarioFiles::ScenarioFiles(MatchController* controller, FieldView* field,
                              ScenarioChooser* chooser, QWidget* window)
-    : QObject(window), m_controller(controller), m_field(field), m_chooser(chooser),
+    : QObject(window),
+      m_controller(controller),
+      m_field(field),
+      m_chooser(chooser),
       m_window(window) {}
 
 void ScenarioFiles::open(const QString& nameOrPath) {
   const auto scenario = link::loadScenario(nameOrPath.toStdString());
   if (!scenario) {
-    emit failed(tr("The scenario was not opened: %1")
-                    .arg(QString::fromStdString(scenario.error().text())));
+    emit failed(
+        tr("The scenario was not opened: %1").arg(QString::fromStdString(scenario.error().text())));
     return;
   }
   m_controller->open(*scenario, m_controller->isPaused());
@@ -42,8 +44,7 @@ void ScenarioFiles::save(const QString& path) {
   const std::string text = link::scenarioToJson(moment);
   QSaveFile file(path);
   const auto size = static_cast<qint64>(text.size());
-  if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size ||
-      !file.commit()) {
+  if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size || !file.commit()) {
     emit failed(tr("The scenario was not saved to %1: %2. Choose another folder.")
                     .arg(path, file.errorString()));
   }
@@ -61,7 +62,8 @@ void ScenarioFiles::exportPicture(const QString& path) {
   }
   if (!written) {
     emit failed(tr("The picture was not written to %1. Choose another folder, and a name that "
-                   "ends in .png or .svg.").arg(path));
+                   "ends in .png or .svg.")
+                    .arg(path));
   }
 }
 
@@ -72,17 +74,18 @@ void ScenarioFiles::askAndOpen() {
 }
 
 void ScenarioFiles::askAndSave() {
-  QString path = QFileDialog::getSaveFileName(m_window, tr("Save this moment as a scenario"),
-                                              QStringLiteral("moment.json"),
-                                              tr("Scenarios (*.json)"));
+  QString path =
+      QFileDialog::getSaveFileName(m_window, tr("Save this moment as a scenario"),
+                                   QStringLiteral("moment.json"), tr("Scenarios (*.json)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
   save(path);
 }
 
 void ScenarioFiles::askAndExportPicture() {
-  QString path = QFileDialog::getSaveFileName(m_window, tr("Export a picture of the field"),
-                                              QStringLiteral("field.png"), tr("Pictures (*.png *.svg)"));
+  QString path =
+      QFileDialog::getSaveFileName(m_window, tr("Export a picture of the field"),
+                                   QStringLiteral("field.png"), tr("Pictures (*.png *.svg)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
   exportPicture(path);

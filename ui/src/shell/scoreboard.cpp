@@ -25,10 +25,11 @@ QColor refereeColour(const std::string& words) {
     if (team.name == words) return theme().team(team.color);
   }
   // What referees know besides the colours that robots are drawn in.
-  static const std::pair<const char*, QColor> others[] = {
-      {"white", QColor(245, 245, 245)}, {"green", QColor(58, 150, 80)},
-      {"purple", QColor(130, 70, 170)}, {"brown", QColor(125, 85, 50)},
-      {"gray", QColor(128, 128, 128)}};
+  static const std::pair<const char*, QColor> others[] = {{"white", QColor(245, 245, 245)},
+                                                          {"green", QColor(58, 150, 80)},
+                                                          {"purple", QColor(130, 70, 170)},
+                                                          {"brown", QColor(125, 85, 50)},
+                                                          {"gray", QColor(128, 128, 128)}};
   for (const auto& [name, colour] : others) {
     if (words == name) return colour;
   }
@@ -44,7 +45,9 @@ QString refereeTip(const link::RefereeView& view) {
   QStringList tip;
   for (const link::RefereeTeamView& team : view.teams) {
     tip << QObject::tr("Team %1 (%2): %3 goals, %4 players on the field%5")
-               .arg(team.number).arg(QString::fromStdString(team.colour)).arg(team.score)
+               .arg(team.number)
+               .arg(QString::fromStdString(team.colour))
+               .arg(team.score)
                .arg(team.playersLeft)
                .arg(team.number == view.ourTeam && view.ourTeam != 0 ? QObject::tr(", ours")
                                                                      : QString());
@@ -60,7 +63,8 @@ QString refereeTip(const link::RefereeView& view) {
   tip << (view.kickOffTeam ? QObject::tr("Kick-off: team %1").arg(*view.kickOffTeam)
                            : QObject::tr("Kick-off: nobody (drop ball)"));
   tip << QObject::tr("Referee at %1, version %2, heard %3 s ago")
-             .arg(QString::fromStdString(view.sender)).arg(view.version)
+             .arg(QString::fromStdString(view.sender))
+             .arg(view.version)
              .arg(numberText(view.age, 1));
   if (view.conflict) tip << QObject::tr("A second referee program is heard.");
   if (view.trueData) tip << QObject::tr("Monitor mode: true data arrive.");
@@ -122,10 +126,10 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   state.left = frame.snapshot.score.left;
   state.right = frame.snapshot.score.right;
   state.clock = clockText(frame.snapshot.clock);
-  state.state = frame.finished                 ? QStringLiteral("FINISHED")
-                : frame.paused                 ? QStringLiteral("PAUSED")
-                : frame.snapshot.clockRunning  ? QStringLiteral("PLAYING")
-                                               : QStringLiteral("CLOCK STOPPED");
+  state.state = frame.finished                ? QStringLiteral("FINISHED")
+                : frame.paused                ? QStringLiteral("PAUSED")
+                : frame.snapshot.clockRunning ? QStringLiteral("PLAYING")
+                                              : QStringLiteral("CLOCK STOPPED");
   return state;
 }
 
@@ -139,9 +143,9 @@ void Scoreboard::setState(const ScoreboardState& state) {
   m_state = state;
   if (sizeHint() != before) updateGeometry();
   setToolTip(state.tip.isEmpty() ? tr("Score, time of play and state of the game") : state.tip);
-  setAccessibleName(QStringLiteral("%1 %2 %3, %4, %5")
-                        .arg(state.leftName, scoreText(state), state.rightName, state.clock,
-                             state.state));
+  setAccessibleName(
+      QStringLiteral("%1 %2 %3, %4, %5")
+          .arg(state.leftName, scoreText(state), state.rightName, state.clock, state.state));
   update();
 }
 

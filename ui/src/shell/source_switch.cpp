@@ -28,8 +28,10 @@ void SourceSwitch::choose(FrameSource* source) {
 
 void SourceSwitch::follow() {
   connect(m_current, &FrameSource::frameReceived, this, [this](const FramePtr& frame) {
-    if (m_past) emit newestChanged();
-    else emit frameReceived(frame);
+    if (m_past)
+      emit newestChanged();
+    else
+      emit frameReceived(frame);
   });
   connect(m_current, &FrameSource::eventsReceived, this, &FrameSource::eventsReceived);
   connect(m_current, &FrameSource::eventsRecorded, this, &FrameSource::eventsRecorded);

@@ -2,7 +2,8 @@
 #pragma once
 
 // The source that the window shows at the moment: passes on what the chosen one says. The others
-// go on running unseen. It can also show a past moment of the chosen one, which goes on unseen then.
+// go on running unseen. It can also show a past moment of the chosen one, which goes on unseen
+// then.
 
 #include <ui/frame_source.h>
 

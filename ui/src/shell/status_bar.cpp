@@ -80,9 +80,9 @@ void StudioStatusBar::hideEmpty() {
 }
 
 void StudioStatusBar::setCursor(QPointF metres, bool valid) {
-  m_cursor->setText(valid ? tr("x %1 m  y %2 m")
-                                .arg(numberText(metres.x(), 2), numberText(metres.y(), 2))
-                          : QString());
+  m_cursor->setText(
+      valid ? tr("x %1 m  y %2 m").arg(numberText(metres.x(), 2), numberText(metres.y(), 2))
+            : QString());
 }
 
 void StudioStatusBar::copyStateHash() {
@@ -104,8 +104,10 @@ void StudioStatusBar::showSource() {
   showMemory();
   if (m_context.source->kind() == SourceKind::Live) {
     showLive(frame.get());
-    if (frame) showSelected(*frame);
-    else m_selected->clear();
+    if (frame)
+      showSelected(*frame);
+    else
+      m_selected->clear();
     return;
   }
   m_pace->setToolTip({});
@@ -113,15 +115,16 @@ void StudioStatusBar::showSource() {
   m_processes->setToolTip({});
   if (!frame) {
     m_pace->setText(m_context.source->kind() == SourceKind::Replay ? tr("No session")
-                    : m_context.controller->isOpening() ? tr("Opening…")
-                                                        : tr("No match"));
+                    : m_context.controller->isOpening()            ? tr("Opening…")
+                                                                   : tr("No match"));
     for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
     return;
   }
   if (m_context.source->kind() == SourceKind::Replay) {
     m_pace->setText(tr("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
-    m_world->setText(tr("%1 of %2").arg(momentText(m_context.timeline->shownTime(), 2),
-                                         momentText(m_context.timeline->now(), 0)));
+    m_world->setText(tr("%1 of %2")
+                         .arg(momentText(m_context.timeline->shownTime(), 2),
+                              momentText(m_context.timeline->now(), 0)));
     m_processes->clear();
   } else {
     showMatch(*frame);
@@ -141,7 +144,8 @@ void StudioStatusBar::showMemory() {
   m_recording->setToolTip({});
   if (m_context.source->kind() == SourceKind::Replay) {
     const double part = m_context.replay->loaded();
-    m_recording->setText(part < 1 ? tr("Reading %1 %").arg(static_cast<int>(part * 100)) : QString());
+    m_recording->setText(part < 1 ? tr("Reading %1 %").arg(static_cast<int>(part * 100))
+                                  : QString());
     return;
   }
   const auto rows = m_context.source->series();
@@ -153,8 +157,8 @@ void StudioStatusBar::showMemory() {
 }
 
 void StudioStatusBar::showLive(const link::MatchFrame* frame) {
-  const LiveStatusText text =
-      m_live.update(m_context.live->details(), frame, static_cast<double>(m_clock.elapsed()) / 1000);
+  const LiveStatusText text = m_live.update(m_context.live->details(), frame,
+                                            static_cast<double>(m_clock.elapsed()) / 1000);
   m_pace->setText(text.network);
   m_pace->setToolTip(text.tip);
   m_world->setText(text.referee);
@@ -178,9 +182,15 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                             countText(frame.snapshot.tick))
                        .arg(frame.seed));
   switch (m_context.controller->cognition()) {
-    case link::Cognition::External: m_processes->setText(tr("Robot processes separate")); break;
-    case link::Cognition::Inline: m_processes->setText(tr("Robots decide in the studio")); break;
-    case link::Cognition::None: m_processes->setText(tr("Waiting for your processes")); break;
+    case link::Cognition::External:
+      m_processes->setText(tr("Robot processes separate"));
+      break;
+    case link::Cognition::Inline:
+      m_processes->setText(tr("Robots decide in the studio"));
+      break;
+    case link::Cognition::None:
+      m_processes->setText(tr("Waiting for your processes"));
+      break;
   }
 }
 

@@ -35,9 +35,15 @@ QColor ThemeColors::team(TeamColor color) const {
   return *colors[static_cast<std::size_t>(color)];
 }
 
-const ThemeColors& theme() { return current().dark ? darkColors() : lightColors(); }
-bool isDarkTheme() { return current().dark; }
-ThemeChoice themeChoice() { return current().choice; }
+const ThemeColors& theme() {
+  return current().dark ? darkColors() : lightColors();
+}
+bool isDarkTheme() {
+  return current().dark;
+}
+ThemeChoice themeChoice() {
+  return current().choice;
+}
 
 void setTheme(QApplication& application, ThemeChoice choice) {
   DesktopTheme* desktop = DesktopTheme::of(application);

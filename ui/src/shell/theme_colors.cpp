@@ -168,8 +168,8 @@ QHeaderView::section { background: @window; color: @secondary; border: none;
 QToolTip { background: @window; color: @text; border: 1px solid @line; }
 )");
   const std::pair<const char*, QColor> names[] = {
-      {"@window", c.window}, {"@view", c.view},     {"@button", c.button},
-      {"@line", c.innerLine}, {"@edge", c.outerEdge}, {"@accent", c.accentLine},
+      {"@window", c.window},   {"@view", c.view},       {"@button", c.button},
+      {"@line", c.innerLine},  {"@edge", c.outerEdge},  {"@accent", c.accentLine},
       {"@fill", c.accentFill}, {"@row", c.selectedRow}, {"@secondary", c.secondaryText},
       {"@text", c.text}};
   for (const auto& [name, color] : names) sheet.replace(QLatin1String(name), color.name());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Icons of one colour: the shape comes from the Breeze theme, the colour from our own, at the moment
-// of drawing, so that a change of theme needs no new icons.
+// Icons of one colour: the shape comes from the Breeze theme, the colour from our own, at the
+// moment of drawing, so that a change of theme needs no new icons.
 #include <QApplication>
 #include <QDir>
 #include <QFile>
@@ -18,9 +18,9 @@ namespace pitchboard::ui {
 namespace {
 
 QByteArray svgOf(const QString& name) {
-  const QStringList roots = QStandardPaths::locateAll(
-      QStandardPaths::GenericDataLocation, QStringLiteral("icons/breeze"),
-      QStandardPaths::LocateDirectory);
+  const QStringList roots =
+      QStandardPaths::locateAll(QStandardPaths::GenericDataLocation, QStringLiteral("icons/breeze"),
+                                QStandardPaths::LocateDirectory);
   for (const QString& root : roots) {
     for (const char* folder : {"actions/22", "actions/16", "devices/22", "status/22", "actions/32",
                                "apps/22", "preferences/22"}) {

@@ -13,9 +13,9 @@
 #include <ui/replay_controller.h>
 #include <ui/theme.h>
 
-#include "scenario_chooser.h"
 #include "live/live_bar.h"
 #include "robot_words.h"
+#include "scenario_chooser.h"
 #include "scoreboard.h"
 #include "session/session_recording.h"
 #include "source_switch.h"
@@ -33,7 +33,8 @@ struct Mode {
 // The kinds of source that the window can show; a further one is a line here.
 constexpr Mode modes[] = {
     {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
-    {SourceKind::Live, "Live", "Robots and referee as the network tells. Nothing is sent to robots"},
+    {SourceKind::Live, "Live",
+     "Robots and referee as the network tells. Nothing is sent to robots"},
     {SourceKind::Replay, "Replay", "A recorded session"},
 };
 
@@ -47,8 +48,10 @@ QString speedText(double speed) {
 }  // namespace
 
 TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QWidget* parent)
-    : QToolBar(tr("Tool bar"), parent), m_context(context),
-      m_scenarios(new ScenarioChooser(settings, this)), m_scoreboard(new Scoreboard(this)),
+    : QToolBar(tr("Tool bar"), parent),
+      m_context(context),
+      m_scenarios(new ScenarioChooser(settings, this)),
+      m_scoreboard(new Scoreboard(this)),
       m_speed(new QComboBox(this)) {
   setObjectName(QStringLiteral("transportBar"));
   setMovable(false);
@@ -94,7 +97,7 @@ void TransportBar::addModes() {
     action->setChecked(mode.kind == m_context.source->kind());
     connect(action, &QAction::triggered, this, [this, kind = mode.kind] {
       emit sourceRequested(kind);
-      showMode();   // the request may have been refused
+      showMode();  // the request may have been refused
     });
     m_modes.push_back({mode.kind, action});
     auto* button = new QToolButton(this);
@@ -105,21 +108,28 @@ void TransportBar::addModes() {
 }
 
 void TransportBar::addTransport() {
-  m_restart = addAction(themedIcon(QStringLiteral("media-skip-backward")), tr("Restart"), this,
-                        [this] {
-                          if (Playback* past = playback()) past->toStart();
-                          else m_context.controller->restart();
-                        });
+  m_restart =
+      addAction(themedIcon(QStringLiteral("media-skip-backward")), tr("Restart"), this, [this] {
+        if (Playback* past = playback())
+          past->toStart();
+        else
+          m_context.controller->restart();
+      });
   m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
   m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), tr("Pause"), this, [this] {
-    if (Playback* past = playback()) past->setPaused(!past->isPaused());
-    else m_context.controller->setPaused(!m_context.controller->isPaused());
+    if (Playback* past = playback())
+      past->setPaused(!past->isPaused());
+    else
+      m_context.controller->setPaused(!m_context.controller->isPaused());
   });
   m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
-  m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), tr("One tick"), this, [this] {
-    if (Playback* past = playback()) past->step(1);
-    else m_context.controller->stepOnce();
-  });
+  m_step =
+      addAction(themedIcon(QStringLiteral("media-skip-forward")), tr("One tick"), this, [this] {
+        if (Playback* past = playback())
+          past->step(1);
+        else
+          m_context.controller->stepOnce();
+      });
   m_step->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Period));
   m_restart->setObjectName(QStringLiteral("restart"));
   m_play->setObjectName(QStringLiteral("play"));
@@ -129,8 +139,10 @@ void TransportBar::addTransport() {
   m_speed->setMinimumWidth(scaled(this, 68));
   connect(m_speed, &QComboBox::activated, this, [this] {
     const double speed = m_speed->currentData().toDouble();
-    if (Playback* past = playback()) past->setSpeed(speed);
-    else m_context.controller->setSpeed(speed);
+    if (Playback* past = playback())
+      past->setSpeed(speed);
+    else
+      m_context.controller->setSpeed(speed);
   });
   m_speedAction = addWidget(m_speed);
   connect(m_context.controller, &MatchController::transportChanged, this,
@@ -154,8 +166,10 @@ void TransportBar::addRecord() {
   }
   m_record->setMenu(menu);
   connect(m_record, &QToolButton::clicked, this, [this] {
-    if (m_context.recording->isRecording()) m_context.recording->stop();
-    else m_context.recording->start();
+    if (m_context.recording->isRecording())
+      m_context.recording->stop();
+    else
+      m_context.recording->start();
   });
   m_recordAction = addWidget(m_record);
   connect(m_context.recording, &SessionRecording::changed, this, &TransportBar::showRecord);
@@ -179,9 +193,9 @@ void TransportBar::showRecord() {
   m_record->setIcon(QIcon(dot));
   m_record->setText(on ? tr("Recording %1").arg(clockText(m_context.recording->status().seconds))
                        : tr("Record"));
-  m_record->setToolTip(on ? tr("Stop recording into %1").arg(m_context.recording->path())
-                          : tr("Record everything into a new file in %1")
-                                .arg(m_context.recording->folder()));
+  m_record->setToolTip(
+      on ? tr("Stop recording into %1").arg(m_context.recording->path())
+         : tr("Record everything into a new file in %1").arg(m_context.recording->folder()));
   m_record->setEnabled(on || m_context.recording->isPossible());
   m_recordAction->setVisible(m_context.source->kind() != SourceKind::Replay || on);
 }
@@ -205,14 +219,13 @@ void TransportBar::showTransport() {
   const MatchController& controller = *m_context.controller;
   const Playback* past = playback();
   const bool paused = past != nullptr ? past->isPaused() : controller.isPaused();
-  const bool there = past != nullptr ? past->isAvailable()
-                                     : controller.isOpen() || controller.isOpening();
+  const bool there =
+      past != nullptr ? past->isAvailable() : controller.isOpen() || controller.isOpening();
   m_restart->setText(past != nullptr ? tr("To the start") : tr("Restart"));
-  m_restart->setToolTip(QStringLiteral("%1 (%2)").arg(m_restart->text(),
-                                                      m_restart->shortcut().toString()));
+  m_restart->setToolTip(
+      QStringLiteral("%1 (%2)").arg(m_restart->text(), m_restart->shortcut().toString()));
   m_play->setText(paused ? tr("Play") : tr("Pause"));
-  m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(),
-                                                   m_play->shortcut().toString()));
+  m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(), m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
   // Live goes on by itself; only its past can be played.

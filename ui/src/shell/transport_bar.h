@@ -50,7 +50,7 @@ class TransportBar : public QToolBar {
   };
 
   StudioContext m_context;
-  std::vector<Control> m_modes;      // their buttons' actions
+  std::vector<Control> m_modes;  // their buttons' actions
   std::vector<Control> m_controls;
   ScenarioChooser* m_scenarios;
   Scoreboard* m_scoreboard;

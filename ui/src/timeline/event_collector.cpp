@@ -86,13 +86,20 @@ void EventCollector::takeEvents(const std::vector<sim::Event>& events) {
         made.text = made.subject;
         made.subject = teamOf(frame.get(), event.value);
         break;
-      case sim::EventKind::BallOut: made.type = EventType::BallOut; break;
-      case sim::EventKind::Kick: made.type = EventType::Kick; break;
-      case sim::EventKind::Fall: made.type = EventType::Fall; break;
+      case sim::EventKind::BallOut:
+        made.type = EventType::BallOut;
+        break;
+      case sim::EventKind::Kick:
+        made.type = EventType::Kick;
+        break;
+      case sim::EventKind::Fall:
+        made.type = EventType::Fall;
+        break;
       // Getting up follows every fall, and the log counts unknown codes: marks would hide more than
       // they say.
       case sim::EventKind::GotUp:
-      case sim::EventKind::UnknownAction: continue;
+      case sim::EventKind::UnknownAction:
+        continue;
     }
     taken.push_back(std::move(made));
   }
@@ -118,7 +125,9 @@ void EventCollector::compareHealth(const link::MatchFrame& frame) {
     const QString name = nameOf(&frame, robot.id);
     if (robot.timedOut != known.timedOut) {
       m_list->add({frame.snapshot.time,
-                   robot.timedOut ? EventType::Timeout : EventType::Recovery, name, {}});
+                   robot.timedOut ? EventType::Timeout : EventType::Recovery,
+                   name,
+                   {}});
     }
     if (robot.penalty && !known.penalised) {
       m_list->add({frame.snapshot.time, EventType::Warning, name,
@@ -134,8 +143,8 @@ void EventCollector::compareProcesses(const link::MatchFrame& frame) {
                                                         QString::fromStdString(child.spec.name));
     const auto known = m_children.find(child.handle);
     const bool running = child.state == link::ChildState::Running;
-    const bool ranBefore = known != m_children.end() &&
-                           known->second.state == link::ChildState::Running;
+    const bool ranBefore =
+        known != m_children.end() && known->second.state == link::ChildState::Running;
     if (running && !ranBefore) {
       // Its first start is no event: every match begins with it.
       if (!m_everRan.emplace(child.spec.robot, child.spec.name).second) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Turns what one source says into events of the timeline: events of the simulation as they come, and
-// what changes from frame to frame (referee, processes, robots that fall silent). UI thread only.
+// Turns what one source says into events of the timeline: events of the simulation as they come,
+// and what changes from frame to frame (referee, processes, robots that fall silent). UI thread
+// only.
 
 #include <map>
 #include <set>
@@ -38,8 +39,8 @@ class EventCollector : public QObject {
   };
   FrameSource* m_source;
   EventList* m_list;
-  std::map<int, Child> m_children;                       // by handle
-  std::set<std::pair<RobotId, std::string>> m_everRan;   // robot, process
+  std::map<int, Child> m_children;                      // by handle
+  std::set<std::pair<RobotId, std::string>> m_everRan;  // robot, process
   std::map<RobotId, Health> m_health;
   QString m_referee;
   double m_time = 0.0;

@@ -9,7 +9,9 @@
 namespace pitchboard::ui {
 namespace {
 
-bool earlier(const TimelineEvent& a, const TimelineEvent& b) { return a.time < b.time; }
+bool earlier(const TimelineEvent& a, const TimelineEvent& b) {
+  return a.time < b.time;
+}
 
 }  // namespace
 
@@ -67,7 +69,8 @@ void EventList::add(std::vector<TimelineEvent> events) {
     std::erase_if(m_events, [&surplus](const TimelineEvent& event) {
       return surplus > 0 && event.type != EventType::Bookmark && surplus-- > 0;
     });
-    if (m_events.size() > m_most) m_events.erase(m_events.begin(), m_events.end() - static_cast<std::ptrdiff_t>(m_most));
+    if (m_events.size() > m_most)
+      m_events.erase(m_events.begin(), m_events.end() - static_cast<std::ptrdiff_t>(m_most));
   }
   endResetModel();
   touch();
@@ -131,14 +134,17 @@ QVariant EventList::data(const QModelIndex& index, int role) const {
   if (role == Qt::ToolTipRole) return sentenceOf(e);
   if (role != Qt::DisplayRole && role != Qt::EditRole) return {};
   switch (index.column()) {
-    case Time: return role == Qt::EditRole ? QVariant(e.time) : QVariant(momentText(e.time, 3));
+    case Time:
+      return role == Qt::EditRole ? QVariant(e.time) : QVariant(momentText(e.time, 3));
     case What: {
       TimelineEvent bare = e;
       bare.text.clear();
       return sentenceOf(bare);
     }
-    case Note: return e.text;
-    default: return {};
+    case Note:
+      return e.text;
+    default:
+      return {};
   }
 }
 
@@ -157,8 +163,7 @@ bool EventList::setData(const QModelIndex& index, const QVariant& value, int rol
 
 Qt::ItemFlags EventList::flags(const QModelIndex& index) const {
   Qt::ItemFlags all = QAbstractTableModel::flags(index);
-  if (index.isValid() && index.column() == Note &&
-      event(index.row()).type == EventType::Bookmark) {
+  if (index.isValid() && index.column() == Note && event(index.row()).type == EventType::Bookmark) {
     all |= Qt::ItemIsEditable;
   }
   return all;

@@ -19,7 +19,7 @@ class EventList : public QAbstractTableModel {
  public:
   enum Column { Time, What, Note, columns };
   static constexpr std::size_t maxEvents = 20'000;
-  static constexpr int maxNote = 200;   ///< characters
+  static constexpr int maxNote = 200;  ///< characters
 
   explicit EventList(QObject* parent = nullptr, std::size_t most = maxEvents);
 

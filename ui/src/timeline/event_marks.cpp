@@ -28,7 +28,9 @@ void outlined(QPainter& painter) {
   painter.setBrush(Qt::NoBrush);
 }
 
-void disc(QPainter& p, QPointF c, double s) { p.drawEllipse(c, s * 0.5, s * 0.5); }
+void disc(QPainter& p, QPointF c, double s) {
+  p.drawEllipse(c, s * 0.5, s * 0.5);
+}
 void ring(QPainter& p, QPointF c, double s) {
   outlined(p);
   p.drawEllipse(c, s * 0.42, s * 0.42);
@@ -36,7 +38,9 @@ void ring(QPainter& p, QPointF c, double s) {
 void up(QPainter& p, QPointF c, double s) {
   polygon(p, c, s, {{-0.45, 0.42}, {0.45, 0.42}, {0.0, -0.42}});
 }
-void smallUp(QPainter& p, QPointF c, double s) { up(p, c + QPointF(0, s * 0.12), s * 0.78); }
+void smallUp(QPainter& p, QPointF c, double s) {
+  up(p, c + QPointF(0, s * 0.12), s * 0.78);
+}
 void down(QPainter& p, QPointF c, double s) {
   polygon(p, c, s, {{-0.45, -0.42}, {0.45, -0.42}, {0.0, 0.42}});
 }
@@ -91,7 +95,9 @@ constexpr std::array<Look, eventTypeCount> looks{{
 
 }  // namespace
 
-QColor markColor(EventType type) { return theme().*looks[static_cast<std::size_t>(type)].color; }
+QColor markColor(EventType type) {
+  return theme().*looks[static_cast<std::size_t>(type)].color;
+}
 
 void drawMark(QPainter& painter, EventType type, QPointF centre, double size) {
   painter.save();
@@ -118,7 +124,8 @@ std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, cons
       EventMark& same = marks.back();
       same.last = row;
       ++same.merged;
-      if (info(at->type).importance > info(events[static_cast<std::size_t>(same.row)].type).importance) {
+      if (info(at->type).importance >
+          info(events[static_cast<std::size_t>(same.row)].type).importance) {
         same.row = row;
         same.x = x;
       }
@@ -149,11 +156,11 @@ std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, cons
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const QString words = labelOf(events[static_cast<std::size_t>(kept[i].row)]);
     if (words.isEmpty()) continue;
-    const double stop = i + 1 < kept.size() ? kept[i + 1].x - sizes.spacing * 0.6
-                                            : axis.left + axis.width;
+    const double stop =
+        i + 1 < kept.size() ? kept[i + 1].x - sizes.spacing * 0.6 : axis.left + axis.width;
     const int room = static_cast<int>(stop - kept[i].x - sizes.labelGap);
     constexpr int longest = 160;
-    constexpr int shortest = 5;   // characters: less of a longer word says nothing
+    constexpr int shortest = 5;  // characters: less of a longer word says nothing
     const QString shown = font.elidedText(words, Qt::ElideRight, std::min(room, longest));
     if (room > 0 && (shown == words || shown.size() >= shortest)) kept[i].label = shown;
   }

@@ -23,8 +23,8 @@ struct EventMark {
 };
 
 struct MarkSizes {
-  double spacing = 10.0;    ///< px between the centres of two marks at least
-  double labelGap = 8.0;    ///< px from the centre to the label
+  double spacing = 10.0;  ///< px between the centres of two marks at least
+  double labelGap = 8.0;  ///< px from the centre to the label
 };
 
 /// Marks in order of x for events in order of time.

@@ -25,15 +25,19 @@ Playback::Playback(QObject* parent) : Transport(parent), m_timer(new QTimer(this
   });
 }
 
-std::span<const double> Playback::speeds() const { return playbackSpeeds; }
+std::span<const double> Playback::speeds() const {
+  return playbackSpeeds;
+}
 
 void Playback::setRange(std::optional<telemetry::TimeRange> range) {
   if (range && !(range->begin <= range->end)) range.reset();
   if (range == m_range) return;
   const bool cameOrWent = range.has_value() != m_range.has_value();
   m_range = range;
-  if (!m_range) setPaused(true);
-  else if (m_position < m_range->begin || m_position > m_range->end) move(m_position);
+  if (!m_range)
+    setPaused(true);
+  else if (m_position < m_range->begin || m_position > m_range->end)
+    move(m_position);
   if (cameOrWent) emit changed();
 }
 
@@ -44,7 +48,9 @@ void Playback::move(double time) {
   emit positionChanged(time);
 }
 
-void Playback::seek(double time) { move(time); }
+void Playback::seek(double time) {
+  move(time);
+}
 
 void Playback::setLoop(std::optional<telemetry::TimeRange> loop) {
   if (loop && !(loop->begin < loop->end)) loop.reset();
@@ -77,8 +83,10 @@ void Playback::step(int ticks) {
 }
 
 void Playback::toStart() {
-  if (m_loop) move(m_loop->begin);
-  else if (m_range) move(m_range->begin);
+  if (m_loop)
+    move(m_loop->begin);
+  else if (m_range)
+    move(m_range->begin);
 }
 
 void Playback::setSpeed(double timesRealTime) {

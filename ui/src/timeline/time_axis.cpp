@@ -8,12 +8,14 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr std::array steps{0.001, 0.002, 0.005, 0.01, 0.02,  0.05,  0.1,   0.2,   0.5,
-                           1.0,   2.0,   5.0,   10.0, 15.0,  30.0,  60.0,  120.0, 300.0,
+constexpr std::array steps{0.001, 0.002, 0.005,  0.01,   0.02,   0.05,    0.1,     0.2,    0.5,
+                           1.0,   2.0,   5.0,    10.0,   15.0,   30.0,    60.0,    120.0,  300.0,
                            600.0, 900.0, 1800.0, 3600.0, 7200.0, 21600.0, 43200.0, 86400.0};
 constexpr std::size_t maxTicks = 200;
 
-int decimalsOf(double step) { return step >= 1.0 ? 0 : step >= 0.1 ? 1 : step >= 0.01 ? 2 : 3; }
+int decimalsOf(double step) {
+  return step >= 1.0 ? 0 : step >= 0.1 ? 1 : step >= 0.01 ? 2 : 3;
+}
 
 }  // namespace
 
@@ -31,7 +33,8 @@ QString momentText(double seconds, int decimals) {
   const auto units = static_cast<long long>(std::floor(std::abs(seconds) * scale + 1e-6));
   const auto whole = units / static_cast<long long>(scale);
   const QLatin1Char zero('0');
-  QString text = QStringLiteral("%1:%2").arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
+  QString text =
+      QStringLiteral("%1:%2").arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
   if (whole >= 3600) text.prepend(QString::number(whole / 3600) + QLatin1Char(':'));
   if (decimals > 0) {
     text += QLatin1Char('.') +
@@ -43,7 +46,7 @@ QString momentText(double seconds, int decimals) {
 
 QString longMomentText(double seconds) {
   const QString text = momentText(seconds, 0);
-  return text.count(QLatin1Char(':')) == 1 ? QStringLiteral("00:") + text
+  return text.count(QLatin1Char(':')) == 1     ? QStringLiteral("00:") + text
          : text.indexOf(QLatin1Char(':')) == 1 ? QLatin1Char('0') + text
                                                : text;
 }
@@ -58,7 +61,8 @@ std::vector<AxisTick> axisTicks(const TimeAxis& axis, double minimumPixels,
   const int decimals = decimalsOf(step);
   // Times of day are round where the clock is, not where the recording began.
   double shift = 0.0;
-  if (clock) shift = std::fmod(static_cast<double>(clock->time().msecsSinceStartOfDay()) / 1000.0, step);
+  if (clock)
+    shift = std::fmod(static_cast<double>(clock->time().msecsSinceStartOfDay()) / 1000.0, step);
   const double first = std::ceil((axis.shown.begin + shift) / step - 1e-9);
   for (std::size_t i = 0; i < maxTicks; ++i) {
     const double time = (first + static_cast<double>(i)) * step - shift;
@@ -66,7 +70,7 @@ std::vector<AxisTick> axisTicks(const TimeAxis& axis, double minimumPixels,
     QString label = momentText(std::abs(time) < step * 1e-6 ? 0.0 : time, decimals);
     if (clock) {
       const QDateTime at = clock->addMSecs(std::llround(time * 1000.0));
-      label = at.toString(step >= 60.0 ? QStringLiteral("HH:mm")
+      label = at.toString(step >= 60.0    ? QStringLiteral("HH:mm")
                           : decimals == 0 ? QStringLiteral("HH:mm:ss")
                                           : QStringLiteral("HH:mm:ss.zzz"));
     }

@@ -15,8 +15,8 @@ namespace pitchboard::ui {
 
 struct TimeAxis {
   telemetry::TimeRange shown{0.0, 60.0};
-  double left = 0.0;    ///< pixel of shown.begin
-  double width = 1.0;   ///< pixels to shown.end
+  double left = 0.0;   ///< pixel of shown.begin
+  double width = 1.0;  ///< pixels to shown.end
 
   double pixel(double time) const {
     return left + (time - shown.begin) / (shown.end - shown.begin) * width;
@@ -33,8 +33,8 @@ struct AxisTick {
   QString label;
 };
 
-/// Round times inside the shown range, at least `minimumPixels` apart, at most 200. With `clock` (the
-/// time of day at second 0) labels are times of day.
+/// Round times inside the shown range, at least `minimumPixels` apart, at most 200. With `clock`
+/// (the time of day at second 0) labels are times of day.
 std::vector<AxisTick> axisTicks(const TimeAxis& axis, double minimumPixels,
                                 const std::optional<QDateTime>& clock = {});
 

@@ -45,16 +45,22 @@ void Timeline::follow() {
   emit sourceChanged();
 }
 
-EventList* Timeline::events() const { return m_collectors.at(m_source->current())->list(); }
+EventList* Timeline::events() const {
+  return m_collectors.at(m_source->current())->list();
+}
 
-bool Timeline::isRecording() const { return m_source->current()->playback() != nullptr; }
+bool Timeline::isRecording() const {
+  return m_source->current()->playback() != nullptr;
+}
 
 Playback* Timeline::playback() const {
   Playback* recorded = m_source->current()->playback();
   return recorded != nullptr ? recorded : m_past;
 }
 
-bool Timeline::isLookingBack() const { return m_source->lookingBackAt().has_value(); }
+bool Timeline::isLookingBack() const {
+  return m_source->lookingBackAt().has_value();
+}
 
 std::optional<telemetry::TimeRange> Timeline::available() const {
   if (const Playback* recorded = m_source->current()->playback()) return recorded->range();
@@ -76,7 +82,9 @@ double Timeline::shownTime() const {
   return m_source->lookingBackAt().value_or(now());
 }
 
-std::optional<QDateTime> Timeline::clock() const { return m_source->clock(); }
+std::optional<QDateTime> Timeline::clock() const {
+  return m_source->clock();
+}
 
 void Timeline::refresh() {
   if (isLookingBack()) {
@@ -139,8 +147,8 @@ void Timeline::togglePlay() {
 }
 
 namespace {
-// Of two events of one tick the second is a step of its own only by its time; half a tick tells them
-// from the moment shown.
+// Of two events of one tick the second is a step of its own only by its time; half a tick tells
+// them from the moment shown.
 constexpr double sameMoment = 1e-6;
 }  // namespace
 

@@ -3,8 +3,8 @@
 
 // The time of what is shown, for everything that moves in it: the moment shown, whether that is now
 // or the past, what can be looked back at, the events of the source, a chosen range. A simulated
-// match and live robots go on while a person looks back; a recorded session is always looked back at.
-// UI thread only.
+// match and live robots go on while a person looks back; a recorded session is always looked back
+// at. UI thread only.
 
 #include <QDateTime>
 #include <QObject>
@@ -73,11 +73,11 @@ class Timeline : public QObject {
   void setLooping(bool on);
 
  signals:
-  void sourceChanged();            ///< another source or another match: read everything anew
-  void moved();                    ///< shownTime() or now()
+  void sourceChanged();  ///< another source or another match: read everything anew
+  void moved();          ///< shownTime() or now()
   void lookingBackChanged(bool on);
   void selectionChanged();
-  void bookmarked(double time, const QString& note);   ///< for recordings; also when a note changed
+  void bookmarked(double time, const QString& note);  ///< for recordings; also when a note changed
 
  private:
   void follow();
@@ -85,7 +85,7 @@ class Timeline : public QObject {
   void refresh();
 
   SourceSwitch* m_source;
-  Playback* m_past;                // while looking back
+  Playback* m_past;  // while looking back
   std::map<FrameSource*, EventCollector*> m_collectors;
   std::optional<telemetry::TimeRange> m_selection;
   bool m_looping = false;

@@ -4,8 +4,8 @@
 #include <QAction>
 #include <QMenu>
 
-#include "plots/linked_time.h"
 #include <ui/theme.h>
+#include "plots/linked_time.h"
 
 #include "playback.h"
 #include "timeline.h"
@@ -23,14 +23,16 @@ QAction* make(QObject* parent, const QString& text, const char* icon, const QKey
 }  // namespace
 
 TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject* parent)
-    : QObject(parent), m_timeline(timeline), m_plots(plots),
+    : QObject(parent),
+      m_timeline(timeline),
+      m_plots(plots),
       m_live(make(this, tr("Back to &now"), "media-seek-forward",
                   QKeySequence(Qt::CTRL | Qt::Key_End))),
       m_play(make(this, tr("&Play the past"), "media-playback-start",
                   QKeySequence(Qt::CTRL | Qt::Key_Space))),
       m_next(make(this, tr("&Next event"), "go-next", QKeySequence(Qt::Key_N))),
-      m_previous(make(this, tr("&Previous event"), "go-previous",
-                      QKeySequence(Qt::SHIFT | Qt::Key_N))),
+      m_previous(
+          make(this, tr("&Previous event"), "go-previous", QKeySequence(Qt::SHIFT | Qt::Key_N))),
       m_bookmark(make(this, tr("Set a &bookmark"), "bookmark-new", QKeySequence(Qt::Key_M))),
       m_back(make(this, tr("One tick bac&k"), nullptr, QKeySequence(Qt::CTRL | Qt::Key_Comma))),
       m_on(make(this, tr("One tick &on"), nullptr, {})),

@@ -5,8 +5,8 @@
 #include <QMenu>
 #include <QToolButton>
 
-#include "session/compared_session.h"
 #include <ui/theme.h>
+#include "session/compared_session.h"
 
 #include "timeline.h"
 #include "timeline_actions.h"
@@ -18,7 +18,8 @@ namespace {
 class TimelineDock : public QWidget {
  public:
   TimelineDock(const StudioContext& context, QWidget* parent)
-      : QWidget(parent), m_timeline(context.timeline),
+      : QWidget(parent),
+        m_timeline(context.timeline),
         m_strip(new TimelineStrip(context.timeline, context.time, this)),
         m_live(new QToolButton(this)) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -43,12 +44,12 @@ class TimelineDock : public QWidget {
             &TimelineStrip::editNote);
     connect(m_strip, &TimelineStrip::menuRequested, this,
             [this, context](QPoint at, const TimelineEvent* event, bool compared) {
-      QMenu menu(this);
-      menu.setObjectName(QStringLiteral("timelineMenu"));
-      addAlignment(&menu, context.compared, event, compared);
-      context.timelineActions->fill(&menu);
-      menu.exec(at);
-    });
+              QMenu menu(this);
+              menu.setObjectName(QStringLiteral("timelineMenu"));
+              addAlignment(&menu, context.compared, event, compared);
+              context.timelineActions->fill(&menu);
+              menu.exec(at);
+            });
     connect(context.compared, &ComparedSession::changed, this, [this, compared = context.compared] {
       m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
     });
@@ -61,11 +62,13 @@ class TimelineDock : public QWidget {
     if (!session->isOn()) return;
     if (event != nullptr) {
       const double time = event->time;
-      QAction* align = menu->addAction(tr("&Align at this event: %1").arg(sentenceOf(*event)), session,
-                                       [session, time, compared] {
-        if (compared) session->alignThere(time);
-        else session->alignHere(time);
-      });
+      QAction* align = menu->addAction(tr("&Align at this event: %1").arg(sentenceOf(*event)),
+                                       session, [session, time, compared] {
+                                         if (compared)
+                                           session->alignThere(time);
+                                         else
+                                           session->alignHere(time);
+                                       });
       align->setObjectName(QStringLiteral("alignHere"));
     }
     QAction* byTime = menu->addAction(tr("Align by &time"), session, &ComparedSession::alignByTime);

@@ -21,11 +21,15 @@ constexpr std::array<EventTypeInfo, eventTypeCount> infos{{
     {"bookmark", QT_TRANSLATE_NOOP("Timeline", "bookmark"), 10, true},
 }};
 
-QString words(EventType type) { return QCoreApplication::translate("Timeline", info(type).words); }
+QString words(EventType type) {
+  return QCoreApplication::translate("Timeline", info(type).words);
+}
 
 }  // namespace
 
-const EventTypeInfo& info(EventType type) { return infos[static_cast<std::size_t>(type)]; }
+const EventTypeInfo& info(EventType type) {
+  return infos[static_cast<std::size_t>(type)];
+}
 
 EventType eventTypeNamed(const QString& name) {
   for (std::size_t i = 0; i < infos.size(); ++i) {

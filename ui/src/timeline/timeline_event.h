@@ -10,24 +10,33 @@
 namespace pitchboard::ui {
 
 enum class EventType : std::uint8_t {
-  Goal, Kick, Fall, BallOut, Referee, ProcessEnded, ProcessStarted, Timeout, Recovery, Warning,
+  Goal,
+  Kick,
+  Fall,
+  BallOut,
+  Referee,
+  ProcessEnded,
+  ProcessStarted,
+  Timeout,
+  Recovery,
+  Warning,
   Bookmark
 };
 inline constexpr int eventTypeCount = 11;
 
 struct TimelineEvent {
-  double time = 0.0;      ///< s of the source
+  double time = 0.0;  ///< s of the source
   EventType type = EventType::Bookmark;
-  QString subject;        ///< "B1", "BLUE", "decision B2"; empty where nobody is concerned
-  QString text;           ///< state of the referee, note of a bookmark, what a process left behind
+  QString subject;  ///< "B1", "BLUE", "decision B2"; empty where nobody is concerned
+  QString text;     ///< state of the referee, note of a bookmark, what a process left behind
   bool operator==(const TimelineEvent&) const = default;
 };
 
 struct EventTypeInfo {
-  const char* name;       ///< in files and filters: never change it
-  const char* words;      ///< for people
-  int importance;         ///< the mark that stays where several would overlap: the highest
-  bool labelled;          ///< its words stand beside the mark when there is room
+  const char* name;   ///< in files and filters: never change it
+  const char* words;  ///< for people
+  int importance;     ///< the mark that stays where several would overlap: the highest
+  bool labelled;      ///< its words stand beside the mark when there is room
 };
 
 const EventTypeInfo& info(EventType type);

@@ -23,8 +23,8 @@ void TimelineStrip::editNote(int row) {
   m_note->setMaxLength(EventList::maxNote);
   m_note->setPlaceholderText(tr("Note, then Enter"));
   const int wide = std::min(scaled(this, 200), width());
-  const int x = std::clamp(static_cast<int>(m_axis.pixel(m_noteTime)) + scaled(this, 8), 0,
-                           width() - wide);
+  const int x =
+      std::clamp(static_cast<int>(m_axis.pixel(m_noteTime)) + scaled(this, 8), 0, width() - wide);
   m_note->setGeometry(x, 0, wide, scaled(this, 22));
   m_note->show();
   m_note->selectAll();

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plots/linked_time.h"
 #include <ui/theme.h>
+#include "plots/linked_time.h"
 
 #include "event_list.h"
 #include "timeline.h"
@@ -15,9 +15,10 @@ namespace pitchboard::ui {
 namespace {
 
 constexpr double markSize = 9.0;
-constexpr double tickSpacing = 56.0;   // px of the mock between labels
+constexpr double tickSpacing = 56.0;  // px of the mock between labels
 
-void stem(QPainter& painter, double x, double top, double bottom, const QColor& color, double wide) {
+void stem(QPainter& painter, double x, double top, double bottom, const QColor& color,
+          double wide) {
   painter.setPen(QPen(color, wide));
   painter.drawLine(QPointF(x, top), QPointF(x, bottom));
 }
@@ -79,9 +80,9 @@ void TimelineStrip::paintRange(QPainter& painter) const {
   painter.setPen(QPen(theme().accentLine, m_timeline->isLooping() ? 2.0 : 1.0));
   const double arm = scaled(this, 5);
   for (const auto& [x, inwards] : {std::pair(left, arm), std::pair(right, -arm)}) {
-    painter.drawPolyline(QPolygonF{{QPointF(x + inwards, 1.0), QPointF(x, 1.0),
-                                    QPointF(x, band.bottom()),
-                                    QPointF(x + inwards, band.bottom())}});
+    painter.drawPolyline(
+        QPolygonF{{QPointF(x + inwards, 1.0), QPointF(x, 1.0), QPointF(x, band.bottom()),
+                   QPointF(x + inwards, band.bottom())}});
   }
 }
 
@@ -134,8 +135,7 @@ void TimelineStrip::paintMarks(QPainter& painter) {
   painter.drawLine(place.topLeft(), place.topRight());
   row(comparedMarks(), m_compared->events(), place.center().y(), stemEnd, 0.75);
   const QFontMetrics metrics(small);
-  const QString caption =
-      metrics.elidedText(m_comparedCaption, Qt::ElideMiddle, place.width() / 3);
+  const QString caption = metrics.elidedText(m_comparedCaption, Qt::ElideMiddle, place.width() / 3);
   QRect room(0, 0, metrics.horizontalAdvance(caption) + scaled(this, 12), place.height() - 2);
   room.moveTopRight(place.topRight() + QPoint(0, 1));
   painter.fillRect(room, theme().window);
@@ -166,9 +166,9 @@ void TimelineStrip::paintMoment(QPainter& painter) const {
   const double half = scaled(this, 5);
   painter.setPen(Qt::NoPen);
   painter.setBrush(theme().accentLine);
-  painter.drawPolygon(QPolygonF{{QPointF(x - half, 0), QPointF(x + half, 0),
-                                 QPointF(x + half, half), QPointF(x, 2 * half),
-                                 QPointF(x - half, half)}});
+  painter.drawPolygon(
+      QPolygonF{{QPointF(x - half, 0), QPointF(x + half, 0), QPointF(x + half, half),
+                 QPointF(x, 2 * half), QPointF(x - half, half)}});
 }
 
 }  // namespace pitchboard::ui

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plots/linked_time.h"
 #include <ui/theme.h>
+#include "plots/linked_time.h"
 
 #include "event_list.h"
 #include "playback.h"
@@ -18,9 +18,9 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double narrowest = 0.05;     // s shown
+constexpr double narrowest = 0.05;  // s shown
 constexpr double widest = 7 * 86400.0;
-constexpr double edgeReach = 4.0;      // px of the mock: where a window's edge is taken
+constexpr double edgeReach = 4.0;  // px of the mock: where a window's edge is taken
 constexpr double markReach = 7.0;
 
 }  // namespace
@@ -71,7 +71,9 @@ QSize TimelineStrip::sizeHint() const {
   return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56)};
 }
 
-QSize TimelineStrip::minimumSizeHint() const { return {scaled(this, 160), sizeHint().height()}; }
+QSize TimelineStrip::minimumSizeHint() const {
+  return {scaled(this, 160), sizeHint().height()};
+}
 
 QRect TimelineStrip::bandRect() const {
   const int left = scaled(this, 12);
@@ -163,9 +165,9 @@ const std::vector<EventMark>& TimelineStrip::marks() {
     m_marksOf = list;
     m_marksRevision = list->revision();
     m_marksAxis = m_axis;
-    m_marks = layOutMarks(list->events(), m_axis,
-                          {double(scaled(this, 10)), double(scaled(this, 9))},
-                          QFontMetrics(themeFont(TypeRole::Small)));
+    m_marks =
+        layOutMarks(list->events(), m_axis, {double(scaled(this, 10)), double(scaled(this, 9))},
+                    QFontMetrics(themeFont(TypeRole::Small)));
   }
   return m_marks;
 }
@@ -214,10 +216,18 @@ TimelineStrip::Grab TimelineStrip::grabAt(QPointF at, Qt::KeyboardModifiers keys
 void TimelineStrip::showCursorAt(QPointF at, Qt::KeyboardModifiers keys) {
   switch (grabAt(at, keys)) {
     case Grab::WindowBegin:
-    case Grab::WindowEnd: setCursor(Qt::SizeHorCursor); break;
-    case Grab::Window: setCursor(Qt::OpenHandCursor); break;
-    case Grab::Range: setCursor(Qt::IBeamCursor); break;
-    default: setCursor(markAt(at) != nullptr ? Qt::PointingHandCursor : Qt::ArrowCursor); break;
+    case Grab::WindowEnd:
+      setCursor(Qt::SizeHorCursor);
+      break;
+    case Grab::Window:
+      setCursor(Qt::OpenHandCursor);
+      break;
+    case Grab::Range:
+      setCursor(Qt::IBeamCursor);
+      break;
+    default:
+      setCursor(markAt(at) != nullptr ? Qt::PointingHandCursor : Qt::ArrowCursor);
+      break;
   }
 }
 
@@ -248,22 +258,29 @@ void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
     showCursorAt(at, event->modifiers());
     return;
   }
-  constexpr double still = 3.0;   // a trembling hand is not a drag
+  constexpr double still = 3.0;  // a trembling hand is not a drag
   if (!m_dragged && std::abs(at.x() - m_pressedAt.x()) < still) return;
   m_dragged = true;
   const double time = m_axis.time(at.x());
   const double by = time - m_grabTime;
   switch (m_grab) {
-    case Grab::Moment: m_timeline->seek(time); break;
-    case Grab::Range: m_timeline->setSelection({{std::min(m_grabTime, time), std::max(m_grabTime, time)}}); break;
-    case Grab::Window: m_plots->setRange({m_grabRange.begin + by, m_grabRange.end + by}); break;
+    case Grab::Moment:
+      m_timeline->seek(time);
+      break;
+    case Grab::Range:
+      m_timeline->setSelection({{std::min(m_grabTime, time), std::max(m_grabTime, time)}});
+      break;
+    case Grab::Window:
+      m_plots->setRange({m_grabRange.begin + by, m_grabRange.end + by});
+      break;
     case Grab::WindowBegin:
-      m_plots->setRange({std::min(m_grabRange.begin + by, m_grabRange.end - LinkedTime::minimumSpan),
-                         m_grabRange.end});
+      m_plots->setRange(
+          {std::min(m_grabRange.begin + by, m_grabRange.end - LinkedTime::minimumSpan),
+           m_grabRange.end});
       break;
     case Grab::WindowEnd:
-      m_plots->setRange({m_grabRange.begin,
-                         std::max(m_grabRange.end + by, m_grabRange.begin + LinkedTime::minimumSpan)});
+      m_plots->setRange({m_grabRange.begin, std::max(m_grabRange.end + by,
+                                                     m_grabRange.begin + LinkedTime::minimumSpan)});
       break;
     case Grab::View: {
       const double pixels = at.x() - m_pressedAt.x();
@@ -271,7 +288,8 @@ void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
       setShown({m_grabRange.begin - seconds, m_grabRange.end - seconds});
       break;
     }
-    case Grab::Nothing: break;
+    case Grab::Nothing:
+      break;
   }
 }
 
@@ -317,28 +335,48 @@ void TimelineStrip::keyPressEvent(QKeyEvent* event) {
   constexpr double closer = 1 / 1.5, farther = 1.5, second = 1.0;
   switch (event->key()) {
     case Qt::Key_Left:
-      if (coarse) m_timeline->seek(m_timeline->shownTime() - second);
-      else m_timeline->step(-1);
+      if (coarse)
+        m_timeline->seek(m_timeline->shownTime() - second);
+      else
+        m_timeline->step(-1);
       break;
     case Qt::Key_Right:
-      if (coarse) m_timeline->seek(m_timeline->shownTime() + second);
-      else m_timeline->step(1);
+      if (coarse)
+        m_timeline->seek(m_timeline->shownTime() + second);
+      else
+        m_timeline->step(1);
       break;
     case Qt::Key_Home:
       if (const auto range = m_timeline->available()) m_timeline->seek(range->begin);
       break;
-    case Qt::Key_End: m_timeline->seek(m_timeline->now()); break;
-    case Qt::Key_Space: m_timeline->togglePlay(); break;
-    case Qt::Key_L: m_timeline->setLooping(!m_timeline->isLooping()); break;
-    case Qt::Key_Plus:
-    case Qt::Key_Equal: zoom(closer, middle); break;
-    case Qt::Key_Minus: zoom(farther, middle); break;
-    case Qt::Key_0: showAll(); break;
-    case Qt::Key_Escape:
-      if (m_timeline->selection()) m_timeline->setSelection({});
-      else m_timeline->goLive();
+    case Qt::Key_End:
+      m_timeline->seek(m_timeline->now());
       break;
-    default: QWidget::keyPressEvent(event); return;
+    case Qt::Key_Space:
+      m_timeline->togglePlay();
+      break;
+    case Qt::Key_L:
+      m_timeline->setLooping(!m_timeline->isLooping());
+      break;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      zoom(closer, middle);
+      break;
+    case Qt::Key_Minus:
+      zoom(farther, middle);
+      break;
+    case Qt::Key_0:
+      showAll();
+      break;
+    case Qt::Key_Escape:
+      if (m_timeline->selection())
+        m_timeline->setSelection({});
+      else
+        m_timeline->goLive();
+      break;
+    default:
+      QWidget::keyPressEvent(event);
+      return;
   }
   event->accept();
 }
@@ -382,6 +420,8 @@ bool TimelineStrip::event(QEvent* event) {
   return QWidget::event(event);
 }
 
-void TimelineStrip::resizeEvent(QResizeEvent*) { fitAxis(); }
+void TimelineStrip::resizeEvent(QResizeEvent*) {
+  fitAxis();
+}
 
 }  // namespace pitchboard::ui

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The timeline itself: axis, what memory holds, the window of the plots, marks of events, the moment
-// shown. Click or drag to look back; drag the plots' window in the band; Shift-drag chooses a range;
-// wheel zooms, middle-drag or a wheel with Shift moves. UI thread only.
+// The timeline itself: axis, what memory holds, the window of the plots, marks of events, the
+// moment shown. Click or drag to look back; drag the plots' window in the band; Shift-drag chooses
+// a range; wheel zooms, middle-drag or a wheel with Shift moves. UI thread only.
 
 #include <QWidget>
 #include <optional>
@@ -46,7 +46,7 @@ class TimelineStrip : public QWidget {
   const std::vector<EventMark>& marks();
   std::vector<EventMark> comparedMarks() const;
   QRect bandRect() const;
-  QRect comparedRect() const;   ///< empty while nothing is compared
+  QRect comparedRect() const;  ///< empty while nothing is compared
   std::optional<QRectF> windowRect() const;
 
   QSize sizeHint() const override;
@@ -95,12 +95,12 @@ class TimelineStrip : public QWidget {
   TimeAxis m_axis;
   bool m_showsAll = true;
   Grab m_grab = Grab::Nothing;
-  double m_grabTime = 0.0;               // under the mouse when it was pressed
-  telemetry::TimeRange m_grabRange{};    // window or view at that moment
+  double m_grabTime = 0.0;             // under the mouse when it was pressed
+  telemetry::TimeRange m_grabRange{};  // window or view at that moment
   QPointF m_pressedAt;
   bool m_dragged = false;
   std::vector<EventMark> m_marks;
-  TimeAxis m_marksAxis;                  // what m_marks were laid out for
+  TimeAxis m_marksAxis;  // what m_marks were laid out for
   std::uint64_t m_marksRevision = ~std::uint64_t{0};
   const EventList* m_marksOf = nullptr;
   QLineEdit* m_note = nullptr;

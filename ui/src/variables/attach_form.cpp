@@ -27,14 +27,15 @@ AttachForm::AttachForm(QWidget* parent)
   m_rate->setValue(60);
   m_rate->setSuffix(tr(" /s"));
   m_rate->setAccessibleName(tr("Samples a second"));
-  for (QAbstractSpinBox* box : {static_cast<QAbstractSpinBox*>(m_key),
-                                static_cast<QAbstractSpinBox*>(m_rate)}) {
+  for (QAbstractSpinBox* box :
+       {static_cast<QAbstractSpinBox*>(m_key), static_cast<QAbstractSpinBox*>(m_rate)}) {
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
     box->setAlignment(Qt::AlignRight);
     box->setMaximumWidth(scaled(this, 84));
   }
   auto* about = new QLabel(tr("Look at another blackboard of this computer. It is only read; what "
-                              "changes twice between two samples is not seen."), this);
+                              "changes twice between two samples is not seen."),
+                           this);
   about->setWordWrap(true);
   about->setFont(themeFont(TypeRole::Secondary));
   about->setForegroundRole(QPalette::PlaceholderText);
@@ -70,9 +71,12 @@ void AttachForm::request() {
 }
 
 void AttachForm::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Escape) hide();
-  else if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) request();
-  else QFrame::keyPressEvent(event);
+  if (event->key() == Qt::Key_Escape)
+    hide();
+  else if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+    request();
+  else
+    QFrame::keyPressEvent(event);
 }
 
 }  // namespace pitchboard::ui

@@ -17,7 +17,7 @@ class AttachForm : public QFrame {
   void open();
 
  signals:
-  void attachRequested(int key, double rate);   ///< samples per second
+  void attachRequested(int key, double rate);  ///< samples per second
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

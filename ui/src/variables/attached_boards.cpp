@@ -12,7 +12,9 @@ AttachedBoards::AttachedBoards(MatchController* controller, QObject* parent)
 
 AttachedBoards::~AttachedBoards() = default;
 
-QString AttachedBoards::groupName(int key) { return QStringLiteral("key %1").arg(key); }
+QString AttachedBoards::groupName(int key) {
+  return QStringLiteral("key %1").arg(key);
+}
 
 Result<std::unique_ptr<link::BoardSampler>> AttachedBoards::start(int key, double rate) const {
   auto rows = m_controller->rowsBeside();

@@ -35,7 +35,7 @@ class AttachedBoards : public QObject {
  private:
   struct Board {
     double rate = 0.0;
-    std::unique_ptr<link::BoardSampler> sampler;   // none: to be tried again
+    std::unique_ptr<link::BoardSampler> sampler;  // none: to be tried again
     std::string problem;
   };
   Result<std::unique_ptr<link::BoardSampler>> start(int key, double rate) const;

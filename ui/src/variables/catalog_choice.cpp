@@ -49,17 +49,16 @@ QString CatalogChoice::name() const {
 }
 
 void CatalogChoice::askAndImport(QWidget* parent) {
-  const QString file = QFileDialog::getOpenFileName(
-      parent, tr("Import a catalog of variables"), m_file,
-      tr("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
+  const QString file =
+      QFileDialog::getOpenFileName(parent, tr("Import a catalog of variables"), m_file,
+                                   tr("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
   if (!file.isEmpty()) importFile(file);
 }
 
 void CatalogChoice::importFile(const QString& file) {
   const ReadCatalog made = read(file);
   if (!made.catalog) {
-    m_message->say(InPlaceMessage::Tone::Error,
-                   tr("Nothing was imported. %1").arg(made.problem));
+    m_message->say(InPlaceMessage::Tone::Error, tr("Nothing was imported. %1").arg(made.problem));
     return;
   }
   m_file = QFileInfo(file).absoluteFilePath();
@@ -83,8 +82,8 @@ void CatalogChoice::offerRestart(const QString& sentence) {
     m_message->say(InPlaceMessage::Tone::Note, sentence);
     return;
   }
-  QString all = sentence + QLatin1Char(' ') +
-                tr("They name the blackboards from the next match on.");
+  QString all =
+      sentence + QLatin1Char(' ') + tr("They name the blackboards from the next match on.");
   if (!isPublished() && m_controller->cognition() == link::Cognition::External) {
     all += QLatin1Char(' ') + tr("The studio's own robot processes know the published places only: "
                                  "use your team's processes with it.");

@@ -58,7 +58,9 @@ void InPlaceMessage::clear() {
   hide();
 }
 
-QString InPlaceMessage::text() const { return m_text->text(); }
+QString InPlaceMessage::text() const {
+  return m_text->text();
+}
 
 void InPlaceMessage::changeEvent(QEvent* event) {
   QFrame::changeEvent(event);
@@ -73,8 +75,9 @@ void InPlaceMessage::colour() {
   const QColor text = m_tone == Tone::Error     ? c.errorText
                       : m_tone == Tone::Warning ? c.warningText
                                                 : c.text;
-  const QString sheet = QStringLiteral("#inPlaceMessage { background: %1; }"
-                                       "#inPlaceText { color: %2; }")
+  const QString sheet = QStringLiteral(
+                            "#inPlaceMessage { background: %1; }"
+                            "#inPlaceText { color: %2; }")
                             .arg(ground.name(), text.name());
   if (sheet != styleSheet()) setStyleSheet(sheet);
 }

@@ -26,7 +26,9 @@ ValueEdit::ValueEdit(const telemetry::ColumnInfo& column, QWidget* parent)
   connect(this, &QLineEdit::textEdited, this, [this] { isAcceptable(); });
 }
 
-ValueEdit::~ValueEdit() { delete m_problem; }
+ValueEdit::~ValueEdit() {
+  delete m_problem;
+}
 
 bool ValueEdit::isAcceptable() {
   const Result<double> parsed = parseValue(m_column, text());
@@ -38,7 +40,8 @@ bool ValueEdit::isAcceptable() {
   const int height = m_problem->heightForWidth(width);
   const bool below = geometry().bottom() + height < parentWidget()->height();
   m_problem->setGeometry(parentWidget()->width() - width - gap,
-                         below ? geometry().bottom() + 1 : geometry().top() - height, width, height);
+                         below ? geometry().bottom() + 1 : geometry().top() - height, width,
+                         height);
   m_problem->raise();
   return false;
 }

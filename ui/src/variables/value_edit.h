@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Line edit for the value of one variable: says at once, right below itself, what is wrong with what
-// is being typed.
+// Line edit for the value of one variable: says at once, right below itself, what is wrong with
+// what is being typed.
 
 #include <QLineEdit>
 #include <QPointer>
@@ -26,7 +26,7 @@ class ValueEdit : public QLineEdit {
 
  private:
   telemetry::ColumnInfo m_column;
-  QPointer<QLabel> m_problem;   // a child of our parent: it is larger than we are
+  QPointer<QLabel> m_problem;  // a child of our parent: it is larger than we are
 };
 
 }  // namespace pitchboard::ui

@@ -36,8 +36,10 @@ std::optional<OverwrittenValue> ValueWatch::check(const telemetry::SeriesStore& 
       m_watched.erase(written);
       return found;
     }
-    if (range->end > written->time + longEnough) written = m_watched.erase(written);
-    else ++written;
+    if (range->end > written->time + longEnough)
+      written = m_watched.erase(written);
+    else
+      ++written;
   }
   return {};
 }
@@ -56,8 +58,9 @@ QString overwrittenText(const OverwrittenValue& value, const telemetry::ColumnIn
                     .arg(name, text(value.found), after, text(written.value))
               : QObject::tr("%1 was overwritten with %2 %3 after you wrote %4")
                     .arg(name, text(value.found), after, text(written.value))) +
-         QObject::tr(": a process of the robot writes it too. To keep your value, stop that process "
-                     "(Processes) or choose behaviour “none” on the robot's card.");
+         QObject::tr(
+             ": a process of the robot writes it too. To keep your value, stop that process "
+             "(Processes) or choose behaviour “none” on the robot's card.");
 }
 
 }  // namespace pitchboard::ui

@@ -14,15 +14,15 @@ namespace pitchboard::ui {
 
 struct WrittenValue {
   QString group, column;
-  double before = 0.0;     ///< what stood there
-  double value = 0.0;      ///< what was written
-  double time = 0.0;       ///< after which tick, s of the source
+  double before = 0.0;  ///< what stood there
+  double value = 0.0;   ///< what was written
+  double time = 0.0;    ///< after which tick, s of the source
 };
 
 struct OverwrittenValue {
   WrittenValue written;
-  double found = 0.0;      ///< the first other value
-  double after = 0.0;      ///< s of the source
+  double found = 0.0;  ///< the first other value
+  double after = 0.0;  ///< s of the source
 };
 
 class ValueWatch {

@@ -34,16 +34,16 @@ void ValueWriter::write(const QModelIndex& index, double value) {
   const auto before = view ? view->latest(series->column) : std::nullopt;
   const QString name = QString::fromStdString(column->name);
   m_message->clear();
-  m_pending.push_back({id, {QString::fromStdString(group->info().name), name,
-                            before ? before->value : 0.0, value, 0.0}});
+  m_pending.push_back({id,
+                       {QString::fromStdString(group->info().name), name,
+                        before ? before->value : 0.0, value, 0.0}});
   m_controller->writeVariable(id, name, value);
 }
 
 void ValueWriter::written(RobotId robot, const QString& name, double time) {
-  const auto pending =
-      std::find_if(m_pending.begin(), m_pending.end(), [&](const Pending& each) {
-        return each.robot == robot && each.value.column == name;
-      });
+  const auto pending = std::find_if(m_pending.begin(), m_pending.end(), [&](const Pending& each) {
+    return each.robot == robot && each.value.column == name;
+  });
   if (pending == m_pending.end()) return;
   pending->value.time = time;
   m_watch.add(pending->value);

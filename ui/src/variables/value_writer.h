@@ -41,7 +41,7 @@ class ValueWriter : public QObject {
   MatchController* m_controller;
   VariablesModel* m_model;
   InPlaceMessage* m_message;
-  std::vector<Pending> m_pending;   // on their way to the match
+  std::vector<Pending> m_pending;  // on their way to the match
   ValueWatch m_watch;
 };
 

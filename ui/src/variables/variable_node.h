@@ -16,22 +16,22 @@ namespace pitchboard::ui {
 struct VariableNode {
   VariablesModel::Kind kind = VariablesModel::Kind::Group;
   VariableNode* parent = nullptr;
-  int row = 0;                       ///< in its parent
+  int row = 0;  ///< in its parent
   QString name, path, searchText;
   std::vector<std::unique_ptr<VariableNode>> children;
 
   // Of a group.
   telemetry::GroupId group = 0;
-  int rank = 0;                      ///< robots, then other groups, then the match
+  int rank = 0;  ///< robots, then other groups, then the match
   std::shared_ptr<const telemetry::GroupView> view;
-  std::uint64_t round = 0;           ///< in which `view` was taken
+  std::uint64_t round = 0;  ///< in which `view` was taken
   double rowsPerSecond = 0.0;
   double newest = -std::numeric_limits<double>::infinity();
 
   // Of a variable.
   std::uint32_t column = 0;
   telemetry::ColumnInfo info;
-  bool known = false;                ///< there is a sample
+  bool known = false;  ///< there is a sample
   double value = 0.0;
   double ratePerSecond = std::numeric_limits<double>::quiet_NaN();
   double lastChange = -std::numeric_limits<double>::infinity();

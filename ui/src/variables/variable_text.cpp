@@ -40,7 +40,9 @@ QString numberOf(double value, int decimals) {
   return numberText(value, decimals);
 }
 
-QString name(const ColumnInfo& column) { return QString::fromStdString(column.name); }
+QString name(const ColumnInfo& column) {
+  return QString::fromStdString(column.name);
+}
 
 auto refuse(const QString& sentence) {
   return failure(ErrorCode::InvalidArgument, sentence.toStdString());
@@ -56,7 +58,8 @@ QString valueText(const ColumnInfo& column, double value) {
 
 QString exactText(const ColumnInfo& column, double value) {
   switch (column.type) {
-    case ColumnType::Int32: return QString::number(value, 'f', 0);
+    case ColumnType::Int32:
+      return QString::number(value, 'f', 0);
     case ColumnType::Float32: {
       // As few digits as give the same 32 bits back.
       constexpr int longest = std::numeric_limits<float>::max_digits10;
@@ -67,7 +70,8 @@ QString exactText(const ColumnInfo& column, double value) {
       }
       return QString::number(value, 'g', longest);
     }
-    case ColumnType::Float64: break;
+    case ColumnType::Float64:
+      break;
   }
   return QString::number(value, 'g', QLocale::FloatingPointShortest);
 }
@@ -108,8 +112,9 @@ Result<double> parseValue(const ColumnInfo& column, const QString& text) {
   }
   if (!isNumber || !std::isfinite(value)) {
     return refuse(QStringLiteral("“%1” is not a number%2.")
-                      .arg(typed, column.labels.empty() ? QString()
-                                                        : QStringLiteral(", nor the words of a code")));
+                      .arg(typed, column.labels.empty()
+                                      ? QString()
+                                      : QStringLiteral(", nor the words of a code")));
   }
   if (column.type == ColumnType::Int32) {
     if (value != std::floor(value)) {

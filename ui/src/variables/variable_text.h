@@ -23,8 +23,8 @@ QString ageText(double seconds);
 /// What a code means; empty without words for it.
 QString wordsOf(const telemetry::ColumnInfo& column, double value);
 
-/// Reads what a person typed for a variable of the blackboard: a number of its type, or the words of
-/// a code. The error is a sentence to show beside the value.
+/// Reads what a person typed for a variable of the blackboard: a number of its type, or the words
+/// of a code. The error is a sentence to show beside the value.
 Result<double> parseValue(const telemetry::ColumnInfo& column, const QString& text);
 
 }  // namespace pitchboard::ui

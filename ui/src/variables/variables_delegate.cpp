@@ -44,8 +44,10 @@ QPainterPath sparkPath(const QList<telemetry::SeriesBucket>& buckets, const QRec
     const double x = area.left() + (static_cast<double>(i) + 0.5) * step;
     const bool rises = !(bucket.last < bucket.first);
     for (const double value : {rises ? bucket.min : bucket.max, rises ? bucket.max : bucket.min}) {
-      if (pen) path.lineTo(x, yOf(value));
-      else path.moveTo(x, yOf(value));
+      if (pen)
+        path.lineTo(x, yOf(value));
+      else
+        path.moveTo(x, yOf(value));
       pen = true;
     }
   }

@@ -40,12 +40,17 @@ const QString changedKey = QStringLiteral("variables/changedWithin");
 class VariablesDock : public QWidget {
  public:
   VariablesDock(const StudioContext& context, QWidget* parent)
-      : QWidget(parent), m_context(context), m_model(new VariablesModel(this)),
+      : QWidget(parent),
+        m_context(context),
+        m_model(new VariablesModel(this)),
         m_filter(new VariablesFilter(m_model, this)),
-        m_view(new VariablesView(m_model, m_filter, this)), m_message(new InPlaceMessage(this)),
-        m_empty(new QLabel(this)), m_timer(new QTimer(this)),
+        m_view(new VariablesView(m_model, m_filter, this)),
+        m_message(new InPlaceMessage(this)),
+        m_empty(new QLabel(this)),
+        m_timer(new QTimer(this)),
         m_writer(new ValueWriter(context.controller, m_model, m_message, this)),
-        m_boards(new AttachedBoards(context.controller, this)), m_attach(new AttachForm(this)) {
+        m_boards(new AttachedBoards(context.controller, this)),
+        m_attach(new AttachForm(this)) {
     m_model->setObjectName(QStringLiteral("variablesModel"));
     m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
     auto* column = new QVBoxLayout(this);
@@ -134,15 +139,17 @@ class VariablesDock : public QWidget {
   void fillChanged(QMenu* menu) {
     menu->clear();
     for (const int seconds : {1, 5, 15, 60}) {
-      QAction* action = menu->addAction(
-          seconds == 1 ? tr("Within the last second") : tr("Within the last %1 s").arg(seconds));
+      QAction* action = menu->addAction(seconds == 1 ? tr("Within the last second")
+                                                     : tr("Within the last %1 s").arg(seconds));
       action->setCheckable(true);
       action->setChecked(seconds == m_changedWithin);
       connect(action, &QAction::triggered, this, [this, seconds] {
         m_changedWithin = seconds;
         if (m_context.settings) m_context.settings->setValue(changedKey, seconds);
-        if (m_changed->isChecked()) applyChanged();
-        else m_changed->setChecked(true);
+        if (m_changed->isChecked())
+          applyChanged();
+        else
+          m_changed->setChecked(true);
       });
     }
   }
@@ -150,9 +157,8 @@ class VariablesDock : public QWidget {
   QMenu* makeMenu(QWidget* parent) {
     auto* menu = new QMenu(parent);
     QMenu* columns = menu->addMenu(tr("Columns"));
-    connect(columns, &QMenu::aboutToShow, this, [this, columns] {
-      m_view->columns()->fillColumns(columns);
-    });
+    connect(columns, &QMenu::aboutToShow, this,
+            [this, columns] { m_view->columns()->fillColumns(columns); });
     QMenu* changed = menu->addMenu(tr("Changed means"));
     connect(changed, &QMenu::aboutToShow, this, [this, changed] { fillChanged(changed); });
     QMenu* sampling = menu->addMenu(tr("Sampling"));
@@ -183,8 +189,8 @@ class VariablesDock : public QWidget {
   void fillSampling(QMenu* menu) {
     menu->clear();
     for (const int ticks : {1, 2, 5, 10, 30, 60}) {
-      QAction* action = menu->addAction(ticks == 1 ? tr("Each tick")
-                                                   : tr("Every %1 ticks").arg(ticks));
+      QAction* action =
+          menu->addAction(ticks == 1 ? tr("Each tick") : tr("Every %1 ticks").arg(ticks));
       action->setCheckable(true);
       action->setChecked(m_context.controller->sampling() == ticks);
       connect(action, &QAction::triggered, this, [this, ticks] { setSampling(ticks); });
@@ -207,7 +213,8 @@ class VariablesDock : public QWidget {
       m_message->clear();
     });
     m_view->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(m_view, &QWidget::customContextMenuRequested, this, [this](QPoint at) { showMenu(at); });
+    connect(m_view, &QWidget::customContextMenuRequested, this,
+            [this](QPoint at) { showMenu(at); });
   }
 
   void showMenu(QPoint at) {
@@ -233,8 +240,10 @@ class VariablesDock : public QWidget {
                         [this, key] { detach(key); });
       }
     }
-    if (menu->isEmpty()) delete menu;
-    else menu->popup(m_view->viewport()->mapToGlobal(at));
+    if (menu->isEmpty())
+      delete menu;
+    else
+      menu->popup(m_view->viewport()->mapToGlobal(at));
   }
 
   void detach(int key) {
@@ -248,7 +257,8 @@ class VariablesDock : public QWidget {
       m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
                                status.missed == 0 ? QString()
                                                   : tr("%1 samples were left out, because the "
-                                                       "computer was busy.").arg(status.missed),
+                                                       "computer was busy.")
+                                                        .arg(status.missed),
                                status.attached ? status.rate : 0.0});
       if (!status.attached && m_removed.insert(key).second) {
         m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
@@ -272,13 +282,14 @@ class VariablesDock : public QWidget {
     connect(m_view, &VariablesView::plotRequested, this, [this](const QStringList& names) {
       if (m_context.plots) m_context.plots->plotVariables(names);
     });
-    connect(m_view, &VariablesView::favouriteRequested, m_model,
-            &VariablesModel::toggleFavourites);
+    connect(m_view, &VariablesView::favouriteRequested, m_model, &VariablesModel::toggleFavourites);
     connect(m_view, &VariablesView::editRefused, this, [this](const QModelIndex& index) {
       const QString why = m_model->whyNotEditable(index);
-      if (!why.isEmpty()) m_message->say(InPlaceMessage::Tone::Note, why);
-      else m_message->say(InPlaceMessage::Tone::Note, tr("Values are locked against accidents."),
-                          tr("Edit values"), [this] { m_lock->setChecked(true); });
+      if (!why.isEmpty())
+        m_message->say(InPlaceMessage::Tone::Note, why);
+      else
+        m_message->say(InPlaceMessage::Tone::Note, tr("Values are locked against accidents."),
+                       tr("Edit values"), [this] { m_lock->setChecked(true); });
     });
     connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
       if (m_context.settings) m_context.settings->setValue(favouritesKey, m_model->favourites());
@@ -313,8 +324,8 @@ class VariablesDock : public QWidget {
 
   void allowEditing(bool on) {
     m_model->setEditingAllowed(on);
-    m_lock->setIcon(themedIcon(on ? QStringLiteral("object-unlocked")
-                                  : QStringLiteral("object-locked")));
+    m_lock->setIcon(
+        themedIcon(on ? QStringLiteral("object-unlocked") : QStringLiteral("object-locked")));
     const QString tip =
         m_context.source->kind() == SourceKind::Live
             ? tr("Values of live robots are only shown: nothing is ever sent to robots.")
@@ -362,8 +373,10 @@ class VariablesDock : public QWidget {
     const bool any = m_filter->rowCount() > 0;
     m_view->setVisible(any);
     m_empty->setVisible(!any);
-    if (any) m_model->refresh(m_view->rowsInSight(), m_view->sparkPixels());
-    else m_empty->setText(emptyText());
+    if (any)
+      m_model->refresh(m_view->rowsInSight(), m_view->sparkPixels());
+    else
+      m_empty->setText(emptyText());
   }
 
   QString emptyText() const {
@@ -392,7 +405,7 @@ class VariablesDock : public QWidget {
   ValueWriter* m_writer;
   AttachedBoards* m_boards;
   AttachForm* m_attach;
-  std::set<int> m_removed;   // keys whose removal was said
+  std::set<int> m_removed;  // keys whose removal was said
   CatalogChoice* m_catalog = nullptr;
   QLineEdit* m_words = nullptr;
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;

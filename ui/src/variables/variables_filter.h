@@ -26,7 +26,7 @@ class VariablesFilter : public QSortFilterProxyModel {
   bool sortsByNumbers() const;
   /// Looks again: at changes when only those are shown, at values when they give the order.
   void update();
-  int variableCount() const;   ///< listed now
+  int variableCount() const;  ///< listed now
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override;

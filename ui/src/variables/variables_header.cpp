@@ -34,8 +34,10 @@ VariablesHeader::VariablesHeader(QWidget* parent) : QHeaderView(Qt::Horizontal, 
 void VariablesHeader::reset() {
   setMinimumSectionSize(scaled(this, 24));
   setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
-  const std::pair<int, int> widths[] = {{VariablesModel::Value, 56}, {VariablesModel::Unit, 40},
-                                        {VariablesModel::Rate, 66}, {VariablesModel::Age, 56},
+  const std::pair<int, int> widths[] = {{VariablesModel::Value, 56},
+                                        {VariablesModel::Unit, 40},
+                                        {VariablesModel::Rate, 66},
+                                        {VariablesModel::Age, 56},
                                         {VariablesModel::Spark, 68}};
   for (const auto& [column, width] : widths) resizeSection(column, scaled(this, width));
   setSectionHidden(VariablesModel::Rate, true);
@@ -50,7 +52,8 @@ void VariablesHeader::fillColumns(QMenu* menu) {
         menu->addAction(model()->headerData(c, Qt::Horizontal, Qt::DisplayRole).toString());
     action->setCheckable(true);
     action->setChecked(!isSectionHidden(c));
-    connect(action, &QAction::toggled, this, [this, c](bool shown) { setSectionHidden(c, !shown); });
+    connect(action, &QAction::toggled, this,
+            [this, c](bool shown) { setSectionHidden(c, !shown); });
   }
 }
 

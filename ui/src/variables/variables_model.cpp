@@ -15,7 +15,7 @@ using telemetry::GroupInfo;
 
 // Headings that people look for first; the others follow as they come.
 int headingRank(const std::string& heading) {
-  static constexpr const char* order[] = {"Vision", "Localization", "Decision", "Planning",
+  static constexpr const char* order[] = {"Vision", "Localization", "Decision",     "Planning",
                                           "IMU",    "Control",      "Communication"};
   int rank = 0;
   for (const char* known : order) {
@@ -84,9 +84,10 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
     variable->path = group->name + QLatin1Char('/') + variable->name;
     variable->column = column++;
     variable->info = columnInfo;
-    variable->searchText = (group->name + QLatin1Char('\n') + heading->name + QLatin1Char('\n') +
-                            variable->name + QLatin1Char('\n') +
-                            QString::fromStdString(columnInfo.unit)).toLower();
+    variable->searchText =
+        (group->name + QLatin1Char('\n') + heading->name + QLatin1Char('\n') + variable->name +
+         QLatin1Char('\n') + QString::fromStdString(columnInfo.unit))
+            .toLower();
     heading->children.push_back(std::move(variable));
   }
   std::stable_sort(group->children.begin(), group->children.end(),
@@ -157,8 +158,10 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
     return m_favourites.contains(node(index)->path);
   });
   for (const QModelIndex& index : variables) {
-    if (all) m_favourites.remove(node(index)->path);
-    else m_favourites.insert(node(index)->path);
+    if (all)
+      m_favourites.remove(node(index)->path);
+    else
+      m_favourites.insert(node(index)->path);
     emit dataChanged(index, index);
   }
   emit favouritesChanged();
@@ -166,8 +169,10 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
 
 void VariablesModel::setNote(const QString& group, const GroupNote& note) {
   if (m_notes.value(group) == note) return;
-  if (note == GroupNote{}) m_notes.remove(group);
-  else m_notes.insert(group, note);
+  if (note == GroupNote{})
+    m_notes.remove(group);
+  else
+    m_notes.insert(group, note);
   const QModelIndex row = find(group);
   if (row.isValid()) emit dataChanged(row, row.siblingAtColumn(columns - 1));
 }
@@ -246,9 +251,13 @@ int VariablesModel::rowCount(const QModelIndex& parent) const {
   return parent.column() == Name ? static_cast<int>(node(parent)->children.size()) : 0;
 }
 
-int VariablesModel::columnCount(const QModelIndex&) const { return columns; }
+int VariablesModel::columnCount(const QModelIndex&) const {
+  return columns;
+}
 
-QStringList VariablesModel::mimeTypes() const { return {variablesMimeType}; }
+QStringList VariablesModel::mimeTypes() const {
+  return {variablesMimeType};
+}
 
 QMimeData* VariablesModel::mimeData(const QModelIndexList& indexes) const {
   const QStringList names = variableNames(indexes);

@@ -22,9 +22,9 @@ namespace pitchboard::ui {
 struct VariableNode;
 
 struct GroupNote {
-  QString trouble;              ///< stands in the row
-  QString detail;               ///< in its tool tip
-  std::optional<double> rate;   ///< samples a second by the wall clock, instead of the source's
+  QString trouble;             ///< stands in the row
+  QString detail;              ///< in its tool tip
+  std::optional<double> rate;  ///< samples a second by the wall clock, instead of the source's
   bool operator==(const GroupNote&) const = default;
 };
 
@@ -33,7 +33,8 @@ class VariablesModel : public QAbstractItemModel {
  public:
   enum Column { Name, Value, Unit, Rate, Age, Spark, columns };
   enum Role {
-    /// "B1", "B1/Vision" with a line feed for the slash, "B1/VISION_LOST": the same in every source.
+    /// "B1", "B1/Vision" with a line feed for the slash, "B1/VISION_LOST": the same in every
+    /// source.
     PathRole = Qt::UserRole,
     SortRole,       ///< a number where the column has numbers
     SparkRole,      ///< QList<telemetry::SeriesBucket>, one per pixel
@@ -118,8 +119,8 @@ class VariablesModel : public QAbstractItemModel {
  private:
   static VariableNode* node(const QModelIndex& index);
   QModelIndex indexOf(const VariableNode* node, int column) const;
-  std::unique_ptr<VariableNode> makeGroup(
-      telemetry::GroupId id, std::shared_ptr<const telemetry::GroupView> view) const;
+  std::unique_ptr<VariableNode> makeGroup(telemetry::GroupId id,
+                                          std::shared_ptr<const telemetry::GroupView> view) const;
   void renumber();
   bool read(VariableNode& variable, int sparkPixels) const;
   void takeTime();
@@ -134,8 +135,8 @@ class VariablesModel : public QAbstractItemModel {
   std::uint64_t m_revision = 0;
   std::vector<std::unique_ptr<VariableNode>> m_groups;
   QSet<QString> m_favourites;
-  QHash<QString, GroupNote> m_notes;   // by group
-  std::optional<double> m_moment;   // looked back at
+  QHash<QString, GroupNote> m_notes;  // by group
+  std::optional<double> m_moment;     // looked back at
   double m_now = 0.0;
   std::uint64_t m_round = 0;
   bool m_editingAllowed = false;

@@ -42,8 +42,10 @@ QString shownAge(double seconds) {
 }  // namespace
 
 void VariablesModel::takeTime() {
-  if (m_moment) m_now = *m_moment;
-  else if (const auto range = m_store->range()) m_now = range->end;
+  if (m_moment)
+    m_now = *m_moment;
+  else if (const auto range = m_store->range())
+    m_now = range->end;
 }
 
 void VariablesModel::lookAt(VariableNode& group) {
@@ -62,8 +64,8 @@ bool VariablesModel::read(VariableNode& variable, int sparkPixels) const {
   bool changed = newest.has_value() != variable.known;
   variable.known = newest.has_value();
   if (!newest) return changed;
-  const bool sameValue = newest->value == variable.value ||
-                         (std::isnan(newest->value) && std::isnan(variable.value));
+  const bool sameValue =
+      newest->value == variable.value || (std::isnan(newest->value) && std::isnan(variable.value));
   changed = changed || !sameValue;
   variable.value = newest->value;
   if (variable.info.kind == ColumnKind::Number) {
@@ -167,23 +169,31 @@ QVariant VariablesModel::display(const VariableNode& row, int column) const {
   }
   if (row.kind == Kind::Heading) return {};
   switch (column) {
-    case Value: return row.known ? valueText(row.info, row.value) : QString();
+    case Value:
+      return row.known ? valueText(row.info, row.value) : QString();
     case Unit: {
       const QString words = row.known ? wordsOf(row.info, row.value) : QString();
       return words.isEmpty() ? QString::fromStdString(row.info.unit) : words;
     }
-    case Rate: return rateText(row.info, row.ratePerSecond);
-    case Age: return row.known ? row.ageShown : QString();
-    default: return {};
+    case Rate:
+      return rateText(row.info, row.ratePerSecond);
+    case Age:
+      return row.known ? row.ageShown : QString();
+    default:
+      return {};
   }
 }
 
 QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
   switch (column) {
-    case Value: return row.known ? QVariant(row.value) : QVariant();
-    case Rate: return row.ratePerSecond;
-    case Age: return m_now - row.lastChange;
-    default: return display(row, column);
+    case Value:
+      return row.known ? QVariant(row.value) : QVariant();
+    case Rate:
+      return row.ratePerSecond;
+    case Age:
+      return m_now - row.lastChange;
+    default:
+      return display(row, column);
   }
 }
 
@@ -200,8 +210,9 @@ QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
                                  : tr("An attached blackboard is only read.");
   }
   if (column->type == ColumnType::Float64) {
-    return tr("This is the truth or follows from it, not a variable of the blackboard. Robots and "
-              "ball are moved on the field.");
+    return tr(
+        "This is the truth or follows from it, not a variable of the blackboard. Robots and "
+        "ball are moved on the field.");
   }
   return {};
 }
@@ -238,7 +249,7 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
   }
   const QString why = whyNotEditable(index);
   if (index.column() == Value) {
-    lines << (!why.isEmpty()      ? why
+    lines << (!why.isEmpty()     ? why
               : m_editingAllowed ? tr("Double-click or F2 edits it.")
                                  : tr("Turn on “Edit values” to edit it."));
   }
@@ -249,11 +260,13 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const VariableNode& row = *node(index);
   switch (role) {
-    case Qt::DisplayRole: return display(row, index.column());
+    case Qt::DisplayRole:
+      return display(row, index.column());
     case Qt::EditRole:
       return index.column() == Value && row.known ? exactText(row.info, row.value)
                                                   : display(row, index.column());
-    case Qt::ToolTipRole: return toolTip(index);
+    case Qt::ToolTipRole:
+      return toolTip(index);
     case Qt::FontRole:
       if (row.kind == Kind::Group && index.column() == Name) return themeFont(TypeRole::Body, true);
       return index.column() == Unit || index.column() == Age || row.kind == Kind::Group
@@ -277,12 +290,18 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
       }
       return {};
     }
-    case PathRole: return row.path;
-    case SortRole: return sortValue(row, index.column());
-    case SparkRole: return QVariant::fromValue(row.spark);
-    case ColumnRole: return QVariant::fromValue(row.info);
-    case FavouriteRole: return row.kind == Kind::Variable && m_favourites.contains(row.path);
-    default: return {};
+    case PathRole:
+      return row.path;
+    case SortRole:
+      return sortValue(row, index.column());
+    case SparkRole:
+      return QVariant::fromValue(row.spark);
+    case ColumnRole:
+      return QVariant::fromValue(row.info);
+    case FavouriteRole:
+      return row.kind == Kind::Variable && m_favourites.contains(row.path);
+    default:
+      return {};
   }
 }
 
@@ -323,7 +342,8 @@ QVariant VariablesModel::headerData(int section, Qt::Orientation orientation, in
     const QString tips[] = {
         tr("Robot, process, variable. In a robot's row: samples a second.\nChanges between two "
            "samples cannot be seen."),
-        tr("Newest sample"), tr("Unit, or what a code means"),
+        tr("Newest sample"),
+        tr("Unit, or what a code means"),
         tr("Rate of change: how much the value changed over the last second"),
         tr("Time since the value changed last"),
         tr("The %1, from lowest to highest value").arg(last.toLower())};

@@ -25,7 +25,10 @@ constexpr int openAllUpTo = 1500;
 }  // namespace
 
 VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWidget* parent)
-    : QTreeView(parent), m_model(model), m_filter(filter), m_header(new VariablesHeader(this)),
+    : QTreeView(parent),
+      m_model(model),
+      m_filter(filter),
+      m_header(new VariablesHeader(this)),
       m_restoreTimer(new QTimer(this)) {
   setObjectName(QStringLiteral("variablesView"));
   setFrameShape(QFrame::NoFrame);
@@ -36,7 +39,7 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   setDragEnabled(true);
   setDragDropMode(DragOnly);
   setIndentation(scaled(this, 10));
-  setTextElideMode(Qt::ElideMiddle);   // names differ at both ends
+  setTextElideMode(Qt::ElideMiddle);  // names differ at both ends
   setAnimated(false);
   setExpandsOnDoubleClick(true);
   setItemDelegate(new VariablesDelegate(this));
@@ -64,8 +67,10 @@ void VariablesView::remember(const QModelIndex& index, bool open) {
   if (!m_remembers) return;
   const QString path = index.data(VariablesModel::PathRole).toString();
   if (m_filter->isFiltering()) {
-    if (open) m_closedWhileFiltering.remove(path);
-    else m_closedWhileFiltering.insert(path);
+    if (open)
+      m_closedWhileFiltering.remove(path);
+    else
+      m_closedWhileFiltering.insert(path);
   } else if (open) {
     m_open.insert(path);
   } else {
@@ -106,7 +111,9 @@ void VariablesView::closeAll() {
   restore();
 }
 
-void VariablesView::restoreSoon() { m_restoreTimer->start(); }
+void VariablesView::restoreSoon() {
+  m_restoreTimer->start();
+}
 
 // What a newcomer wants to see is in sight without a click.
 void VariablesView::openAtFirst() {
@@ -196,7 +203,9 @@ void VariablesView::copySelection() const {
   if (!lines.isEmpty()) QApplication::clipboard()->setText(lines.join(QLatin1Char('\n')));
 }
 
-void VariablesView::editCurrent() { editValue(currentIndex()); }
+void VariablesView::editCurrent() {
+  editValue(currentIndex());
+}
 
 void VariablesView::editValue(const QModelIndex& index) {
   const QModelIndex value = index.siblingAtColumn(VariablesModel::Value);
@@ -226,13 +235,14 @@ void VariablesView::keyPressEvent(QKeyEvent* event) {
         setExpanded(current.siblingAtColumn(0), !isExpanded(current.siblingAtColumn(0)));
       }
       return;
-    case Qt::Key_Asterisk:   // QTreeView would open everything below
+    case Qt::Key_Asterisk:  // QTreeView would open everything below
       requestFavourites();
       return;
     case Qt::Key_F2:
       if (onVariable) editCurrent();
       return;
-    default: break;
+    default:
+      break;
   }
   QTreeView::keyPressEvent(event);
 }
@@ -241,8 +251,10 @@ void VariablesView::mouseDoubleClickEvent(QMouseEvent* event) {
   const QModelIndex index = indexAt(event->position().toPoint());
   if (event->button() == Qt::LeftButton && index.isValid() &&
       m_model->columnOf(m_filter->mapToSource(index)) != nullptr) {
-    if (index.column() == VariablesModel::Value) editValue(index);
-    else emit plotRequested({index.siblingAtColumn(0).data(VariablesModel::PathRole).toString()});
+    if (index.column() == VariablesModel::Value)
+      editValue(index);
+    else
+      emit plotRequested({index.siblingAtColumn(0).data(VariablesModel::PathRole).toString()});
     return;
   }
   QTreeView::mouseDoubleClickEvent(event);

@@ -38,9 +38,9 @@ class VariablesView : public QTreeView {
 
  signals:
   void plotRequested(const QStringList& names);
-  void favouriteRequested(const QModelIndexList& indexes);   ///< of the model
+  void favouriteRequested(const QModelIndexList& indexes);  ///< of the model
   /// A value that cannot be edited (now) was double-clicked, or F2 pressed on it.
-  void editRefused(const QModelIndex& index);                ///< of the model
+  void editRefused(const QModelIndex& index);  ///< of the model
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
@@ -62,7 +62,7 @@ class VariablesView : public QTreeView {
   QTimer* m_restoreTimer;
   QSet<QString> m_open, m_closedWhileFiltering, m_selected;
   QString m_current;
-  bool m_remembers = true;    // false while rows come and go by themselves
+  bool m_remembers = true;  // false while rows come and go by themselves
   bool m_openedAtFirst = false;
 };
 

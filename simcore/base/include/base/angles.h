@@ -8,8 +8,12 @@
 
 namespace pitchboard {
 
-constexpr double radiansFromDegrees(double degrees) { return degrees * (std::numbers::pi / 180.0); }
-constexpr double degreesFromRadians(double radians) { return radians * (180.0 / std::numbers::pi); }
+constexpr double radiansFromDegrees(double degrees) {
+  return degrees * (std::numbers::pi / 180.0);
+}
+constexpr double degreesFromRadians(double radians) {
+  return radians * (180.0 / std::numbers::pi);
+}
 
 /// The same direction in (−π, π].
 inline double wrapToPi(double radians) {

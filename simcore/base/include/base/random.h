@@ -11,7 +11,13 @@ namespace pitchboard {
 
 /// Which noise a draw belongs to; part of the key, so streams never share numbers.
 enum class NoiseStream : std::uint32_t {
-  Motion = 1, Kick = 2, BallVision = 3, RobotVision = 4, Landmarks = 5, Imu = 6, Behaviour = 7
+  Motion = 1,
+  Kick = 2,
+  BallVision = 3,
+  RobotVision = 4,
+  Landmarks = 5,
+  Imu = 6,
+  Behaviour = 7
 };
 
 /// Draws for one (robot, stream, tick), in order. A value of a few words; make one where needed.
