@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <robotlink/system_v.h>
-#include <robotlink/variable_catalog.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/blackboard/variable_catalog.h>
 
 #include "commands.h"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/variable_catalog.h>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <memory>
+
+#include <robotlink/blackboard/variable_catalog.h>
 
 #include "commands.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/session_export.h>
+#include <telemetry/session/session_export.h>
 
 #include <unistd.h>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/session_reader.h>
+#include <telemetry/session/session_reader.h>
 
 #include <array>
 #include <cstdio>

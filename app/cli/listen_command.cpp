@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/monitor_request.h>
-#include <telemetry/team_monitor.h>
-#include <telemetry/udp_receiver.h>
-
 #include <cstdio>
 #include <map>
 #include <memory>
+
+#include <telemetry/wire/monitor_request.h>
+#include <telemetry/wire/team_monitor.h>
+#include <telemetry/wire/udp_receiver.h>
 
 #include "commands.h"
 #include "interrupt.h"

@@ -3,16 +3,15 @@
 
 // What the commands that receive from the network have in common.
 
-#include <telemetry/profile.h>
-#include <telemetry/team_monitor.h>
-#include <telemetry/udp_receiver.h>
-
 #include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 #include <base/result.h>
+#include <telemetry/wire/profile.h>
+#include <telemetry/wire/team_monitor.h>
+#include <telemetry/wire/udp_receiver.h>
 
 namespace pitchboard::cli {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_json.h"
 
-#include <telemetry/action_words.h>
-
 #include <cmath>
 #include <cstdio>
+
+#include <telemetry/wire/action_words.h>
 
 namespace pitchboard::cli {
 namespace {

@@ -3,13 +3,13 @@
 
 // What listen and decode print: one JSON object, or one line for people, per message.
 
-#include <telemetry/datagram.h>
-#include <telemetry/gamecontroller.h>
-#include <telemetry/referee_json.h>
-#include <telemetry/text_decoder.h>
-
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include <telemetry/wire/datagram.h>
+#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/wire/referee_json.h>
+#include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/live_recorder.h>
+#include <robotlink/session/live_recorder.h>
 
 #include <algorithm>
 #include <chrono>

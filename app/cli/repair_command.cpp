@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/session_repair.h>
+#include <telemetry/session/session_repair.h>
 
 #include <cstdio>
 #include <memory>

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <robotlink/field_svg.h>
-#include <robotlink/recorded_frame.h>
-#include <robotlink/report.h>
+#include <robotlink/report/field_svg.h>
+#include <robotlink/report/report.h>
+#include <robotlink/session/recorded_frame.h>
 
 namespace pitchboard::cli {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include <telemetry/session_reader.h>
+#include <telemetry/session/session_reader.h>
 
 namespace pitchboard::cli {
 

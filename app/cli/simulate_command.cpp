@@ -9,10 +9,10 @@
 #include <memory>
 #include <thread>
 
-#include <robotlink/match_recorder.h>
-#include <robotlink/moment.h>
-#include <robotlink/pacer.h>
-#include <robotlink/simulated_match.h>
+#include <robotlink/match/pacer.h>
+#include <robotlink/match/simulated_match.h>
+#include <robotlink/session/match_recorder.h>
+#include <robotlink/session/moment_reader.h>
 
 #include "commands.h"
 #include "interrupt.h"

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <robotlink/simulated_match.h>
+#include <robotlink/match/simulated_match.h>
 
 namespace pitchboard::cli {
 

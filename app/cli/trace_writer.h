@@ -8,7 +8,7 @@
 #include <string>
 
 #include <base/result.h>
-#include <simcore/snapshot.h>
+#include <simcore/world/snapshot.h>
 
 namespace pitchboard::cli {
 

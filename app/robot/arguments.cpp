@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
-#include <robotlink/scenario.h>
-#include <robotlink/system_v.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/scenario/scenario.h>
+#include <telemetry/wire/datagram.h>
 
 namespace pitchboard::robot {
 namespace {
@@ -21,7 +23,7 @@ std::string checkBehaviour(const std::string& name) {
 }
 
 std::string checkAddress(const std::string& text) {
-  const Result<void> valid = link::checkAddress(text);
+  const auto valid = telemetry::parseAddress(text);
   return valid ? std::string() : valid.error().text();
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include <robotlink/cognitive_process.h>
-#include <robotlink/robot_config.h>
+#include <robotlink/cognition/cognitive_process.h>
+#include <robotlink/processes/robot_config.h>
 
 namespace pitchboard::robot {
 

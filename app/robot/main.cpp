@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 
-#include <robotlink/system_v.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/cognition/process_registry.h>
 
 #include "arguments.h"
 #include "management.h"

@@ -5,8 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <robotlink/management_config.h>
-#include <robotlink/system_v.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/processes/management_config.h>
 
 #include "process_loop.h"
 
@@ -30,6 +31,12 @@ Result<std::string> ownProgram() {
                  "cannot find out where pitchboard-robot is: " + error.message());
 }
 
+std::vector<std::string> referenceProcesses() {
+  std::vector<std::string> names;
+  for (const link::ProcessInfo& info : link::cognitiveProcesses()) names.emplace_back(info.name);
+  return names;
+}
+
 void print(link::ProcessManager& manager) {
   for (const std::string& message : manager.takeMessages()) std::printf("%s\n", message.c_str());
   std::fflush(stdout);
@@ -41,7 +48,8 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   const std::vector<std::string> given = givenOptions(command);
   Result<link::IniFile> file = settle(command, arguments);
   if (!file) return tl::unexpected<Error>(file.error());
-  const Result<link::ManagementConfig> config = link::managementFromIni(*file);
+  const Result<link::ManagementConfig> config =
+      link::managementFromIni(*file, referenceProcesses());
   if (!config) return tl::unexpected<Error>(config.error());
   const Result<std::string> program = ownProgram();
   if (!program) return tl::unexpected<Error>(program.error());

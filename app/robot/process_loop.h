@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include <robotlink/cognitive_process.h>
+#include <robotlink/cognition/cognitive_process.h>
 
 namespace pitchboard::robot {
 

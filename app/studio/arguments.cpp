@@ -3,8 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include <robotlink/match_runner.h>
 #include <cstdio>
+
+#include <robotlink/match/match_runner.h>
 
 namespace pitchboard::studio {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include <robotlink/live_watch.h>
-#include <robotlink/simulated_match.h>
+#include <robotlink/live/live_watch.h>
+#include <robotlink/match/simulated_match.h>
 
 namespace pitchboard::studio {
 

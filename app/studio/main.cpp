@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include <ui/field_view.h>
-#include <ui/live_controller.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
-#include <ui/scenario_files.h>
-#include <ui/theme.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
 
 #include "arguments.h"
 #include "end_signals.h"

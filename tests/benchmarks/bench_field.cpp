@@ -9,12 +9,12 @@
 #include <QImage>
 #include <QPainter>
 
-#include <ui/field_view.h>
-#include <ui/theme.h>
-
 #include <cmath>
 #include <memory>
 #include <vector>
+
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

@@ -19,13 +19,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <telemetry/series_store.h>
-#include <telemetry/text_protocol.h>
-#include <ui/field_view.h>
-#include <ui/live_controller.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
-#include <ui/theme.h>
+#include <telemetry/series/series_store.h>
+#include <telemetry/wire/text_protocol.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
 
 using namespace pitchboard;
 using Clock = std::chrono::steady_clock;

@@ -4,9 +4,10 @@
 // second with 5000 particles (SYSTEM.md section 10).
 
 #include <benchmark/benchmark.h>
-#include <robotlink/monte_carlo_localization.h>
 
 #include <cmath>
+
+#include <robotlink/cognition/monte_carlo_localization.h>
 
 namespace pitchboard::link {
 namespace {

@@ -4,7 +4,8 @@
 // counter says how many times faster than real time it plays.
 
 #include <benchmark/benchmark.h>
-#include <robotlink/simulated_match.h>
+
+#include <robotlink/match/simulated_match.h>
 
 namespace pitchboard::link {
 namespace {

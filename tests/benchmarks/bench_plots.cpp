@@ -7,20 +7,20 @@
 #include <QApplication>
 #include <QImage>
 
-#include <plots/linked_time.h>
-#include <plots/plot_feed.h>
-#include <plots/plot_page.h>
-#include <plots/plot_target.h>
-#include <plots/plots_dock.h>
-#include <shell/source_switch.h>
-#include <telemetry/series_store.h>
-#include <ui/theme.h>
-
 #include <cmath>
 #include <memory>
 #include <random>
 
+#include <telemetry/series/series_store.h>
+#include <ui/base/plot_target.h>
+#include <ui/base/theme.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/source_switch.h>
+
 #include "frame_times.h"
+#include "plot_feed.h"
+#include "plot_page.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

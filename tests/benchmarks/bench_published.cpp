@@ -4,9 +4,10 @@
 // makes 10 300, 2 250 and 390 frames/s with 1, 6 and 22 robots (SYSTEM.md section 10).
 
 #include <benchmark/benchmark.h>
-#include <simcore/simulation.h>
 
 #include <array>
+
+#include <simcore/physics/simulation.h>
 
 namespace pitchboard::sim {
 namespace {

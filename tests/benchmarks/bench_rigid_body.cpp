@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include <simcore/simulation.h>
+#include <simcore/physics/simulation.h>
 
 #include "rigid_body_obstacles.h"
 

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <robotlink/match_sampler.h>
-#include <telemetry/series_store.h>
+
+#include <robotlink/session/match_sampler.h>
+#include <telemetry/series/series_store.h>
 
 #include "frame_times.h"
 

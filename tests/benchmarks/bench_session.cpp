@@ -11,9 +11,9 @@
 #include <filesystem>
 #include <random>
 
-#include <robotlink/match_recorder.h>
-#include <robotlink/recorded_frame.h>
-#include <telemetry/session_export.h>
+#include <robotlink/session/match_recorder.h>
+#include <robotlink/session/recorded_frame.h>
+#include <telemetry/session/session_export.h>
 
 namespace pitchboard::telemetry {
 namespace {

@@ -2,10 +2,6 @@
 // How fast telemetry is taken in: the decoder alone, the team's book-keeping, the referee's
 // packets, and a real socket on 127.0.0.1 under the load of 16 senders (docs/LIVE.md).
 
-#include <telemetry/gamecontroller.h>
-#include <telemetry/team_monitor.h>
-#include <telemetry/udp_receiver.h>
-
 #include <benchmark/benchmark.h>
 #include <array>
 #include <atomic>
@@ -16,6 +12,10 @@
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/wire/team_monitor.h>
+#include <telemetry/wire/udp_receiver.h>
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <map>
 
-#include <telemetry/session_reader.h>
+#include <telemetry/session/session_reader.h>
 
 #include "../telemetry/test_socket.h"
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include <csignal>
 
-#include <robotlink/match_runner.h>
+#include <robotlink/match/match_runner.h>
 
 using namespace pitchboard;
 using namespace std::chrono_literals;

@@ -11,9 +11,9 @@
 #include <unistd.h>
 #include <cmath>
 
-#include <robotlink/live_watch.h>
-#include <robotlink/robot_variables.h>
-#include <robotlink/system_v.h>
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/live/live_watch.h>
 
 using namespace pitchboard;
 

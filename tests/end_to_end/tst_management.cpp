@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pitchboard-robot management with real processes: order, restarts, an end without remains.
-#include <robotlink/management_config.h>
-#include <robotlink/system_v.h>
-
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QtTest>
 #include <csignal>
+
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/processes/management_config.h>
 
 #include "../robotlink/segment_keys.h"
 

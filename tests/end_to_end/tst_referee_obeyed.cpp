@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded GameController packets of every version, sent over UDP, reach COM_REFEREE; penalised
 // robots stand.
-#include <robotlink/cognitive_process.h>
-#include <robotlink/robot_variables.h>
-#include <robotlink/system_v.h>
-
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -12,6 +8,10 @@
 #include <QProcess>
 #include <QtTest>
 #include <csignal>
+
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/cognition/process_registry.h>
 
 #include "../robotlink/segment_keys.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pitchboard-robot as a process of its own on a System V blackboard.
-#include <robotlink/robot_variables.h>
-#include <robotlink/system_v.h>
-
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <csignal>
+
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/blackboard/system_v.h>
 
 #include "../robotlink/segment_keys.h"
 

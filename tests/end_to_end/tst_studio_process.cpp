@@ -7,7 +7,7 @@
 #include <QtTest>
 #include <csignal>
 
-#include <robotlink/system_v.h>
+#include <robotlink/blackboard/system_v.h>
 
 using namespace pitchboard;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A process that shares no code with this project plays a simulated robot through its blackboard.
-#include <robotlink/simulated_match.h>
+#include <robotlink/match/simulated_match.h>
 
 #include <QElapsedTimer>
 #include <QProcess>

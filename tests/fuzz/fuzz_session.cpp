@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a session file: opened by its summary and by walking, looked at, exported.
-#include <telemetry/session_export.h>
-#include <telemetry/session_reader.h>
-
 #include <cstdlib>
+
+#include <telemetry/session/session_export.h>
+#include <telemetry/session/session_reader.h>
 
 using namespace pitchboard::telemetry;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a robot's text datagram, through the decoder and the team's book-keeping.
-#include <telemetry/team_monitor.h>
+#include <telemetry/wire/team_monitor.h>
 
 #include <cstdlib>
 

@@ -5,7 +5,7 @@
 #include <QProcess>
 #include <QtTest>
 
-#include <telemetry/session_repair.h>
+#include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
 

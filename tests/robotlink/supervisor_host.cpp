@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // For tst_process_supervisor: starts children, writes a line "child PID" for each, and waits to be
 // killed.
-#include <robotlink/process_supervisor.h>
 #include <unistd.h>
 #include <cstdio>
+
+#include <robotlink/processes/process_supervisor.h>
 
 int main() {
   pitchboard::link::ProcessSupervisor supervisor;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/blackboard.h>
-#include <robotlink/robot_variables.h>
 #include <QtTest>
 #include <array>
 #include <limits>
+
+#include <robotlink/blackboard/blackboard.h>
+#include <robotlink/blackboard/robot_variables.h>
 
 using namespace pitchboard::link;
 

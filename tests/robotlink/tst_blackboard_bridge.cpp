@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/blackboard_bridge.h>
 #include <QtTest>
 #include <map>
+
+#include <robotlink/match/blackboard_bridge.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <random>
 
-#include <robotlink/board_sampler.h>
-#include <telemetry/series_store.h>
+#include <robotlink/session/board_sampler.h>
+#include <telemetry/series/series_store.h>
 
 #include "segment_keys.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/cognitive_process.h>
-#include <robotlink/robot_variables.h>
-
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <QtTest>
 #include <limits>
+
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/process_registry.h>
 
 #include "udp_sender.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/conformance.h>
+#include <robotlink/conformance/conformance.h>
 
 #include <QDir>
 #include <QTemporaryDir>

@@ -3,8 +3,8 @@
 
 #include <ctime>
 
-#include <robotlink/match_runner.h>
-#include <robotlink/pacer.h>
+#include <robotlink/match/match_runner.h>
+#include <robotlink/match/pacer.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

@@ -3,16 +3,15 @@
 
 #include <QtTest>
 
-#include <resources/resources.h>
 #include <bit>
 #include <numbers>
 
 #include <base/angles.h>
-#include <robotlink/match_sampler.h>
-#include <telemetry/action_words.h>
-#include <telemetry/series_store.h>
-
-#include "variable_meanings.h"
+#include <resources/resources.h>
+#include <robotlink/blackboard/variable_meanings.h>
+#include <robotlink/session/match_sampler.h>
+#include <telemetry/series/series_store.h>
+#include <telemetry/wire/action_words.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

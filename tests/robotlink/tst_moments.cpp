@@ -5,11 +5,11 @@
 
 #include <random>
 
-#include <robotlink/live_recorder.h>
-#include <robotlink/match_recorder.h>
-#include <robotlink/moment.h>
-#include <robotlink/moment_scenario.h>
-#include <robotlink/recorded_frame.h>
+#include <robotlink/session/live_recorder.h>
+#include <robotlink/session/match_recorder.h>
+#include <robotlink/session/moment_reader.h>
+#include <robotlink/session/moment_scenario.h>
+#include <robotlink/session/recorded_frame.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

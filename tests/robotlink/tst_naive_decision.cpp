@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/naive_decision.h>
+#include <robotlink/cognition/naive_decision.h>
 
 #include <QtTest>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/path_planner.h>
+#include <robotlink/cognition/path_planner.h>
 
 #include <QtTest>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/process_supervisor.h>
+#include <robotlink/processes/process_supervisor.h>
 
 #include <fcntl.h>
 #include <unistd.h>

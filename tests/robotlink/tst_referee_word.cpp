@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What recorded GameController packets of several versions mean in COM_REFEREE.
-#include <referee_word.h>
+#include <robotlink/cognition/referee_word.h>
 
 #include <QtTest>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
-#include <robotlink/match_sampler.h>
-#include <robotlink/report.h>
+#include <robotlink/report/report.h>
+#include <robotlink/session/match_sampler.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

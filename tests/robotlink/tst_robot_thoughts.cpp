@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Particles and paths on their way to a display: the datagrams, and matches with inline and with
 // separate processes.
-#include <robotlink/match_runner.h>
+#include <robotlink/match/match_runner.h>
 
 #include <QtTest>
 #include <cmath>

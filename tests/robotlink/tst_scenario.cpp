@@ -6,7 +6,7 @@
 
 #include <base/angles.h>
 #include <resources/resources.h>
-#include <robotlink/scenario.h>
+#include <robotlink/scenario/scenario.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include <robotlink/simulated_match.h>
+#include <robotlink/match/simulated_match.h>
 
 namespace {
 std::atomic<long> allocations{0};

@@ -4,8 +4,8 @@
 #include <map>
 #include <random>
 
-#include <robotlink/state_archive.h>
-#include <robotlink/state_codec.h>
+#include <robotlink/session/state_archive.h>
+#include <robotlink/session/state_codec.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/system_v.h>
 #include <sys/wait.h>
 #include <QProcess>
 #include <QtTest>
 #include <csignal>
+
+#include <robotlink/blackboard/system_v.h>
 
 #include "segment_keys.h"
 

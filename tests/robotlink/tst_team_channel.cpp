@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Team messages: the two channels, and the team process between two blackboards.
-#include <robotlink/cognitive_process.h>
-#include <robotlink/robot_variables.h>
-#include <robotlink/team_channel.h>
-
 #include <QtTest>
+
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/cognition/team_channel.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

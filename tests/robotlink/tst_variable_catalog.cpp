@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/variable_catalog.h>
 #include <QFile>
 #include <QtTest>
 #include <random>
+
+#include <robotlink/blackboard/variable_catalog.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

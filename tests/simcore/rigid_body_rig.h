@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include <simcore/simulation.h>
+#include <simcore/physics/simulation.h>
 
 namespace rig {
 

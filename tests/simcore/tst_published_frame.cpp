@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/angles.h>
-#include <simcore/action.h>
-#include <simcore/published_frame.h>
-
 #include <QtTest>
 #include <cmath>
+
+#include <base/angles.h>
+#include <simcore/world/action.h>
+#include <simcore/world/published_frame.h>
 
 using namespace pitchboard;
 using namespace pitchboard::sim;

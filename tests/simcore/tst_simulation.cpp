@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <base/angles.h>
-#include <simcore/simulation.h>
-
 #include <QtTest>
 #include <cmath>
 #include <limits>
+
+#include <base/angles.h>
+#include <simcore/physics/simulation.h>
 
 using namespace pitchboard;
 using namespace pitchboard::sim;

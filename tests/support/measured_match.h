@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <base/angles.h>
-#include <robotlink/simulated_match.h>
-#include <simcore/published_frame.h>
+#include <robotlink/match/simulated_match.h>
+#include <simcore/world/published_frame.h>
 
 namespace pitchboard::link {
 

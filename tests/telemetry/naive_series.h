@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include <telemetry/series_store.h>
+#include <telemetry/series/series_store.h>
 
 namespace pitchboard::telemetry {
 

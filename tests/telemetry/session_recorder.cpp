@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <thread>
 
-#include <telemetry/session_writer.h>
+#include <telemetry/session/session_writer.h>
 
 using namespace pitchboard::telemetry;
 

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <limits>
 
-#include <telemetry/session_reader.h>
-#include <telemetry/session_writer.h>
+#include <telemetry/session/session_reader.h>
+#include <telemetry/session/session_writer.h>
 
 namespace pitchboard::telemetry::rig {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <telemetry/derived_curve.h>
+#include <telemetry/series/derived_curve.h>
 
 using namespace pitchboard::telemetry;
 using Curve = std::vector<Sample>;

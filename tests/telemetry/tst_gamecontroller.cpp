@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packets recorded from real controllers, and every size that they can be cut to.
-#include <telemetry/gamecontroller.h>
+#include <telemetry/wire/gamecontroller.h>
 
 #include <QDir>
 #include <QFile>

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <random>
 
-#include <telemetry/mcap_reader.h>
-#include <telemetry/mcap_writer.h>
+#include <telemetry/mcap/mcap_reader.h>
+#include <telemetry/mcap/mcap_writer.h>
 
 #include "session_rig.h"
 

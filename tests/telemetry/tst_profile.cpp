@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/profile.h>
-#include <telemetry/text_decoder.h>
-
 #include <QTemporaryDir>
 #include <QtTest>
+
+#include <telemetry/wire/profile.h>
+#include <telemetry/wire/text_decoder.h>
 
 using namespace pitchboard::telemetry;
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <thread>
 
-#include <telemetry/series_store.h>
+#include <telemetry/series/series_store.h>
 
 #include "naive_series.h"
 

@@ -7,8 +7,8 @@
 #include <csignal>
 #include <filesystem>
 
-#include <telemetry/mcap_writer.h>
-#include <telemetry/session_repair.h>
+#include <telemetry/mcap/mcap_writer.h>
+#include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
 

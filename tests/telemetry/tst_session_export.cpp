@@ -9,7 +9,7 @@
 #include <clocale>
 #include <filesystem>
 
-#include <telemetry/session_export.h>
+#include <telemetry/session/session_export.h>
 
 #include "session_rig.h"
 

@@ -3,7 +3,6 @@
 // most.
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,8 +12,9 @@
 #include <csignal>
 #include <random>
 
-#include <telemetry/session_reader.h>
-#include <telemetry/session_repair.h>
+#include <robotlink/processes/spawn.h>
+#include <telemetry/session/session_reader.h>
+#include <telemetry/session/session_repair.h>
 
 using namespace pitchboard;
 using namespace pitchboard::telemetry;

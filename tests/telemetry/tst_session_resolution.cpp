@@ -7,7 +7,7 @@
 #include <bit>
 #include <limits>
 
-#include <telemetry/session_export.h>
+#include <telemetry/session/session_export.h>
 
 #include "session_format.h"
 #include "session_rig.h"

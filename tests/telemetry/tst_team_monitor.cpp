@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/action_words.h>
-#include <telemetry/team_monitor.h>
-
 #include <QtTest>
 #include <cmath>
+
+#include <telemetry/wire/action_words.h>
+#include <telemetry/wire/team_monitor.h>
 
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/text_decoder.h>
-#include <telemetry/text_protocol.h>
-
 #include <QFile>
 #include <QtTest>
 #include <atomic>
@@ -9,6 +6,9 @@
 #include <cstdlib>
 #include <new>
 #include <random>
+
+#include <telemetry/wire/text_decoder.h>
+#include <telemetry/wire/text_protocol.h>
 
 using namespace pitchboard::telemetry;
 

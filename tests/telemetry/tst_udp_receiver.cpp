@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real sockets on 127.0.0.1, on ports that the system gives.
-#include <telemetry/monitor_request.h>
-#include <telemetry/udp_receiver.h>
-
 #include <QProcess>
 #include <QtTest>
 #include <atomic>
 #include <set>
 #include <thread>
+
+#include <telemetry/wire/monitor_request.h>
+#include <telemetry/wire/udp_receiver.h>
 
 #include "test_socket.h"
 

@@ -8,8 +8,8 @@
 #include <QStringList>
 #include <string>
 
-#include <robotlink/live_watch.h>
-#include <telemetry/text_protocol.h>
+#include <robotlink/live/live_watch.h>
+#include <telemetry/wire/text_protocol.h>
 
 #include "../telemetry/test_socket.h"
 

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <functional>
 
-#include <plots/linked_time.h>
-#include <plots/plot_target.h>
-#include <shell/dock_list.h>
-#include <shell/source_switch.h>
-#include <telemetry/series_store.h>
+#include <telemetry/series/series_store.h>
+#include <ui/base/plot_target.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/studio_context.h>
 
 namespace pitchboard::ui {
 

@@ -9,12 +9,12 @@
 #include <QToolButton>
 #include <QtTest>
 
-#include <session/session_recording.h>
-#include <shell/notice_bar.h>
-#include <timeline/timeline.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
-#include <ui/scenario_files.h>
+#include <ui/base/notice_bar.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/timeline.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
 
 namespace session_rig {
 

@@ -3,9 +3,9 @@
 #include <QSignalSpy>
 #include <QtTest>
 
-#include <robots/card_state.h>
-#include <robots/robot_card.h>
-#include <ui/theme.h>
+#include <ui/base/theme.h>
+#include <ui/robots/card_state.h>
+#include <ui/robots/robot_card.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

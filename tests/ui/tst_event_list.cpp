@@ -4,10 +4,11 @@
 #include <QtTest>
 #include <cmath>
 
-#include <timeline/event_list.h>
-#include <timeline/event_marks.h>
-#include <timeline/playback.h>
-#include <timeline/time_axis.h>
+#include <ui/base/time_axis.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/playback.h>
+
+#include "event_marks.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

@@ -4,12 +4,12 @@
 
 #include <QTest>
 
-#include <field/field_canvas.h>
-#include <field/field_keys.h>
-#include <field/field_pointer.h>
-#include <field/overlay_items.h>
-
 #include <set>
+
+#include "field_canvas.h"
+#include "field_keys.h"
+#include "field_pointer.h"
+#include "overlay_items.h"
 
 using namespace pitchboard::ui;
 

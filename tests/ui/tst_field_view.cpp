@@ -12,13 +12,13 @@
 #include <QUndoStack>
 #include <QWheelEvent>
 
-#include <base/angles.h>
-#include <robotlink/scenario.h>
-#include <ui/field_view.h>
-#include <ui/match_controller.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <base/angles.h>
+#include <robotlink/scenario/scenario.h>
+#include <ui/field/field_view.h>
+#include <ui/sources/match_controller.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

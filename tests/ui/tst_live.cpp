@@ -13,15 +13,15 @@
 #include <QUndoStack>
 #include <QtTest>
 
-#include <robots/robot_card.h>
-#include <robots/robots_dock.h>
-#include <shell/notice_bar.h>
-#include <shell/scoreboard.h>
-#include <simcore/published_frame.h>
-#include <ui/field_view.h>
-#include <ui/live_controller.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
+#include <simcore/world/published_frame.h>
+#include <ui/base/notice_bar.h>
+#include <ui/field/field_view.h>
+#include <ui/robots/robot_card.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scoreboard.h>
 
 #include "live_rig.h"
 

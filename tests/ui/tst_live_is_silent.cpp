@@ -12,9 +12,9 @@
 #include <atomic>
 #include <mutex>
 
-#include <ui/live_controller.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
 
 #include "live_rig.h"
 

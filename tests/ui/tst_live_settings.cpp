@@ -15,10 +15,11 @@
 #include <QToolButton>
 #include <QtTest>
 
-#include <live/bad_messages_model.h>
-#include <live/live_settings_dialog.h>
-#include <live/profile_editor.h>
-#include <ui/live_controller.h>
+#include <ui/live/live_settings_dialog.h>
+#include <ui/sources/live_controller.h>
+
+#include "bad_messages_model.h"
+#include "profile_editor.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

@@ -2,9 +2,10 @@
 #include <QAbstractItemModelTester>
 #include <QtTest>
 
-#include <shell/log_model.h>
-#include <shell/processes_model.h>
-#include <shell/words_filter.h>
+#include <ui/base/words_filter.h>
+
+#include "log_model.h"
+#include "processes_model.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

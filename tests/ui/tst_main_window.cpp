@@ -11,12 +11,12 @@
 #include <QUndoStack>
 #include <QtTest>
 
-#include <robots/robot_card.h>
-#include <shell/notice_bar.h>
-#include <ui/field_view.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
-#include <ui/scenario_files.h>
+#include <ui/base/notice_bar.h>
+#include <ui/field/field_view.h>
+#include <ui/robots/robot_card.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

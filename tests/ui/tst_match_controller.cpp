@@ -5,7 +5,7 @@
 #include <QtTest>
 #include <cmath>
 
-#include <ui/match_controller.h>
+#include <ui/sources/match_controller.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

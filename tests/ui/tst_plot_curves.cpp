@@ -6,15 +6,15 @@
 #include <QtTest>
 #include <numbers>
 
-#include <plots/axis_ticks.h>
-#include <plots/curve.h>
-#include <plots/curve_dialog.h>
-#include <plots/expression.h>
-#include <plots/plot_export.h>
-#include <plots/plot_page.h>
-#include <plots/plot_presets.h>
-#include <plots/plots_dock.h>
+#include <ui/plots/axis_ticks.h>
+#include <ui/plots/plots_dock.h>
 
+#include "curve.h"
+#include "curve_dialog.h"
+#include "expression.h"
+#include "plot_export.h"
+#include "plot_page.h"
+#include "plot_presets.h"
 #include "plot_source.h"
 
 using namespace pitchboard;

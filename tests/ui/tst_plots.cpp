@@ -6,18 +6,18 @@
 #include <QMimeData>
 #include <QtTest>
 
-#include <plots/chart_pane.h>
-#include <plots/lane_pane.h>
-#include <plots/legend_bar.h>
-#include <plots/marks_model.h>
-#include <plots/marks_panel.h>
-#include <plots/plot_page.h>
-#include <plots/plots_dock.h>
-#include <plots/time_ruler.h>
-#include <plots/xy_pane.h>
-#include <ui/theme.h>
+#include <ui/base/theme.h>
+#include <ui/plots/plots_dock.h>
 
+#include "chart_pane.h"
+#include "lane_pane.h"
+#include "legend_bar.h"
+#include "marks_model.h"
+#include "marks_panel.h"
+#include "plot_page.h"
 #include "plot_source.h"
+#include "time_ruler.h"
+#include "xy_pane.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

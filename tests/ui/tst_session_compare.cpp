@@ -4,12 +4,12 @@
 #include <QGraphicsView>
 #include <QMenu>
 
-#include <field/compared_item.h>
-#include <session/compared_session.h>
-#include <timeline/timeline_strip.h>
-#include <ui/field_view.h>
+#include <ui/field/field_view.h>
+#include <ui/sources/compared_session.h>
 
+#include "compared_item.h"
 #include "session_rig.h"
+#include "timeline_strip.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

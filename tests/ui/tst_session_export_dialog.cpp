@@ -8,10 +8,10 @@
 #include <QStandardPaths>
 #include <QSvgRenderer>
 
-#include <session/export_dialog.h>
-#include <telemetry/session_reader.h>
-#include <ui/field_view.h>
-#include <ui/replay_controller.h>
+#include <telemetry/session/session_reader.h>
+#include <ui/field/field_view.h>
+#include <ui/session/export_dialog.h>
+#include <ui/sources/replay_controller.h>
 
 #include "session_rig.h"
 

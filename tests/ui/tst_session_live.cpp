@@ -2,9 +2,9 @@
 // What is heard live is recorded and saved from memory, through the window; real sockets.
 #include <algorithm>
 
-#include <telemetry/session_reader.h>
-#include <ui/live_controller.h>
-#include <ui/replay_controller.h>
+#include <telemetry/session/session_reader.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/replay_controller.h>
 
 #include "live_rig.h"
 #include "session_rig.h"

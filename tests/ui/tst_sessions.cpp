@@ -9,19 +9,19 @@
 #include <QToolButton>
 #include <QtTest>
 
-#include <session/session_files.h>
-#include <session/session_recording.h>
-#include <shell/notice_bar.h>
-#include <telemetry/mcap_writer.h>
-#include <telemetry/session_reader.h>
-#include <timeline/event_list.h>
-#include <timeline/playback.h>
-#include <timeline/timeline.h>
-#include <ui/field_view.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
-#include <ui/replay_controller.h>
-#include <ui/scenario_files.h>
+#include <telemetry/mcap/mcap_writer.h>
+#include <telemetry/session/session_reader.h>
+#include <ui/base/notice_bar.h>
+#include <ui/field/field_view.h>
+#include <ui/session/session_files.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/timeline.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
 
 #include "session_rig.h"
 

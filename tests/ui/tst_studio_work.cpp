@@ -21,12 +21,12 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include <robotlink/system_v.h>
-#include <shell/notice_bar.h>
-#include <ui/field_view.h>
-#include <ui/main_window.h>
-#include <ui/match_controller.h>
-#include <ui/theme.h>
+#include <robotlink/blackboard/system_v.h>
+#include <ui/base/notice_bar.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

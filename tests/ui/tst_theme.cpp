@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
-#include <shell/robot_words.h>
-#include <ui/theme.h>
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

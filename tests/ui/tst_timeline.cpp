@@ -5,15 +5,16 @@
 #include <QWheelEvent>
 #include <QtTest>
 
-#include <plots/linked_time.h>
-#include <shell/source_switch.h>
-#include <timeline/looking_back_sign.h>
-#include <timeline/playback.h>
-#include <timeline/timeline.h>
-#include <timeline/timeline_actions.h>
-#include <timeline/timeline_dock.h>
-#include <timeline/timeline_strip.h>
-#include <ui/theme.h>
+#include <ui/base/theme.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+#include <ui/timeline/timeline_actions.h>
+#include <ui/timeline/timeline_dock.h>
+
+#include "looking_back_sign.h"
+#include "timeline_strip.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

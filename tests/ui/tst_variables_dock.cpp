@@ -14,20 +14,20 @@
 #include <bit>
 #include <set>
 
-#include "../robotlink/segment_keys.h"
+#include <robotlink/blackboard/system_v.h>
+#include <telemetry/series/series_store.h>
+#include <ui/base/in_place_message.h>
+#include <ui/base/plot_target.h>
+#include <ui/base/theme.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+#include <ui/variables/variables_dock.h>
 
-#include <plots/plot_target.h>
-#include <robotlink/system_v.h>
-#include <shell/source_switch.h>
-#include <telemetry/series_store.h>
-#include <ui/match_controller.h>
-#include <ui/theme.h>
-#include <variables/catalog_choice.h>
-#include <variables/in_place_message.h>
-#include <variables/variables_dock.h>
-#include <variables/variables_filter.h>
-#include <variables/variables_model.h>
-#include <variables/variables_view.h>
+#include "../robotlink/segment_keys.h"
+#include "catalog_choice.h"
+#include "variables_filter.h"
+#include "variables_model.h"
+#include "variables_view.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

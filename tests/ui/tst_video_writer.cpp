@@ -6,7 +6,7 @@
 #include <QJsonObject>
 #include <QPainter>
 
-#include "session/video_writer.h"
+#include "video_writer.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Random123/philox.h>
-#include <base/random.h>
 
 #include <cmath>
 #include <numbers>
+
+#include <base/random.h>
 
 namespace pitchboard {
 

@@ -17,6 +17,9 @@ struct RobotId {
   auto operator<=>(const RobotId&) const = default;
 };
 
+/// Robots with higher numbers have no blackboard, telemetry port and team.
+inline constexpr int highestRobotNumber = 64;
+
 /// The five colours of the published simulator. Blue (its cyan) and red (its magenta) play a match;
 /// the others are for further groups of robots. Robots of one colour are team-mates.
 enum class TeamColor : std::uint8_t { Blue, Red, Black, Orange, Yellow };

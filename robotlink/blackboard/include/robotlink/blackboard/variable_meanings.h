@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What blackboard variables mean to a reader (unit, heading, words for codes), from
+// resources/variables.json. Private to robotlink.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <telemetry/series/series_types.h>
+
+namespace pitchboard::link {
+
+class VariableMeanings {
+ public:
+  /// Those of resources/variables.json. Read once; any thread.
+  static const VariableMeanings& published();
+  /// Error ParseError with "source:line: path".
+  static Result<VariableMeanings> parse(std::string_view text, std::string_view source);
+
+  /// Fills everything but name and type.
+  void describe(telemetry::ColumnInfo& column) const;
+
+ private:
+  struct Rule {
+    std::string name;  // with * for any text
+    std::optional<std::string> heading, unit;
+    std::optional<telemetry::ColumnKind> kind;
+    std::map<std::int32_t, std::string> labels;
+  };
+  std::vector<Rule> m_rules;
+};
+
+}  // namespace pitchboard::link

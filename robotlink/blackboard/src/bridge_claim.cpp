@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The name of an abstract Unix socket as a lock that cannot outlive its owner.
+#include <robotlink/blackboard/system_v.h>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+namespace pitchboard::link {
+namespace {
+
+struct Address {
+  sockaddr_un value{};
+  socklen_t length = 0;
+
+  explicit Address(int key) {
+    value.sun_family = AF_UNIX;
+    // The leading zero byte makes the name abstract. Names are shared by all users of the machine,
+    // segments are not: hence the user in it.
+    const int written = std::snprintf(value.sun_path + 1, sizeof value.sun_path - 1,
+                                      "pitchboard-bridge-%u-%d", geteuid(), key);
+    length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 +
+                                    static_cast<std::size_t>(written));
+  }
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&value); }
+};
+
+int newSocket() {
+  return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+}
+
+// Who listens at the name: 0 when it is nobody (any more), −1 when it cannot be told.
+pid_t holderOf(const Address& address) {
+  const int client = newSocket();
+  if (client < 0) return -1;
+  pid_t holder = -1;
+  if (connect(client, address.get(), address.length) == 0) {
+    ucred peer{};
+    socklen_t size = sizeof peer;
+    if (getsockopt(client, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid > 0)
+      holder = peer.pid;
+  } else if (errno == ECONNREFUSED) {
+    holder = 0;
+  }
+  close(client);
+  return holder;
+}
+
+std::string describeHolder(pid_t holder) {
+  if (holder == getpid()) return "this program";
+  if (holder < 0) return "another program";
+  std::string name;
+  std::ifstream("/proc/" + std::to_string(holder) + "/comm") >> name;
+  return (name.empty() ? "process " : name + ", process ") + std::to_string(holder);
+}
+
+Error systemError(int key, const char* call) {
+  return {ErrorCode::SystemError, std::string(call) + " failed: " + std::strerror(errno),
+          "blackboard " + std::to_string(key)};
+}
+
+}  // namespace
+
+Result<BridgeClaim> BridgeClaim::take(int key) {
+  const Address address(key);
+  // The holder may go away between bind and asking who it is; then the name is free.
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    const int server = newSocket();
+    if (server < 0) return tl::unexpected(systemError(key, "socket"));
+    BridgeClaim claim(server);
+    if (bind(server, address.get(), address.length) == 0) {
+      // Listening is what lets the refused one learn who holds the claim.
+      if (listen(server, 4) != 0) return tl::unexpected(systemError(key, "listen"));
+      return claim;
+    }
+    if (errno != EADDRINUSE) return tl::unexpected(systemError(key, "bind"));
+    const pid_t holder = holderOf(address);
+    if (holder == 0) continue;
+    return failure(ErrorCode::Conflict,
+                   "is being simulated already by " + describeHolder(holder) +
+                       "; end that one, or choose another robot number or key base",
+                   "blackboard " + std::to_string(key));
+  }
+  return failure(ErrorCode::Conflict,
+                 "another program is just taking or giving up this robot; try again",
+                 "blackboard " + std::to_string(key));
+}
+
+BridgeClaim::BridgeClaim(BridgeClaim&& other) noexcept
+    : m_socket(std::exchange(other.m_socket, -1)) {}
+
+BridgeClaim& BridgeClaim::operator=(BridgeClaim&& other) noexcept {
+  if (this != &other) {
+    if (m_socket >= 0) close(m_socket);
+    m_socket = std::exchange(other.m_socket, -1);
+  }
+  return *this;
+}
+
+BridgeClaim::~BridgeClaim() {
+  if (m_socket >= 0) close(m_socket);
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/blackboard/variable_catalog.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <tuple>
+
+#include <resources/resources.h>
+
+#include "catalog/catalog_reading.h"
+
+namespace pitchboard::link {
+namespace {
+
+const char* typeName(VariableType type) {
+  return type == VariableType::Int ? "int" : "float";
+}
+
+// Names come from a file; a message quotes them, so it must stay one readable line.
+std::string inQuotes(std::string_view name) {
+  std::string text = "\"";
+  for (const char c : name.substr(0, 64)) text += (c < ' ' || c == '\x7f') ? '?' : c;
+  return text + (name.size() > 64 ? "...\"" : "\"");
+}
+
+std::string slot(VariableType type, long long index) {
+  return std::string(typeName(type)) + " " + std::to_string(index);
+}
+
+long long wordOf(const CatalogEntry& entry) {
+  return entry.type == VariableType::Int ? entry.index : Blackboard::floatOffset + entry.index;
+}
+
+}  // namespace
+
+std::string atLine(std::string_view source, int line) {
+  return std::string(source) + ":" + std::to_string(line);
+}
+
+std::optional<long long> parseIndex(std::string_view digits) {
+  int base = 10;
+  if (digits.size() > 2 && digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X')) {
+    base = 16;
+    digits.remove_prefix(2);
+  } else if (digits.size() > 1 && digits[0] == '0') {
+    base = 8;
+    digits.remove_prefix(1);
+  }
+  long long value = 0;
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
+  if (digits.empty() || digits[0] == '-' || end != digits.data() + digits.size())
+    return std::nullopt;
+  return error == std::errc::result_out_of_range ? absurdIndex : value;
+}
+
+bool isIdentifier(std::string_view name) {
+  const auto letter = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+  };
+  return !name.empty() && letter(name.front()) &&
+         std::all_of(name.begin(), name.end(),
+                     [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+std::optional<Error> checkCatalogText(std::string_view& text, std::string_view source) {
+  if (text.size() > maxCatalogBytes)
+    return Error{ErrorCode::ParseError,
+                 "the file has " + std::to_string(text.size()) +
+                     " bytes; a variable map has at most 1 MiB. Choose the team's blackboard.h, "
+                     "SharedMemory.py or a catalog in JSON",
+                 std::string(source)};
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  int line = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    const bool control =
+        static_cast<unsigned char>(c) < ' ' && std::strchr("\t\n\v\f\r", c) == nullptr;
+    if (control || c == '\0')
+      return Error{ErrorCode::ParseError,
+                   "this is not a text file: it holds the byte " +
+                       std::to_string(static_cast<unsigned char>(c)),
+                   atLine(source, line)};
+  }
+  if (text.find_first_not_of(" \t\n\v\f\r") == std::string_view::npos)
+    return Error{ErrorCode::ParseError, "the file is empty", std::string(source)};
+  return std::nullopt;
+}
+
+const VariableCatalog& VariableCatalog::published() {
+  // Made once and never changed: a constant that needs parsing.
+  static const VariableCatalog catalog = [] {
+    auto read = fromJson(resourceText("blackboard.json"), "blackboard.json");
+    if (!read) {
+      std::fprintf(stderr, "pitchboard: built-in %s\n", read.error().text().c_str());
+      std::abort();
+    }
+    return *std::move(read);
+  }();
+  return catalog;
+}
+
+Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  auto* const reader = extension == ".json" ? &fromJson
+                       : extension == ".h" || extension == ".hpp" || extension == ".hh"
+                           ? &fromHeader
+                       : extension == ".py" ? &fromPython
+                                            : nullptr;
+  if (reader == nullptr)
+    return failure(ErrorCode::Unsupported,
+                   "a variable map is a .json, .h, .hpp or .py file; this name ends otherwise",
+                   path);
+  std::error_code unused;
+  if (std::filesystem::is_directory(path, unused))
+    return failure(ErrorCode::InvalidArgument, "this is a folder, not a file", path);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    return failure(
+        errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
+        std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "unknown reason"),
+        path);
+  // One byte more than allowed tells a file that is too long, however long (or endless) it is.
+  std::string text(maxCatalogBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) return failure(ErrorCode::SystemError, "cannot be read", path);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return reader(text, path);
+}
+
+Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& entries,
+                                              std::string_view source) {
+  if (entries.empty())
+    return failure(ErrorCode::ParseError, "no variable is defined here", std::string(source));
+  VariableCatalog catalog;
+  std::array<const CatalogEntry*, Blackboard::intVariables> ints{};
+  std::array<const CatalogEntry*, Blackboard::floatVariables> floats{};
+  // Both kinds by the word that they occupy.
+  std::array<const CatalogEntry*, Blackboard::words> words{};
+  std::vector<const CatalogEntry*> accepted;
+  for (const CatalogEntry& entry : entries) {
+    if (!isIdentifier(entry.name))
+      return failure(
+          ErrorCode::ParseError,
+          inQuotes(entry.name) + " is no variable name: use letters, digits and _, a letter first",
+          entry.where);
+    const long long count =
+        entry.type == VariableType::Int ? Blackboard::intVariables : Blackboard::floatVariables;
+    if (entry.index < 0 || entry.index >= count)
+      return failure(
+          ErrorCode::ParseError,
+          inQuotes(entry.name) + " has the index " +
+              (entry.index >= absurdIndex ? "of a huge number" : std::to_string(entry.index)) +
+              "; " + typeName(entry.type) + " variables go from 0 to " + std::to_string(count - 1),
+          entry.where);
+    for (const CatalogEntry* other : accepted) {
+      if (other->name == entry.name)
+        return failure(ErrorCode::ParseError,
+                       inQuotes(entry.name) + " is defined twice, first in " + other->where,
+                       entry.where);
+    }
+    const auto index = static_cast<std::size_t>(entry.index);
+    const CatalogEntry*& place = entry.type == VariableType::Int ? ints[index] : floats[index];
+    if (place != nullptr)
+      return failure(ErrorCode::ParseError,
+                     inQuotes(entry.name) + " and " + inQuotes(place->name) + " (" + place->where +
+                         ") are both " + slot(entry.type, entry.index),
+                     entry.where);
+    const CatalogEntry*& word = words[static_cast<std::size_t>(wordOf(entry))];
+    if (word != nullptr)
+      return failure(ErrorCode::ParseError,
+                     inQuotes(entry.name) + " (" + slot(entry.type, entry.index) + ") lies on " +
+                         inQuotes(word->name) + " (" + slot(word->type, word->index) + ", " +
+                         word->where + "): float 0 is word " +
+                         std::to_string(Blackboard::floatOffset),
+                     entry.where);
+    place = word = &entry;
+    accepted.push_back(&entry);
+    catalog.m_variables.push_back({entry.name, entry.type, static_cast<int>(entry.index)});
+  }
+  std::sort(catalog.m_variables.begin(), catalog.m_variables.end(),
+            [](const Variable& a, const Variable& b) {
+              return std::tie(a.type, a.index) < std::tie(b.type, b.index);
+            });
+  return catalog;
+}
+
+const Variable* VariableCatalog::find(std::string_view name) const {
+  const auto found = std::find_if(m_variables.begin(), m_variables.end(),
+                                  [name](const Variable& v) { return v.name == name; });
+  return found == m_variables.end() ? nullptr : &*found;
+}
+
+std::optional<IntVar> VariableCatalog::intVar(std::string_view name) const {
+  const Variable* const found = find(name);
+  if (found == nullptr || found->type != VariableType::Int) return std::nullopt;
+  return IntVar{found->index};
+}
+
+std::optional<FloatVar> VariableCatalog::floatVar(std::string_view name) const {
+  const Variable* const found = find(name);
+  if (found == nullptr || found->type != VariableType::Float) return std::nullopt;
+  return FloatVar{found->index};
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/blackboard/variable_meanings.h>
+
+#include <array>
+#include <cassert>
+#include <charconv>
+
+#include <base/lined_json.h>
+#include <resources/resources.h>
+#include <telemetry/wire/action_words.h>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::array<std::string_view, 3> kinds{"number", "flag", "enumeration"};
+constexpr std::size_t longestText = 200, mostRules = 1000;
+
+/// `pattern` may have any number of *; each stands for any text, also none.
+bool fits(std::string_view pattern, std::string_view name) {
+  std::size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      resume = n;
+    } else if (p < pattern.size() && pattern[p] == name[n]) {
+      ++p;
+      ++n;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++resume;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+std::map<std::int32_t, std::string> readLabels(const JsonObject& rule) {
+  const JsonNode* labels = rule.find("labels");
+  if (!labels) return {};
+  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions")
+    return telemetry::actionLabels();
+  std::map<std::int32_t, std::string> out;
+  if (labels->kind != JsonNode::Kind::Object) {
+    rule.fail("labels", R"(must be "actions" or an object of code and text)");
+  }
+  for (const auto& [key, value] : labels->members) {
+    std::int32_t code = 0;
+    const char* const end = key.data() + key.size();
+    const auto read = std::from_chars(key.data(), end, code);
+    if (read.ec != std::errc{} || read.ptr != end || value.kind != JsonNode::Kind::Text) {
+      rule.fail("labels", "\"" + key + "\" must be a whole number with a text");
+      break;
+    }
+    out[code] = value.text;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::string_view source) {
+  JsonReport report(source);
+  VariableMeanings out;
+  if (const auto root = parseJson(text, report)) {
+    const JsonObject file(report, *root, "", {"about", "rules"});
+    file.require("rules");
+    if (const auto* rules = file.array("rules", mostRules)) {
+      for (std::size_t i = 0; i < rules->size(); ++i) {
+        const JsonObject json(report, (*rules)[i], "rules[" + std::to_string(i) + "]",
+                              {"name", "heading", "unit", "kind", "labels"});
+        json.require("name");
+        Rule rule;
+        rule.name = json.text("name", "", longestText);
+        if (json.find("heading")) rule.heading = json.text("heading", "", longestText);
+        if (json.find("unit")) rule.unit = json.text("unit", "", longestText);
+        if (json.find("kind")) {
+          const auto kind = json.choice("kind", kinds, "kind");
+          rule.kind = static_cast<telemetry::ColumnKind>(kind.value_or(0));
+        }
+        rule.labels = readLabels(json);
+        out.m_rules.push_back(std::move(rule));
+      }
+    }
+  }
+  if (report.failed()) return tl::unexpected(report.error());
+  return out;
+}
+
+const VariableMeanings& VariableMeanings::published() {
+  static const VariableMeanings meanings = [] {
+    constexpr std::string_view path = "variables.json";
+    auto parsed = parse(resourceText(path), path);
+    assert(parsed);  // a test reads it too
+    return parsed ? std::move(*parsed) : VariableMeanings{};
+  }();
+  return meanings;
+}
+
+void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
+  bool heading = false, unit = false, kind = false;
+  for (const Rule& rule : m_rules) {
+    if (!fits(rule.name, column.name)) continue;
+    if (rule.heading && !heading) {
+      column.heading = *rule.heading;
+      heading = true;
+    }
+    if (rule.unit && !unit) {
+      column.unit = *rule.unit;
+      unit = true;
+    }
+    if (rule.kind && !kind) {
+      column.kind = *rule.kind;
+      column.labels = rule.labels;
+      kind = true;
+    }
+  }
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A process of the Cross Architecture as a class: the same object runs as its own OS process on a
+// System V blackboard (pitchboard-robot) and in lock-step on a heap blackboard.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <base/ids.h>
+#include <robotlink/blackboard/blackboard.h>
+#include <robotlink/cognition/robot_thoughts.h>
+#include <robotlink/cognition/team_channel.h>
+#include <simcore/world/field.h>
+
+namespace pitchboard::link {
+
+/// Tells a process the time: seconds since its start, simulated or real.
+struct Clock {
+  double seconds = 0.0;
+};
+
+class CognitiveProcess {
+ public:
+  virtual ~CognitiveProcess() = default;
+  /// One cycle. Never blocks. Errors of the outside (a socket) are counted, not thrown.
+  virtual void step(Blackboard& board, const Clock& clock) = 0;
+  /// Seconds between two steps.
+  virtual double period() const = 0;
+  /// What it has in mind, for a display: fills its own part (particles or path), leaves the rest.
+  /// Called between steps, as seldom as the display likes; changes nothing.
+  virtual void tellThoughts(RobotThoughts& thoughts) const { (void)thoughts; }
+};
+
+/// What a process is told when it is made.
+struct ProcessOptions {
+  RobotId robot{1};
+  std::string behaviour = "striker";     ///< decision only
+  double distanceToKick = 25.0;          ///< cm; 25 in simulation, 40 on the published real robot
+  std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
+  int telemetryPortBase = 1240;          ///< telemetry goes to this + robot number
+  double telemetryPeriod = 1.0;          ///< s between two telemetry datagrams
+  int teamPortBase = 1230;               ///< team messages go to this + 1..4
+  /// communication: our team's number in the GameController; absent = do not listen to one.
+  std::optional<int> refereeTeam;
+  std::optional<int> shirt;  ///< number in the GameController; absent = the robot's
+  int refereePort = 3838;
+
+  sim::FieldSpec field;                ///< localization, decision: where lines and posts are
+  std::uint64_t seed = 1;              ///< localization: of its particles
+  int particles = 5000;                ///< localization: at most this many
+  bool publishedLocalization = false;  ///< localization: the published filter's parameters
+  /// Starts facing the left goal, so the IMU's zero is 180 degrees; absent = found out by itself.
+  std::optional<bool> facesLeft;
+  int team = 0;  ///< team: robots of one number hear each other, 0..99
+  /// team: the in-process channel of lock-step runs; empty = UDP.
+  std::shared_ptr<TeamChannel> teamChannel;
+};
+
+}  // namespace pitchboard::link

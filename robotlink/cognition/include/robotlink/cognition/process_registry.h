@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Every reference process and every behaviour of decision: the lists that programs, scenarios and
+// tests read. A new one is a class and its line in process_registry.cpp. Any thread.
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include <base/result.h>
+#include <robotlink/cognition/cognitive_process.h>
+
+namespace pitchboard::link {
+
+struct ProcessInfo {
+  std::string_view name;         ///< "decision", "communication"
+  std::string_view description;  ///< a sentence for --help
+  Result<std::unique_ptr<CognitiveProcess>> (*make)(const ProcessOptions& options);
+  bool deterministic;  ///< may run inline (touches nothing but the blackboard)
+  bool hasBehaviour;   ///< ProcessOptions::behaviour matters to it
+  /// Only behaviours with usesPose need it: lock-step runs leave it out for the others.
+  bool forPose;
+  std::string_view example;  ///< a command line for --help
+};
+
+/// Every reference process, in starting order: the one list that programs and tests read.
+std::span<const ProcessInfo> cognitiveProcesses();
+const ProcessInfo* findProcess(std::string_view name);
+
+struct BehaviourInfo {
+  std::string_view name;
+  std::string_view description;
+  bool usesPose;  ///< needs localization and the team's messages
+};
+/// Behaviours of the decision process, the default first.
+std::span<const BehaviourInfo> behaviours();
+/// Nothing for an unknown name.
+const BehaviourInfo* findBehaviour(std::string_view name);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <robotlink/cognition/cognitive_process.h>
+
+namespace pitchboard::link {
+
+/// The localization process, see localization.cpp. Fails on a field or a number of particles that
+/// cannot be used.
+Result<std::unique_ptr<CognitiveProcess>> makeLocalization(const ProcessOptions& options);
+
+}  // namespace pitchboard::link

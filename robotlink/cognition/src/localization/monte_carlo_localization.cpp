@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/cognition/monte_carlo_localization.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <base/angles.h>
+#include <base/random.h>
+
+#include "localization/fast_noise.h"
+#include "localization/monte_carlo_imu.h"
+
+namespace pitchboard::link {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int headingCells = 16;
+constexpr int mostCells = 1 << 21;
+constexpr double imuJump = 0.26;          // rad: beyond it the IMU was reset or the robot carried
+constexpr double clusterRadius = 1.0;     // m
+constexpr double mostDisplacement = 1.0;  // m and rad of one update; more is not walking
+constexpr double mostResetShare = 0.5;
+constexpr double widestKernel = 0.8;  // m
+
+bool usable(const std::optional<double>& value) {
+  return value && std::isfinite(*value);
+}
+
+double finite(double value) {
+  return std::isfinite(value) ? std::clamp(value, -mostDisplacement, mostDisplacement) : 0.0;
+}
+
+/// Cell of a heading without an arc tangent: the angle measured along a square ("diamond angle").
+int headingCell(float c, float s) {
+  const float d = s / (std::abs(c) + std::abs(s) + 1e-20F);
+  const float around = c >= 0 ? d + 1.0F : 3.0F - d;  // 0..4
+  return std::clamp(static_cast<int>(around * (headingCells / 4.0F)), 0, headingCells - 1);
+}
+
+}  // namespace
+
+LocalizationParameters LocalizationParameters::published() {
+  LocalizationParameters p;
+  p.leastParticles = p.mostParticles = 5000;
+  p.bearingSigma = radiansFromDegrees(5);
+  p.imuSigma = radiansFromDegrees(30);
+  p.outlierShare = 0.0;
+  p.recovery = false;
+  p.kernel = 0.0;
+  p.yawByImu = false;
+  p.resampleAlways = true;
+  return p;
+}
+
+Result<MonteCarloLocalization> MonteCarloLocalization::create(const sim::FieldSpec& field,
+                                                              const LocalizationParameters& p,
+                                                              ImuZero imuZero, std::uint64_t seed,
+                                                              int robot) {
+  if (const Result<void> valid = sim::validate(field); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  const auto refuse = [](const char* why) {
+    return failure(ErrorCode::InvalidArgument, why, "localization");
+  };
+  if (p.leastParticles < 1 || p.mostParticles > 100000 || p.leastParticles > p.mostParticles) {
+    return refuse("The number of particles must lie in 1..100000, the least not above the most.");
+  }
+  for (const double sigma : {p.bearingSigma, p.imuSigma, p.kldError, p.kldCell}) {
+    if (!std::isfinite(sigma) || sigma < 1e-3) {
+      return refuse("Sigmas, the error bound and the cell size must be at least 0.001.");
+    }
+  }
+  for (const double value : {p.walkSigma, p.walkShare, p.turnSigma, p.restSigma, p.outlierShare,
+                             p.slowRate, p.fastRate, p.kldQuantile, p.kernel}) {
+    if (!std::isfinite(value) || value < 0.0)
+      return refuse("Rates and noise must not be negative.");
+  }
+  if (p.outlierShare >= 1.0) return refuse("The share of outliers must be below 1.");
+  return MonteCarloLocalization(field, p, imuZero, seed, robot);
+}
+
+MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
+                                               const LocalizationParameters& parameters,
+                                               ImuZero imuZero, std::uint64_t seed, int robot)
+    : m_parameters(parameters),
+      m_halfLength(field.halfLength()),
+      m_halfWidth(field.halfWidth()),
+      m_border(field.border),
+      m_corners{{{-m_halfLength, m_halfWidth},
+                 {m_halfLength, m_halfWidth},
+                 {-m_halfLength, -m_halfWidth},
+                 {m_halfLength, -m_halfWidth}}},
+      m_imuZero(imuZero),
+      m_seed(seed),
+      m_robot(robot) {
+  const double lengthAll = 2 * (m_halfLength + m_border);
+  const double widthAll = 2 * (m_halfWidth + m_border);
+  // A huge field gets coarser cells rather than a huge table.
+  while (std::ceil(lengthAll / m_parameters.kldCell) * std::ceil(widthAll / m_parameters.kldCell) *
+             headingCells >
+         mostCells) {
+    m_parameters.kldCell *= 2;
+  }
+  m_columns = static_cast<int>(std::ceil(lengthAll / m_parameters.kldCell)) + 1;
+  m_rows = static_cast<int>(std::ceil(widthAll / m_parameters.kldCell)) + 1;
+  const auto cells = static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows);
+  m_cellStamp.resize(cells * headingCells, 0);
+  m_cellWeight.resize(cells, 0.0F);
+  for (Particles* particles : {&m_now, &m_next}) {
+    for (Array* a : {&particles->x, &particles->y, &particles->c, &particles->s}) {
+      a->setZero(parameters.mostParticles);
+    }
+  }
+  for (Array* a : {&m_weight, &m_noise, &m_a, &m_b, &m_d}) a->setZero(parameters.mostParticles);
+}
+
+void MonteCarloLocalization::reset() {
+  m_spread = false;
+  m_slow = m_fast = m_sinceBearing = 0.0;
+  m_lastImu.reset();
+  m_remembered = {};
+}
+
+void MonteCarloLocalization::reset(const Pose& pose, double sigma) {
+  reset();
+  CounterRandom random(m_seed, m_robot, NoiseStream::Behaviour, m_updates++);
+  m_count = m_parameters.mostParticles;
+  for (int i = 0; i < m_count; ++i) {
+    const double x = random.normal(pose.position.x, sigma);
+    const double y = random.normal(pose.position.y, sigma);
+    put(i, {{x, y}, random.normal(pose.yaw, sigma * 0.1)});
+  }
+  m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
+  m_spread = true;
+  estimate();
+}
+
+void MonteCarloLocalization::put(int i, const Pose& pose) {
+  m_now.x[i] = static_cast<float>(pose.position.x);
+  m_now.y[i] = static_cast<float>(pose.position.y);
+  m_now.c[i] = static_cast<float>(std::cos(pose.yaw));
+  m_now.s[i] = static_cast<float>(std::sin(pose.yaw));
+}
+
+Pose MonteCarloLocalization::particle(int i) const {
+  return {{m_now.x[i], m_now.y[i]}, std::atan2(m_now.s[i], m_now.c[i])};
+}
+
+void MonteCarloLocalization::spread(const LocalizationInput& input) {
+  if (usable(input.imuYaw)) m_lastImu = input.imuYaw;
+  CounterRandom random(m_seed, m_robot, NoiseStream::Behaviour, m_updates++);
+  m_count = m_parameters.mostParticles;
+  for (int i = 0; i < m_count; ++i) {
+    const double x = (2 * random.uniform() - 1) * m_halfLength;
+    const double y = (2 * random.uniform() - 1) * m_halfWidth;
+    put(i, {{x, y}, drawYaw(random)});
+  }
+  m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
+  m_spread = true;
+}
+
+void MonteCarloLocalization::update(const LocalizationInput& input) {
+  remember(input);
+  m_sinceBearing += std::clamp(input.seconds, 0.0, 10.0);
+  if (!m_spread) {
+    spread(input);
+  } else {
+    move(input);
+  }
+  const int seen = weigh(input);
+
+  const double sum = m_weight.head(m_count).sum();
+  if (!(sum > std::numeric_limits<float>::min())) {
+    // No particle explains what is seen: nothing is known any more.
+    m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
+  } else {
+    m_weight.head(m_count) *= static_cast<float>(1.0 / sum);
+  }
+
+  m_resetShare = 0.0;
+  if (seen > 0) {
+    // The mean weight of one bearing, so that it does not depend on how many were seen.
+    const double mean = std::pow(std::max(sum, 1e-12), 1.0 / seen);
+    if (m_slow == 0.0) m_slow = m_fast = mean;
+    m_slow += std::min(1.0, m_parameters.slowRate * m_sinceBearing) * (mean - m_slow);
+    m_fast += std::min(1.0, m_parameters.fastRate * m_sinceBearing) * (mean - m_fast);
+    m_sinceBearing = 0.0;
+    if (m_parameters.recovery) {
+      m_resetShare = std::clamp(1.0 - m_fast / (0.85 * m_slow), 0.0, mostResetShare);
+    }
+  }
+  const double effective = 1.0 / m_weight.head(m_count).square().sum();
+  if (m_parameters.resampleAlways || effective < 0.5 * m_count || m_resetShare > 0.0) {
+    resample(m_resetShare);
+  }
+  estimate();
+}
+
+void MonteCarloLocalization::remember(const LocalizationInput& input) {
+  for (std::size_t i = 0; i < m_remembered.size(); ++i) {
+    Remembered& corner = m_remembered[i];
+    corner.age += input.seconds;
+    corner.bearing -= finite(input.turn);
+    if (usable(input.corners[i])) corner = {*input.corners[i], 0.0};
+  }
+}
+
+void MonteCarloLocalization::move(const LocalizationInput& input) {
+  double forward = finite(input.forward);
+  double left = finite(input.left);
+  double turn = finite(input.turn);
+  if (usable(input.imuYaw)) {
+    if (m_lastImu && m_parameters.yawByImu) {
+      const double turned = wrapToPi(*input.imuYaw - *m_lastImu);
+      if (std::abs(turned - turn) < imuJump) turn = turned;
+    }
+    m_lastImu = input.imuYaw;
+  }
+  const double time = std::sqrt(std::clamp(input.seconds, 0.0, 10.0));
+  const LocalizationParameters& p = m_parameters;
+  const double distance = std::hypot(forward, left);
+  const auto walk = static_cast<float>(input.inMotion ? p.walkSigma * time + p.walkShare * distance
+                                                      : p.restSigma * time);
+  const auto rotation = static_cast<float>(
+      input.inMotion ? p.turnSigma * time + p.walkShare * std::abs(turn) : p.restSigma * time);
+
+  const int n = m_count;
+  FastNoise noise(m_seed, m_robot, m_updates++);
+  auto x = m_now.x.head(n), y = m_now.y.head(n), c = m_now.c.head(n), s = m_now.s.head(n);
+  auto a = m_a.head(n), b = m_b.head(n), d = m_d.head(n);
+
+  // Turn. Sine and cosine of the small angle by their series; the lengths are made 1 again.
+  noise.fillNormal(m_d, n);
+  d = static_cast<float>(turn) + rotation * d;
+  a = 1.0F - d.square() * (0.5F - d.square() * (1.0F / 24.0F));
+  b = d * (1.0F - d.square() * (1.0F / 6.0F - d.square() * (1.0F / 120.0F)));
+  d = c * a - s * b;
+  b = s * a + c * b;
+  a = (d.square() + b.square()).rsqrt();
+  c = d * a;
+  s = b * a;
+
+  noise.fillNormal(m_a, n);
+  noise.fillNormal(m_b, n);
+  a = static_cast<float>(forward) + walk * a;
+  b = static_cast<float>(left) + walk * b;
+  const auto limitX = static_cast<float>(m_halfLength + m_border);
+  const auto limitY = static_cast<float>(m_halfWidth + m_border);
+  x = (x + c * a - s * b).max(-limitX).min(limitX);
+  y = (y + s * a + c * b).max(-limitY).min(limitY);
+}
+
+int MonteCarloLocalization::weigh(const LocalizationInput& input) {
+  const int n = m_count;
+  auto weight = m_weight.head(n);
+  const auto x = m_now.x.head(n), y = m_now.y.head(n), c = m_now.c.head(n), s = m_now.s.head(n);
+  auto a = m_a.head(n), b = m_b.head(n);
+  const auto kappa =
+      static_cast<float>(1.0 / (m_parameters.bearingSigma * m_parameters.bearingSigma));
+  const auto floor = static_cast<float>(m_parameters.outlierShare);
+  int seen = 0;
+  for (std::size_t i = 0; i < m_corners.size(); ++i) {
+    if (!usable(input.corners[i])) continue;
+    ++seen;
+    const auto cosine = static_cast<float>(std::cos(*input.corners[i]));
+    const auto sine = static_cast<float>(std::sin(*input.corners[i]));
+    a = static_cast<float>(m_corners[i].x) - x;
+    b = static_cast<float>(m_corners[i].y) - y;
+    // (u, v) = direction in which this particle saw the corner; its dot product with the direction
+    // to the corner is the cosine of the error.
+    weight *= floor + (1.0F - floor) *
+                          (kappa * (((c * cosine - s * sine) * a + (s * cosine + c * sine) * b) *
+                                        (a.square() + b.square() + 1e-6F).rsqrt() -
+                                    1.0F))
+                              .exp();
+  }
+  if (usable(input.imuYaw)) weighImu(*input.imuYaw);
+  return seen;
+}
+
+void MonteCarloLocalization::weighImu(double yaw) {
+  const int n = m_count;
+  const auto c = m_now.c.head(n), s = m_now.s.head(n);
+  auto a = m_a.head(n);
+  const double offset = m_imuZero == ImuZero::Left ? pi : 0.0;
+  a = c * static_cast<float>(std::cos(yaw + offset)) +
+      s * static_cast<float>(std::sin(yaw + offset));
+  // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
+  if (m_imuZero == ImuZero::Unknown) a = a.abs();
+  const auto kappa = static_cast<float>(1.0 / (m_parameters.imuSigma * m_parameters.imuSigma));
+  const auto floor = static_cast<float>(imuOutliers);
+  a = floor + (1.0F - floor) * (kappa * (a - 1.0F)).exp();
+  // Normalised to mean 1, so that it does not enter the mean weight of the bearings.
+  const float mean = (m_weight.head(n) * a).sum() / std::max(m_weight.head(n).sum(), 1e-30F);
+  if (mean > 0.0F) m_weight.head(n) *= a * (1.0F / mean);
+}
+
+int MonteCarloLocalization::wantedParticles() {
+  const LocalizationParameters& p = m_parameters;
+  if (p.leastParticles == p.mostParticles) return p.mostParticles;
+  // Cells of the histogram that the resampled set will occupy: particles below half a mean weight
+  // will most likely not be drawn.
+  ++m_stamp;
+  int occupied = 0;
+  const float least = 0.5F / static_cast<float>(m_count);
+  for (int i = 0; i < m_count; ++i) {
+    if (m_weight[i] < least) continue;
+    const auto cell = static_cast<std::size_t>(cellOf(m_now.x[i], m_now.y[i]) * headingCells +
+                                               headingCell(m_now.c[i], m_now.s[i]));
+    occupied += m_cellStamp[cell] != m_stamp;
+    m_cellStamp[cell] = m_stamp;
+  }
+  if (occupied < 2) return p.leastParticles;
+  const double k = occupied - 1;  // Fox (2003), equation 13: the Wilson-Hilferty approximation
+  const double r = 2.0 / (9.0 * k);
+  const double wanted = k / (2 * p.kldError) * std::pow(1.0 - r + std::sqrt(r) * p.kldQuantile, 3);
+  return std::clamp(static_cast<int>(std::min(wanted, 1e6)), p.leastParticles, p.mostParticles);
+}
+
+void MonteCarloLocalization::resample(double resetShare) {
+  CounterRandom random(m_seed, m_robot, NoiseStream::Behaviour, m_updates++);
+  const int n = wantedParticles();
+  const int fresh = static_cast<int>(resetShare * n);
+  const int kept = n - fresh;
+  const double stride = 1.0 / kept;
+  double pointer = random.uniform() * stride;
+  double cumulative = m_weight[0];
+  int from = 0;
+  for (int i = 0; i < kept; ++i, pointer += stride) {
+    while (pointer > cumulative && from + 1 < m_count) cumulative += m_weight[++from];
+    m_next.x[i] = m_now.x[from];
+    m_next.y[i] = m_now.y[from];
+    m_next.c[i] = m_now.c[from];
+    m_next.s[i] = m_now.s[from];
+  }
+  std::swap(m_now, m_next);
+  if (m_parameters.kernel > 0.0) regularize(kept);
+  for (int i = kept; i < n; ++i) put(i, drawFromSensors(random));
+  m_count = n;
+  m_weight.head(n).setConstant(1.0F / static_cast<float>(n));
+}
+
+// Copies of one particle would say the same for ever: each moves a little, in proportion to what is
+// uncertain.
+void MonteCarloLocalization::regularize(int count) {
+  const double width = m_parameters.kernel * std::min(m_belief.sigma, widestKernel);
+  FastNoise noise(m_seed, m_robot, m_updates++);
+  noise.fillNormal(m_a, count);
+  noise.fillNormal(m_b, count);
+  m_now.x.head(count) += static_cast<float>(width) * m_a.head(count);
+  m_now.y.head(count) += static_cast<float>(width) * m_b.head(count);
+}
+
+int MonteCarloLocalization::cellOf(float x, float y) const {
+  const auto column = static_cast<int>((x + m_halfLength + m_border) / m_parameters.kldCell);
+  const auto row = static_cast<int>((y + m_halfWidth + m_border) / m_parameters.kldCell);
+  return std::clamp(row, 0, m_rows - 1) * m_columns + std::clamp(column, 0, m_columns - 1);
+}
+
+// Mean of the particles within a metre of the cell with most weight: the mean of all would stand
+// between two hypotheses, where the robot surely is not.
+void MonteCarloLocalization::estimate() {
+  const int n = m_count;
+  const auto x = m_now.x.head(n), y = m_now.y.head(n);
+  const auto weight = m_weight.head(n);
+  std::fill(m_cellWeight.begin(), m_cellWeight.end(), 0.0F);
+  int best = 0;
+  for (int i = 0; i < n; ++i) {
+    const int cell = cellOf(x[i], y[i]);
+    float& sum = m_cellWeight[static_cast<std::size_t>(cell)];
+    sum += weight[i];
+    if (sum > m_cellWeight[static_cast<std::size_t>(best)]) best = cell;
+  }
+  const double cell_m = m_parameters.kldCell;
+  const auto centreX =
+      static_cast<float>((best % m_columns + 0.5) * cell_m - m_halfLength - m_border);
+  const auto centreY =
+      static_cast<float>((best / m_columns + 0.5) * cell_m - m_halfWidth - m_border);
+
+  auto inside = m_a.head(n);
+  constexpr auto reach = static_cast<float>(clusterRadius * clusterRadius);
+  inside = ((x - centreX).square() + (y - centreY).square() < reach).select(weight, 0.0F);
+  const double sum = std::max(static_cast<double>(inside.sum()), 1e-20);
+  const double meanX = (inside * x).sum() / sum, meanY = (inside * y).sum() / sum;
+  const double cosine = (inside * m_now.c.head(n)).sum(), sine = (inside * m_now.s.head(n)).sum();
+
+  const double total = std::max(static_cast<double>(weight.sum()), 1e-20);
+  const auto allX = static_cast<float>((weight * x).sum() / total);
+  const auto allY = static_cast<float>((weight * y).sum() / total);
+  const double variance = (weight * ((x - allX).square() + (y - allY).square())).sum() / total;
+  m_belief = {{{meanX, meanY}, std::atan2(sine, cosine)}, std::sqrt(std::max(variance, 0.0)), n};
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/cognition/path_planner.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr int corners = 10;
+constexpr double rim = 1e-3;  // m, kept between a corner and the circle it goes round
+
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+bool finite(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+/// The open disc is crossed by the segment.
+bool crosses(const Obstacle& o, const Point& a, const Point& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double length2 = dx * dx + dy * dy;
+  const double along = (o.centre.x - a.x) * dx + (o.centre.y - a.y) * dy;
+  const double t = length2 > 0.0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  return distance({a.x + t * dx, a.y + t * dy}, o.centre) < o.radius;
+}
+
+}  // namespace
+
+bool PathPlanner::within(const Point& p) const {
+  return std::abs(p.x) <= m_halfLength && std::abs(p.y) <= m_halfWidth;
+}
+
+/// The obstacle nearest to `from` that the segment crosses, or -1.
+int PathPlanner::firstHit(const Point& from, const Point& to) const {
+  int hit = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < m_obstacles.size(); ++i) {
+    if (!crosses(m_obstacles[i], from, to)) continue;
+    const double d = distance(from, m_obstacles[i].centre);
+    if (d < nearest) {
+      nearest = d;
+      hit = static_cast<int>(i);
+    }
+  }
+  return hit;
+}
+
+void PathPlanner::activate(std::size_t obstacle) {
+  if (m_active[obstacle]) return;
+  m_active[obstacle] = 1;
+  const Obstacle& o = m_obstacles[obstacle];
+  // Circumscribed, so that an edge between two neighbours does not cut the circle.
+  const double radius = o.radius / std::cos(std::numbers::pi / corners) + rim;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    const Point p{o.centre.x + radius * std::cos(angle), o.centre.y + radius * std::sin(angle)};
+    const auto covering =
+        std::find_if(m_obstacles.begin(), m_obstacles.end(),
+                     [&](const Obstacle& c) { return distance(p, c.centre) < c.radius; });
+    if (covering != m_obstacles.end()) {
+      // The two overlap: who goes round one has to go round the other.
+      activate(static_cast<std::size_t>(covering - m_obstacles.begin()));
+    } else if (within(p)) {
+      m_nodes.push_back({p, 0.0, -1, false, false});
+    }
+  }
+}
+
+Point PathPlanner::freeTarget(const Point& target, const Point& start, bool& free) const {
+  Point p = target;
+  // Leaving one obstacle may lead into its neighbour; a few rounds settle all but hopeless cases.
+  for (std::size_t round = 0; round <= m_obstacles.size() && round < 8; ++round) {
+    const auto inside =
+        std::find_if(m_obstacles.begin(), m_obstacles.end(),
+                     [&](const Obstacle& o) { return distance(p, o.centre) < o.radius; });
+    if (inside == m_obstacles.end()) break;
+    free = false;
+    Point away{p.x - inside->centre.x, p.y - inside->centre.y};
+    if (std::hypot(away.x, away.y) < rim) {
+      away = {start.x - inside->centre.x, start.y - inside->centre.y};
+    }
+    const double length = std::hypot(away.x, away.y);
+    if (length < rim) away = {1.0, 0.0};
+    const double scale = (inside->radius + rim) / std::max(length, rim);
+    p = {inside->centre.x + away.x * scale, inside->centre.y + away.y * scale};
+  }
+  return p;
+}
+
+/// A* over the present corners. Notes the obstacles that stood in the way.
+bool PathPlanner::search(std::vector<int>& hit) {
+  for (Node& node : m_nodes) node = {node.point, 0.0, -1, false, false};
+  m_nodes[0].open = true;
+  const Point target = m_nodes[1].point;
+  int nearest = 0;
+  for (;;) {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+      if (!m_nodes[i].open) continue;
+      const double estimate = m_nodes[i].cost + distance(m_nodes[i].point, target);
+      if (estimate < least) {
+        least = estimate;
+        best = static_cast<int>(i);
+      }
+    }
+    if (best < 0) break;
+    Node& node = m_nodes[static_cast<std::size_t>(best)];
+    node.open = false;
+    node.closed = true;
+    if (distance(node.point, target) <
+        distance(m_nodes[static_cast<std::size_t>(nearest)].point, target)) {
+      nearest = best;
+    }
+    if (best == 1) {
+      m_end = 1;
+      return true;
+    }
+    for (std::size_t i = 1; i < m_nodes.size(); ++i) {
+      Node& other = m_nodes[i];
+      if (other.closed) continue;
+      const double cost = node.cost + distance(node.point, other.point);
+      if (other.open && other.cost <= cost) continue;
+      const int blocker = firstHit(node.point, other.point);
+      if (blocker >= 0) {
+        hit.push_back(blocker);
+        continue;
+      }
+      other.cost = cost;
+      other.parent = best;
+      other.open = true;
+    }
+  }
+  m_end = nearest;
+  return false;
+}
+
+Path PathPlanner::plan(const Point& start, const Point& target,
+                       std::span<const Obstacle> obstacles) {
+  Path path;
+  if (!finite(start) || !finite(target)) return path;
+  m_obstacles.clear();
+  for (Obstacle o : obstacles) {
+    if (!finite(o.centre) || !std::isfinite(o.radius)) continue;
+    o.radius = std::min(o.radius, distance(o.centre, start) - rim);
+    if (o.radius > 0.0) m_obstacles.push_back(o);
+  }
+  m_active.assign(m_obstacles.size(), 0);
+  m_nodes.clear();
+  m_nodes.push_back({start, 0.0, -1, false, false});
+  m_nodes.push_back({freeTarget(target, start, path.targetFree), 0.0, -1, false, false});
+
+  std::vector<int> hit;
+  for (;;) {
+    hit.clear();
+    path.complete = search(hit);
+    if (path.complete) {
+      // Corners of obstacles beside this path cannot make it shorter: it is free, and every edge
+      // that was dropped for a blocked one leads round an obstacle that has corners already.
+      const bool allActive = std::all_of(hit.begin(), hit.end(), [&](int i) {
+        return m_active[static_cast<std::size_t>(i)] != 0;
+      });
+      if (allActive) break;
+    }
+    const std::size_t before = m_nodes.size();
+    bool news = false;
+    for (const int i : hit) {
+      news = news || !m_active[static_cast<std::size_t>(i)];
+      activate(static_cast<std::size_t>(i));
+    }
+    if (!news || (m_nodes.size() == before && path.complete)) break;
+  }
+
+  for (int i = m_end; i >= 0; i = m_nodes[static_cast<std::size_t>(i)].parent) {
+    path.points.push_back(m_nodes[static_cast<std::size_t>(i)].point);
+  }
+  std::reverse(path.points.begin(), path.points.end());
+  if (path.points.size() == 1) path.points.push_back(path.points.front());
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    path.length += distance(path.points[i - 1], path.points[i]);
+  }
+  return path;
+}
+
+}  // namespace pitchboard::link

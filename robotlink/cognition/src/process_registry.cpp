@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/cognition/process_registry.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <robotlink/cognition/naive_decision.h>
+
+#include "localization/localization.h"
+#include "soccer/behaviour.h"
+#include "team/communication.h"
+#include "team/team_talk.h"
+
+namespace pitchboard::link {
+namespace {
+
+using Maker = Result<std::unique_ptr<CognitiveProcess>> (*)(const ProcessOptions& options);
+
+struct NamedBehaviour {
+  BehaviourInfo info;
+  Maker make;
+};
+
+constexpr std::array behaviourList{
+    NamedBehaviour{
+        {"striker", "goes for the ball and the goal, leaves the ball to a nearer team-mate", true},
+        makeSoccerDecision<Striker>},
+    NamedBehaviour{
+        {"supporter", "stays near the ball, takes it over when it is clearly nearer", true},
+        makeSoccerDecision<Supporter>},
+    NamedBehaviour{{"keeper", "stays between the ball and its goal, clears the ball", true},
+                   makeSoccerDecision<Keeper>},
+    NamedBehaviour{{"idle", "stands", true}, makeSoccerDecision<Idle>},
+    NamedBehaviour{{"naive", "as published: turn to the ball, walk to it, kick it", false},
+                   makeNaiveDecision},
+};
+
+constexpr auto behaviourInfos = [] {
+  std::array<BehaviourInfo, behaviourList.size()> infos;
+  std::transform(behaviourList.begin(), behaviourList.end(), infos.begin(),
+                 [](const NamedBehaviour& behaviour) { return behaviour.info; });
+  return infos;
+}();
+
+Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& options) {
+  if (!std::isfinite(options.distanceToKick)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "the distance to kick must be a number of centimetres, for example 25");
+  }
+  std::string known;
+  for (const NamedBehaviour& behaviour : behaviourList) {
+    if (behaviour.info.name == options.behaviour) return behaviour.make(options);
+    known += (known.empty() ? "" : ", ") + std::string(behaviour.info.name);
+  }
+  return failure(ErrorCode::NotFound,
+                 "there is no behaviour '" + options.behaviour + "'; the behaviours are: " + known);
+}
+
+constexpr std::array processes{
+    ProcessInfo{"localization", "finds out where the robot stands", makeLocalization, true, false,
+                true, "pitchboard-robot localization --robot 1"},
+    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk, true, false,
+                true, "pitchboard-robot team --robot 1 --team 0"},
+    ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true, false,
+                "pitchboard-robot decision --robot 1 --behaviour striker"},
+    ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP",
+                makeCommunication, false, false, false,
+                "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
+};
+
+}  // namespace
+
+std::span<const ProcessInfo> cognitiveProcesses() {
+  return processes;
+}
+
+const ProcessInfo* findProcess(std::string_view name) {
+  const auto found = std::find_if(processes.begin(), processes.end(),
+                                  [name](const ProcessInfo& info) { return info.name == name; });
+  return found == processes.end() ? nullptr : &*found;
+}
+
+std::span<const BehaviourInfo> behaviours() {
+  return behaviourInfos;
+}
+
+const BehaviourInfo* findBehaviour(std::string_view name) {
+  const auto found = std::find_if(behaviourInfos.begin(), behaviourInfos.end(),
+                                  [name](const BehaviourInfo& info) { return info.name == name; });
+  return found == behaviourInfos.end() ? nullptr : &*found;
+}
+
+}  // namespace pitchboard::link

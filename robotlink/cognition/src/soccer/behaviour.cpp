@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "soccer/behaviour.h"
+
+#include <cmath>
+
+#include <base/angles.h>
+
+namespace pitchboard::link {
+namespace {
+
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+double direction(const Point& from, const Point& to) {
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
+
+}  // namespace
+
+Choice Behaviour::choose(const WorldModel& world) {
+  if (world.fallen()) return {acts::stop, Intention::None, {}, false};  // control gets it up
+  switch (world.referee()) {
+    case Referee::Play:
+      return play(world);
+    case Referee::Ready:
+      if (world.localized()) {
+        Choice choice = walkTo(world, kickOff(world), Intention::Walk);
+        choice.search = true;
+        return choice;
+      }
+      break;
+    case Referee::Silent:
+    case Referee::Stop:
+    case Referee::Set:
+      break;
+  }
+  m_search.restart();
+  // Standing, it still looks where the ball is.
+  return {acts::stop, Intention::Idle, {}, true};
+}
+
+Choice Behaviour::walkTo(const WorldModel& world, const Pose& pose, Intention intention,
+                         double near) {
+  const auto act = m_walk.step(world, {pose, near, 0.35, true});
+  return {act.value_or(acts::stop), intention, pose.position, !world.seesBall()};
+}
+
+Choice Behaviour::lookForBall(const WorldModel& world) {
+  return {m_search.step(world, m_walk), Intention::Search, {}, true};
+}
+
+Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
+  if (world.seesBall()) {
+    m_told = world.now();
+    m_search.restart();
+    return {m_attack.step(world, m_walk, aimFrom(world, ball)), Intention::Ball, ball, false};
+  }
+  // Seen by a team-mate or remembered. If it is not there, it is looked for.
+  constexpr double patience = 4.0;  // s at a place where no ball is
+  if (!world.localized()) return lookForBall(world);
+  const bool shouldSee = distance(world.pose().position, ball) < 1.5;
+  if (!shouldSee) m_told = world.now();
+  if (world.now() - m_told > patience) return lookForBall(world);
+  const Pose there{ball, direction(world.pose().position, ball)};
+  const auto act = m_walk.step(world, {there, 0.5, 0.5, false});
+  return {act.value_or(acts::turnRight), Intention::Ball, ball, true};
+}
+
+bool Striker::takesBall(const WorldModel& world, const Point& ball) const {
+  // Who has it keeps it: two that swap for every centimetre reach nothing.
+  constexpr double keeps = 0.1, takes = -0.3;  // m
+  return !mateIsFirst(world, ball, m_attacking ? keeps : takes);
+}
+
+Choice Striker::play(const WorldModel& world) {
+  const auto ball = world.ball();
+  if (!ball) {
+    m_attacking = false;
+    return lookForBall(world);
+  }
+  m_attacking = !world.localized() || takesBall(world, *ball);
+  if (m_attacking) return toBall(world, *ball);
+  m_search.restart();
+  return walkTo(world, supportPose(world, *ball), Intention::Support, 0.25);
+}
+
+Pose Striker::supportPose(const WorldModel& world, const Point& ball) const {
+  const sim::FieldSpec& field = world.field();
+  const double side = world.pose().position.y > ball.y ? 1.0 : -1.0;
+  Point place{ball.x - 1.2, ball.y + 1.0 * side};
+  if (std::abs(place.y) > field.halfWidth() - 0.4) place.y = ball.y - 1.0 * side;
+  place.x = std::clamp(place.x, -field.halfLength() + 1.2, field.halfLength() - 1.0);
+  return {place, direction(place, ball)};
+}
+
+Pose Striker::kickOff(const WorldModel& world) const {
+  return {{-0.5 * world.field().centreCircleDiameter - 0.35, 0.0}, 0.0};
+}
+
+Pose Supporter::kickOff(const WorldModel& world) const {
+  return {{-0.25 * world.field().length, 0.22 * world.field().width}, 0.0};
+}
+
+bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
+  const double own = distance(world.pose().position, ball);
+  bool somebodyAttacks = false;
+  double nearest = 1e9;
+  for (const auto& mate : world.mates()) {
+    if (!mate || !mate->active || mate->intention == Intention::Keep) continue;
+    somebodyAttacks = somebodyAttacks || mate->intention == Intention::Ball;
+    if (mate->intention == Intention::Ball)
+      nearest = std::min(nearest, distance(mate->position, ball));
+  }
+  if (!somebodyAttacks) return true;
+  return own < nearest - (m_attacking ? 0.2 : 0.8);
+}
+
+Pose Keeper::kickOff(const WorldModel& world) const {
+  return {{-world.field().halfLength() + 0.45, 0.0}, 0.0};
+}
+
+Choice Keeper::play(const WorldModel& world) {
+  const auto ball = world.ball();
+  if (!world.localized() || !ball) {
+    m_clearing = false;
+    if (world.localized() && distance(world.pose().position, kickOff(world).position) > 0.4) {
+      Choice home = walkTo(world, kickOff(world), Intention::Keep, 0.2);
+      home.search = true;
+      return home;
+    }
+    // Looks about without leaving the goal.
+    return {acts::gait, Intention::Keep, {}, true};
+  }
+  constexpr double clearWithin = 1.3, clearUntil = 1.9;  // m from the goal's centre
+  const double fromGoal = distance(*ball, world.ownGoal());
+  m_clearing = world.seesBall() && fromGoal < (m_clearing ? clearUntil : clearWithin) &&
+               !mateIsFirst(world, *ball, 0.5);
+  if (m_clearing) {
+    Choice choice = toBall(world, *ball);
+    choice.intention = Intention::Ball;
+    return choice;
+  }
+  // On the line from the ball to the goal, on an arc before it that covers the posts.
+  const double arc = 0.40 * world.field().goalWidth;
+  const double angle = std::clamp(direction(world.ownGoal(), *ball), -1.2, 1.2);
+  const Point place{world.ownGoal().x + 0.2 + 0.6 * arc * std::cos(angle),
+                    world.ownGoal().y + arc * std::sin(angle)};
+  Choice choice = walkTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
+  choice.search = !world.seesBall();
+  return choice;
+}
+
+}  // namespace pitchboard::link

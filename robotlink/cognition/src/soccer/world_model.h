@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a robot believes about the game, from nothing but its blackboard: its pose, the ball, other
+// robots. Everything is turned so that this robot's team attacks towards +x, whichever side it
+// plays on: a behaviour is written once. Metres, radians, seconds.
+//
+// Which goal is whose stands nowhere on the blackboard, but the IMU knows: its zero is the
+// direction of the opponents' goal (SYSTEM.md section 4), so LOCALIZATION_THETA minus IMU_EULER_Z
+// is near 0 for a team that attacks right and near 180 degrees for one that attacks left.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <base/geometry.h>
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/cognitive_process.h>
+
+#include "team/team_variables.h"
+
+namespace pitchboard::link {
+
+/// The referee's word in COM_REFEREE.
+enum class Referee { Silent = 0, Stop = 1, Play = 2, Ready = 11, Set = 12 };
+
+struct TeamMate {
+  Point position;
+  Intention intention = Intention::None;
+  bool active = false;        ///< heard of lately and standing
+  std::optional<Point> ball;  ///< as it saw it
+};
+
+class WorldModel {
+ public:
+  WorldModel(const sim::FieldSpec& field, std::optional<bool> facesLeft)
+      : m_field(field), m_facesLeft(facesLeft) {}
+
+  /// Once a cycle, before the behaviour. Also tells vision what to look for: the ball, and for one
+  /// cycle in a while opponents (DECISION_ACTION_VISION).
+  void update(Blackboard& board, const Clock& clock);
+
+  double now() const { return m_now; }
+  Referee referee() const { return m_referee; }
+  bool fallen() const { return m_fallen; }
+  const sim::FieldSpec& field() const { return m_field; }
+  Point opponentGoal() const { return {m_field.halfLength(), 0.0}; }
+  Point ownGoal() const { return {-m_field.halfLength(), 0.0}; }
+
+  const Pose& pose() const { return m_pose; }
+  /// The pose may be built upon.
+  bool localized() const { return m_sigma < 0.7; }
+  bool surelyLocalized() const { return m_sigma < 0.35; }
+  /// Heading by the IMU alone: 0 is the opponents' goal.
+  double imuYaw() const { return m_imuYaw; }
+
+  /// This robot saw the ball within the last moments; position in its own frame (forward, left).
+  bool seesBall() const { return m_now - m_ballSeen < 0.8; }
+  double ballAge() const { return m_now - m_ballSeen; }
+  const Point& ballInFront() const { return m_ballLocal; }
+  double ballDistance() const;
+  double ballBearing() const;
+  /// Where the ball is on the field: seen by itself, remembered, or told by a team-mate.
+  std::optional<Point> ball() const;
+
+  /// Where this robot saw the ball last, however long ago.
+  std::optional<Point> lastSeenBall() const {
+    return m_ballSeen > 0.0 ? std::optional<Point>(m_ballField) : std::nullopt;
+  }
+
+  const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
+  /// Where all team-mates stand that were heard of lately, also those that mates() has no room for.
+  const std::vector<Point>& matePlaces() const { return m_matePlaces; }
+  /// Opponents seen within the last seconds.
+  std::vector<Point> opponents() const;
+
+  /// To the studio's frame, whichever side this team attacks, and back.
+  Point toStudio(const Point& turned) const {
+    return m_attacksLeft ? Point{-turned.x, -turned.y} : turned;
+  }
+
+  Point toLocal(const Point& onField) const;
+  Point toField(const Point& local) const;
+
+  /// What the team shall hear, in DECISION_STATE, LOCALIZATION_BALL_* and DECISION_POSITION_*.
+  void tell(Blackboard& board, Intention intention, const std::optional<Point>& target) const;
+
+ private:
+  struct Sighting {
+    Point position;
+    double time = -1e9;
+  };
+  void findSide(double theta);
+  void readBall(const Blackboard& board);
+  void readRobots(Blackboard& board);
+  void readMates(const Blackboard& board);
+  void moveWithBody(const Blackboard& board, double seconds);
+  Point fromCm(double x_cm, double y_cm) const;
+
+  sim::FieldSpec m_field;
+  std::optional<bool> m_facesLeft;
+  RobotVariables m_variables;
+  TeamVariables m_team;
+  double m_now = 0.0;
+  bool m_first = true;
+  unsigned m_cycle = 0;
+  bool m_lookedForOpponents = false;
+  Referee m_referee = Referee::Silent;
+  bool m_fallen = false;
+  double m_side = 0.0;  // > 0 attacks right, low-passed
+  bool m_attacksLeft = false;
+  Pose m_pose;
+  double m_sigma = 1e9, m_imuYaw = 0.0;
+  Point m_ballLocal;
+  Point m_ballField;
+  double m_ballSeen = -1e9;
+  std::array<Sighting, 11> m_opponents;
+  std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
+  std::vector<Point> m_matePlaces;
+};
+
+}  // namespace pitchboard::link

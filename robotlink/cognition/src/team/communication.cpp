@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "team/communication.h"
+
+#include <array>
+
+#include <robotlink/blackboard/robot_variables.h>
+#include <telemetry/wire/text_protocol.h>
+
+#include "team/referee_listener.h"
+#include "udp_sender.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr int teamPorts = 4;
+constexpr int distanceMessage = 2;  // the kind of team message, and the request in CONTROL_MESSAGES
+
+constexpr double cycle = 0.05;  // s: how soon a referee's word is on the blackboard
+
+// Obeys the referee in every cycle. Once a second (or as often as asked), as published: says which
+// robot this blackboard belongs to, sends a team message and the telemetry datagram, and clears the
+// five *_WORKING flags, which their owners set again.
+//
+// Team message "2 n DIST", DIST in cm: robot n's distance to the ball. It is VISION_BALL_DIST while
+// the ball is in view. A decision process that wants to tell another value writes it to
+// DECISION_RBTnn_DIST_BALL and 2 to CONTROL_MESSAGES (how published processes ask); it is then sent
+// whether or not the ball is in view, and the request is cleared.
+class Communication final : public CognitiveProcess {
+ public:
+  Communication(const ProcessOptions& options, UdpSender sender,
+                std::unique_ptr<RefereeListener> referee)
+      : m_options(options), m_sender(std::move(sender)), m_referee(std::move(referee)) {
+    const VariableCatalog& catalog = VariableCatalog::published();
+    m_request = catalog.intVar("CONTROL_MESSAGES");
+    m_ownDistance =
+        catalog.floatVar("DECISION_RBT0" + std::to_string(options.robot.value) + "_DIST_BALL");
+  }
+
+  void step(Blackboard& board, const Clock& clock) override {
+    if (m_referee) {
+      if (const auto word = m_referee->newWord()) board.write(m_variables.comReferee, *word);
+    }
+    constexpr double rounding = 1e-6;
+    if (clock.seconds < m_nextTelemetry - rounding) return;
+    // By absolute time, so that the rate does not drift; what was missed is left out.
+    m_nextTelemetry += m_options.telemetryPeriod;
+    if (m_nextTelemetry <= clock.seconds)
+      m_nextTelemetry = clock.seconds + m_options.telemetryPeriod;
+    board.write(m_variables.robotNumber, m_options.robot.value);
+    tellTeam(board);
+    sendTelemetry(board);
+  }
+
+  double period() const override { return cycle; }
+
+ private:
+  void tellTeam(Blackboard& board) {
+    const bool asked = m_request && board.read(*m_request) == distanceMessage;
+    if (!asked && board.read(m_variables.visionLost) != 0) return;
+    const float distance =
+        board.read(asked && m_ownDistance ? *m_ownDistance : m_variables.visionBallDist);
+    const std::string message = std::to_string(distanceMessage) + " " +
+                                std::to_string(m_options.robot.value) + " " +
+                                telemetry::pythonFloat(distance);
+    for (int n = 1; n <= teamPorts; ++n) m_sender.send(m_options.teamPortBase + n, message);
+    if (asked) board.replace(*m_request, distanceMessage, 0);
+  }
+
+  void sendTelemetry(Blackboard& board) {
+    const RobotVariables& v = m_variables;
+    telemetry::TextMessage m;
+    m.robot = m_options.robot.value;
+    m.x = board.read(v.localizationX);
+    m.y = board.read(v.localizationY);
+    m.theta = board.read(v.localizationTheta);
+    m.belief = board.read(v.localizationBelief);
+    m.ballDist = board.read(v.visionBallDist);
+    m.ballAngle = board.read(v.visionPanDeg);  // not VISION_BALL_ANGLE, which nobody writes there
+    const auto take = [&board](IntVar flag) {
+      const int value = board.read(flag);
+      board.write(flag, 0);
+      return value;
+    };
+    m.control = take(v.controlWorking);
+    m.vision = take(v.visionWorking);
+    m.localization = take(v.localizationWorking);
+    m.decision = take(v.decisionWorking);
+    m.imu = take(v.imuWorking);
+    m.actionA = board.read(v.decisionActionA);
+    m.imuEulerZ = board.read(v.imuEulerZ);
+    m.voltage = board.read(v.voltage);
+    m_sender.send(m_options.telemetryPortBase + m_options.robot.value, telemetry::encode(m));
+  }
+
+  ProcessOptions m_options;
+  UdpSender m_sender;
+  std::unique_ptr<RefereeListener> m_referee;  // when there is a team to listen for
+  double m_nextTelemetry = 0.0;
+  RobotVariables m_variables;
+  std::optional<IntVar> m_request;
+  std::optional<FloatVar> m_ownDistance;  // the published map has one for robots 1 to 4
+};
+
+Result<void> checkPorts(std::string_view what, int first, int last) {
+  constexpr int highest = 65535;
+  if (first >= 1 && last <= highest) return {};
+  return failure(ErrorCode::InvalidArgument,
+                 "the " + std::string(what) + " would be " + std::to_string(first) +
+                     (last != first ? ".." + std::to_string(last) : "") +
+                     "; choose a base so that it lies in 1..65535");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions& options) {
+  const int telemetryPort = options.telemetryPortBase + options.robot.value;
+  for (const Result<void>& ports :
+       {checkPorts("telemetry port", telemetryPort, telemetryPort),
+        checkPorts("ports of the team messages", options.teamPortBase + 1,
+                   options.teamPortBase + teamPorts)}) {
+    if (!ports) return tl::unexpected<Error>(ports.error());
+  }
+  Result<UdpSender> sender = UdpSender::to(options.udpAddress);
+  if (!sender) return tl::unexpected<Error>(sender.error());
+  if (!(options.telemetryPeriod >= cycle && options.telemetryPeriod <= 60.0)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "telemetry can be sent every 0.05 to 60 seconds, not more often or seldom");
+  }
+  std::unique_ptr<RefereeListener> referee;
+  if (options.refereeTeam) {
+    auto started = RefereeListener::start(options);
+    if (!started) return tl::unexpected<Error>(started.error());
+    referee = std::move(*started);
+  }
+  return std::make_unique<Communication>(options, std::move(*sender), std::move(referee));
+}
+
+}  // namespace pitchboard::link

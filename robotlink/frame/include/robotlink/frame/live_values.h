@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What is known only of robots and referees that are heard by network: parts of a MatchFrame.
+// Plain values, studio units (metres, seconds).
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <base/geometry.h>
+#include <base/ids.h>
+#include <telemetry/wire/team_monitor.h>
+
+namespace pitchboard::link {
+
+/// A robot's penalty as the referee says it.
+struct Penalty {
+  std::string words;    ///< "pickup or incapable"
+  int secondsLeft = 0;  ///< as sent: some versions do not count down
+  bool operator==(const Penalty&) const = default;
+};
+
+/// One value of a robot's message that is not a field of its own elsewhere.
+struct HeardValue {
+  std::string name;  ///< as in the profile, or OTHER_1, ...
+  std::string text;  ///< as sent
+  std::string unit;
+  bool operator==(const HeardValue&) const = default;
+};
+
+/// How well one robot is heard, and what it says of itself.
+struct RobotHealth {
+  RobotId id;              ///< as in the frame's snapshot
+  int number = 0;          ///< as sent
+  std::string sender;      ///< "192.168.0.7:41708"
+  bool poseKnown = false;  ///< false: its messages have no usable X, Y
+  bool conflict = false;   ///< another sender uses the same number
+  bool timedOut = false;
+  double age = 0.0;            ///< s since its last usable message
+  double rate = 0.0;           ///< messages per second
+  double jitter = 0.0;         ///< s
+  std::optional<double> loss;  ///< 0 to 1, where the profile has a sequence number
+  std::uint64_t messages = 0, bytes = 0, errors = 0, recoveries = 0;
+  std::array<telemetry::ProcessState, telemetry::processCount> processes{};
+  std::array<double, telemetry::processCount> processSince{};  ///< s in this state
+  std::optional<telemetry::Battery> battery;
+  std::optional<int> action;
+  std::optional<Point> ball;  ///< perceived, on the field
+  std::optional<Penalty> penalty;
+  std::vector<HeardValue> values;  ///< all, in the order of the message
+};
+
+struct RefereeTeamView {
+  int number = 0;
+  std::string colour;  ///< "blue"; "unknown" for a code nobody knows
+  int score = 0;
+  int playersLeft = 0;  ///< not penalised, not substitutes
+};
+
+/// The state of the game as the referee sends it.
+struct RefereeView {
+  int version = 0;
+  std::string sender;
+  double age = 0.0;       ///< s
+  bool timedOut = false;  ///< shown as it was last heard
+  bool conflict = false;  ///< a second controller is heard
+  bool trueData = false;  ///< monitor mode works: true data are received as well
+  std::string state;      ///< "PLAYING"
+  std::string setPlay;    ///< "corner", "direct free kick", "timeout"; empty in normal play
+  std::string phase;      ///< "overtime", "penalty shoot-out"; empty in normal time
+  bool firstHalf = true;
+  bool stopped = false;
+  int secondsLeft = 0;  ///< negative in extra time
+  std::optional<int> secondaryTime;
+  std::optional<int> kickOffTeam;        ///< team number
+  std::array<RefereeTeamView, 2> teams;  ///< left, right
+  int ourTeam = 0;  ///< chosen number; 0 when none was chosen or it does not play
+};
+
+/// Where the robots of a team think the ball is, taken together.
+struct TeamBall {
+  Point position;                        ///< mean of those that agree
+  double spread = 0.0;                   ///< m, root mean square distance from the mean
+  int agree = 0;                         ///< robots within `reach` of each other's ball; at least 2
+  int see = 0;                           ///< robots that see a ball at all
+  static constexpr double reach = 0.75;  ///< m
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Watches a match of real robots: receives, decodes and keeps the books on threads of its own, and
+// hands out frames (the newest wins), events and log lines as values. It sends nothing, except the
+// monitor request to a referee when that is turned on. All public functions may be called from any
+// thread.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <robotlink/frame/match_frame.h>
+#include <simcore/physics/simulation.h>
+#include <telemetry/wire/monitor_request.h>
+#include <telemetry/wire/referee_tracker.h>
+#include <telemetry/wire/udp_receiver.h>
+
+namespace pitchboard::link {
+
+/// Limits of a five-cell battery that warn and fill the bar as the cards of simulated robots do:
+/// low below 16.0 V, empty at 14.65 V, full at 19.15 V.
+inline constexpr telemetry::BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
+
+struct LiveOptions {
+  LiveOptions() { team.battery = usualBattery; }
+  telemetry::Address bind{};  ///< 0.0.0.0: every interface, unicast and broadcast
+  int portBase = 1240;        ///< robot n sends to portBase + n
+  int robots = 16;            ///< ports after the base
+  int refereePort = 3838;
+  telemetry::Profile profile = telemetry::publishedProfile();
+  telemetry::MonitorOptions team;
+  int ourTeam = 0;                     ///< the referee's number of our team; 0: not chosen
+  TeamColor colour = TeamColor::Blue;  ///< of our robots while the referee says none
+  bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
+  sim::FieldSpec field;
+  std::optional<telemetry::Address> monitor;  ///< the referee to ask for monitor mode; empty: off
+  std::uint16_t monitorPort = telemetry::monitorRequestPort;
+};
+
+/// Refuses ports that do not exist or collide. Error InvalidArgument.
+Result<void> validate(const LiveOptions& options);
+
+/// More than a frame says, for status line and tables.
+struct LiveDetails {
+  telemetry::TeamStatus team;
+  telemetry::ReceiverStatus network;
+  std::string networkProblem;  ///< why nothing can be received at all; empty otherwise
+  telemetry::RefereeTracker::Counts referee;
+  std::uint64_t unknownReferee = 0;  ///< packets on the referee's port that could not be decoded
+  std::string unknownRefereeReason;  ///< of the last one
+  std::string unknownRefereeSample;
+  std::uint64_t robotStates = 0;  ///< robots' replies passed on by a referee in monitor mode
+  std::string monitorProblem;     ///< why the last monitor request was not sent
+};
+
+/// Sees every datagram that is used, for rows and recording. Called on the watch's thread: must not
+/// wait.
+class LiveObserver {
+ public:
+  virtual ~LiveObserver() = default;
+  /// `time`: seconds since the watch began, of the arrival. `decoded` and the datagram are valid
+  /// during the call only. `id` as in the frames.
+  virtual void heard(RobotId /*id*/, double /*time*/, const telemetry::DatagramView&,
+                     const telemetry::TextDecoder&, const telemetry::DecodedText&) {}
+  virtual void refereeHeard(double /*time*/, const telemetry::DatagramView&,
+                            const telemetry::RefereeState&) {}
+  /// A datagram of an allowed sender that was not used: it could not be decoded, or is no state.
+  virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
+  virtual void happened(const sim::Event&, double /*time*/) {}
+  virtual void logged(const LogLine&) {}
+  /// How everybody is heard, a few times a second.
+  virtual void reported(const telemetry::TeamStatus&) {}
+  /// Whenever a frame was made.
+  virtual void frameMade(const MatchFrame&) {}
+};
+
+class LiveWatch {
+ public:
+  /// `onFrame` is called from the watch's thread when a frame is there that was not taken yet; it
+  /// must return at once. The options must be valid.
+  explicit LiveWatch(LiveOptions options, std::function<void()> onFrame = {});
+  ~LiveWatch();  ///< stops receiving, joins
+  LiveWatch(const LiveWatch&) = delete;
+  LiveWatch& operator=(const LiveWatch&) = delete;
+
+  /// From the next moment on. Robots, health and counters stay; ports are bound anew if they
+  /// differ.
+  void setOptions(LiveOptions options);
+  /// Forgets robots, referee and counters.
+  void clear();
+
+  /// The newest frame; calling it asks for the next `onFrame`. Null before the first.
+  std::shared_ptr<const MatchFrame> latest();
+  LiveDetails details() const;
+  /// Both give what came since the last call, at most the newest 10 000.
+  std::vector<sim::Event> takeEvents();
+  std::vector<LogLine> takeLog();
+
+  /// The time of day at 0 s.
+  telemetry::WallTime began() const;
+  void observe(std::shared_ptr<LiveObserver> observer);
+  /// After this returns the observer is not called any more.
+  void stopObserving(const std::shared_ptr<LiveObserver>& observer);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <base/angles.h>
+#include <robotlink/frame/belief.h>
+#include <simcore/world/published_frame.h>
+
+namespace pitchboard::link {
+namespace {
+
+using telemetry::FieldMeaning;
+using telemetry::RefereePlayer;
+using telemetry::RefereeState;
+using telemetry::RefereeTeam;
+using telemetry::RobotStatus;
+
+double seconds(telemetry::Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+/// Sane numbers for drawing; what was sent stays in `values`.
+constexpr double farAway_cm = 10'000.0;
+
+double sane(double cm) {
+  return std::clamp(cm, -farAway_cm, farAway_cm);
+}
+
+int asInt(std::optional<double> value) {
+  constexpr double most = 2147483647.0;
+  return value ? static_cast<int>(std::clamp(*value, -most, most)) : 0;
+}
+
+std::optional<Pose> poseOf(const RobotStatus& robot, const sim::FieldSpec& field) {
+  const auto x = robot.value(FieldMeaning::X);
+  const auto y = robot.value(FieldMeaning::Y);
+  if (!x || !y) return std::nullopt;
+  const double theta = std::fmod(robot.value(FieldMeaning::Theta).value_or(0.0), 360.0);
+  return sim::published_frame::studioFromLocalization(field, {sane(*x), sane(*y), theta});
+}
+
+/// SYSTEM.md section 7: at distance BALL_DIST and angle THETA + BALL_ANGLE; -1 is no ball.
+std::optional<Point> ballOf(const RobotStatus& robot, const Pose& pose,
+                            const sim::FieldSpec& field) {
+  const auto distance = robot.value(FieldMeaning::BallDistance);
+  const auto angle = robot.value(FieldMeaning::BallAngle);
+  if (!distance || !angle || *distance <= 0.0) return std::nullopt;
+  const double range = sim::published_frame::metresFromCm(*distance);
+  if (range > 2 * field.length) return std::nullopt;
+  const double direction = pose.yaw + radiansFromDegrees(std::fmod(*angle, 360.0));
+  return Point{pose.position.x + range * std::cos(direction),
+               pose.position.y + range * std::sin(direction)};
+}
+
+std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
+  std::vector<HeardValue> values;
+  values.reserve(robot.words.size());
+  const auto& fields = robot.decoder->profile().fields;
+  for (std::size_t i = 0; i < robot.words.size(); ++i) {
+    values.push_back({robot.decoder->name(i), telemetry::printable(robot.words[i], 40),
+                      i < fields.size() ? fields[i].unit : std::string()});
+  }
+  return values;
+}
+
+RobotHealth healthOf(const RobotStatus& robot) {
+  RobotHealth health;
+  health.number = robot.number;
+  health.sender = robot.sender.text();
+  health.conflict = robot.conflict;
+  health.timedOut = robot.timedOut;
+  health.age = seconds(robot.age);
+  health.rate = robot.rate;
+  health.jitter = robot.jitter;
+  health.loss = robot.loss;
+  health.messages = robot.messages;
+  health.bytes = robot.bytes;
+  health.errors = robot.errors.total();
+  health.recoveries = robot.timeouts;
+  for (std::size_t i = 0; i < robot.processes.size(); ++i) {
+    health.processes[i] = robot.processes[i].state;
+    health.processSince[i] = seconds(robot.processes[i].since);
+  }
+  health.battery = robot.battery;
+  if (const auto action = robot.value(FieldMeaning::Action)) health.action = asInt(action);
+  health.values = valuesOf(robot);
+  return health;
+}
+
+RobotBoardView boardOf(const RobotStatus& robot, RobotId id) {
+  RobotBoardView board;
+  board.id = id;
+  board.actionA = asInt(robot.value(FieldMeaning::Action));
+  board.voltage = asInt(robot.value(FieldMeaning::Voltage));
+  board.ballDistCm = static_cast<float>(robot.value(FieldMeaning::BallDistance).value_or(-1.0));
+  board.visionLost = board.ballDistCm <= 0.0F;
+  board.panDeg = static_cast<float>(robot.value(FieldMeaning::BallAngle).value_or(0.0));
+  board.localizationX = asInt(robot.value(FieldMeaning::X));
+  board.localizationY = asInt(robot.value(FieldMeaning::Y));
+  board.localizationTheta = asInt(robot.value(FieldMeaning::Theta));
+  board.belief = static_cast<float>(robot.value(FieldMeaning::Belief).value_or(0.0));
+  const auto works = [&robot](std::size_t process) {
+    return robot.processes[process].state == telemetry::ProcessState::Working;
+  };
+  board.controlWorking = works(0);
+  board.visionWorking = works(1);
+  board.localizationWorking = works(2);
+  board.decisionWorking = works(3);
+  board.imuWorking = works(4);
+  return board;
+}
+
+std::optional<Penalty> penaltyOf(const RefereeState* state, int ourTeam, int number) {
+  const RefereeTeam* team = state == nullptr ? nullptr : state->team(ourTeam);
+  if (team == nullptr) return std::nullopt;
+  for (const RefereePlayer& player : team->players()) {
+    if (player.number != number || player.penalty == 0 || player.unreliable ||
+        telemetry::isSubstitute(*state, player)) {
+      continue;
+    }
+    return Penalty{std::string(telemetry::penaltyWords(*state, player.penalty)),
+                   player.secondsLeft};
+  }
+  return std::nullopt;
+}
+
+std::string lowered(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c == '_') c = ' ';
+  }
+  return out;
+}
+
+RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, telemetry::WallTime now) {
+  const RefereeState& state = *tracker.state();
+  RefereeView view;
+  view.version = state.version;
+  view.sender = tracker.sender()->text();
+  view.age = seconds(*tracker.age(now));
+  view.timedOut = tracker.timedOut(now);
+  view.conflict = tracker.conflict(now);
+  view.trueData = tracker.trueData().has_value();
+  view.state = telemetry::stateName(state.state);
+  // One version says in one field what another says in two.
+  constexpr int normal = 0, overtime = 2, shootout = 1;
+  if (state.secState && *state.secState != normal) {
+    const std::string words = lowered(telemetry::secStateName(*state.secState));
+    (*state.secState == overtime || *state.secState == shootout ? view.phase : view.setPlay) =
+        words;
+  }
+  if (state.gamePhase && *state.gamePhase != 0) {
+    view.phase = telemetry::gamePhaseWords(*state.gamePhase);
+  }
+  if (state.setPlay && *state.setPlay != 0) {
+    view.setPlay = telemetry::setPlayWords(state.league, *state.setPlay);
+  }
+  view.firstHalf = state.firstHalf != 0;
+  view.stopped = state.stopped.value_or(0) != 0;
+  view.secondsLeft = state.secsRemaining;
+  view.secondaryTime = state.secondaryTime;
+  view.kickOffTeam = state.kickOffTeam;
+  for (std::size_t i = 0; i < view.teams.size(); ++i) {
+    const RefereeTeam& team = state.teams[i];
+    int left = 0;
+    const auto players = team.players();
+    const std::size_t playing =
+        std::min(players.size(), static_cast<std::size_t>(std::max(state.playersPerTeam, 0)));
+    for (std::size_t p = 0; p < playing; ++p) left += players[p].penalty == 0 ? 1 : 0;
+    view.teams[i] = {team.number, std::string(telemetry::colourWords(team.colour)), team.score,
+                     left};
+  }
+  view.ourTeam = state.team(ourTeam) != nullptr ? ourTeam : 0;
+  return view;
+}
+
+}  // namespace
+
+RobotId LiveIdentities::idOf(int number, std::uint64_t serial) {
+  const auto [entry, isNew] = m_ids.try_emplace({number, serial});
+  if (!isNew) return entry->second;
+  constexpr int step = 65536;
+  RobotId id{number};
+  const auto taken = [&](RobotId wanted) {
+    return std::any_of(m_ids.begin(), m_ids.end(),
+                       [&](const auto& known) { return known.second == wanted; });
+  };
+  while (taken(id)) id.value += step;
+  entry->second = id;
+  return id;
+}
+
+void LiveIdentities::keepOnly(const telemetry::TeamStatus& team) {
+  std::erase_if(m_ids, [&team](const auto& entry) {
+    return std::none_of(team.robots.begin(), team.robots.end(), [&entry](const auto& robot) {
+      return robot.number == entry.first.first && robot.serial == entry.first.second;
+    });
+  });
+}
+
+std::optional<TeamColor> teamColour(std::string_view words) {
+  for (const TeamColorInfo& known : teamColors) {
+    if (known.name == words) return known.color;
+  }
+  return std::nullopt;
+}
+
+MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& team,
+                     const telemetry::RefereeTracker& referee, LiveIdentities& identities,
+                     double time) {
+  MatchFrame frame;
+  frame.origin = FrameOrigin::Live;
+  frame.truthKnown = false;
+  frame.ballKnown = false;
+  frame.field = options.field;
+  frame.snapshot.time = time;
+  frame.speed = 1.0;
+  TeamColor ours = options.colour;
+  const RefereeState* state = referee.state() ? &*referee.state() : nullptr;
+  if (state != nullptr) {
+    frame.referee = viewOf(referee, options.ourTeam, team.time);
+    frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
+    frame.snapshot.clock = frame.referee->secondsLeft;
+    frame.snapshot.clockRunning = frame.referee->state == "PLAYING" && !frame.referee->timedOut;
+    for (const RefereeTeamView& side : frame.referee->teams) {
+      if (side.number == frame.referee->ourTeam && side.number != 0) {
+        ours = teamColour(side.colour).value_or(ours);
+      }
+    }
+  }
+  std::vector<Point> balls;
+  for (const RobotStatus& robot : team.robots) {
+    RobotHealth health = healthOf(robot);
+    health.id = identities.idOf(robot.number, robot.serial);
+    health.penalty = penaltyOf(state, options.ourTeam, robot.number);
+    sim::RobotSnapshot snapshot;
+    snapshot.identity.id = health.id;
+    snapshot.identity.number = robot.number;
+    snapshot.identity.team =
+        options.colourByNumber
+            ? teamColors[static_cast<std::size_t>(robot.number - 1) % teamColors.size()].color
+            : ours;
+    snapshot.action = health.action.value_or(0);
+    if (const auto pose = poseOf(robot, options.field)) {
+      health.poseKnown = true;
+      snapshot.pose = *pose;
+      snapshot.headYaw = pose->yaw;
+      health.ball = ballOf(robot, *pose, options.field);
+      if (health.ball && !robot.timedOut) balls.push_back(*health.ball);
+    }
+    frame.boards.push_back(boardOf(robot, health.id));
+    frame.snapshot.robots.push_back(std::move(snapshot));
+    frame.health.push_back(std::move(health));
+  }
+  frame.teamBall = agreedBall(balls);
+  return frame;
+}
+
+}  // namespace pitchboard::link

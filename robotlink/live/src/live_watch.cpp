@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/live/live_watch.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include "live_events.h"
+#include "live_frame.h"
+
+namespace pitchboard::link {
+namespace {
+
+using namespace std::chrono_literals;
+using Steady = std::chrono::steady_clock;
+using telemetry::DatagramBatch;
+using telemetry::DatagramView;
+using telemetry::RefereeState;
+using telemetry::TeamMonitor;
+using telemetry::WallTime;
+
+constexpr auto framePeriod = 16ms;  // at most so often while something arrives
+constexpr auto idlePeriod = 100ms;  // ages and timeouts go on without messages
+constexpr auto portsPeriod = 500ms;
+constexpr auto reportPeriod = 250ms;
+constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
+constexpr std::size_t maxQueued = 10'000;
+
+WallTime wallNow() {
+  return std::chrono::time_point_cast<telemetry::Duration>(std::chrono::system_clock::now());
+}
+
+telemetry::ReceiverOptions receiverOptions(const LiveOptions& options) {
+  telemetry::ReceiverOptions made;
+  made.bind = options.bind;
+  const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
+  if (ports) made.ports = *ports;
+  if (options.monitor) made.ports.push_back(telemetry::robotStatesPort);
+  return made;
+}
+
+template <class T>
+void queueUp(std::vector<T>& queue, const std::vector<T>& items) {
+  queue.insert(queue.end(), items.begin(), items.end());
+  if (queue.size() > maxQueued) {
+    queue.erase(queue.begin(), queue.end() - static_cast<std::ptrdiff_t>(maxQueued));
+  }
+}
+
+}  // namespace
+
+Result<void> validate(const LiveOptions& options) {
+  const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
+  if (!ports) return tl::unexpected<Error>(ports.error());
+  if (const auto good = telemetry::validate(options.profile); !good) return good;
+  return sim::validate(options.field);
+}
+
+struct LiveWatch::Impl {
+  Impl(LiveOptions o, std::function<void()> ready)
+      : options(std::move(o)), onFrame(std::move(ready)), monitor(options.profile, options.team) {}
+
+  double since(Steady::time_point now) const {
+    return std::chrono::duration<double>(now - begin).count();
+  }
+  /// Of a datagram, by the wall clock: the kernel's stamps are of that one.
+  double arrival(WallTime time) const {
+    return std::max(0.0, std::chrono::duration<double>(time - wallBegin).count());
+  }
+
+  void listen() {
+    {
+      const std::lock_guard lock(mutex);
+      receiver.reset();  // its ports may be wanted again
+    }
+    auto started = telemetry::UdpReceiver::start(receiverOptions(options));
+    const std::lock_guard lock(mutex);
+    networkProblem = started ? std::string() : started.error().text();
+    if (started) receiver = std::move(*started);
+  }
+
+  void adoptOptions() {
+    std::unique_lock lock(mutex);
+    if (!pending) return;
+    const LiveOptions old = std::exchange(options, std::move(*pending));
+    pending.reset();
+    if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
+    monitor.setOptions(options.team);
+    monitorProblem.clear();
+    const auto before = receiverOptions(old), after = receiverOptions(options);
+    if (before.ports == after.ports && before.bind == after.bind && receiver) return;
+    lock.unlock();
+    listen();
+  }
+
+  void forget() {
+    const std::lock_guard lock(mutex);
+    if (!std::exchange(clearAsked, false)) return;
+    monitor.clear();
+    referee = {};
+    identities.clear();
+    happened.clear();
+    unknownReferee = robotStates = 0;
+    unknownReason.clear();
+    unknownSample.clear();
+  }
+
+  void takeReferee(const DatagramView& datagram) {
+    if (!options.team.senders.allows(datagram.sender.address)) return;
+    const auto packet = telemetry::decodeReferee(datagram.payload);
+    if (!packet || !std::holds_alternative<RefereeState>(*packet)) unused(datagram);
+    if (!packet) {
+      ++unknownReferee;
+      unknownReason = packet.error().message;
+      unknownSample = telemetry::printable(datagram.payload);
+      return;
+    }
+    if (const auto* state = std::get_if<RefereeState>(&*packet)) {
+      referee.accept(*state, datagram.sender, datagram.time);
+      for (const auto& observer : observers) {
+        observer->refereeHeard(arrival(datagram.time), datagram, *state);
+      }
+    } else if (!std::holds_alternative<telemetry::TrueDataRequest>(*packet)) {
+      ++robotStates;
+    }
+  }
+
+  void unused(const DatagramView& datagram) {
+    for (const auto& observer : observers) {
+      observer->unusedHeard(arrival(datagram.time), datagram);
+    }
+  }
+
+  void takeAll(const DatagramBatch& batch) {
+    const std::lock_guard lock(mutex);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const DatagramView datagram = batch[i];
+      if (datagram.localPort == options.refereePort ||
+          (options.monitor && datagram.localPort == telemetry::robotStatesPort)) {
+        takeReferee(datagram);
+        continue;
+      }
+      const auto verdict = monitor.take(datagram);
+      if (observers.empty() || verdict == TeamMonitor::Verdict::SenderRefused) continue;
+      if (verdict != TeamMonitor::Verdict::Used) {
+        unused(datagram);
+      } else {
+        const RobotId id = identities.idOf(monitor.decoded().robot, monitor.usedSerial());
+        for (const auto& observer : observers) {
+          observer->heard(id, arrival(datagram.time), datagram, monitor.decoder(),
+                          monitor.decoded());
+        }
+      }
+    }
+  }
+
+  void makeFrame(Steady::time_point now) {
+    const std::lock_guard lock(mutex);
+    const telemetry::TeamStatus team = monitor.status(wallNow());
+    identities.keepOnly(team);
+    auto made =
+        std::make_shared<MatchFrame>(liveFrame(options, team, referee, identities, since(now)));
+    made->serial = ++serial;
+    tell(happened.compare(*made), made->snapshot.time);
+    if (receiver && now >= nextPorts) {
+      nextPorts = now + portsPeriod;
+      tell({{}, happened.comparePorts(receiver->status(), made->snapshot.time)},
+           made->snapshot.time);
+    }
+    for (const auto& observer : observers) {
+      observer->frameMade(*made);
+      if (now >= nextReport) observer->reported(team);
+    }
+    if (now >= nextReport) nextReport = now + reportPeriod;
+    frame = std::move(made);
+    if (!std::exchange(announced, true) && onFrame) onFrame();
+  }
+
+  void tell(const LiveHappenings& what, double time) {
+    queueUp(events, what.events);
+    queueUp(lines, what.lines);
+    for (const auto& observer : observers) {
+      for (const sim::Event& event : what.events) observer->happened(event, time);
+      for (const LogLine& line : what.lines) observer->logged(line);
+    }
+  }
+
+  /// Only this sends, only to the referee, only while it is turned on.
+  void askReferee(Steady::time_point now) {
+    if (!options.monitor || now < nextRequest) return;
+    nextRequest = now + 1s;
+    const auto sent = telemetry::sendMonitorRequest(*options.monitor, options.monitorPort);
+    const std::lock_guard lock(mutex);
+    monitorProblem = sent ? std::string() : sent.error().text();
+  }
+
+  void run(const std::stop_token& stop) {
+    listen();
+    DatagramBatch batch;
+    auto last = Steady::now() - idlePeriod;
+    bool fresh = true;
+    while (!stop.stop_requested()) {
+      adoptOptions();
+      forget();
+      const auto due = last + (fresh ? framePeriod : idlePeriod);
+      const auto wait = std::max<telemetry::Duration>(due - Steady::now(), 0ns);
+      if (!receiver) {
+        std::this_thread::sleep_for(wait);
+      } else if (receiver->take(batch, wait)) {
+        takeAll(batch);
+        fresh = true;
+        // In a flood every datagram would wake this thread; a millisecond gathers many.
+        if (batch.size() >= flood) std::this_thread::sleep_for(1ms);
+      }
+      const auto now = Steady::now();
+      askReferee(now);
+      if (now < last + (fresh ? framePeriod : idlePeriod)) continue;
+      last = now;
+      fresh = false;
+      makeFrame(now);
+    }
+  }
+
+  const Steady::time_point begin = Steady::now();
+  const WallTime wallBegin = wallNow();
+  LiveOptions options;  // changed by the thread only
+  const std::function<void()> onFrame;
+  std::unique_ptr<telemetry::UdpReceiver> receiver;
+  Steady::time_point nextRequest{}, nextPorts{}, nextReport{};
+
+  mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
+  std::optional<LiveOptions> pending;
+  bool clearAsked = false;
+  TeamMonitor monitor;
+  telemetry::RefereeTracker referee;
+  LiveIdentities identities;
+  LiveEvents happened;
+  std::uint64_t serial = 0, unknownReferee = 0, robotStates = 0;
+  std::string networkProblem, unknownReason, unknownSample, monitorProblem;
+  std::shared_ptr<const MatchFrame> frame;
+  bool announced = false;
+  std::vector<sim::Event> events;
+  std::vector<LogLine> lines;
+  std::vector<std::shared_ptr<LiveObserver>> observers;
+  std::jthread thread;  // last: it uses all of the above
+};
+
+LiveWatch::LiveWatch(LiveOptions options, std::function<void()> onFrame)
+    : m_impl(std::make_unique<Impl>(std::move(options), std::move(onFrame))) {
+  Impl* impl = m_impl.get();
+  impl->thread = std::jthread([impl](const std::stop_token& stop) { impl->run(stop); });
+}
+
+LiveWatch::~LiveWatch() {
+  m_impl->thread.request_stop();
+  m_impl->thread.join();
+}
+
+void LiveWatch::setOptions(LiveOptions options) {
+  const std::lock_guard lock(m_impl->mutex);
+  m_impl->pending = std::move(options);
+}
+
+void LiveWatch::clear() {
+  const std::lock_guard lock(m_impl->mutex);
+  m_impl->clearAsked = true;
+}
+
+std::shared_ptr<const MatchFrame> LiveWatch::latest() {
+  const std::lock_guard lock(m_impl->mutex);
+  m_impl->announced = false;
+  return m_impl->frame;
+}
+
+LiveDetails LiveWatch::details() const {
+  LiveDetails details;
+  const std::lock_guard lock(m_impl->mutex);
+  details.team = m_impl->monitor.status(wallNow());
+  if (m_impl->receiver) details.network = m_impl->receiver->status();
+  details.networkProblem = m_impl->networkProblem;
+  details.referee = m_impl->referee.counts();
+  details.unknownReferee = m_impl->unknownReferee;
+  details.unknownRefereeReason = m_impl->unknownReason;
+  details.unknownRefereeSample = m_impl->unknownSample;
+  details.robotStates = m_impl->robotStates;
+  details.monitorProblem = m_impl->monitorProblem;
+  return details;
+}
+
+std::vector<sim::Event> LiveWatch::takeEvents() {
+  const std::lock_guard lock(m_impl->mutex);
+  return std::exchange(m_impl->events, {});
+}
+
+std::vector<LogLine> LiveWatch::takeLog() {
+  const std::lock_guard lock(m_impl->mutex);
+  return std::exchange(m_impl->lines, {});
+}
+
+telemetry::WallTime LiveWatch::began() const {
+  return m_impl->wallBegin;
+}
+
+void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
+  const std::lock_guard lock(m_impl->mutex);
+  m_impl->observers.push_back(std::move(observer));
+}
+
+void LiveWatch::stopObserving(const std::shared_ptr<LiveObserver>& observer) {
+  const std::lock_guard lock(m_impl->mutex);
+  std::erase(m_impl->observers, observer);
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Plays a simulated robot's vision, control and IMU processes on its blackboard: reads exactly what
+// they read, writes exactly what they write, and nothing that belongs to another process.
+
+#include <robotlink/blackboard/blackboard.h>
+#include <robotlink/blackboard/robot_variables.h>
+#include <simcore/world/robot_io.h>
+
+namespace pitchboard::link {
+
+/// Stateless but for the variable map; one may serve many robots. Call from the simulation thread.
+class BlackboardBridge {
+ public:
+  explicit BlackboardBridge(const RobotVariables& variables) : m_variables(variables) {}
+
+  sim::RobotCommand read(const Blackboard& board) const;
+
+  /// In the published order: control and IMU, landmark vision, ball and robot vision. A finished
+  /// action is cleared only if it still stands, so that a newer one is never lost.
+  void publish(const sim::Percepts& percepts, Blackboard& board) const;
+  // publish() = publishBody() + publishSight(); conformance runs look at the blackboard in between.
+  void publishBody(const sim::Percepts& percepts, Blackboard& board) const;
+  void publishSight(const sim::Percepts& percepts, Blackboard& board) const;
+
+ private:
+  RobotVariables m_variables;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Plays a SimulatedMatch on a thread of its own at a chosen pace. Commands go in (carried out
+// between two ticks, in order), values come out (the latest frame wins; events and log lines are
+// queued, bounded and counted). All public functions may be called from any thread.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <robotlink/frame/match_frame.h>
+#include <robotlink/match/simulated_match.h>
+
+namespace pitchboard::link {
+
+/// Sees every tick of a match, for sampling and recording. Called on the match's thread: must not
+/// wait, and what it allocates makes the match slower.
+class TickObserver {
+ public:
+  virtual ~TickObserver() = default;
+  /// At the first moment, after every tick, and after a command changed a match that stands still.
+  /// `tickTime`: what the tick took; zero where there was none.
+  virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
+  /// Before ticked() of the tick in which they happened.
+  virtual void happened(std::span<const sim::Event> /*events*/) {}
+  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on
+  /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
+  /// still.
+  virtual void worldChanged(const SimulatedMatch& /*match*/) {}
+  virtual void logged(const LogLine& /*line*/) {}
+};
+
+class MatchRunner {
+ public:
+  static constexpr double unlimitedSpeed = 0.0;
+
+  /// Makes the match on the runner's thread (its processes must belong to that thread) and starts
+  /// paused or playing. Fails with the reason when the match cannot be made. `observers` see the
+  /// match from its first moment.
+  static Result<std::unique_ptr<MatchRunner>> start(
+      const Scenario& scenario, const MatchOptions& options, bool paused = false,
+      const VariableCatalog& catalog = VariableCatalog::published(),
+      std::vector<std::shared_ptr<TickObserver>> observers = {});
+  ~MatchRunner();  ///< stops, ends processes, joins
+
+  void setPaused(bool paused);
+  /// One tick, then pause.
+  void stepOnce();
+  /// 1 = real time; unlimitedSpeed = as fast as possible.
+  void setSpeed(double timesRealTime);
+  /// Plays at full speed up to this tick, then pauses; for tests and repeatable pictures.
+  void runTo(std::uint64_t tick);
+  /// Waits until the match stands still (paused, or over); false when it still plays after that.
+  bool waitUntilStill(std::chrono::milliseconds timeout) const;
+
+  /// Carried out on the runner's thread between two ticks, also while paused.
+  using Command = std::function<void(SimulatedMatch&)>;
+  void post(Command command);
+  /// The same, and waits for it. Not from within a command.
+  void execute(const Command& command);
+
+  /// Shows it the present moment and every tick from now on, until stopObserving(). Waits for the
+  /// tick in progress; so does stopObserving(). Neither from within a command.
+  void observe(const std::shared_ptr<TickObserver>& observer);
+  void stopObserving(const std::shared_ptr<TickObserver>& observer);
+
+  /// The newest frame, or nothing when `knownSerial` is already the newest.
+  std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0) const;
+  /// Both give what came since the last call, at most the newest 10 000.
+  std::vector<sim::Event> takeEvents();
+  std::vector<LogLine> takeLog();
+
+  struct Shared;  ///< between the thread and the callers; private to the library
+
+ private:
+  explicit MatchRunner(std::shared_ptr<Shared> shared);
+  std::shared_ptr<Shared> m_shared;
+  std::jthread m_thread;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A recorded moment of a simulated match: the exact state of the world, and what stood on the
+// robots' blackboards. Plain values.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <base/ids.h>
+#include <robotlink/blackboard/blackboard.h>
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::link {
+
+/// One word of a blackboard, as its bits.
+struct BoardWord {
+  int index = 0;
+  std::uint32_t bits = 0;
+  bool operator==(const BoardWord&) const = default;
+};
+
+struct MomentRobot {
+  RobotId id;
+  std::string behaviour;
+  std::vector<BoardWord> words;  ///< those that are known; the others are left as they are
+  void writeTo(Blackboard& board) const;
+};
+
+struct Moment {
+  sim::WorldState state;
+  std::vector<MomentRobot> robots;
+  /// Null when nothing is known of this robot.
+  const MomentRobot* robot(RobotId id) const;
+};
+
+}  // namespace pitchboard::link

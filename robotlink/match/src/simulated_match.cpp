@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/match/simulated_match.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "match_seat.h"
+
+namespace pitchboard::link {
+namespace {
+
+// A time that is a whole number of ticks but for rounding belongs to that tick.
+constexpr double tickTolerance = 1e-6;
+
+std::uint64_t firstTickAtOrAfter(double seconds, double rate) {
+  return static_cast<std::uint64_t>(std::max(0.0, std::ceil(seconds * rate - tickTolerance)));
+}
+
+}  // namespace
+
+SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& options,
+                               sim::Simulation simulation, const VariableCatalog& catalog)
+    : m_scenario(scenario),
+      m_options(options),
+      m_simulation(std::move(simulation)),
+      m_catalog(&catalog),
+      m_variables(catalog),
+      m_bridge(m_variables),
+      m_supervisor(std::make_unique<ProcessSupervisor>()) {}
+
+SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
+
+SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
+  if (this == &other) return *this;
+  m_supervisor.reset();  // processes end before their blackboards go
+  m_seats.clear();
+  m_scenario = std::move(other.m_scenario);
+  m_options = std::move(other.m_options);
+  m_simulation = std::move(other.m_simulation);
+  m_catalog = other.m_catalog;
+  m_variables = std::move(other.m_variables);
+  m_bridge = std::move(other.m_bridge);
+  m_writes = std::move(other.m_writes);
+  m_seats = std::move(other.m_seats);
+  m_commands = std::move(other.m_commands);
+  m_percepts = std::move(other.m_percepts);
+  m_nextWrite = other.m_nextWrite;
+  m_expectedTick = other.m_expectedTick;
+  m_goalSeen = other.m_goalSeen;
+  m_outSeen = other.m_outSeen;
+  m_teamChannels = std::move(other.m_teamChannels);
+  m_thoughts = std::move(other.m_thoughts);
+  m_supervisor = std::move(other.m_supervisor);
+  return *this;
+}
+
+SimulatedMatch::~SimulatedMatch() {
+  m_supervisor.reset();
+}
+
+Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const MatchOptions& options,
+                                              const VariableCatalog& catalog) {
+  if (options.cognition == Cognition::External && options.robotProgram.empty()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "the robots' processes cannot be started: the path of pitchboard-robot is not "
+                   "known; use inline cognition or give the path");
+  }
+  auto simulation = sim::Simulation::create(scenario.settings);
+  if (!simulation) return tl::unexpected(simulation.error());
+  SimulatedMatch match(scenario, options, std::move(*simulation), catalog);
+  if (auto placed = match.m_simulation.placeBall(scenario.ball, scenario.ballVelocity); !placed) {
+    return tl::unexpected(placed.error());
+  }
+  match.m_simulation.setClockRunning(scenario.clockRunning);
+  if (options.thoughts && options.cognition == Cognition::External) {
+    auto receiver = ThoughtsReceiver::listen();
+    if (!receiver) return tl::unexpected(receiver.error());
+    match.m_thoughts = std::move(*receiver);
+  }
+  match.m_simulation.setScore(scenario.score);
+  match.m_simulation.editState().clockTicks =
+      firstTickAtOrAfter(scenario.clock, scenario.settings.tickRate);
+  if (auto resolved = match.resolveWrites(); !resolved) return tl::unexpected(resolved.error());
+  for (const ScenarioRobot& robot : scenario.robots) {
+    if (auto added = match.addRobot(robot); !added) return tl::unexpected(added.error());
+  }
+  match.applyDueWrites();
+  return match;
+}
+
+Result<void> SimulatedMatch::resolveWrites() {
+  for (const BlackboardWrite& write : m_scenario.writes) {
+    const Variable* variable = m_catalog->find(write.variable);
+    if (!variable) {
+      return failure(ErrorCode::NotFound, "the scenario writes \"" + write.variable +
+                                              "\", which is not in this variable catalog");
+    }
+    ResolvedWrite resolved;
+    resolved.tick = firstTickAtOrAfter(write.time, m_scenario.settings.tickRate);
+    resolved.robot = write.robot;
+    if (variable->type == VariableType::Int) {
+      resolved.variable = IntVar{variable->index};
+    } else {
+      resolved.variable = FloatVar{variable->index};
+    }
+    resolved.value = write.value;
+    m_writes.push_back(resolved);
+  }
+  std::stable_sort(m_writes.begin(), m_writes.end(),
+                   [](const auto& a, const auto& b) { return a.tick < b.tick; });
+  return {};
+}
+
+void SimulatedMatch::apply(const ResolvedWrite& write) {
+  for (const auto& seat : m_seats) {
+    if (write.robot.value == 0 || write.robot == seat->id) seat->write(write.variable, write.value);
+  }
+}
+
+void SimulatedMatch::applyDueWrites() {
+  const std::uint64_t now = m_simulation.state().tick;
+  for (; m_nextWrite < m_writes.size() && m_writes[m_nextWrite].tick <= now; ++m_nextWrite) {
+    apply(m_writes[m_nextWrite]);
+  }
+}
+
+/// After a saved moment was put back: what is due follows the simulation's time.
+void SimulatedMatch::followJump() {
+  const std::uint64_t now = m_simulation.state().tick;
+  const auto next = std::lower_bound(
+      m_writes.begin(), m_writes.end(), now,
+      [](const ResolvedWrite& write, std::uint64_t tick) { return write.tick < tick; });
+  m_nextWrite = static_cast<std::size_t>(next - m_writes.begin());
+  for (const auto& seat : m_seats) {
+    for (InlineProcess& process : seat->processes) {
+      process.nextTick = nextDueTick(process.process->period());
+    }
+  }
+  m_goalSeen = m_outSeen = false;
+}
+
+void SimulatedMatch::tick() {
+  if (m_simulation.state().tick != m_expectedTick) followJump();
+  applyDueWrites();
+  for (std::size_t i = 0; i < m_seats.size(); ++i) m_commands[i] = m_bridge.read(m_seats[i]->board);
+  m_simulation.step(m_commands, m_percepts);
+  for (const sim::Event& event : m_simulation.events()) {
+    m_goalSeen = m_goalSeen || event.kind == sim::EventKind::Goal;
+    m_outSeen = m_outSeen || event.kind == sim::EventKind::BallOut;
+  }
+  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+    m_bridge.publish(m_percepts[i], m_seats[i]->board);
+  }
+  m_expectedTick = m_simulation.state().tick;
+  runInlineProcesses();
+}
+
+/// The first tick after now at which a multiple of `period` seconds has passed.
+std::uint64_t SimulatedMatch::nextDueTick(double period) const {
+  const std::uint64_t now = m_simulation.state().tick;
+  const double rate = m_scenario.settings.tickRate;
+  const double ticksPerCycle = period * rate;
+  if (!(ticksPerCycle > 1.0)) return now + 1;
+  const double cycle = std::floor((static_cast<double>(now) + tickTolerance) / ticksPerCycle) + 1;
+  return std::max(now + 1, firstTickAtOrAfter(cycle * period, rate));
+}
+
+void SimulatedMatch::runInlineProcesses() {
+  const std::uint64_t now = m_expectedTick;
+  const Clock clock{static_cast<double>(now) / m_scenario.settings.tickRate};
+  for (const auto& seat : m_seats) {
+    for (InlineProcess& process : seat->processes) {
+      if (now < process.nextTick) continue;
+      process.process->step(seat->board, clock);
+      process.nextTick = nextDueTick(process.process->period());
+    }
+  }
+}
+
+std::string_view SimulatedMatch::finishedBy() const {
+  const StopConditions& stop = m_scenario.stop;
+  if (stop.goal && m_goalSeen) return "goal";
+  if (stop.ballOut && m_outSeen) return "ball_out";
+  if (stop.duration && m_simulation.state().tick >=
+                           firstTickAtOrAfter(*stop.duration, m_scenario.settings.tickRate)) {
+    return "duration";
+  }
+  return {};
+}
+
+std::vector<RobotThoughts> SimulatedMatch::thoughts() {
+  if (m_thoughts) {
+    const auto now = std::chrono::steady_clock::now();
+    m_thoughts->poll(now);
+    return m_thoughts->thoughts(now);
+  }
+  std::vector<RobotThoughts> all;
+  if (!m_options.thoughts) return all;
+  for (const auto& seat : m_seats) {
+    RobotThoughts one;
+    one.robot = seat->id;
+    for (const InlineProcess& process : seat->processes) process.process->tellThoughts(one);
+    if (one.cloud || one.path) all.push_back(std::move(one));
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.robot < b.robot; });
+  return all;
+}
+
+SimulatedMatch::Seat* SimulatedMatch::seat(RobotId id) const {
+  const auto found = std::find_if(m_seats.begin(), m_seats.end(),
+                                  [id](const auto& seat) { return seat->id == id; });
+  return found == m_seats.end() ? nullptr : found->get();
+}
+
+Blackboard* SimulatedMatch::blackboard(RobotId id) {
+  Seat* found = seat(id);
+  return found ? &found->board : nullptr;
+}
+
+const Blackboard* SimulatedMatch::blackboard(RobotId id) const {
+  const Seat* found = seat(id);
+  return found ? &found->board : nullptr;
+}
+
+std::string_view SimulatedMatch::behaviour(RobotId id) const {
+  const Seat* found = seat(id);
+  return found ? std::string_view(found->behaviour) : std::string_view();
+}
+
+RobotId SimulatedMatch::freeRobotId() const {
+  RobotId id{1};
+  while (seat(id)) ++id.value;
+  return id;
+}
+
+}  // namespace pitchboard::link

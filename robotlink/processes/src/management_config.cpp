@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/processes/management_config.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+
+#include <base/lined_json.h>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::string_view section = "Pitchboard Management";
+constexpr std::string_view commandKey = "command.";
+
+struct TimeKey {
+  std::string_view name;
+  ManagerTiming::Seconds ManagerTiming::*member;
+};
+constexpr std::array<TimeKey, 5> timeKeys{{{"start_interval", &ManagerTiming::startInterval},
+                                           {"silent_after", &ManagerTiming::silentAfter},
+                                           {"restart_wait", &ManagerTiming::firstWait},
+                                           {"longest_wait", &ManagerTiming::longestWait},
+                                           {"steady_after", &ManagerTiming::steadyAfter}}};
+
+std::vector<std::string> namesIn(std::string_view text) {
+  std::vector<std::string> names;
+  std::string name;
+  for (const char c : text) {
+    if (c != ',' && std::isspace(static_cast<unsigned char>(c)) == 0) {
+      name += c;
+    } else if (!name.empty()) {
+      names.push_back(std::exchange(name, {}));
+    }
+  }
+  if (!name.empty()) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> commandWords(std::string_view text) {
+  std::vector<std::string> words;
+  std::string word;
+  bool quoted = false, any = false;
+  for (const char c : text) {
+    if (c == '"') {
+      quoted = !quoted;
+      any = true;
+    } else if (!quoted && std::isspace(static_cast<unsigned char>(c)) != 0) {
+      if (any) words.push_back(std::exchange(word, {}));
+      any = false;
+    } else {
+      word += c;
+      any = true;
+    }
+  }
+  if (any) words.push_back(word);
+  return words;
+}
+
+IntVar workingFlagOf(const std::string& process, const VariableCatalog& catalog) {
+  std::string name = process;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return catalog.intVar(name + "_WORKING").value_or(IntVar{-1});
+}
+
+Result<ManagementConfig> managementFromIni(const IniFile& file,
+                                           const std::vector<std::string>& reference) {
+  ManagementConfig config;
+  config.processes = reference;
+  std::vector<std::string_view> keys{"processes", "command.NAME"};
+  for (const TimeKey& key : timeKeys) keys.push_back(key.name);
+
+  const IniEntry* list = nullptr;
+  for (const IniEntry& entry : file.entries) {
+    if (entry.section != section) continue;
+    const auto refuse = [&](const std::string& text) {
+      return failure(ErrorCode::ParseError, entry.name + " " + text, file.place(entry));
+    };
+    const auto time = std::find_if(timeKeys.begin(), timeKeys.end(),
+                                   [&](const TimeKey& key) { return key.name == entry.name; });
+    if (time != timeKeys.end()) {
+      double seconds = 0.0;
+      const char* const end = entry.value.data() + entry.value.size();
+      const auto [stop, error] = std::from_chars(entry.value.data(), end, seconds);
+      if (error != std::errc{} || stop != end || !(seconds > 0.0 && seconds <= 3600.0)) {
+        return refuse("must be a number of seconds, more than 0 and at most 3600");
+      }
+      config.timing.*time->member = ManagerTiming::Seconds(seconds);
+    } else if (entry.name == "processes") {
+      config.processes = namesIn(entry.value);
+      list = &entry;
+      if (config.processes.empty()) return refuse("names no process");
+    } else if (entry.name.starts_with(commandKey) && entry.name.size() > commandKey.size()) {
+      std::vector<std::string> words = commandWords(entry.value);
+      if (words.empty()) return refuse("names no program");
+      config.commands[entry.name.substr(commandKey.size())] = std::move(words);
+    } else {
+      return failure(ErrorCode::ParseError, unknownName("key", entry.name, keys),
+                     file.place(entry));
+    }
+  }
+  for (auto name = config.processes.begin(); name != config.processes.end(); ++name) {
+    if (std::find(config.processes.begin(), name, *name) != name) {
+      return failure(ErrorCode::ParseError, "'" + *name + "' stands twice among the processes",
+                     list ? file.place(*list) : file.source);
+    }
+    if (std::find(reference.begin(), reference.end(), *name) != reference.end() ||
+        config.commands.contains(*name))
+      continue;
+    return failure(ErrorCode::ParseError,
+                   "there is no reference process '" + *name +
+                       "'; tell how to start yours: "
+                       "command." +
+                       *name + " = PROGRAM ARGUMENTS",
+                   list ? file.place(*list) : file.source);
+  }
+  return config;
+}
+
+}  // namespace pitchboard::link

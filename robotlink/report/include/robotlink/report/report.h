@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A match on one page: an HTML file that needs nothing but itself (style, curves and the picture
+// are in it), for a browser of any kind, light or dark, and for printing.
+
+#include <string>
+#include <vector>
+
+#include <robotlink/report/session_statistics.h>
+#include <telemetry/session/session_types.h>
+
+namespace pitchboard::link {
+
+struct ReportContent {
+  std::string title;               ///< of the match
+  telemetry::SessionInfo session;  ///< source, seed, wall time; an empty program is left out
+  SessionStatistics statistics;
+  std::vector<telemetry::SessionEvent> events;
+  /// The field at a moment of the caller's choice: SVG text, or the bytes of a PNG. Empty: none.
+  std::string picture;
+  std::string pictureCaption;
+  std::vector<std::string> notes;  ///< what a reader must know, e.g. that the recording broke off
+};
+
+/// The page. Everything that came from a file or the network is escaped; an SVG picture is shown as
+/// an image, so that nothing in it can run.
+std::string reportHtml(const ReportContent& content);
+
+/// Writes it. Error Conflict when the file exists and `overwrite` is false, SystemError when it
+/// cannot be written (nothing is left behind then).
+Result<void> writeReport(const std::string& path, const ReportContent& content,
+                         bool overwrite = false);
+
+}  // namespace pitchboard::link

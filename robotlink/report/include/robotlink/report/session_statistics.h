@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a match was like, in numbers: computed from rows, whether they stand in a session file or in
+// memory. Simulated matches are judged by the truth, live ones by what the robots believed and
+// sent.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <base/ids.h>
+#include <robotlink/session/row_walk.h>
+#include <simcore/world/world_state.h>
+#include <telemetry/wire/team_monitor.h>
+
+namespace pitchboard::link {
+
+/// A robot has the ball while it is the nearest robot to it and nearer than this, m.
+inline constexpr double ballReach = 0.5;
+
+struct RobotSummary {
+  std::string name;  ///< of its group: "B1"
+  TeamColor team = TeamColor::Blue;
+  double seconds = 0.0;            ///< for which there are rows
+  std::optional<double> distance;  ///< m walked (live: of its believed places)
+  std::uint32_t kicks = 0;         ///< live: kick actions that were sent
+  std::uint32_t falls = 0;
+  double ballSeconds = 0.0;                    ///< with the ball; live: as it saw it itself
+  std::optional<double> errorMedian, error90;  ///< of the belief, cm; needs the truth
+  /// Share of the time in which the process worked, 0 to 1; nothing where rows do not say.
+  std::array<std::optional<double>, telemetry::processCount> uptime{};
+  std::vector<double> errorCurve;  ///< mean belief error, cm, in equal parts of the time; NaN: none
+};
+
+struct TeamSummary {
+  TeamColor team = TeamColor::Blue;
+  std::optional<int> score;  ///< at the end; nothing when it is not known
+  int scored = 0;            ///< in this time
+  double ballSeconds = 0.0;
+  std::uint32_t kicks = 0, falls = 0;
+  double distance = 0.0;          ///< m
+  std::vector<double> ballCurve;  ///< share of the time with the ball, 0 to 1, in equal parts
+};
+
+struct SessionStatistics {
+  telemetry::TimeRange range;  ///< s of the source
+  bool truthKnown = false;
+  std::uint64_t rows = 0;
+  std::vector<RobotSummary> robots;  ///< by team, then name
+  std::vector<TeamSummary> teams;    ///< those that have robots
+};
+
+/// Takes rows in order of time.
+class StatisticsBuilder {
+ public:
+  /// Curves have this many parts.
+  static constexpr std::size_t parts = 120;
+
+  explicit StatisticsBuilder(telemetry::TimeRange range);
+  ~StatisticsBuilder();
+  void add(telemetry::GroupId id, const telemetry::GroupInfo& group, const telemetry::RowView& row);
+  SessionStatistics finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+/// Both walk through every row of the range once.
+SessionStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range);
+SessionStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range);
+
+}  // namespace pitchboard::link

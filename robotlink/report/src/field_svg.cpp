@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/report/field_svg.h>
+
+#include <array>
+#include <cmath>
+
+#include <robotlink/frame/belief.h>
+
+#include "report_charts.h"
+
+namespace pitchboard::link {
+namespace {
+
+// docs/DESIGN_LANGUAGE.md; the colours of teams in the order of TeamColor.
+constexpr const char *grass = "#33453a", *border = "#2c3b32", *lines = "#c3cec6",
+                     *ballColour = "#f0a35e";
+constexpr std::array<const char*, teamColors.size()> teamFill{"#4f8fe3", "#d8605b", "#1b1d20",
+                                                              "#e8a25c", "#d8c04a"};
+
+class Drawing {
+ public:
+  explicit Drawing(const sim::FieldSpec& field)
+      : m_halfWidth(100 * (field.halfLength() + field.border)),
+        m_halfHeight(100 * (field.halfWidth() + field.border)) {}
+
+  void rect(double x0, double y0, double x1, double y1, const std::string& style) {
+    m_body += "<rect x=\"" + n(x0) + "\" y=\"" + n(-y1) + "\" width=\"" + n(x1 - x0) +
+              "\" height=\"" + n(y1 - y0) + "\" " + style + "/>";
+  }
+  void circle(const Point& centre, double radius, const std::string& style) {
+    m_body += "<circle cx=\"" + n(100 * centre.x) + "\" cy=\"" + n(-100 * centre.y) + "\" r=\"" +
+              n(radius) + "\" " + style + "/>";
+  }
+  void line(const Point& from, const Point& to, const std::string& style) {
+    m_body += "<line x1=\"" + n(100 * from.x) + "\" y1=\"" + n(-100 * from.y) + "\" x2=\"" +
+              n(100 * to.x) + "\" y2=\"" + n(-100 * to.y) + "\" " + style + "/>";
+  }
+  void text(const Point& at, const std::string& words) {
+    m_body += "<text x=\"" + n(100 * at.x) + "\" y=\"" + n(-100 * at.y) +
+              "\" dy=\"6\" text-anchor=\"middle\" font-family=\"DejaVu Sans, sans-serif\" "
+              "font-size=\"17\" font-weight=\"700\" fill=\"#ffffff\">" +
+              words + "</text>";
+  }
+  std::string document() const {
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + n(-m_halfWidth) + ' ' +
+           n(-m_halfHeight) + ' ' + n(2 * m_halfWidth) + ' ' + n(2 * m_halfHeight) + "\">" +
+           m_body + "</svg>\n";
+  }
+
+ private:
+  static std::string n(double value) { return fixed(std::isfinite(value) ? value : 0.0, 1); }
+  double m_halfWidth, m_halfHeight;
+  std::string m_body;
+};
+
+void drawField(Drawing& d, const sim::FieldSpec& f) {
+  const double x = 100 * f.halfLength(), y = 100 * f.halfWidth(), edge = 100 * f.border;
+  const std::string stroke = std::string("fill=\"none\" stroke=\"") + lines + "\" stroke-width=\"" +
+                             fixed(100 * f.lineWidth, 1) + '"';
+  d.rect(-x - edge, -y - edge, x + edge, y + edge, std::string("fill=\"") + border + '"');
+  d.rect(-x, -y, x, y, std::string("fill=\"") + grass + '"');
+  d.rect(-x, -y, x, y, stroke);
+  d.line({0, -f.halfWidth()}, {0, f.halfWidth()}, stroke);
+  d.circle({}, 50 * f.centreCircleDiameter, stroke);
+  for (const double side : {-1.0, 1.0}) {
+    const auto area = [&](double length, double width) {
+      if (length <= 0 || width <= 0) return;
+      const double inner = side * (x - 100 * length), outer = side * x;
+      d.rect(std::min(inner, outer), -50 * width, std::max(inner, outer), 50 * width, stroke);
+    };
+    area(f.goalAreaLength, f.goalAreaWidth);
+    area(f.penaltyAreaLength, f.penaltyAreaWidth);
+    const double back = side * (x + 100 * f.goalDepth), front = side * x;
+    d.rect(std::min(back, front), -50 * f.goalWidth, std::max(back, front), 50 * f.goalWidth,
+           stroke);
+    d.circle({side * (f.halfLength() - f.penaltyMarkDistance), 0}, 5,
+             std::string("fill=\"") + lines + '"');
+  }
+}
+
+}  // namespace
+
+std::string fieldSvg(const MatchFrame& frame) {
+  Drawing d(frame.field);
+  drawField(d, frame.field);
+  const double radius = 100 * frame.field.robotRadius;
+  for (std::size_t i = 0; i < frame.snapshot.robots.size(); ++i) {
+    const sim::RobotSnapshot& robot = frame.snapshot.robots[i];
+    const char* fill = teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
+    const std::string stroke = std::string("stroke=\"") + fill + "\" stroke-width=\"3\"";
+    if (frame.truthKnown && i < frame.boards.size()) {
+      if (const auto belief = believedPose(frame.field, frame.boards[i])) {
+        d.line(robot.pose.position, belief->position, stroke + " stroke-opacity=\"0.6\"");
+        d.circle(belief->position, radius, "fill=\"none\" stroke-dasharray=\"6 4\" " + stroke);
+      }
+    }
+    const Point& at = robot.pose.position;
+    const double reach = 1.9 * frame.field.robotRadius;
+    d.line(at, {at.x + reach * std::cos(robot.pose.yaw), at.y + reach * std::sin(robot.pose.yaw)},
+           stroke + " stroke-linecap=\"round\"");
+    d.circle(at, radius,
+             std::string("fill=\"") + fill + "\" stroke=\"#ffffff\" stroke-width=\"1.5\"");
+    d.text(at, std::to_string(robot.identity.number));
+  }
+  if (frame.ballKnown) {
+    d.circle(frame.snapshot.ball, 100 * frame.field.ballRadius,
+             std::string("fill=\"") + ballColour + "\" stroke=\"#1b1d20\" stroke-width=\"1.5\"");
+  }
+  return d.document();
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/report/report.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#include <telemetry/wire/base64.h>
+
+#include "report_charts.h"
+#include "report_style.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::size_t mostEvents = 5000;
+// Kicks are many; without them the list shows how the match went.
+constexpr std::string_view kickKind = "kick";
+constexpr double lowUptime = 0.9;
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string capital(std::string_view word) {
+  std::string out(word);
+  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z')
+    out[0] = static_cast<char>(out[0] - 'a' + 'A');
+  return out;
+}
+
+std::string wallText(telemetry::WallTime time) {
+  if (time.time_since_epoch().count() <= 0) return {};
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::seconds>(time));
+  std::tm parts{};
+  char text[64];
+  if (!::localtime_r(&seconds, &parts) ||
+      std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &parts) == 0) {
+    return {};
+  }
+  return text;
+}
+
+std::string cell(const std::string& text, const char* kind = "") {
+  return std::string("<td") + (*kind ? std::string(" class=\"") + kind + '"' : "") + '>' + text +
+         "</td>";
+}
+
+std::string teamClass(TeamColor team) {
+  return std::string(info(team).name);
+}
+
+std::string badge(const RobotSummary& robot) {
+  return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>";
+}
+
+std::string head(const ReportContent& c) {
+  const SessionStatistics& s = c.statistics;
+  std::string facts;
+  const auto fact = [&facts](const std::string& text) {
+    if (!text.empty()) facts += (facts.empty() ? "" : " · ") + text;
+  };
+  fact(escaped(wallText(c.session.start)));
+  fact(clockText(s.range.end - s.range.begin) + " of play recorded");
+  fact(c.session.source == "live"         ? "real robots"
+       : c.session.source == "simulation" ? "simulated"
+                                          : escaped(c.session.source));
+  if (c.session.seed) fact("seed " + std::to_string(*c.session.seed));
+  std::string out = "<h1>" + escaped(c.title.empty() ? "Match report" : c.title) +
+                    "</h1>\n<p class=\"quiet\">" + facts + "</p>\n";
+  for (const std::string& note : c.notes) out += "<p class=\"note\">" + escaped(note) + "</p>\n";
+  return out;
+}
+
+std::string teams(const SessionStatistics& s) {
+  if (s.teams.empty()) return {};
+  std::string out = "<div class=\"score\">\n";
+  for (const TeamSummary& team : s.teams) {
+    out += "<div class=\"team " + teamClass(team.team) + "\">" + capital(info(team.team).name) +
+           " team<b>" + (team.score ? std::to_string(*team.score) : "–") +
+           "</b><span class=\"quiet\">" + clockText(team.ballSeconds) + " with the ball · " +
+           std::to_string(team.kicks) + (team.kicks == 1 ? " kick" : " kicks") + " · " +
+           std::to_string(team.falls) + (team.falls == 1 ? " fall" : " falls") + " · " +
+           fixed(team.distance, 0) + " m</span></div>\n";
+  }
+  return out + "</div>\n";
+}
+
+std::string picture(const ReportContent& c) {
+  if (c.picture.empty()) return {};
+  const bool png = c.picture.starts_with("\x89PNG");
+  return "<h2>Field</h2>\n<figure><img alt=\"The field\" src=\"data:image/" +
+         std::string(png ? "png" : "svg+xml") + ";base64," + telemetry::toBase64(c.picture) +
+         "\">" +
+         (c.pictureCaption.empty() ? ""
+                                   : "<figcaption>" + escaped(c.pictureCaption) + "</figcaption>") +
+         "</figure>\n";
+}
+
+std::string robots(const SessionStatistics& s) {
+  std::string out = "<h2>Robots</h2>\n";
+  if (s.robots.empty()) return out + "<p class=\"quiet\">No robot was recorded.</p>\n";
+  out +=
+      "<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot</th><th>Distance</th>"
+      "<th>Kicks</th><th>Falls</th><th>With the ball</th>";
+  if (s.truthKnown) out += "<th>Belief error, median</th><th>90 %</th>";
+  out += "</tr></thead><tbody>\n";
+  for (const RobotSummary& r : s.robots) {
+    out += "<tr>" + cell(badge(r), "l") + cell(r.distance ? fixed(*r.distance, 1) + " m" : "–") +
+           cell(std::to_string(r.kicks)) + cell(std::to_string(r.falls)) +
+           cell(fixed(r.ballSeconds, 1) + " s");
+    if (s.truthKnown) {
+      out += cell(r.errorMedian ? fixed(*r.errorMedian, 1) + " cm" : "–") +
+             cell(r.error90 ? fixed(*r.error90, 1) + " cm" : "–");
+    }
+    out += "</tr>\n";
+  }
+  out +=
+      "</tbody></table></div>\n<h2>Processes</h2>\n<p class=\"quiet\">Share of the time in which "
+      "they said that they work.</p>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">"
+      "Robot</th>";
+  for (const std::string_view name : telemetry::processNames)
+    out += "<th>" + std::string(name) + "</th>";
+  out += "</tr></thead><tbody>\n";
+  for (const RobotSummary& r : s.robots) {
+    out += "<tr>" + cell(badge(r), "l");
+    for (const auto& share : r.uptime) {
+      out +=
+          share ? cell(fixed(100 * *share, 1) + " %", *share < lowUptime ? "low" : "") : cell("–");
+    }
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string charts(const SessionStatistics& s) {
+  std::string errors, ball;
+  // A robot that has just begun to look for itself is anywhere: the scale is that of ordinary play.
+  double most = 0.0;
+  for (const RobotSummary& r : s.robots) most = std::max(most, 2.0 * r.error90.value_or(0.0));
+  for (const RobotSummary& r : s.robots) {
+    if (r.errorCurve.empty()) continue;
+    errors += "<figure class=\"" + teamClass(r.team) + "\"><h3><span>" + escaped(r.name) +
+              "</span><span class=\"quiet\">median " + fixed(r.errorMedian.value_or(NAN), 1) +
+              " cm</span></h3>" + curveChart(r.errorCurve, axisTop(most), "cm", s.range) +
+              "</figure>\n";
+  }
+  for (const TeamSummary& team : s.teams) {
+    if (team.ballCurve.empty()) continue;
+    ball += "<figure class=\"" + teamClass(team.team) + "\"><h3><span>" +
+            capital(info(team.team).name) + "</span><span class=\"quiet\">" +
+            clockText(team.ballSeconds) + "</span></h3>" + shareChart(team.ballCurve, s.range) +
+            "</figure>\n";
+  }
+  std::string out;
+  if (!ball.empty()) {
+    out +=
+        "<h2>Who had the ball</h2>\n<p class=\"quiet\">Share of the time in which a robot of the "
+        "team was nearest to the ball and within " +
+        fixed(100 * ballReach, 0) + " cm of it.</p>\n<div class=\"charts\">\n" + ball + "</div>\n";
+  }
+  if (!errors.empty()) {
+    out +=
+        "<h2>Belief error</h2>\n<p class=\"quiet\">Distance between where a robot believed to be "
+        "and "
+        "where it was; means. What is larger than the scale is cut off.</p>\n<div "
+        "class=\"charts\">\n" +
+        errors + "</div>\n";
+  }
+  return out;
+}
+
+std::string tenths(double seconds) {
+  return '.' + std::to_string(static_cast<int>(std::fmod(std::abs(seconds), 1.0) * 10.0));
+}
+
+std::string eventTable(const std::vector<const telemetry::SessionEvent*>& events) {
+  std::string out =
+      "<div class=\"scroll\"><table><thead><tr><th>Time</th><th class=\"l\">Event</th>"
+      "<th class=\"l\">Robot</th><th class=\"l\">What</th></tr></thead><tbody>\n";
+  for (const telemetry::SessionEvent* e : events) {
+    out += "<tr>" + cell(clockText(e->time) + tenths(e->time)) + cell(escaped(e->kind), "l") +
+           cell(escaped(e->group), "l") + cell(escaped(e->text), "l") + "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string events(const ReportContent& c) {
+  std::vector<const telemetry::SessionEvent*> main, kicks;
+  for (const auto& event : c.events) {
+    if (event.time < c.statistics.range.begin || event.time > c.statistics.range.end) continue;
+    auto& list = event.kind == kickKind ? kicks : main;
+    if (list.size() < mostEvents) list.push_back(&event);
+  }
+  std::string out = "<h2>Events</h2>\n";
+  out += main.empty() ? "<p class=\"quiet\">Nothing but play.</p>\n" : eventTable(main);
+  if (!kicks.empty()) {
+    out += "<details><summary>" + std::to_string(kicks.size()) +
+           (kicks.size() == 1 ? " kick" : " kicks") + "</summary>\n" + eventTable(kicks) +
+           "</details>\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string reportHtml(const ReportContent& c) {
+  std::string out =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>";
+  out += escaped(c.title.empty() ? "Match report" : c.title) + "</title>\n<style>";
+  out += reportStyle;
+  out += "</style></head><body><main>\n";
+  out += head(c) + teams(c.statistics) + picture(c) + robots(c.statistics) + charts(c.statistics) +
+         events(c);
+  out += "<footer>" + std::to_string(c.statistics.rows) + " rows, " +
+         clockText(c.statistics.range.begin) + " to " + clockText(c.statistics.range.end) +
+         (c.session.program.empty() ? "" : ", recorded by " + escaped(c.session.program)) +
+         ".</footer>\n</main></body></html>\n";
+  return out;
+}
+
+Result<void> writeReport(const std::string& path, const ReportContent& content, bool overwrite) {
+  const auto cannot = [&path](int reason) {
+    return failure(ErrorCode::SystemError,
+                   std::string("the report cannot be written: ") + std::strerror(reason), path);
+  };
+  std::FILE* file = std::fopen(path.c_str(), overwrite ? "we" : "wxe");
+  if (!file) {
+    if (errno != EEXIST) return cannot(errno);
+    return failure(ErrorCode::Conflict, "this file exists; choose another name", path);
+  }
+  const std::string html = reportHtml(content);
+  const bool written = std::fwrite(html.data(), 1, html.size(), file) == html.size();
+  const int reason = errno;
+  const bool closed = std::fclose(file) == 0;
+  if (written && closed) return {};
+  const auto error = cannot(written ? errno : reason);
+  std::remove(path.c_str());
+  return error;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A scenario: everything that a simulated match starts from. A JSON file (docs/SCENARIOS.md) with
+// poses in metres and degrees; here in metres and radians.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <base/result.h>
+#include <robotlink/blackboard/variable_catalog.h>
+#include <simcore/physics/simulation.h>
+
+namespace pitchboard::link {
+
+/// A value for a blackboard variable, by name; the type is the catalog's.
+struct BlackboardWrite {
+  RobotId robot;  ///< 0 = every robot
+  std::string variable;
+  double value = 0.0;  ///< exact for every int32 and float32
+  double time = 0.0;   ///< simulated s; written before the tick that starts then
+  bool operator==(const BlackboardWrite&) const = default;
+};
+
+/// Behaviour of a robot without a decision process: for a team's own process, or an obstacle.
+constexpr std::string_view noBehaviour = "none";
+
+struct ScenarioRobot {
+  sim::RobotIdentity identity;
+  Pose pose;
+  std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
+  bool operator==(const ScenarioRobot&) const = default;
+};
+
+/// A run ends when any of these is met; none set = it goes on.
+struct StopConditions {
+  std::optional<double> duration;  ///< simulated s
+  bool goal = false;
+  bool ballOut = false;
+  bool operator==(const StopConditions&) const = default;
+};
+
+struct Scenario {
+  std::string name = "untitled";  ///< short, for --scenario and files
+  std::string title;              ///< for people
+  std::string description;
+  sim::SimulationSettings settings;
+  std::vector<ScenarioRobot> robots;
+  Point ball;
+  Velocity ballVelocity;
+  bool clockRunning = true;
+  double clock = 0.0;  ///< s of play so far, at least 0
+  sim::Score score;
+  std::vector<BlackboardWrite> writes;  ///< in order of time
+  StopConditions stop;
+  bool operator==(const Scenario&) const = default;
+};
+
+struct ScenarioName {
+  std::string name;
+  std::string title;
+};
+/// Built-in scenarios, the default (match-3v3) first.
+std::vector<ScenarioName> builtInScenarios();
+
+/// A built-in name, or else a path. Errors give file, line and the path of the offending key:
+/// "my.json:14: robots[2].x: must be a number in metres". `catalog` names the variables that
+/// scripted writes may use.
+Result<Scenario> loadScenario(const std::string& nameOrPath,
+                              const VariableCatalog& catalog = VariableCatalog::published());
+Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source,
+                                  const VariableCatalog& catalog = VariableCatalog::published());
+/// The same form. Reading it gives an equal scenario when that came from a file; an angle of any
+/// other origin may come back one unit in the last place away, and then stays.
+std::string scenarioToJson(const Scenario& scenario);
+
+/// A field by its built-in name, or as the object that "field" has in a scenario file. Errors name
+/// `source`.
+Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source);
+/// The name of a built-in field, else an object on one line; reading it gives an equal field.
+std::string fieldToText(const sim::FieldSpec& field);
+
+/// Noise presets are data: none, published, paper, realistic.
+std::vector<std::string> noisePresets();
+Result<sim::NoiseParameters> noisePreset(std::string_view name);
+
+}  // namespace pitchboard::link

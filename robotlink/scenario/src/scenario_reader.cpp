@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include <base/angles.h>
+#include <resources/resources.h>
+#include <robotlink/cognition/process_registry.h>
+
+#include "scenario_keys.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double longestTime = 1e6;   // s
+constexpr double longestClock = 1e6;  // s
+constexpr int mostGoals = 1'000'000;
+constexpr double fastestBall = 50.0;  // m/s
+constexpr int highestShirtNumber = 99;
+constexpr std::size_t mostWrites = 100000;
+
+// The default first, as in choosers; each is resources/scenarios/<name>.json.
+constexpr std::array<std::string_view, 7> builtInNames{
+    "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
+    "one-robot", "match-11v11",         "empty"};
+
+std::string resourcePath(std::string_view name) {
+  return "scenarios/" + std::string(name) + ".json";
+}
+
+template <class T>
+std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
+                                       std::span<const NumberKey<T>> more) {
+  for (const auto& key : more) keys.push_back(key.key);
+  return keys;
+}
+
+std::vector<std::string_view> fieldNames() {
+  std::vector<std::string_view> names;
+  for (const sim::FieldSpec& field : sim::builtInFields()) names.push_back(field.name);
+  return names;
+}
+
+sim::FieldSpec readFieldObject(JsonReport& report, const JsonNode& node, const std::string& path) {
+  sim::FieldSpec field;
+  const JsonObject object(report, node, path, withKeys({"name", "base"}, fieldKeys()));
+  if (const auto base = object.choice("base", fieldNames(), "field")) {
+    field = sim::builtInFields()[*base];
+  }
+  field.name = object.text("name", "custom", 64);
+  for (const auto& key : fieldKeys()) {
+    field.*key.member = object.number(key.key, field.*key.member, key.range);
+  }
+  if (const auto valid = sim::validate(field); !valid)
+    report.fail(node.line, path, valid.error().message);
+  return field;
+}
+
+class Reader {
+ public:
+  Reader(const JsonNode& root, JsonReport& report, const VariableCatalog& catalog)
+      : m_report(report),
+        m_catalog(catalog),
+        m_root(report, root, "",
+               {"version", "name", "title", "description", "physics", "tick_rate", "seed",
+                "after_goal", "clock_running", "clock", "score", "field", "noise", "rigid_body",
+                "ball", "robots", "writes", "stop"}) {}
+
+  Scenario read() {
+    readVersion();
+    m_scenario.name = m_root.text("name", m_scenario.name, 64);
+    if (m_scenario.name.empty() ||
+        m_scenario.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789-_.") != std::string::npos) {
+      m_root.fail("name", "must consist of letters, digits, '-', '_' and '.'");
+    }
+    m_scenario.title = m_root.text("title", "", 200);
+    m_scenario.description = m_root.text("description", "", 5000);
+    readSettings();
+    readField();
+    readNoise();
+    readRigidBody();
+    readBall();
+    m_scenario.clockRunning = m_root.boolean("clock_running", true);
+    m_scenario.clock = m_root.number("clock", 0.0, {0, longestClock, "seconds"});
+    readScore();
+    readRobots();
+    readWrites();
+    readStop();
+    std::stable_sort(m_scenario.writes.begin(), m_scenario.writes.end(),
+                     [](const auto& a, const auto& b) { return a.time < b.time; });
+    return std::move(m_scenario);
+  }
+
+ private:
+  void readVersion() {
+    m_root.require("version");
+    const int version = m_root.integer("version", scenarioVersion, 1, 1000000);
+    if (version != scenarioVersion) {
+      m_root.fail("version", "is " + std::to_string(version) + ", but this program reads version " +
+                                 std::to_string(scenarioVersion) + "; a newer program wrote this");
+    }
+  }
+
+  void readSettings() {
+    sim::SimulationSettings& settings = m_scenario.settings;
+    std::vector<std::string_view> models;
+    for (const auto& model : sim::physicsModels()) models.push_back(model.name);
+    if (const auto model = m_root.choice("physics", models, "physics model")) {
+      settings.physics = models[*model];
+    }
+    settings.tickRate =
+        m_root.number("tick_rate", settings.tickRate, {1, 10000, "ticks per second"});
+    settings.seed = m_root.unsignedInteger("seed", settings.seed);
+    if (const auto rule = m_root.choice("after_goal", afterGoalNames, "rule after a goal")) {
+      settings.afterGoal = static_cast<sim::AfterGoal>(*rule);
+    }
+  }
+
+  void readField() {
+    const JsonNode* node = m_root.find("field");
+    if (!node) return;
+    const std::vector<std::string_view> known = fieldNames();
+    sim::FieldSpec& field = m_scenario.settings.field;
+    if (node->kind == JsonNode::Kind::Text) {
+      if (const auto built = m_root.choice("field", known, "field")) {
+        field = sim::builtInFields()[*built];
+      }
+      return;
+    }
+    if (node->kind != JsonNode::Kind::Object) {
+      m_root.fail("field", "must be the name of a field, in quotes, or an object in braces");
+      return;
+    }
+    field = readFieldObject(m_report, *node, "field");
+  }
+
+  void readNoise() {
+    const JsonNode* node = m_root.find("noise");
+    if (!node) return;
+    const std::vector<std::string> presets = noisePresets();
+    const std::vector<std::string_view> known(presets.begin(), presets.end());
+    sim::NoiseParameters& noise = m_scenario.settings.noise;
+    const auto take = [&](std::size_t index) {
+      if (auto preset = noisePreset(known[index])) noise = *preset;
+    };
+    if (node->kind == JsonNode::Kind::Text) {
+      if (const auto preset = m_root.choice("noise", known, "noise preset")) take(*preset);
+      return;
+    }
+    if (node->kind != JsonNode::Kind::Object) {
+      m_root.fail("noise", "must be the name of a noise preset, in quotes, or an object in braces");
+      return;
+    }
+    const JsonObject object(m_report, *node, "noise", withKeys({"preset"}, noiseKeys()));
+    if (const auto preset = object.choice("preset", known, "noise preset")) take(*preset);
+    readNoiseKeys(object, noise);
+  }
+
+  void readRigidBody() {
+    const JsonNode* node = m_root.find("rigid_body");
+    if (!node) return;
+    const JsonObject object(m_report, *node, "rigid_body", withKeys({"falls"}, rigidBodyKeys()));
+    sim::RigidBodySettings& body = m_scenario.settings.rigidBody;
+    body.falls = object.boolean("falls", body.falls);
+    for (const auto& key : rigidBodyKeys()) {
+      if (!object.find(key.key)) continue;
+      const double value = object.number(key.key, 0.0, key.range);
+      body.*key.member = key.angle() ? radiansFromDegrees(value) : value;
+    }
+  }
+
+  void readBall() {
+    const JsonNode* node = m_root.find("ball");
+    if (!node) return;
+    const JsonObject ball(m_report, *node, "ball", {"x", "y", "vx", "vy"});
+    m_scenario.ball = readPlace(ball);
+    const NumberRange speed{-fastestBall, fastestBall, "metres per second"};
+    m_scenario.ballVelocity = {ball.number("vx", 0.0, speed), ball.number("vy", 0.0, speed)};
+  }
+
+  void readScore() {
+    const JsonNode* node = m_root.find("score");
+    if (!node) return;
+    const JsonObject score(m_report, *node, "score", {"left", "right"});
+    m_scenario.score = {score.integer("left", 0, 0, mostGoals),
+                        score.integer("right", 0, 0, mostGoals)};
+  }
+
+  /// Inside the walls.
+  Point readPlace(const JsonObject& object) const {
+    const sim::FieldSpec& field = m_scenario.settings.field;
+    const double x = field.halfLength() + field.border;
+    const double y = field.halfWidth() + field.border;
+    return {object.number("x", 0.0, {-x, x, inMetres}), object.number("y", 0.0, {-y, y, inMetres})};
+  }
+
+  void readRobots() {
+    const auto* items = m_root.array("robots", sim::Simulation::maxRobots);
+    for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
+      readRobot((*items)[i], i);
+    }
+  }
+
+  void readRobot(const JsonNode& node, std::size_t index) {
+    const std::string path = "robots[" + std::to_string(index) + "]";
+    const JsonObject object(m_report, node, path,
+                            {"team", "number", "x", "y", "heading", "behaviour", "id",
+                             "imu_starts_at_180", "blackboard"});
+    for (const std::string_view key : {"team", "number", "x", "y"}) object.require(key);
+    std::vector<std::string_view> teams;
+    for (const TeamColorInfo& color : teamColors) teams.push_back(color.name);
+    const std::size_t team = object.choice("team", teams, "team").value_or(0);
+    const bool facesLeft = teamColors[team].facesLeft;
+
+    ScenarioRobot robot;
+    robot.identity.team = teamColors[team].color;
+    robot.identity.number = object.integer("number", 1, 1, highestShirtNumber);
+    robot.identity.id.value =
+        object.integer("id", static_cast<int>(index) + 1, 1, sim::Simulation::maxRobots);
+    robot.identity.imuStartsAt180 = object.boolean("imu_starts_at_180", facesLeft);
+    robot.pose.position = readPlace(object);
+    robot.pose.yaw = radiansFromDegrees(
+        object.number("heading", facesLeft ? 180.0 : 0.0, {-360, 360, inDegrees}));
+    std::vector<std::string_view> known;
+    for (const BehaviourInfo& behaviour : behaviours()) known.push_back(behaviour.name);
+    known.push_back(noBehaviour);
+    if (const auto behaviour = object.choice("behaviour", known, "behaviour")) {
+      robot.behaviour = known[*behaviour];
+    }
+    for (std::size_t other = 0; other < m_scenario.robots.size(); ++other) {
+      const sim::RobotIdentity& taken = m_scenario.robots[other].identity;
+      const std::string where = "robots[" + std::to_string(other) + "]";
+      if (taken.id == robot.identity.id) {
+        object.fail("id", "robot " + std::to_string(taken.id.value) + " is already " + where);
+      }
+      if (taken.team == robot.identity.team && taken.number == robot.identity.number) {
+        object.fail("number", std::string(teams[team]) + " already has a robot with number " +
+                                  std::to_string(taken.number) + ": " + where);
+      }
+    }
+    readBlackboard(object, robot.identity.id);
+    m_scenario.robots.push_back(std::move(robot));
+  }
+
+  void readBlackboard(const JsonObject& robot, RobotId id) {
+    const JsonNode* node = robot.find("blackboard");
+    if (!node || m_report.failed()) return;
+    std::vector<std::string_view> names;
+    for (const auto& [name, value] : node->members) names.push_back(name);
+    const JsonObject object(m_report, *node, robot.pathOf("blackboard"), names);
+    for (const std::string_view name : names) {
+      if (const Variable* variable = findVariable(object, name, name)) {
+        const double value = readValue(object, name, *variable);
+        m_scenario.writes.push_back({id, std::string(name), value, 0.0});
+      }
+    }
+  }
+
+  void readWrites() {
+    const auto* items = m_root.array("writes", mostWrites);
+    for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
+      const JsonObject object(m_report, (*items)[i], "writes[" + std::to_string(i) + "]",
+                              {"time", "robot", "variable", "value"});
+      for (const std::string_view key : {"variable", "value"}) object.require(key);
+      BlackboardWrite write;
+      write.time = object.number("time", 0.0, {0, longestTime, "seconds"});
+      if (object.find("robot")) {
+        write.robot.value = object.integer("robot", 1, 1, sim::Simulation::maxRobots);
+        const auto& robots = m_scenario.robots;
+        if (std::none_of(robots.begin(), robots.end(),
+                         [&](const ScenarioRobot& r) { return r.identity.id == write.robot; })) {
+          object.fail("robot", "there is no robot " + std::to_string(write.robot.value) +
+                                   " in this scenario; leave it out to mean every robot");
+        }
+      }
+      write.variable = object.text("variable", "", 200);
+      if (m_report.failed()) return;
+      if (const Variable* variable = findVariable(object, "variable", write.variable)) {
+        write.value = readValue(object, "value", *variable);
+      }
+      m_scenario.writes.push_back(std::move(write));
+    }
+  }
+
+  const Variable* findVariable(const JsonObject& object, std::string_view key,
+                               std::string_view name) const {
+    if (m_report.failed()) return nullptr;
+    if (const Variable* variable = m_catalog.find(name)) return variable;
+    std::vector<std::string_view> known;
+    for (const Variable& variable : m_catalog.variables()) known.push_back(variable.name);
+    object.fail(key, unknownName("blackboard variable", name, known));
+    return nullptr;
+  }
+
+  static double readValue(const JsonObject& object, std::string_view key,
+                          const Variable& variable) {
+    if (variable.type == VariableType::Int) {
+      return object.integer(key, 0, std::numeric_limits<std::int32_t>::min(),
+                            std::numeric_limits<std::int32_t>::max());
+    }
+    constexpr double most = std::numeric_limits<float>::max();
+    return object.number(key, 0.0, {-most, most});
+  }
+
+  void readStop() {
+    const JsonNode* node = m_root.find("stop");
+    if (!node) return;
+    const JsonObject object(m_report, *node, "stop", {"duration", "goal", "ball_out"});
+    if (object.find("duration")) {
+      m_scenario.stop.duration = object.number("duration", 0.0, {0.001, longestTime, "seconds"});
+    }
+    m_scenario.stop.goal = object.boolean("goal", false);
+    m_scenario.stop.ballOut = object.boolean("ball_out", false);
+  }
+
+  JsonReport& m_report;
+  const VariableCatalog& m_catalog;
+  JsonObject m_root;
+  Scenario m_scenario;
+};
+
+Result<std::string> readFile(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  // One byte more than the parser accepts: it says so when the file is too large.
+  constexpr std::streamsize most = 1024 * 1024 + 1;
+  std::string buffer(static_cast<std::size_t>(most), '\0');
+  if (!file || (file.read(buffer.data(), most), file.bad())) {
+    return failure(errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
+                   "the scenario cannot be read: " +
+                       std::string(errno != 0 ? std::strerror(errno) : "input/output error"),
+                   path);
+  }
+  buffer.resize(static_cast<std::size_t>(file.gcount()));
+  return buffer;
+}
+
+}  // namespace
+
+std::vector<ScenarioName> builtInScenarios() {
+  std::vector<ScenarioName> all;
+  for (const std::string_view name : builtInNames) {
+    const auto scenario = scenarioFromJson(resourceText(resourcePath(name)), name);
+    all.push_back({std::string(name), scenario ? scenario->title : std::string(name)});
+  }
+  return all;
+}
+
+Result<Scenario> loadScenario(const std::string& nameOrPath, const VariableCatalog& catalog) {
+  if (std::find(builtInNames.begin(), builtInNames.end(), nameOrPath) != builtInNames.end()) {
+    return scenarioFromJson(resourceText(resourcePath(nameOrPath)), nameOrPath, catalog);
+  }
+  auto text = readFile(nameOrPath);
+  if (!text && text.error().code == ErrorCode::NotFound &&
+      nameOrPath.find_first_of("/.") == std::string::npos) {
+    return failure(ErrorCode::NotFound,
+                   unknownName("built-in scenario and no file", nameOrPath, builtInNames));
+  }
+  if (!text) return tl::unexpected(text.error());
+  return scenarioFromJson(*text, nameOrPath, catalog);
+}
+
+Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source) {
+  if (nameOrJson.find('{') == std::string_view::npos) {
+    const std::vector<std::string_view> known = fieldNames();
+    const auto found = std::find(known.begin(), known.end(), nameOrJson);
+    if (found != known.end())
+      return sim::builtInFields()[static_cast<std::size_t>(found - known.begin())];
+    return failure(ErrorCode::NotFound, unknownName("field", nameOrJson, known),
+                   std::string(source));
+  }
+  JsonReport report(source);
+  const auto root = parseJson(nameOrJson, report);
+  sim::FieldSpec field;
+  if (root) field = readFieldObject(report, *root, "field");
+  if (report.failed()) return tl::unexpected(report.error());
+  return field;
+}
+
+Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source,
+                                  const VariableCatalog& catalog) {
+  JsonReport report(source);
+  const auto root = parseJson(text, report);
+  if (report.failed()) return tl::unexpected(report.error());
+  Scenario scenario = Reader(*root, report, catalog).read();
+  if (report.failed()) return tl::unexpected(report.error());
+  return scenario;
+}
+
+}  // namespace pitchboard::link

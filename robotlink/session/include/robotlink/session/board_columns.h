@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A blackboard as a row: the variables of a catalog as columns (ints by index, then floats by
+// index), with unit, heading and words from resources/variables.json.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <robotlink/blackboard/variable_catalog.h>
+#include <telemetry/series/series_types.h>
+
+namespace pitchboard::link {
+
+/// A value that does not change; any thread.
+class BoardColumns {
+ public:
+  explicit BoardColumns(const VariableCatalog& catalog);
+
+  const std::vector<telemetry::ColumnInfo>& columns() const { return m_columns; }
+  std::size_t size() const { return m_words.size(); }
+  /// The words of the columns, in their order; `out` has size() words.
+  void read(const Blackboard& board, std::span<std::uint32_t> out) const;
+
+ private:
+  std::vector<telemetry::ColumnInfo> m_columns;
+  std::vector<std::uint16_t> m_words;  // place of each column on the blackboard
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Records what is heard of real robots into a session file: rows, every message and referee packet
+// as it arrived, referee packets decoded, events and log lines; the profile is attached. Nothing
+// waits for the disk (SessionWriter).
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_watch.h>
+#include <robotlink/session/match_recorder.h>
+
+namespace pitchboard::link {
+
+/// How the referee stands in a session: one JSON object with "time", the packet (names:
+/// docs/LIVE.md) and what RefereeView makes of it ("sender", "ourTeam", the teams' "playersLeft",
+/// ...).
+std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& referee,
+                          double time);
+/// Nothing when the text is not of that form; what is missing stays at its default.
+std::optional<RefereeView> refereeFromJson(std::string_view json);
+
+/// What a session of live robots says about itself; `zero` as in LiveRecorder::create().
+telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,
+                                       const std::string& program);
+
+class LiveRecorder : public LiveObserver {
+ public:
+  /// `zero`: the moment that counts as 0 s, as in LiveObserver's times. Errors as
+  /// SessionWriter::create(). Hand it to LiveWatch::observe().
+  static Result<std::shared_ptr<LiveRecorder>> create(const std::string& path,
+                                                      const LiveOptions& live,
+                                                      telemetry::WallTime zero,
+                                                      const RecorderOptions& options = {});
+  ~LiveRecorder() override;
+
+  // The watch's thread.
+  void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
+             const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
+  void refereeHeard(double time, const telemetry::DatagramView& datagram,
+                    const telemetry::RefereeState& state) override;
+  void unusedHeard(double time, const telemetry::DatagramView& datagram) override;
+  void happened(const sim::Event& event, double time) override;
+  void logged(const LogLine& line) override;
+  void reported(const telemetry::TeamStatus& team) override;
+  void frameMade(const MatchFrame& frame) override;
+
+  // Any thread.
+  telemetry::SessionStatus status() const { return m_writer->status(); }
+  const std::string& path() const { return m_writer->path(); }
+  void append(const telemetry::SessionEvent& event) { m_writer->append(event); }
+  /// Call after LiveWatch::stopObserving().
+  Result<void> finish() { return m_writer->finish(); }
+
+ private:
+  LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
+               int refereePort);
+
+  std::shared_ptr<telemetry::SessionWriter> m_writer;
+  const int m_refereePort;
+  telemetry::LiveRows m_rows;
+  std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
+  std::string m_refereeState;                            // as last recorded, for events
+};
+
+}  // namespace pitchboard::link

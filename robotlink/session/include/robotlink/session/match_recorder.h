@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Records a simulated match into a session file while it is played: rows, events, log lines,
+// process starts and deaths, and pieces that can be entered again exactly; the scenario and the
+// catalog are attached. The match never waits: the file has a thread of its own (SessionWriter).
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <robotlink/session/match_sampler.h>
+#include <robotlink/session/state_archive.h>
+#include <telemetry/series/series_store.h>
+#include <telemetry/session/session_writer.h>
+#include <telemetry/wire/profile.h>
+
+namespace pitchboard::link {
+
+/// Names of what is attached to a session.
+inline constexpr const char* scenarioAttachment = "scenario.json";
+inline constexpr const char* catalogAttachment = "catalog.json";
+inline constexpr const char* profileAttachment = "profile.json";
+
+struct RecorderOptions {
+  telemetry::SessionWriterOptions writer;
+  int everyNth = 1;  ///< ticks per row
+  /// Version of the program, for the file: "pitchboard 0.1.0".
+  std::string program = "pitchboard";
+};
+
+/// What the session is to say of a simulated match: title, seed, start.
+telemetry::SessionInfo sessionInfo(const Scenario& scenario, const RecorderOptions& options);
+
+/// The same of a match that may have been played already; its source was at 0 s when `now` minus
+/// its time.
+telemetry::SessionInfo sessionInfo(const SimulatedMatch& match, std::string_view program,
+                                   telemetry::WallTime now);
+/// The scenario and the catalog, as files of the session.
+void attachMatch(telemetry::SessionWriter& writer, const Scenario& scenario,
+                 const VariableCatalog& catalog);
+
+/// A line for the timeline; the robot's name is looked up in `state`.
+telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldState& state);
+
+class MatchRecorder : public TickObserver {
+ public:
+  /// Error Conflict when the file exists, SystemError when it cannot be made. Hand it to
+  /// MatchRunner::observe() (or make it one of the first observers); it records from that moment
+  /// on.
+  static Result<std::shared_ptr<MatchRecorder>> create(const std::string& path,
+                                                       const Scenario& scenario,
+                                                       const VariableCatalog& catalog,
+                                                       const RecorderOptions& options = {});
+  /// Into a session that was made and described by the caller.
+  explicit MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer, int everyNth = 1);
+  ~MatchRecorder() override;
+
+  // The match's thread.
+  void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
+  void happened(std::span<const sim::Event> events) override;
+  void worldChanged(const SimulatedMatch& match) override;
+  void logged(const LogLine& line) override;
+
+  // Any thread.
+  telemetry::SessionStatus status() const { return m_writer->status(); }
+  const std::string& path() const { return m_writer->path(); }
+  /// A bookmark or another event of the user's.
+  void append(const telemetry::SessionEvent& event) { m_writer->append(event); }
+  /// Call after MatchRunner::stopObserving(): writes the last piece and the summary.
+  Result<void> finish();
+
+ private:
+  void keep(std::optional<StateSegment> ended);
+  void noteProcesses(const SimulatedMatch& match, double time);
+
+  std::shared_ptr<telemetry::SessionWriter> m_writer;
+  MatchSampler m_sampler;
+  StateSegmenter m_segmenter;
+  std::vector<sim::Event> m_events;    // of the tick that ticked() is about to show
+  std::vector<ChildState> m_children;  // as last seen
+};
+
+/// What has just happened, from memory into a new session file: the rows of the last `seconds` of
+/// the store, the pieces of the archive, the events and log lines of that time. Times stay those of
+/// the source. Errors as SessionWriter::create(); NotFound when there is no row yet.
+struct RecentPast {
+  const telemetry::SeriesStore* rows = nullptr;
+  const StateArchive* archive = nullptr;  ///< null: a live source
+  std::vector<telemetry::SessionEvent> events;
+  std::vector<telemetry::SessionLogLine> log;
+  std::string scenario, catalog, profile;  ///< JSON texts; empty: there is none
+};
+Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seconds,
+                                            const RecentPast& past,
+                                            const telemetry::SessionInfo& info,
+                                            telemetry::SessionWriterOptions options = {});
+
+}  // namespace pitchboard::link

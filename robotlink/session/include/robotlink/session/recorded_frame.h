@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Rebuilds what a person saw at a recorded moment from rows: of the series store (looking back) or
+// of a session file (replay). Simulated recordings have truth and blackboards, live ones what the
+// robots believed. Whatever a recording does not have stays at its default and says so in the
+// frame; unknown columns are passed over. Not thread-safe: one object for one source, in one
+// thread.
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <robotlink/frame/match_frame.h>
+#include <telemetry/series/series_store.h>
+#include <telemetry/session/session_reader.h>
+#include <telemetry/wire/profile.h>
+
+namespace pitchboard::link {
+
+/// What rows do not say.
+struct FrameBackdrop {
+  sim::FieldSpec field;
+  sim::NoiseParameters noise;
+  std::string physics;
+  std::uint64_t seed = 0;
+  double tickRate = 60.0;
+  std::optional<telemetry::Profile> profile;  ///< what live robots' fields mean
+};
+
+/// From the scenario and the profile that the session holds; the published field where there is
+/// none.
+FrameBackdrop backdropOf(const telemetry::SessionReader& session);
+
+class RecordedFrames {
+ public:
+  explicit RecordedFrames(FrameBackdrop backdrop = {});
+  ~RecordedFrames();
+
+  /// The frame of the rows at or before `time` (s of the source). A robot of a simulation is there
+  /// while it has rows; a live robot from its first message on. origin is Recorded, serial grows.
+  MatchFrame frameAt(const telemetry::SeriesStore& rows, double time);
+  MatchFrame frameAt(const telemetry::SessionReader& session, double time);
+
+ private:
+  struct Layout;
+  struct Flags;
+  template <class LookBack>
+  MatchFrame build(double time, LookBack&& lookBack);
+  const Layout& layoutOf(std::size_t group);
+  void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);
+  void fillMatch(std::size_t group, MatchFrame& frame);
+  void addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame);
+  void addHealth(std::size_t group, double time, const RobotBoardView& board,
+                 const sim::RobotSnapshot& robot, MatchFrame& frame);
+
+  FrameBackdrop m_backdrop;
+  std::uint64_t m_serial = 0;
+  double m_lastTime = 0.0;
+  std::vector<const telemetry::GroupInfo*> m_groups;  // of the frame being built
+  std::vector<telemetry::SessionRow> m_rows;
+  std::vector<std::shared_ptr<const telemetry::GroupView>> m_views;
+  std::map<std::size_t, std::unique_ptr<Layout>> m_layouts;
+  std::map<std::size_t, Flags> m_flags;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A column of recorded rows found by name once and then read from every row. Private to robotlink.
+
+#include <bit>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string_view>
+
+#include <telemetry/series/series_types.h>
+
+namespace pitchboard::link {
+
+struct RowSlot {
+  telemetry::ColumnType type = telemetry::ColumnType::Float64;
+  int place = -1;  ///< among the words or among the values; -1: there is no such column
+
+  bool present() const { return place >= 0; }
+  /// NaN where there is no such column.
+  double read(const telemetry::RowView& row) const {
+    const auto at = static_cast<std::size_t>(place);
+    const bool isWord = type != telemetry::ColumnType::Float64;
+    if (place < 0 || at >= (isWord ? row.words.size() : row.values.size())) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (type == telemetry::ColumnType::Float64) return row.values[at];
+    if (type == telemetry::ColumnType::Int32) return std::bit_cast<std::int32_t>(row.words[at]);
+    return static_cast<double>(std::bit_cast<float>(row.words[at]));
+  }
+  double readOr(const telemetry::RowView& row, double fallback) const {
+    const double value = read(row);
+    return std::isfinite(value) ? value : fallback;
+  }
+  /// Of a value from a file: never outside int.
+  int readInt(const telemetry::RowView& row, int fallback = 0) const {
+    const double value = read(row);
+    return std::abs(value) <= 2147483647.0 ? static_cast<int>(value) : fallback;
+  }
+};
+
+/// The first of these names that the group has. Several, because a blackboard and a message call
+/// the same thing differently.
+inline RowSlot findSlot(const telemetry::GroupInfo& group,
+                        std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    int words = 0, values = 0;
+    for (const telemetry::ColumnInfo& column : group.columns) {
+      int& place = column.type == telemetry::ColumnType::Float64 ? values : words;
+      if (column.name == name) return {column.type, place};
+      ++place;
+    }
+  }
+  return {};
+}
+
+inline std::string_view attribute(const telemetry::GroupInfo& group, std::string_view name) {
+  const auto found = group.attributes.find(std::string(name));
+  return found == group.attributes.end() ? std::string_view() : std::string_view(found->second);
+}
+
+/// A whole number from 0 to 9 digits, else `fallback`.
+inline int attributeNumber(const telemetry::GroupInfo& group, std::string_view name,
+                           int fallback = 0) {
+  const std::string_view text = attribute(group, name);
+  if (text.empty() || text.size() > 9) return fallback;
+  int value = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') return fallback;
+    value = 10 * value + (c - '0');
+  }
+  return value;
+}
+
+}  // namespace pitchboard::link

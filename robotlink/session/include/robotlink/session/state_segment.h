@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A piece of a match that can be entered again at every tick: the exact state at its beginning (a
+// checkpoint) and the commands that the bridge read before each tick since. A step is a pure
+// function of state and commands, so stepping on from the checkpoint gives every later state bit
+// for bit.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <simcore/world/robot_io.h>
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::link {
+
+/// A value; copies share nothing.
+class StateSegment {
+ public:
+  StateSegment() = default;
+  explicit StateSegment(const sim::WorldState& checkpoint);
+
+  /// What every robot was told before the tick that follows lastTick(), in the order of the state's
+  /// robots.
+  void add(std::span<const sim::RobotCommand> commands);
+
+  std::uint64_t firstTick() const { return m_firstTick; }
+  std::uint64_t lastTick() const { return m_firstTick + m_ticks; }
+  std::size_t robots() const { return m_previous.size(); }
+  double tickRate() const { return m_tickRate; }
+  /// Roughly the memory that it takes.
+  std::size_t bytes() const { return sizeof *this + m_state.size() + m_commands.size(); }
+
+  /// The state at a tick from firstTick() to lastTick(). Error NotFound outside, ParseError when
+  /// the commands are damaged (only in a segment from a file).
+  Result<sim::WorldState> at(std::uint64_t tick) const;
+
+  /// For files. decode() refuses bytes that are no segment, with the offset; what it returns may
+  /// still hold damaged commands, which at() finds.
+  std::string encode() const;
+  static Result<StateSegment> decode(std::string_view bytes);
+
+ private:
+  std::uint64_t m_firstTick = 0;
+  std::uint64_t m_ticks = 0;
+  double m_tickRate = 60.0;
+  std::string m_state;  // encodeState()
+  // How many ticks said the same as before, then what changed, and so on: (count, {robot + 1, mask
+  // of changed values, the values}..., 0).
+  std::string m_commands;
+  std::uint64_t m_same = 0;  // ticks since the last change that are not in m_commands yet
+  std::vector<sim::RobotCommand> m_previous;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/board_columns.h>
+
+#include <robotlink/blackboard/variable_meanings.h>
+
+namespace pitchboard::link {
+
+BoardColumns::BoardColumns(const VariableCatalog& catalog) {
+  const VariableMeanings& meanings = VariableMeanings::published();
+  for (const Variable& variable : catalog.variables()) {
+    const bool isInt = variable.type == VariableType::Int;
+    telemetry::ColumnInfo column;
+    column.name = variable.name;
+    column.type = isInt ? telemetry::ColumnType::Int32 : telemetry::ColumnType::Float32;
+    meanings.describe(column);
+    // A team may keep under the same name what is no code: words belong to whole numbers.
+    if (!isInt) {
+      column.kind = telemetry::ColumnKind::Number;
+      column.labels.clear();
+    }
+    m_columns.push_back(std::move(column));
+    m_words.push_back(
+        static_cast<std::uint16_t>(variable.index + (isInt ? 0 : Blackboard::floatOffset)));
+  }
+}
+
+void BoardColumns::read(const Blackboard& board, std::span<std::uint32_t> out) const {
+  std::array<std::uint32_t, Blackboard::words> words;
+  board.copyWords(words);
+  for (std::size_t i = 0; i < m_words.size(); ++i) out[i] = words[m_words[i]];
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/live_recorder.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include <telemetry/wire/referee_json.h>
+
+namespace pitchboard::link {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+int whole(const Json& object, const char* key, int fallback = 0) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number_integer()) return fallback;
+  const auto value = found->get<std::int64_t>();
+  const bool fits =
+      value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
+  return fits ? static_cast<int>(value) : fallback;
+}
+
+bool flag(const Json& object, const char* key, bool fallback = false) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_boolean() ? found->get<bool>() : fallback;
+}
+
+}  // namespace
+
+std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeView& r,
+                          double time) {
+  Json json{{"time", time}};
+  json.update(telemetry::refereeJson(packet));
+  json.update(Json{{"version", r.version},
+                   {"sender", r.sender},
+                   {"stateName", r.state},
+                   {"setPlayName", r.setPlay},
+                   {"gamePhaseName", r.phase},
+                   {"firstHalf", r.firstHalf},
+                   {"stopped", r.stopped ? 1 : 0},
+                   {"secsRemaining", r.secondsLeft},
+                   {"ourTeam", r.ourTeam}});
+  if (r.secondaryTime) json["secondaryTime"] = *r.secondaryTime;
+  if (r.kickOffTeam) json["kickOffTeamNumber"] = *r.kickOffTeam;
+  for (std::size_t i = 0; i < r.teams.size(); ++i) {
+    json["teams"][i].update(Json{{"number", r.teams[i].number},
+                                 {"colourName", r.teams[i].colour},
+                                 {"score", r.teams[i].score},
+                                 {"playersLeft", r.teams[i].playersLeft}});
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
+  const Json json = Json::parse(
+      bytes, [](int depth, Json::parse_event_t, Json&) { return depth <= 8; }, false);
+  if (!json.is_object() || text(json, "stateName").empty()) return {};
+  RefereeView r;
+  r.version = whole(json, "version");
+  r.sender = text(json, "sender");
+  r.state = text(json, "stateName");
+  r.setPlay = text(json, "setPlayName");
+  r.phase = text(json, "gamePhaseName");
+  r.firstHalf = flag(json, "firstHalf", true);
+  r.stopped = whole(json, "stopped") != 0;
+  r.secondsLeft = whole(json, "secsRemaining");
+  r.ourTeam = whole(json, "ourTeam");
+  const auto optional = [&json](const char* key) -> std::optional<int> {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number_integer()) return {};
+    return whole(json, key);
+  };
+  r.secondaryTime = optional("secondaryTime");
+  r.kickOffTeam = optional("kickOffTeamNumber");
+  const auto teams = json.find("teams");
+  for (std::size_t i = 0;
+       teams != json.end() && teams->is_array() && i < r.teams.size() && i < teams->size(); ++i) {
+    const Json& team = (*teams)[i];
+    if (!team.is_object()) continue;
+    std::string colour = text(team, "colourName");
+    if (colour.empty()) colour = telemetry::colourWords(whole(team, "colour", -1));
+    r.teams[i] = {whole(team, "number"), std::move(colour), whole(team, "score"),
+                  whole(team, "playersLeft")};
+  }
+  return r;
+}
+
+telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,
+                                       const std::string& program) {
+  telemetry::SessionInfo info;
+  info.program = program;
+  info.source = "live";
+  info.title = "Live";
+  info.start = zero;
+  info.created = std::chrono::system_clock::now();
+  info.more["field"] = live.field.name;
+  return info;
+}
+
+Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& path,
+                                                           const LiveOptions& live,
+                                                           telemetry::WallTime zero,
+                                                           const RecorderOptions& options) {
+  auto writer = telemetry::SessionWriter::create(path, liveSessionInfo(live, zero, options.program),
+                                                 options.writer);
+  if (!writer) return tl::unexpected(writer.error());
+  (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
+  return std::shared_ptr<LiveRecorder>(
+      new LiveRecorder(std::move(*writer), zero, live.refereePort));
+}
+
+LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
+                           telemetry::WallTime zero, int refereePort)
+    : m_writer(std::move(writer)), m_refereePort(refereePort), m_rows(m_writer, {zero, {}}) {}
+
+LiveRecorder::~LiveRecorder() = default;
+
+void LiveRecorder::heard(RobotId /*id*/, double time, const telemetry::DatagramView& datagram,
+                         const telemetry::TextDecoder& decoder,
+                         const telemetry::DecodedText& decoded) {
+  m_writer->append(telemetry::SessionStream::Telemetry,
+                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+  m_rows.take(datagram, decoded, decoder);
+}
+
+void LiveRecorder::refereeHeard(double time, const telemetry::DatagramView& datagram,
+                                const telemetry::RefereeState& state) {
+  m_writer->append(telemetry::SessionStream::RefereeRaw,
+                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+  m_refereeNews = state;
+}
+
+void LiveRecorder::unusedHeard(double time, const telemetry::DatagramView& datagram) {
+  const bool ofRobot =
+      datagram.localPort != m_refereePort && datagram.localPort != telemetry::robotStatesPort;
+  m_writer->append(
+      ofRobot ? telemetry::SessionStream::Telemetry : telemetry::SessionStream::RefereeRaw,
+      {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+}
+
+void LiveRecorder::happened(const sim::Event& event, double time) {
+  telemetry::SessionEvent out = sessionEvent(event, {});
+  out.time = time;
+  m_writer->append(out);
+}
+
+void LiveRecorder::logged(const LogLine& line) {
+  m_writer->append(
+      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+}
+
+void LiveRecorder::frameMade(const MatchFrame& frame) {
+  const auto news = std::exchange(m_refereeNews, std::nullopt);
+  if (!frame.referee || !news) return;
+  const double time = frame.snapshot.time;
+  m_writer->appendJson(telemetry::SessionStream::Referee, time,
+                       refereeToJson(*news, *frame.referee, time));
+  if (std::exchange(m_refereeState, frame.referee->state) != frame.referee->state) {
+    m_writer->append(
+        telemetry::SessionEvent{time, "referee", {}, "referee: " + frame.referee->state});
+  }
+}
+
+void LiveRecorder::reported(const telemetry::TeamStatus& team) {
+  m_rows.report(team);
+}
+
+}  // namespace pitchboard::link

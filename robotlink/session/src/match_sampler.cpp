@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/match_sampler.h>
+
+#include <algorithm>
+
+#include <base/lined_json.h>
+
+#include "match_columns.h"
+
+namespace pitchboard::link {
+
+MatchSampler::MatchSampler(std::shared_ptr<telemetry::RowSink> sink, MatchSamplerOptions options)
+    : m_sink(std::move(sink)), m_options{std::max(1, options.everyNth)} {}
+
+MatchSampler::~MatchSampler() = default;
+
+void MatchSampler::ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) {
+  const std::uint64_t tick = match.simulation().state().tick;
+  // A moment without a tick (the first one, a change by hand) is always shown.
+  if (tickTime.count() > 0 && tick % static_cast<std::uint64_t>(m_options.everyNth) != 0) return;
+  match.simulation().snapshot(m_snapshot);
+  if (!sameRobots(match)) takeRobots(match);
+  readMatch(m_snapshot, std::chrono::duration<double, std::micro>(tickTime).count(), m_matchValues);
+  m_sink->append(m_match, {m_snapshot.time, {}, m_matchValues});
+  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+    const sim::RobotSnapshot& robot = m_snapshot.robots[i];
+    const Blackboard* board = match.blackboard(robot.identity.id);
+    if (!board) continue;
+    m_board->read(*board, m_words);
+    readTruth(match, m_snapshot, robot, *board, m_truth);
+    m_sink->append(m_seats[i].group, {m_snapshot.time, m_words, m_truth});
+  }
+}
+
+bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
+  if (m_catalog != &match.catalog()) return false;
+  return std::ranges::equal(m_seats, m_snapshot.robots, [&](const Seat& seat, const auto& robot) {
+    const Blackboard* board = match.blackboard(robot.identity.id);
+    return seat.identity == robot.identity && seat.key == (board ? board->key() : 0) &&
+           seat.behaviour == match.behaviour(robot.identity.id);
+  });
+}
+
+void MatchSampler::takeRobots(const SimulatedMatch& match) {
+  if (m_catalog != &match.catalog()) {
+    m_catalog = &match.catalog();
+    m_board = std::make_unique<BoardColumns>(*m_catalog);
+  }
+  const sim::SimulationSettings& settings = match.simulation().state().settings;
+  telemetry::GroupInfo group{matchGroup, matchColumns(), {}};
+  group.attributes = {{"physics", settings.physics},
+                      {"seed", std::to_string(settings.seed)},
+                      {"tick_rate", shortest(settings.tickRate)}};
+  m_match = m_sink->addGroup(group);
+  m_matchValues.resize(group.columns.size());
+
+  auto truth = truthColumns();
+  // A team's own variable keeps its name.
+  for (telemetry::ColumnInfo& column : truth) {
+    while (std::ranges::find(m_board->columns(), column.name, &telemetry::ColumnInfo::name) !=
+           m_board->columns().end()) {
+      column.name.insert(0, "TRUTH_");
+    }
+  }
+  m_words.resize(m_board->size());
+  m_truth.resize(truth.size());
+  m_seats.clear();
+  for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
+    const sim::RobotIdentity& identity = robot.identity;
+    const Blackboard* board = match.blackboard(identity.id);
+    Seat seat{identity, board ? board->key() : 0, std::string(match.behaviour(identity.id)), 0};
+    telemetry::GroupInfo info{groupName(identity), m_board->columns(), {}};
+    info.columns.insert(info.columns.end(), truth.begin(), truth.end());
+    info.attributes = {{"robot", std::to_string(identity.id.value)},
+                       {"team", std::string(pitchboard::info(identity.team).name)},
+                       {"number", std::to_string(identity.number)},
+                       {"key", std::to_string(seat.key)},
+                       {"imu180", identity.imuStartsAt180 ? "1" : "0"},
+                       {"behaviour", seat.behaviour}};
+    seat.group = m_sink->addGroup(info);
+    m_seats.push_back(std::move(seat));
+  }
+}
+
+std::string MatchSampler::groupName(const sim::RobotIdentity& robot) const {
+  const std::string name =
+      std::string(pitchboard::info(robot.team).letter) + std::to_string(robot.number);
+  // Two robots of a team may have one number by mistake; their rows must not mix.
+  const bool taken = std::ranges::any_of(m_seats, [&](const Seat& seat) {
+    return seat.identity.team == robot.team && seat.identity.number == robot.number;
+  });
+  return taken ? name + " (" + std::to_string(robot.id.value) + ")" : name;
+}
+
+}  // namespace pitchboard::link

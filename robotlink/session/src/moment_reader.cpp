@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/moment_reader.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <robotlink/session/state_archive.h>
+
+#include "session_checkpoint.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double tickTolerance = 1e-6;
+
+std::optional<RobotId> robotOf(const telemetry::GroupInfo& group) {
+  const auto found = group.attributes.find("robot");
+  if (found == group.attributes.end()) return {};
+  const int number = std::atoi(found->second.c_str());
+  if (number < 1) return {};
+  return RobotId{number};
+}
+
+std::string behaviourOf(const telemetry::GroupInfo& group) {
+  const auto found = group.attributes.find("behaviour");
+  return found == group.attributes.end() ? std::string(noBehaviour) : found->second;
+}
+
+bool isPlaying(const sim::WorldState& state, RobotId id) {
+  return std::any_of(state.robots.begin(), state.robots.end(),
+                     [id](const auto& robot) { return robot.id == id; });
+}
+
+}  // namespace
+
+std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
+                                  std::span<const std::uint32_t> words,
+                                  const VariableCatalog& catalog) {
+  std::vector<BoardWord> out;
+  std::size_t place = 0;
+  for (const telemetry::ColumnInfo& column : group.columns) {
+    if (column.type == telemetry::ColumnType::Float64) continue;
+    if (place >= words.size()) break;
+    const std::uint32_t bits = words[place++];
+    const Variable* variable = catalog.find(column.name);
+    const auto type =
+        column.type == telemetry::ColumnType::Int32 ? VariableType::Int : VariableType::Float;
+    if (!variable || variable->type != type) continue;
+    const int base = type == VariableType::Int ? 0 : Blackboard::floatOffset;
+    out.push_back({base + variable->index, bits});
+  }
+  return out;
+}
+
+Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::SeriesStore& rows,
+                                std::uint64_t tick, const VariableCatalog& catalog) {
+  auto state = archive.reenter(tick);
+  if (!state) return tl::unexpected(state.error());
+  Moment moment{std::move(*state), {}};
+  const double rate = moment.state.settings.tickRate;
+  const double time = (static_cast<double>(tick) + tickTolerance) / rate;
+  std::vector<std::uint32_t> words;
+  std::vector<double> values;
+  for (telemetry::GroupId id = 0; id < rows.groups(); ++id) {
+    const auto view = rows.view(id);
+    if (!view) continue;
+    const auto robot = robotOf(view->info());
+    double rowTime = 0.0;
+    if (!robot || !isPlaying(moment.state, *robot) || !view->rowAt(time, rowTime, words, values)) {
+      continue;
+    }
+    if (rowTime * rate < static_cast<double>(tick) - 1.5)
+      continue;  // an earlier robot of its number
+    moment.robots.push_back(
+        {*robot, behaviourOf(view->info()), boardWords(view->info(), words, catalog)});
+  }
+  return moment;
+}
+
+Result<Moment> momentFromSession(const telemetry::SessionReader& session, double seconds,
+                                 const VariableCatalog& catalog) {
+  const auto segment = checkpointAt(session, seconds);
+  if (!segment) return tl::unexpected(segment.error());
+  const double rate = segment->segment.tickRate();
+  const double ticks = std::floor((seconds - segment->time) * rate + tickTolerance);
+  const auto length =
+      static_cast<double>(segment->segment.lastTick() - segment->segment.firstTick());
+  const double inside = std::clamp(ticks, 0.0, length);
+  auto state =
+      segment->segment.at(segment->segment.firstTick() + static_cast<std::uint64_t>(inside));
+  if (!state) return tl::unexpected(state.error());
+  Moment moment{std::move(*state), {}};
+
+  const double time = segment->time + (inside + tickTolerance) / rate;
+  std::vector<telemetry::SessionRow> rows;
+  session.rowsAt(time, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const telemetry::GroupInfo& group = session.groups()[i].info;
+    const auto robot = robotOf(group);
+    if (!rows[i].present || !robot || !isPlaying(moment.state, *robot)) continue;
+    if ((time - rows[i].time) * rate > 1.5) continue;
+    if (moment.robot(*robot)) continue;
+    moment.robots.push_back(
+        {*robot, behaviourOf(group), boardWords(group, rows[i].words, catalog)});
+  }
+  return moment;
+}
+
+}  // namespace pitchboard::link

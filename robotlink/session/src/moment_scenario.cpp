@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/moment_scenario.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include <base/ids.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/cognition/referee_word.h>
+#include <robotlink/frame/belief.h>
+#include <robotlink/scenario/moment_writes.h>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double gap = 0.01;     // m between robots that were pushed apart
+constexpr int mostPushes = 400;  // rounds; a crowd that needs more stays as it is
+constexpr int highestShirt = 99;
+constexpr double halfSeconds = 600.0;  // Humanoid League, rules of every year since 2013
+constexpr double fastestBall = 50.0;   // m/s, of a scenario
+
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+bool isFinite(const Pose& pose) {
+  return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&
+         std::isfinite(pose.yaw);
+}
+
+Point inside(const sim::FieldSpec& field, const Point& point, double radius) {
+  const double x = field.halfLength() + field.border - radius;
+  const double y = field.halfWidth() + field.border - radius;
+  return {std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
+}
+
+std::string nameOf(const sim::RobotIdentity& robot) {
+  return std::string(info(robot.team).letter) + std::to_string(robot.number);
+}
+
+class Maker {
+ public:
+  Maker(const MatchFrame& frame, const MomentOptions& options)
+      : m_frame(frame), m_options(options) {}
+
+  MomentScenario make() {
+    takeSettings();
+    takeRobots();
+    pushApart();
+    takeBall();
+    takeGame();
+    return std::move(m_out);
+  }
+
+ private:
+  void note(std::string text) { m_out.notes.push_back(std::move(text)); }
+  bool believed() const {
+    return !m_frame.truthKnown || m_options.poses == MomentOptions::Poses::Believed;
+  }
+
+  void takeSettings() {
+    Scenario& scenario = m_out.scenario;
+    if (m_options.base) scenario = *m_options.base;
+    scenario.robots.clear();
+    scenario.stop.duration.reset();
+    char time[32];
+    std::snprintf(time, sizeof time, "%.1f", m_frame.snapshot.time);
+    const std::string title = !scenario.title.empty()               ? scenario.title
+                              : m_options.base                      ? scenario.name
+                              : m_frame.origin == FrameOrigin::Live ? std::string("Live")
+                                                                    : std::string("Recorded match");
+    scenario.title = title + ", at " + time + " s";
+    if (!m_options.base) scenario.name = "moment";
+    sim::SimulationSettings& settings = scenario.settings;
+    if (sim::validate(m_frame.field)) {
+      settings.field = m_frame.field;
+    } else {
+      note("The field of this moment cannot be played on; the scenario has another one.");
+    }
+    const auto models = sim::physicsModels();
+    if (std::any_of(models.begin(), models.end(),
+                    [&](const auto& model) { return model.name == m_frame.physics; })) {
+      settings.physics = m_frame.physics;
+      settings.noise = m_frame.noise;
+      settings.seed = m_frame.seed;
+      settings.tickRate = m_frame.tickRate;
+    }
+    // Nothing of the frame may keep the match from starting.
+    if (!sim::Simulation::create(settings)) {
+      settings = m_options.base ? m_options.base->settings : sim::SimulationSettings{};
+      note("The settings of this moment cannot be used; those of the scenario are.");
+    }
+  }
+
+  const RobotBoardView* board(RobotId id) const {
+    const auto found = std::find_if(m_frame.boards.begin(), m_frame.boards.end(),
+                                    [id](const auto& one) { return one.id == id; });
+    return found == m_frame.boards.end() ? nullptr : &*found;
+  }
+
+  void takeRobots() {
+    for (const sim::RobotSnapshot& robot : m_frame.snapshot.robots) {
+      if (m_out.scenario.robots.size() == sim::Simulation::maxRobots) {
+        note("More than 64 robots; the rest is left out.");
+        return;
+      }
+      takeRobot(robot);
+    }
+  }
+
+  void takeRobot(const sim::RobotSnapshot& robot) {
+    const RobotBoardView* view = board(robot.identity.id);
+    ScenarioRobot out{robot.identity, robot.pose, m_options.behaviour};
+    const std::string name = nameOf(robot.identity);
+    for (const RobotHealth& health : m_frame.health) {
+      if (health.id != robot.identity.id || health.poseKnown) continue;
+      note(name + " never said where it is; it is left out.");
+      return;
+    }
+    if (m_frame.truthKnown && believed()) {
+      const auto belief = view ? believedPose(m_frame.field, *view) : std::nullopt;
+      if (belief) {
+        out.pose = *belief;
+      } else {
+        note(name + " does not know where it is; it stands where it truly was.");
+      }
+    }
+    if (view && !view->behaviour.empty()) out.behaviour = view->behaviour;
+    const auto known = behaviours();
+    if (out.behaviour != noBehaviour &&
+        std::none_of(known.begin(), known.end(),
+                     [&](const auto& behaviour) { return behaviour.name == out.behaviour; })) {
+      note(name + " had the behaviour \"" + out.behaviour +
+           "\", which this program does not have; " + "it plays " + m_options.behaviour + '.');
+      out.behaviour = m_options.behaviour;
+    }
+    number(out, name);
+    place(out, name);
+    m_out.scenario.robots.push_back(std::move(out));
+  }
+
+  /// Numbers that are free and that a match has.
+  void number(ScenarioRobot& robot, const std::string& name) {
+    const auto taken = [&](auto&& same) {
+      const auto& robots = m_out.scenario.robots;
+      return std::any_of(robots.begin(), robots.end(), same);
+    };
+    int& id = robot.identity.id.value;
+    const auto idTaken = [&](int value) {
+      return taken([value](const auto& other) { return other.identity.id.value == value; });
+    };
+    if (id < 1 || id > highestRobotNumber || idTaken(id)) {
+      id = 1;
+      // Not a number that a later robot has by right.
+      const auto& all = m_frame.snapshot.robots;
+      while (idTaken(id) || std::any_of(all.begin(), all.end(), [&](const auto& other) {
+               return other.identity.id.value == id;
+             })) {
+        if (++id > highestRobotNumber) break;
+      }
+      if (id > highestRobotNumber) {
+        for (id = 1; idTaken(id);) ++id;
+      }
+      note(name + " has the blackboard number " + std::to_string(id) + " here.");
+    }
+    int& shirt = robot.identity.number;
+    const auto shirtTaken = [&](int value) {
+      return taken([&](const auto& other) {
+        return other.identity.team == robot.identity.team && other.identity.number == value;
+      });
+    };
+    if (shirt < 1 || shirt > highestShirt || shirtTaken(shirt)) {
+      for (shirt = 1; shirtTaken(shirt);) ++shirt;
+      note("Two robots were called " + name + "; one is " + nameOf(robot.identity) + " here.");
+    }
+  }
+
+  void place(ScenarioRobot& robot, const std::string& name) {
+    const sim::FieldSpec& field = m_out.scenario.settings.field;
+    if (!isFinite(robot.pose)) {
+      robot.pose = {{0.0, 0.0}, 0.0};
+      note("Nobody knows where " + name + " was; it stands at the centre mark.");
+    }
+    const Point wanted = robot.pose.position;
+    robot.pose.position = inside(field, wanted, field.robotRadius);
+    robot.pose.yaw = std::remainder(robot.pose.yaw, 2 * 3.141592653589793);
+    if (robot.pose.position != wanted) {
+      note(name + " stood outside the walls and was moved inside.");
+    }
+  }
+
+  void pushApart() {
+    auto& robots = m_out.scenario.robots;
+    const sim::FieldSpec& field = m_out.scenario.settings.field;
+    const double least = 2 * field.robotRadius + gap;
+    std::set<std::size_t> moved;
+    for (int round = 0; round < mostPushes; ++round) {
+      bool free = true;
+      for (std::size_t a = 0; a < robots.size(); ++a) {
+        for (std::size_t b = a + 1; b < robots.size(); ++b) {
+          Point& p = robots[a].pose.position;
+          Point& q = robots[b].pose.position;
+          const double between = distance(p, q);
+          if (between >= least - gap / 2) continue;
+          free = false;
+          // On the very same spot: apart in a direction that differs from pair to pair.
+          const double angle =
+              between > 1e-9 ? std::atan2(q.y - p.y, q.x - p.x) : static_cast<double>(7 * a + b);
+          const double push = (least - between) / 2;
+          const Point step{push * std::cos(angle), push * std::sin(angle)};
+          p = inside(field, {p.x - step.x, p.y - step.y}, field.robotRadius);
+          q = inside(field, {q.x + step.x, q.y + step.y}, field.robotRadius);
+          moved.insert({a, b});
+        }
+      }
+      if (free) break;
+    }
+    if (moved.empty()) return;
+    std::string names;
+    for (const std::size_t i : moved) {
+      names += (names.empty() ? "" : ", ") + nameOf(robots[i].identity);
+    }
+    note("Robots stood in each other and were pushed apart: " + names + '.');
+  }
+
+  struct Sighting {
+    Point ball;
+    double range = 0.0;
+    std::string by;
+  };
+
+  std::vector<Sighting> sightings() const {
+    std::vector<Sighting> out;
+    for (const sim::RobotSnapshot& robot : m_frame.snapshot.robots) {
+      const RobotBoardView* view = board(robot.identity.id);
+      if (!view) continue;
+      const Pose origin = believedPose(m_frame.field, *view).value_or(robot.pose);
+      const auto ball = perceivedBall(m_frame.field, *view, origin);
+      if (!ball || !isFinite({*ball, 0.0})) continue;
+      out.push_back({*ball, distance(*ball, origin.position), nameOf(robot.identity)});
+    }
+    return out;
+  }
+
+  void takeBall() {
+    Scenario& scenario = m_out.scenario;
+    const sim::FieldSpec& field = scenario.settings.field;
+    scenario.ballVelocity = {};
+    const bool perceived = !m_frame.ballKnown || m_options.ball == MomentOptions::Ball::Perceived;
+    Point ball = m_frame.snapshot.ball;
+    if (perceived) {
+      ball = m_frame.ballKnown ? ball : Point{};
+      perceiveBall(ball);
+    } else {
+      const Velocity& v = m_frame.snapshot.ballVelocity;
+      if (std::isfinite(v.x) && std::isfinite(v.y)) {
+        scenario.ballVelocity = {std::clamp(v.x, -fastestBall, fastestBall),
+                                 std::clamp(v.y, -fastestBall, fastestBall)};
+      }
+    }
+    if (!isFinite({ball, 0.0})) ball = {};
+    scenario.ball = inside(field, ball, field.ballRadius);
+    if (scenario.ball != ball) note("The ball was outside the walls and was moved inside.");
+  }
+
+  /// Where most robots agree that it is.
+  void perceiveBall(Point& ball) {
+    const std::vector<Sighting> seen = sightings();
+    if (seen.empty()) {
+      note(m_frame.ballKnown ? "No robot sees the ball; it lies where it truly was."
+                             : "No robot sees the ball; it lies on the centre mark.");
+      return;
+    }
+    std::vector<Point> balls;
+    for (const Sighting& one : seen) balls.push_back(one.ball);
+    if (const auto agreed = agreedBall(balls)) {
+      ball = agreed->position;
+      if (static_cast<std::size_t>(agreed->agree) == seen.size()) return;
+      note("The robots do not agree where the ball is: " + std::to_string(agreed->agree) +
+           " of the " + std::to_string(seen.size()) + " that see it are believed.");
+      return;
+    }
+    // Far balls are seen less well.
+    const auto nearest = std::min_element(
+        seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
+    ball = nearest->ball;
+    note(seen.size() == 1 ? "Only " + nearest->by + " sees the ball."
+                          : "No two robots agree where the ball is; " + nearest->by +
+                                ", which is nearest to its own, is believed.");
+  }
+
+  void takeGame() {
+    Scenario& scenario = m_out.scenario;
+    const sim::Snapshot& snapshot = m_frame.snapshot;
+    scenario.score = {std::max(0, snapshot.score.left), std::max(0, snapshot.score.right)};
+    double clock = snapshot.clock;
+    bool running = snapshot.clockRunning;
+    int word = refereePlay;
+    if (m_frame.referee) {
+      const RefereeView& referee = *m_frame.referee;
+      // The referee counts down, this clock up.
+      clock = halfSeconds - referee.secondsLeft;
+      running = referee.state == "PLAYING" && !referee.stopped;
+      word = running                    ? refereePlay
+             : referee.state == "READY" ? refereeReady
+             : referee.state == "SET"   ? refereeSet
+                                        : refereeStop;
+      note("The referee said " + referee.state + " with " + std::to_string(referee.secondsLeft) +
+           " s left; the clock here counts from the beginning of a half of 10 minutes.");
+    } else if (!m_frame.truthKnown) {
+      clock = 0.0;
+      running = true;
+    }
+    scenario.clock = std::isfinite(clock) ? std::clamp(clock, 0.0, 1e6) : 0.0;
+    scenario.clockRunning = running;
+    scenario.writes = writesFrom(scenario.writes, snapshot.time, [&](RobotId id) {
+      return std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                         [id](const auto& robot) { return robot.identity.id == id; });
+    });
+    const bool told = std::any_of(scenario.writes.begin(), scenario.writes.end(),
+                                  [](const auto& w) { return w.variable == refereeVariable; });
+    // Without a word of the referee robots stand still for ever.
+    if (!told || m_frame.referee) {
+      std::erase_if(scenario.writes, [](const auto& w) { return w.variable == refereeVariable; });
+      scenario.writes.insert(scenario.writes.begin(),
+                             {{}, refereeVariable, static_cast<double>(word), 0.0});
+    }
+  }
+
+  static constexpr const char* refereeVariable = "COM_REFEREE";
+  const MatchFrame& m_frame;
+  const MomentOptions& m_options;
+  MomentScenario m_out;
+};
+
+}  // namespace
+
+MomentScenario scenarioFromMoment(const MatchFrame& frame, const MomentOptions& options) {
+  return Maker(frame, options).make();
+}
+
+}  // namespace pitchboard::link

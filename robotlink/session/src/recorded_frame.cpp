@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/recorded_frame.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <base/angles.h>
+#include <robotlink/frame/belief.h>
+#include <robotlink/scenario/scenario.h>
+#include <robotlink/session/live_recorder.h>
+#include <simcore/world/published_frame.h>
+
+#include "recorded_layout.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double flagMemory = 1.0;      // s, as in the frames of a running match
+constexpr double timeTolerance = 1e-6;  // s; files keep whole nanoseconds
+constexpr double refereeMemory = 5.0;   // s; it sends twice a second
+constexpr double liveTimeout = 10.0;    // s, as MonitorOptions
+constexpr int secondSender = 65536;     // added to the id, as in the frames of Live
+
+constexpr std::array<bool RobotBoardView::*, 5> flagMembers{
+    &RobotBoardView::controlWorking, &RobotBoardView::visionWorking,
+    &RobotBoardView::localizationWorking, &RobotBoardView::decisionWorking,
+    &RobotBoardView::imuWorking};
+
+TeamColor teamOf(const telemetry::GroupInfo& group) {
+  const std::string_view name = attribute(group, "team");
+  for (const TeamColorInfo& team : teamColors) {
+    if (team.name == name) return team.color;
+  }
+  return TeamColor::Blue;
+}
+
+std::uint32_t counter(double value) {
+  return value >= 0.0 && value <= 4294967295.0 ? static_cast<std::uint32_t>(value) : 0U;
+}
+
+}  // namespace
+
+/// When a working flag was last seen set.
+struct RecordedFrames::Flags {
+  std::array<double, Layout::flagCount> seen;
+};
+
+FrameBackdrop backdropOf(const telemetry::SessionReader& session) {
+  FrameBackdrop out;
+  if (const auto field = session.info().more.find("field"); field != session.info().more.end()) {
+    if (auto known = sim::fieldByName(field->second)) out.field = *known;
+  }
+  if (const auto text = session.attachment("scenario.json")) {
+    if (const auto scenario = scenarioFromJson(*text, "scenario.json")) {
+      out.field = scenario->settings.field;
+      out.noise = scenario->settings.noise;
+      out.physics = scenario->settings.physics;
+      out.seed = scenario->settings.seed;
+      out.tickRate = scenario->settings.tickRate;
+    }
+  }
+  if (const auto text = session.attachment("profile.json")) {
+    if (auto profile = telemetry::parseProfile(*text, "profile.json")) out.profile = *profile;
+  }
+  return out;
+}
+
+RecordedFrames::RecordedFrames(FrameBackdrop backdrop) : m_backdrop(std::move(backdrop)) {}
+RecordedFrames::~RecordedFrames() = default;
+
+const RecordedFrames::Layout& RecordedFrames::layoutOf(std::size_t group) {
+  auto& layout = m_layouts[group];
+  if (!layout || layout->columns != m_groups[group]->columns.size()) {
+    layout = std::make_unique<Layout>(*m_groups[group],
+                                      m_backdrop.profile ? &*m_backdrop.profile : nullptr);
+  }
+  return *layout;
+}
+
+MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double time) {
+  const std::size_t count = rows.groups();
+  m_groups.assign(count, nullptr);
+  m_rows.resize(count);
+  m_views.assign(count, nullptr);
+  for (std::size_t i = 0; i < count; ++i) {
+    m_views[i] = rows.view(static_cast<telemetry::GroupId>(i));
+    m_rows[i].present = m_views[i] && m_views[i]->rowAt(time + timeTolerance, m_rows[i].time,
+                                                        m_rows[i].words, m_rows[i].values);
+    if (m_views[i]) m_groups[i] = &m_views[i]->info();
+  }
+  const auto lookBack = [&](std::size_t group, const Layout& layout, double from, Flags& flags) {
+    for (std::size_t f = 0; f < Layout::flagCount; ++f) {
+      const RowSlot& slot = layout.flags[f];
+      if (!slot.present() || flags.seen[f] >= from) continue;
+      std::size_t column = static_cast<std::size_t>(slot.place);
+      if (slot.type == telemetry::ColumnType::Float64) {
+        for (const auto& info : m_groups[group]->columns) {
+          column += info.type != telemetry::ColumnType::Float64 ? 1U : 0U;
+        }
+      }
+      std::array<telemetry::SeriesBucket, 4> parts;
+      const double step = (time + timeTolerance - from) / static_cast<double>(parts.size());
+      m_views[group]->buckets(static_cast<std::uint32_t>(column), {from, time + timeTolerance},
+                              parts);
+      for (std::size_t p = 0; p < parts.size(); ++p) {
+        if (parts[p].samples == 0 || !(parts[p].max > 0.0)) continue;
+        flags.seen[f] = std::max(flags.seen[f], from + step * static_cast<double>(p));
+      }
+    }
+  };
+  MatchFrame frame = build(time, lookBack);
+  m_views.clear();
+  return frame;
+}
+
+MatchFrame RecordedFrames::frameAt(const telemetry::SessionReader& session, double time) {
+  const auto groups = session.groups();
+  m_groups.resize(groups.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) m_groups[i] = &groups[i].info;
+  session.rowsAt(time + timeTolerance, m_rows);
+  const auto lookBack = [&](std::size_t group, const Layout& layout, double from, Flags& flags) {
+    const std::array<telemetry::GroupId, 1> only{static_cast<telemetry::GroupId>(group)};
+    session.rows({from, time + timeTolerance}, only, [&](telemetry::GroupId, const auto& row) {
+      for (std::size_t f = 0; f < Layout::flagCount; ++f) {
+        if (layout.flags[f].readOr(row, 0.0) != 0.0) flags.seen[f] = row.time;
+      }
+      return true;
+    });
+  };
+  MatchFrame frame = build(time, lookBack);
+  addReferee(session, time, frame);
+  return frame;
+}
+
+void RecordedFrames::addReferee(const telemetry::SessionReader& session, double time,
+                                MatchFrame& frame) {
+  if (session.count(telemetry::SessionStream::Referee) == 0) return;
+  double at = 0.0;
+  session.messages(telemetry::SessionStream::Referee, {time - refereeMemory, time + timeTolerance},
+                   [&](double sent, std::string_view json) {
+                     if (frame.referee && sent < at) return true;
+                     if (auto view = refereeFromJson(json)) {
+                       frame.referee = std::move(*view);
+                       at = sent;
+                     }
+                     return true;
+                   });
+  if (!frame.referee) return;
+  frame.referee->age = time - at;
+  frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
+  frame.snapshot.clock = frame.referee->secondsLeft;
+  frame.snapshot.clockRunning = frame.referee->state == "PLAYING";
+}
+
+template <class LookBack>
+MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
+  MatchFrame frame;
+  frame.origin = FrameOrigin::Recorded;
+  frame.serial = ++m_serial;
+  frame.paused = true;
+  frame.field = m_backdrop.field;
+  frame.noise = m_backdrop.noise;
+  frame.physics = m_backdrop.physics;
+  frame.seed = m_backdrop.seed;
+  frame.tickRate = m_backdrop.tickRate;
+  frame.ballKnown = frame.truthKnown = false;
+  frame.snapshot.time = time;
+
+  // The newest row of a match says which robots were there: theirs have the same time.
+  std::optional<std::size_t> match;
+  for (std::size_t i = 0; i < m_groups.size(); ++i) {
+    if (!m_groups[i] || !m_rows[i].present || !layoutOf(i).isMatch) continue;
+    if (!match || m_rows[i].time > m_rows[*match].time) match = i;
+  }
+  if (match) fillMatch(*match, frame);
+
+  if (time < m_lastTime || time - m_lastTime > flagMemory) m_flags.clear();
+  m_lastTime = time;
+  for (std::size_t i = 0; i < m_groups.size(); ++i) {
+    if (!m_groups[i] || !m_rows[i].present) continue;
+    const Layout& layout = layoutOf(i);
+    const double rowTime = m_rows[i].time;
+    if (layout.robot.value == 0) continue;
+    if (match && !layout.live && std::abs(rowTime - m_rows[*match].time) > timeTolerance) continue;
+    const auto [known, isNew] = m_flags.try_emplace(i);
+    if (isNew) {
+      known->second.seen.fill(-std::numeric_limits<double>::infinity());
+      lookBack(i, layout, time - flagMemory, known->second);
+    }
+    addRobot(i, time, known->second, frame);
+  }
+  return frame;
+}
+
+void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {
+  const Layout& l = layoutOf(group);
+  const telemetry::RowView row = m_rows[group].view();
+  sim::Snapshot& s = frame.snapshot;
+  s.time = row.time;
+  s.ball = {l.ballX.readOr(row, 0.0), l.ballY.readOr(row, 0.0)};
+  frame.ballKnown = std::isfinite(l.ballX.read(row)) && std::isfinite(l.ballY.read(row));
+  s.ballVelocity = {l.ballVx.readOr(row, 0.0), l.ballVy.readOr(row, 0.0)};
+  s.clock = l.clock.readOr(row, 0.0);
+  s.clockRunning = l.clockRunning.readOr(row, 0.0) != 0.0;
+  s.score = {l.scoreLeft.readInt(row), l.scoreRight.readInt(row)};
+  s.tick = static_cast<std::uint64_t>(std::clamp(l.tick.readOr(row, 0.0), 0.0, 9e15));
+  frame.tickMicroseconds = l.tickTime.readOr(row, 0.0);
+  const telemetry::GroupInfo& info = *m_groups[group];
+  if (const auto physics = attribute(info, "physics"); !physics.empty()) frame.physics = physics;
+  if (const std::string seed(attribute(info, "seed")); !seed.empty()) {
+    frame.seed = std::strtoull(seed.c_str(), nullptr, 10);
+  }
+  double rate = 0.0;
+  const std::string_view text = attribute(info, "tick_rate");
+  std::from_chars(text.data(), text.data() + text.size(), rate);
+  if (rate >= 1.0 && rate <= 10000.0) frame.tickRate = rate;
+}
+
+void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame) {
+  const Layout& l = layoutOf(group);
+  const telemetry::GroupInfo& info = *m_groups[group];
+  const telemetry::RowView row = m_rows[group].view();
+
+  RobotBoardView board;
+  board.id = l.robot;
+  // A second sender of the same number, as in the frames of Live.
+  while (std::any_of(frame.boards.begin(), frame.boards.end(),
+                     [&](const auto& other) { return other.id == board.id; })) {
+    board.id.value += secondSender;
+  }
+  board.key = attributeNumber(info, "key");
+  board.behaviour = attribute(info, "behaviour");
+  board.actionA = l.actionA.readInt(row);
+  board.voltage = l.voltage.readInt(row);
+  board.ballDistCm = static_cast<float>(l.ballDist.readOr(row, -1.0));
+  board.visionLost = l.lost.present() ? l.lost.readOr(row, 0.0) != 0.0 : !(board.ballDistCm > 0.0F);
+  board.panDeg = static_cast<float>(l.pan.readOr(row, 0.0));
+  board.localizationX = l.locX.readInt(row);
+  board.localizationY = l.locY.readInt(row);
+  board.localizationTheta = l.locTheta.readInt(row);
+  board.belief = static_cast<float>(l.belief.readOr(row, 0.0));
+  for (std::size_t f = 0; f < Layout::flagCount; ++f) {
+    const bool set = l.flags[f].readOr(row, 0.0) != 0.0;
+    if (set) flags.seen[f] = std::max(flags.seen[f], row.time);
+    // A message that says "working" holds until the next one comes.
+    board.*flagMembers[f] = flags.seen[f] >= time - flagMemory || (l.live && set);
+  }
+
+  sim::RobotSnapshot robot;
+  robot.identity = {board.id, teamOf(info), attributeNumber(info, "number", l.robot.value),
+                    attribute(info, "imu180") == "1"};
+  if (l.trueX.present() && l.trueY.present()) {
+    const double yaw = l.trueYaw.readOr(row, 0.0);
+    robot.pose = {{l.trueX.readOr(row, 0.0), l.trueY.readOr(row, 0.0)}, radiansFromDegrees(yaw)};
+    robot.headYaw = radiansFromDegrees(l.headYaw.readOr(row, yaw));
+    frame.truthKnown = true;
+  } else {
+    robot.pose = sim::published_frame::studioFromLocalization(
+        frame.field,
+        {l.locX.readOr(row, 0.0), l.locY.readOr(row, 0.0), l.locTheta.readOr(row, 0.0)});
+    robot.headYaw = robot.pose.yaw;
+  }
+  robot.velocity = {l.vx.readOr(row, 0.0), l.vy.readOr(row, 0.0)};
+  robot.action = l.action.readInt(row);
+  robot.fallen = l.fallen.readOr(row, 0.0) != 0.0;
+  robot.statistics = {l.distance.readOr(row, 0.0), counter(l.kicks.readOr(row, 0.0)),
+                      counter(l.falls.readOr(row, 0.0)), counter(l.unknownActions.readOr(row, 0.0)),
+                      l.lastUnknown.readInt(row)};
+  if (l.live) addHealth(group, time, board, robot, frame);
+  frame.snapshot.robots.push_back(std::move(robot));
+  frame.boards.push_back(std::move(board));
+}
+
+void RecordedFrames::addHealth(std::size_t group, double time, const RobotBoardView& board,
+                               const sim::RobotSnapshot& robot, MatchFrame& frame) {
+  const Layout& l = layoutOf(group);
+  const telemetry::RowView row = m_rows[group].view();
+  RobotHealth health;
+  health.id = board.id;
+  health.number = robot.identity.number;
+  health.sender = attribute(*m_groups[group], "sender");
+  health.poseKnown = std::isfinite(l.locX.read(row)) && std::isfinite(l.locY.read(row));
+  health.conflict = board.id.value >= secondSender;
+  health.age = time - row.time + l.age.readOr(row, 0.0);
+  health.timedOut = health.age > liveTimeout;
+  health.rate = l.rate.readOr(row, 0.0);
+  if (std::isfinite(l.loss.read(row))) health.loss = l.loss.read(row);
+  health.errors = counter(l.errors.readOr(row, 0.0));
+  for (std::size_t f = 0; f < Layout::flagCount; ++f) {
+    if (health.timedOut || !std::isfinite(l.flags[f].read(row))) continue;
+    health.processes[f] = l.flags[f].read(row) != 0.0 ? telemetry::ProcessState::Working
+                                                      : telemetry::ProcessState::Silent;
+  }
+  if (std::isfinite(l.actionA.read(row))) health.action = board.actionA;
+  if (health.poseKnown) health.ball = perceivedBall(frame.field, board, robot.pose);
+  frame.health.push_back(std::move(health));
+}
+
+}  // namespace pitchboard::link

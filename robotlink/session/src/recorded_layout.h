@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Where the groups of a recording keep what frames need: names are looked up once. A blackboard, a
+// message and the truth call the same thing differently. Private to robotlink.
+
+#include <array>
+#include <utility>
+
+#include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/row_slot.h>
+
+namespace pitchboard::link {
+
+/// Where one group keeps what frames need.
+struct RecordedFrames::Layout {
+  static constexpr std::size_t flagCount = 5;
+  Layout(const telemetry::GroupInfo& group, const telemetry::Profile* profile)
+      : columns(group.columns.size()),
+        live(attribute(group, "live") == "1"),
+        robot{attributeNumber(group, live ? "number" : "robot")},
+        isMatch(robot.value == 0 && findSlot(group, {"BALL_X"}).present()) {
+    if (isMatch) {
+      tick = findSlot(group, {"TICK"});
+      ballX = findSlot(group, {"BALL_X"});
+      ballY = findSlot(group, {"BALL_Y"});
+      ballVx = findSlot(group, {"BALL_VX"});
+      ballVy = findSlot(group, {"BALL_VY"});
+      clock = findSlot(group, {"CLOCK"});
+      clockRunning = findSlot(group, {"CLOCK_RUNNING"});
+      scoreLeft = findSlot(group, {"SCORE_LEFT"});
+      scoreRight = findSlot(group, {"SCORE_RIGHT"});
+      tickTime = findSlot(group, {"TICK_TIME"});
+      return;
+    }
+    trueX = findSlot(group, {"TRUE_X"});
+    trueY = findSlot(group, {"TRUE_Y"});
+    trueYaw = findSlot(group, {"TRUE_YAW"});
+    headYaw = findSlot(group, {"HEAD_YAW"});
+    vx = findSlot(group, {"VX"});
+    vy = findSlot(group, {"VY"});
+    action = findSlot(group, {"ACTION", "CONTROL_ACTION", "ACTION_A", "DECISION_ACTION_A"});
+    fallen = findSlot(group, {"FALLEN", "IMU_STATE"});
+    distance = findSlot(group, {"DISTANCE_WALKED"});
+    kicks = findSlot(group, {"KICKS"});
+    falls = findSlot(group, {"FALLS"});
+    unknownActions = findSlot(group, {"UNKNOWN_ACTIONS"});
+    lastUnknown = findSlot(group, {"LAST_UNKNOWN_ACTION"});
+    actionA = findSlot(group, {"DECISION_ACTION_A", "ACTION_A"});
+    voltage = findSlot(group, {"VOLTAGE"});
+    lost = findSlot(group, {"VISION_LOST"});
+    ballDist = findSlot(group, {"VISION_BALL_DIST", "BALL_DIST"});
+    pan = findSlot(group, {"VISION_PAN_DEG", "BALL_ANGLE"});
+    locX = findSlot(group, {"LOCALIZATION_X", "X"});
+    locY = findSlot(group, {"LOCALIZATION_Y", "Y"});
+    locTheta = findSlot(group, {"LOCALIZATION_THETA", "THETA"});
+    // The published localization publishes its belief under this name (SYSTEM.md section 5).
+    belief = findSlot(group, {"LOCALIZATION_RBT01_X", "BELIEF"});
+    flags = {findSlot(group, {"CONTROL_WORKING", "CONTROL"}),
+             findSlot(group, {"VISION_WORKING", "VISION"}),
+             findSlot(group, {"LOCALIZATION_WORKING", "LOCALIZATION"}),
+             findSlot(group, {"DECISION_WORKING", "DECISION"}),
+             findSlot(group, {"IMU_WORKING", "IMU"})};
+    age = findSlot(group, {"LINK_AGE", "AGE"});
+    rate = findSlot(group, {"LINK_RATE", "RATE"});
+    loss = findSlot(group, {"LINK_LOSS", "LOSS"});
+    errors = findSlot(group, {"LINK_ERRORS", "ERRORS"});
+    if (!live || !profile) return;
+    using telemetry::FieldMeaning;
+    // A team's own names.
+    const std::pair<FieldMeaning, RowSlot*> meanings[] = {{FieldMeaning::X, &locX},
+                                                          {FieldMeaning::Y, &locY},
+                                                          {FieldMeaning::Theta, &locTheta},
+                                                          {FieldMeaning::Belief, &belief},
+                                                          {FieldMeaning::BallDistance, &ballDist},
+                                                          {FieldMeaning::BallAngle, &pan},
+                                                          {FieldMeaning::Action, &actionA},
+                                                          {FieldMeaning::Voltage, &voltage},
+                                                          {FieldMeaning::Control, &flags[0]},
+                                                          {FieldMeaning::Vision, &flags[1]},
+                                                          {FieldMeaning::Localization, &flags[2]},
+                                                          {FieldMeaning::Decision, &flags[3]},
+                                                          {FieldMeaning::Imu, &flags[4]}};
+    for (const auto& [meaning, slot] : meanings) {
+      const auto place = profile->indexOf(meaning);
+      *slot = place ? findSlot(group, {profile->fields[*place].name}) : RowSlot{};
+    }
+    action = actionA;
+  }
+
+  std::size_t columns;
+  bool live;
+  RobotId robot;
+  bool isMatch;
+  RowSlot tick, ballX, ballY, ballVx, ballVy, clock, clockRunning, scoreLeft, scoreRight, tickTime;
+  RowSlot trueX, trueY, trueYaw, headYaw, vx, vy, action, fallen, distance, kicks, falls,
+      unknownActions, lastUnknown;
+  RowSlot actionA, voltage, lost, ballDist, pan, locX, locY, locTheta, belief, age, rate, loss,
+      errors;
+  std::array<RowSlot, flagCount> flags;
+};
+
+}  // namespace pitchboard::link

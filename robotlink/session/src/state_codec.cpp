@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/state_codec.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <type_traits>
+
+#include <simcore/physics/simulation.h>
+#include <simcore/world/state_values.h>
+
+#include "byte_codec.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::string_view magic = "PBst";
+constexpr std::uint64_t version = 1;
+constexpr std::size_t longestText = 256;
+// Physics stays well-behaved within these; a match never comes near them.
+constexpr double farthest = 1e6;
+
+class Writer {
+ public:
+  explicit Writer(std::string& out) : m_out(out) {}
+  void value(const std::string& text) {
+    putVarint(m_out, text.size());
+    m_out += text;
+  }
+  template <class T>
+  void value(const T& value) {
+    if constexpr (std::is_same_v<T, double>) {
+      putDouble(m_out, value);
+    } else if constexpr (std::is_same_v<T, int>) {
+      putSigned(m_out, value);
+    } else {
+      putVarint(m_out, static_cast<std::uint64_t>(value));
+    }
+  }
+  template <class T>
+  void count(const std::vector<T>& list) {
+    putVarint(m_out, list.size());
+  }
+  template <class T>
+  void sameCount(const std::vector<T>& /*list*/, std::size_t /*size*/) {}
+  template <class Physics>
+  void alternative(const Physics& physics) {
+    putVarint(m_out, physics.index());
+  }
+
+ private:
+  std::string& m_out;
+};
+
+class Reader {
+ public:
+  explicit Reader(ByteReader& in) : m_in(in) {}
+  void value(std::string& text) {
+    const std::uint64_t size = m_in.varint();
+    if (size > longestText) return m_in.fail();
+    text = m_in.bytes(size);
+  }
+  void value(double& value) {
+    value = m_in.real();
+    if (!std::isfinite(value)) m_in.fail();
+  }
+  void value(int& value) {
+    const std::int64_t read = m_in.signedVarint();
+    if (read < std::numeric_limits<int>::min() || read > std::numeric_limits<int>::max()) {
+      return m_in.fail();
+    }
+    value = static_cast<int>(read);
+  }
+  void value(bool& value) { value = limited(1) != 0; }
+  void value(std::uint32_t& value) {
+    value = static_cast<std::uint32_t>(limited(std::numeric_limits<std::uint32_t>::max()));
+  }
+  void value(std::uint64_t& value) { value = m_in.varint(); }
+  void value(sim::AfterGoal& value) {
+    value = static_cast<sim::AfterGoal>(
+        limited(static_cast<std::uint64_t>(sim::AfterGoal::CentreBall)));
+  }
+  void value(TeamColor& value) { value = static_cast<TeamColor>(limited(teamColors.size() - 1)); }
+  void value(sim::Posture& value) {
+    value = static_cast<sim::Posture>(limited(static_cast<std::uint64_t>(sim::Posture::GettingUp)));
+  }
+  template <class T>
+  void count(std::vector<T>& list) {
+    const std::uint64_t size = m_in.varint();
+    // Every element takes three bytes at least, so that a lie about the count costs no memory.
+    if (size > m_in.left() / 3) return m_in.fail();
+    list.resize(size);
+  }
+  template <class T>
+  void sameCount(std::vector<T>& list, std::size_t size) {
+    list.resize(size);
+  }
+  void alternative(std::variant<sim::RigidBodyState, sim::PublishedState>& physics) {
+    if (limited(1) == 1) {
+      physics.emplace<sim::PublishedState>();
+    } else {
+      physics.emplace<sim::RigidBodyState>();
+    }
+  }
+
+ private:
+  std::uint64_t limited(std::uint64_t most) {
+    const std::uint64_t read = m_in.varint();
+    if (read <= most) return read;
+    m_in.fail();
+    return 0;
+  }
+  ByteReader& m_in;
+};
+
+bool isNear(double value) {
+  return std::abs(value) <= farthest;
+}
+
+bool plausible(const sim::RigidBodyState& state) {
+  for (const sim::RigidRobot& r : state.robots) {
+    for (const double value : {r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed,
+                               r.sidewaysSpeed, r.yawRate, r.velocity.x, r.velocity.y, r.headYaw,
+                               r.getUpRemaining, r.imuZero, r.imuDrift}) {
+      if (!isNear(value)) return false;
+    }
+  }
+  const sim::RigidBall& ball = state.ball;
+  return isNear(ball.position.x) && isNear(ball.position.y) && isNear(ball.velocity.x) &&
+         isNear(ball.velocity.y);
+}
+
+bool plausible(const sim::PublishedState& state) {
+  for (const sim::PublishedRobot& r : state.robots) {
+    for (const double value :
+         {r.x, r.y, r.rotate, r.view, r.front, r.turn, r.drift, r.orientationError}) {
+      if (!isNear(value)) return false;
+    }
+  }
+  const sim::PublishedBall& ball = state.ball;
+  return isNear(ball.x) && isNear(ball.y) && isNear(ball.vx) && isNear(ball.vy) &&
+         isNear(ball.friction);
+}
+
+bool robotsAreDistinct(const sim::WorldState& state) {
+  std::set<RobotId> ids;
+  for (const sim::RobotIdentity& robot : state.robots) {
+    if (robot.id.value < 1 || robot.id.value > sim::Simulation::maxRobots) return false;
+    if (!ids.insert(robot.id).second) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void encodeState(const sim::WorldState& state, std::string& out) {
+  out += magic;
+  putVarint(out, version);
+  Writer writer(out);
+  sim::visitValues(state, writer);
+}
+
+std::string encodeState(const sim::WorldState& state) {
+  std::string out;
+  encodeState(state, out);
+  return out;
+}
+
+Result<sim::WorldState> decodeState(std::string_view& bytes) {
+  ByteReader in(bytes);
+  if (in.bytes(magic.size()) != magic) {
+    return failure(ErrorCode::ParseError, "this is not a saved state of a match");
+  }
+  const std::uint64_t found = in.varint();
+  if (in.ok() && found != version) {
+    return failure(ErrorCode::Unsupported,
+                   "this state was saved by a later version of Pitchboard (form " +
+                       std::to_string(found) + ", this program reads " + std::to_string(version) +
+                       "); use that version");
+  }
+  sim::WorldState state;
+  Reader reader(in);
+  sim::visitValues(state, reader);
+  if (!in.ok()) {
+    return failure(ErrorCode::ParseError, "the saved state is cut or damaged",
+                   "byte " + std::to_string(in.offset()));
+  }
+  const bool usable =
+      robotsAreDistinct(state) &&
+      std::visit([](const auto& physics) { return plausible(physics); }, state.physics);
+  if (!usable) {
+    return failure(ErrorCode::ParseError,
+                   "the saved state has numbers that no match has (robots or places)");
+  }
+  // What only the simulation can judge: field, noise, the physics' own sizes.
+  auto simulation = sim::Simulation::create({});
+  if (auto put = simulation->restore(state); !put) return tl::unexpected(put.error());
+  bytes = in.rest();
+  return state;
+}
+
+}  // namespace pitchboard::link

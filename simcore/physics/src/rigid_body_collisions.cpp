@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rigid_body_collisions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <simcore/world/published_frame.h>
+
+namespace pitchboard::sim::rigid {
+namespace {
+
+constexpr double margin = 0.005;      // m, so that nearly touching things count as near
+constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
+constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
+constexpr double fastestBall = 50.0;  // m/s
+constexpr int separationRounds = 40;
+constexpr int roundsForBallAlone = 10;        // after these robots give way to a ball that is stuck
+constexpr double separationTolerance = 1e-5;  // m
+
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
+/// A speed of the gait after contacts changed it. Being slowed down is taken as it is; being pushed
+/// faster or backwards is resisted by the feet, which lose `grip` of it in this tick.
+double afterContact(double gait, double change, double grip) {
+  const double speed = gait + change;
+  const double own = std::clamp(speed, std::min(0.0, gait), std::max(0.0, gait));
+  const double pushed = speed - own;
+  return own + std::copysign(std::max(0.0, std::abs(pushed) - grip), pushed);
+}
+
+}  // namespace
+
+void Collisions::updateRolling(double friction, double dt) {
+  if (m_rolling.friction == friction && m_rolling.dt == dt) return;
+  m_rolling = {friction, dt, 1.0, 1.0};
+  if (friction >= 1.0) return;
+  // The published ball slows, then moves: v·f/60 + v·f²/60 + ... = v·f/(60·(1 − f)). Scaled to this
+  // whole way, exponential decay gives the same place at every tick rate, and at 60 Hz each tick's.
+  m_rolling.kept = std::pow(friction, dt * published_frame::framesPerSecond);
+  const double way = friction / ((1.0 - friction) * published_frame::framesPerSecond);
+  m_rolling.mean = way * (1.0 - m_rolling.kept) / dt;
+}
+
+std::size_t Collisions::addBody(const Tick& tick, std::size_t body) {
+  std::size_t& slot = m_slots[body];
+  if (slot == 0) {
+    MovingBody moving;
+    moving.body = body;
+    if (body < tick.state.robots.size()) {
+      moving.position = tick.state.robots[body].pose.position;
+      moving.velocity = tick.motions[body].velocity;
+      moving.reach = length(tick.motions[body].noise.x, tick.motions[body].noise.y);
+    } else {
+      moving.position = tick.state.ball.position;
+      moving.velocity = m_ballVelocity;
+    }
+    moving.reach += length(moving.velocity.x, moving.velocity.y) * tick.dt;
+    m_bodies.push_back(moving);
+    slot = m_bodies.size();
+  }
+  return slot - 1;
+}
+
+void Collisions::findNeighbours(const Tick& tick) {
+  const std::size_t robots = tick.state.robots.size();
+  const FieldSpec& field = tick.settings().field;
+  m_bodies.clear();
+  m_pairs.clear();
+  m_slots.assign(robots + 1, 0);
+  m_x.resize(robots);
+  m_y.resize(robots);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < robots; ++i) {
+    m_x[i] = tick.state.robots[i].pose.position.x;
+    m_y[i] = tick.state.robots[i].pose.position.y;
+    const Velocity& v = tick.motions[i].velocity;
+    const double wayX = std::abs(v.x) * tick.dt + std::abs(tick.motions[i].noise.x);
+    const double wayY = std::abs(v.y) * tick.dt + std::abs(tick.motions[i].noise.y);
+    farthest = std::max(farthest, wayX * wayX + wayY * wayY);
+  }
+  const double reach = std::sqrt(farthest);
+  const Point& ball = tick.state.ball.position;
+  const double ballReach = length(m_ballVelocity.x, m_ballVelocity.y) * tick.dt;
+
+  const auto addObstacles = [&](std::size_t body, const Point& place, double radius, double way,
+                                double restitution) {
+    // Everything but the upper and lower wall stands at or behind the posts.
+    const double extent = radius + way + margin;
+    if (std::abs(place.x) + extent < field.halfLength() - field.goalPostRadius &&
+        std::abs(place.y) + extent < field.halfWidth() + field.border) {
+      return;
+    }
+    for (std::size_t k = 0; k < obstacleCount; ++k) {
+      const double limit = m_obstacles[k].radius + radius;
+      const double distance = clearance(m_obstacles, k, place).distance;
+      if (distance >= limit + way + margin) continue;
+      m_pairs.push_back(
+          {addBody(tick, body), k, true, restitution, std::max(0.0, limit - distance)});
+    }
+  };
+  for (std::size_t i = 0; i < robots; ++i) {
+    addObstacles(i, {m_x[i], m_y[i]}, field.robotRadius, reach, 0.0);
+  }
+  addObstacles(robots, ball, field.ballRadius, ballReach,
+               tick.settings().rigidBody.postRestitution);
+
+  const double touching = 2.0 * field.robotRadius;
+  const double near = touching + 2.0 * reach + margin;
+  const double near2 = near * near;
+  for (std::size_t i = 1; i < robots; ++i) {
+    const double x = m_x[i];
+    const double y = m_y[i];
+    int any = 0;  // counted without a branch first, so that the compiler can use vectors
+    for (std::size_t j = 0; j < i; ++j) {
+      const double dx = m_x[j] - x;
+      const double dy = m_y[j] - y;
+      any += dx * dx + dy * dy < near2 ? 1 : 0;
+    }
+    for (std::size_t j = 0; any > 0 && j < i; ++j) {
+      const double distance = length(m_x[j] - x, m_y[j] - y);
+      if (distance >= near) continue;
+      const std::size_t first = addBody(tick, j);
+      m_pairs.push_back({first, addBody(tick, i), false, 0.0, std::max(0.0, touching - distance)});
+    }
+  }
+
+  const double ballTouching = field.robotRadius + field.ballRadius;
+  const double ballNear = ballTouching + reach + ballReach + margin;
+  for (std::size_t i = 0; i < robots; ++i) {
+    const double dx = m_x[i] - ball.x;
+    const double dy = m_y[i] - ball.y;
+    if (dx * dx + dy * dy >= ballNear * ballNear) continue;
+    const std::size_t first = addBody(tick, i);
+    m_pairs.push_back({first, addBody(tick, robots), false,
+                       tick.settings().rigidBody.robotRestitution,
+                       std::max(0.0, ballTouching - length(dx, dy))});
+  }
+}
+
+void Collisions::separate(const Tick& tick) {
+  const FieldSpec& field = tick.settings().field;
+  const std::size_t ball = tick.state.robots.size();
+  const auto radius = [&](const MovingBody& moving) {
+    return moving.body == ball ? field.ballRadius : field.robotRadius;
+  };
+  const double parting = partingSpeed * tick.dt;
+  for (NearPair& pair : m_pairs) pair.overlap = std::max(0.0, pair.overlap - parting);
+  for (int round = 0; round < separationRounds; ++round) {
+    bool apart = true;
+    for (const NearPair& pair : m_pairs) {
+      MovingBody& a = m_bodies[pair.first];
+      if (pair.obstacle) {
+        const Clearance gap = clearance(m_obstacles, pair.second, a.position);
+        const double push = m_obstacles[pair.second].radius + radius(a) - gap.distance;
+        if (push - pair.overlap <= separationTolerance) continue;
+        apart = false;
+        a.position.x += gap.direction.x * (push - pair.overlap);
+        a.position.y += gap.direction.y * (push - pair.overlap);
+        continue;
+      }
+      MovingBody& b = m_bodies[pair.second];
+      const double dx = b.position.x - a.position.x;
+      const double dy = b.position.y - a.position.y;
+      const double distance = length(dx, dy);
+      const double push = radius(a) + radius(b) - distance - pair.overlap;
+      if (push <= separationTolerance) continue;
+      apart = false;
+      // Exactly on each other: part along x, whichever came first to the left.
+      const double nx = distance > 0.0 ? dx / distance : 1.0;
+      const double ny = distance > 0.0 ? dy / distance : 0.0;
+      const bool ballAlone = b.body == ball && round < roundsForBallAlone;
+      const double share = ballAlone ? 1.0 : 0.5;
+      a.position.x -= nx * push * (1.0 - share);
+      a.position.y -= ny * push * (1.0 - share);
+      b.position.x += nx * push * share;
+      b.position.y += ny * push * share;
+    }
+    if (apart) return;
+  }
+}
+
+void Collisions::writeBack(Tick& tick) {
+  const std::size_t ball = tick.state.robots.size();
+  for (const MovingBody& moving : m_bodies) {
+    if (moving.body == ball) {
+      tick.state.ball.position = moving.position;
+      m_ballVelocity = moving.velocity;
+      continue;
+    }
+    RigidRobot& robot = tick.state.robots[moving.body];
+    Motion& motion = tick.motions[moving.body];
+    motion.impulse = moving.impulse;
+    if (moving.deflected) {
+      const double c = motion.heading.cos();
+      const double s = motion.heading.sin();
+      const double dvx = moving.velocity.x - motion.velocity.x;
+      const double dvy = moving.velocity.y - motion.velocity.y;
+      const double grip = feetGrip * tick.dt;
+      robot.forwardSpeed = afterContact(robot.forwardSpeed, c * dvx + s * dvy, grip);
+      robot.sidewaysSpeed = afterContact(robot.sidewaysSpeed, c * dvy - s * dvx, grip);
+    }
+    robot.velocity = {(moving.position.x - robot.pose.position.x) / tick.dt,
+                      (moving.position.y - robot.pose.position.y) / tick.dt};
+    robot.pose.position = moving.position;
+  }
+}
+
+void Collisions::advance(Tick& tick) {
+  const SimulationSettings& settings = tick.settings();
+  if (!m_fieldKnown || !(m_field == settings.field)) {
+    m_field = settings.field;
+    m_fieldKnown = true;
+    m_obstacles = obstaclesOf(m_field);
+  }
+  const std::size_t robots = tick.state.robots.size();
+  m_solver.prepare(settings, m_obstacles, robots);
+  if (m_bodies.capacity() <= robots) {
+    m_bodies.reserve(robots + 1);
+    m_pairs.reserve((robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount);
+  }
+  updateRolling(settings.rigidBody.ballFriction, tick.dt);
+
+  RigidBall& ball = tick.state.ball;
+  const double ballSpeed = length(ball.velocity.x, ball.velocity.y);
+  const double slowed = ballSpeed > fastestBall ? fastestBall / ballSpeed : 1.0;
+  m_ballVelocity = {ball.velocity.x * slowed * m_rolling.mean,
+                    ball.velocity.y * slowed * m_rolling.mean};
+  findNeighbours(tick);
+  if (!m_pairs.empty()) {
+    m_solver.solve(m_bodies, m_pairs, tick.dt);
+    // Noise is no push: it displaces the robot as far as there is room.
+    for (MovingBody& moving : m_bodies) {
+      if (moving.body == robots) continue;
+      moving.position.x += tick.motions[moving.body].noise.x;
+      moving.position.y += tick.motions[moving.body].noise.y;
+    }
+    separate(tick);
+    writeBack(tick);
+  }
+  for (std::size_t i = 0; i < robots; ++i) {
+    if (m_slots[i] != 0) continue;
+    RigidRobot& robot = tick.state.robots[i];
+    const Motion& motion = tick.motions[i];
+    const double dx = motion.velocity.x * tick.dt + motion.noise.x;
+    const double dy = motion.velocity.y * tick.dt + motion.noise.y;
+    robot.pose.position.x += dx;
+    robot.pose.position.y += dy;
+    robot.velocity = {dx / tick.dt, dy / tick.dt};
+  }
+  if (m_slots[robots] == 0) {
+    ball.position.x += m_ballVelocity.x * tick.dt;
+    ball.position.y += m_ballVelocity.y * tick.dt;
+  }
+  // The mean speed says the speed at the end; a ball without any way (friction 0) stands still.
+  const double end = m_rolling.mean > 0.0 ? m_rolling.kept / m_rolling.mean : 0.0;
+  ball.velocity = {m_ballVelocity.x * end, m_ballVelocity.y * end};
+}
+
+}  // namespace pitchboard::sim::rigid

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Box2D as a pure function. One b2World lives as long as the model, so that nothing is allocated
+// per tick; but of one tick nothing is left for the next: contacts are made from the caller's list,
+// in its order, and are all destroyed afterwards, without warm starting or sleep. The world's own
+// search for contacts, whose order depends on the history of its tree, is refused by a filter.
+//
+// Box2D's tolerances are made for things of 0.1 to 10 units: a metre is ten units here.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <base/geometry.h>
+#include <simcore/world/world_state.h>
+
+#include "rigid_body_obstacles.h"
+
+namespace pitchboard::sim::rigid {
+
+/// A robot, or the ball after the robots, that may touch something in this tick.
+struct MovingBody {
+  std::size_t body = 0;    ///< index of the robot, or the number of robots for the ball
+  Point position;          ///< m; moved by solve()
+  Velocity velocity;       ///< m/s, constant over the tick but for contacts; changed by solve()
+  Velocity impulse;        ///< N·s, set by solve()
+  double reach = 0.0;      ///< m that it can move in this tick
+  bool deflected = false;  ///< set by solve(): contacts changed its motion
+};
+
+/// Two things that may touch: indices into the list of moving bodies, or an obstacle as the second.
+struct NearPair {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  bool obstacle = false;
+  double restitution = 0.0;
+  double overlap = 0.0;  ///< m at the start of the tick, 0 when apart
+};
+
+class ContactSolver {
+ public:
+  ContactSolver();
+  ~ContactSolver();
+
+  /// Makes sure that the world fits. Allocates only when the field, the constants or the number of
+  /// robots changed.
+  void prepare(const SimulationSettings& settings, const Obstacles& obstacles, std::size_t robots);
+
+  /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch.
+  void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt);
+
+ private:
+  struct World;
+  std::unique_ptr<World> m_world;
+};
+
+}  // namespace pitchboard::sim::rigid

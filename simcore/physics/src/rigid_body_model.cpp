@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The `rigid-body` model: SYSTEM.md section 4, last paragraph. This file holds the order of a tick
+// and the edits by hand; the parts are in the rigid_body_*.cpp files beside it.
+
+#include <algorithm>
+
+#include <simcore/rules/rigid_body_rules.h>
+#include <simcore/world/published_frame.h>
+
+#include "physics_model.h"
+#include "rigid_body_collisions.h"
+#include "rigid_body_control.h"
+#include "rigid_body_imu.h"
+#include "rigid_body_vision.h"
+
+namespace pitchboard::sim {
+namespace {
+
+RigidBodyState& stateOf(WorldState& world) {
+  return std::get<RigidBodyState>(world.physics);
+}
+const RigidBodyState& stateOf(const WorldState& world) {
+  return std::get<RigidBodyState>(world.physics);
+}
+
+class RigidBodyModel final : public PhysicsModel {
+ public:
+  void reset(WorldState& world) const override {
+    RigidBodyState state;
+    state.robots.reserve(Simulation::maxRobots);
+    world.physics = std::move(state);
+  }
+
+  bool owns(const WorldState& world) const override {
+    const auto* state = std::get_if<RigidBodyState>(&world.physics);
+    if (!state || state->robots.size() != world.robots.size()) return false;
+    const std::size_t delay = rigid::delayTicks(world.settings);
+    return std::all_of(state->robots.begin(), state->robots.end(),
+                       [&](const RigidRobot& robot) { return robot.sightings.size() == delay; });
+  }
+
+  void step(WorldState& world, std::span<const RobotCommand> commands, std::span<Percepts> percepts,
+            std::vector<Event>& events) override {
+    const double dt = 1.0 / world.settings.tickRate;
+    const double frames = published_frame::framesPerSecond / world.settings.tickRate;
+    rigid::Tick tick{world, stateOf(world), m_motions, events, dt, std::sqrt(frames)};
+    const std::size_t robots = tick.state.robots.size();
+    m_motions.resize(robots);
+    for (std::size_t i = 0; i < robots; ++i) {
+      percepts[i] = Percepts{};
+      rigid::stepControl(tick, i, commands[i], percepts[i]);
+    }
+    m_collisions.advance(tick);
+    for (std::size_t i = 0; i < robots; ++i) {
+      const RigidRobot& robot = tick.state.robots[i];
+      if (robot.inMotion) {
+        world.statistics[i].distanceWalked +=
+            dt * std::sqrt(robot.forwardSpeed * robot.forwardSpeed +
+                           robot.sidewaysSpeed * robot.sidewaysSpeed);
+      }
+      if (world.settings.rigidBody.falls) rigid::applyFall(tick, i);
+    }
+    rigid::applyMatchRules(tick.world, tick.state, tick.events);
+    for (std::size_t i = 0; i < robots; ++i) {
+      rigid::stepImu(tick, i, commands[i], percepts[i].imu);
+      rigid::stepVision(tick, i, commands[i], percepts[i]);
+    }
+  }
+
+  void robotAdded(WorldState& world, const Pose& pose) const override {
+    RigidRobot robot;
+    robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
+    robot.sightings.resize(rigid::delayTicks(world.settings));
+    stateOf(world).robots.push_back(std::move(robot));
+  }
+
+  void robotRemoved(WorldState& world, std::size_t index) const override {
+    auto& robots = stateOf(world).robots;
+    robots.erase(robots.begin() + static_cast<std::ptrdiff_t>(index));
+  }
+
+  void placeRobot(WorldState& world, std::size_t index, const Pose& pose) const override {
+    RigidRobot& robot = stateOf(world).robots[index];
+    robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
+    // Taken up and put down: it stands, and starts its gait anew.
+    robot.forwardSpeed = robot.sidewaysSpeed = robot.yawRate = 0.0;
+    robot.velocity = {};
+  }
+
+  void placeHead(WorldState& world, std::size_t index, double headYaw) const override {
+    RigidRobot& robot = stateOf(world).robots[index];
+    const double limit = world.settings.rigidBody.panLimit;
+    robot.headYaw = std::clamp(rigid::wrapped(headYaw - robot.pose.yaw), -limit, limit);
+  }
+
+  void placeBall(WorldState& world, const Point& position,
+                 const Velocity& velocity) const override {
+    stateOf(world).ball = {position, velocity};
+  }
+
+  void settingsChanged(WorldState& world) const override {
+    const std::size_t delay = rigid::delayTicks(world.settings);
+    for (RigidRobot& robot : stateOf(world).robots) {
+      auto& ring = robot.sightings;
+      if (ring.size() == delay) continue;
+      // Until the new delay has passed, vision goes on with what it saw last.
+      BallSighting last;
+      if (!ring.empty() && world.tick > 0) last = ring[(world.tick - 1) % ring.size()];
+      ring.assign(delay, last);
+    }
+  }
+
+  Pose robotPose(const WorldState& world, std::size_t index) const override {
+    return stateOf(world).robots[index].pose;
+  }
+
+  void describe(const WorldState& world, Snapshot& out) const override {
+    const RigidBodyState& state = stateOf(world);
+    out.ball = state.ball.position;
+    out.ballVelocity = state.ball.velocity;
+    for (std::size_t i = 0; i < state.robots.size(); ++i) {
+      const RigidRobot& robot = state.robots[i];
+      RobotSnapshot& described = out.robots[i];
+      described.pose = robot.pose;
+      described.headYaw = rigid::wrapped(robot.pose.yaw + robot.headYaw);
+      described.velocity = robot.velocity;
+      described.action = robot.action;
+      described.fallen = rigid::isDown(robot);
+    }
+  }
+
+ private:
+  // Scratch of a tick; see rigid_body_tick.h.
+  std::vector<rigid::Motion> m_motions;
+  rigid::Collisions m_collisions;
+};
+
+}  // namespace
+
+std::unique_ptr<PhysicsModel> makeRigidBodyModel() {
+  return std::make_unique<RigidBodyModel>();
+}
+
+}  // namespace pitchboard::sim

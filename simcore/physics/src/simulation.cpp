@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <simcore/physics/simulation.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "physics_model.h"
+
+namespace pitchboard::sim {
+namespace {
+
+constexpr double leastTickRate = 1.0;
+constexpr double mostTickRate = 10000.0;
+
+Result<void> validateTickRate(double rate) {
+  if (std::isfinite(rate) && rate >= leastTickRate && rate <= mostTickRate) return {};
+  return failure(ErrorCode::InvalidArgument,
+                 "The tick rate must lie between 1 and 10000 ticks per second.", "tick_rate");
+}
+
+Result<void> validate(const NoiseParameters& n) {
+  struct Value {
+    const char* name;
+    double value, most;
+  };
+  const Value values[] = {{"forward", n.forward, 10},
+                          {"sideways", n.sideways, 10},
+                          {"rotation", n.rotation, 10},
+                          {"kick_speed", n.kickSpeed, 100},
+                          {"kick_angle", n.kickAngle, 10},
+                          {"vision_distance", n.visionDistance, 10},
+                          {"vision_bearing", n.visionBearing, 10},
+                          {"robot_distance", n.robotDistance, 100},
+                          {"robot_bearing", n.robotBearing, 10},
+                          {"landmark_bearing", n.landmarkBearing, 10},
+                          {"landmark_probability", n.landmarkProbability, 1},
+                          {"missed_detection", n.missedDetection, 1},
+                          {"vision_delay", n.visionDelay, 2},
+                          {"imu_white", n.imuWhite, 10},
+                          {"imu_drift", n.imuDrift, 10}};
+  for (const Value& v : values) {
+    if (!std::isfinite(v.value) || v.value < 0 || v.value > v.most) {
+      return failure(ErrorCode::InvalidArgument,
+                     "Noise must lie between 0 and " + std::to_string(v.most) + ".",
+                     std::string("noise.") + v.name);
+    }
+  }
+  return {};
+}
+
+Result<void> validate(const RigidBodySettings& s) {
+  struct Value {
+    const char* name;
+    double value, least, most;
+  };
+  const Value values[] = {{"max_acceleration", s.maxAcceleration, 0.01, 1000},
+                          {"max_yaw_acceleration", s.maxYawAcceleration, 0.01, 10000},
+                          {"robot_mass", s.robotMass, 0.1, 200},
+                          {"ball_mass", s.ballMass, 0.01, 5},
+                          {"ball_friction", s.ballFriction, 0, 1},
+                          {"post_restitution", s.postRestitution, 0, 1},
+                          {"robot_restitution", s.robotRestitution, 0, 1},
+                          {"fall_impulse", s.fallImpulse, 0, 1000},
+                          {"get_up_time", s.getUpTime, 0, 600},
+                          {"head_speed", s.headSpeed, 0, 100},
+                          {"field_of_view", s.fieldOfView, 0.01, 6.2832},
+                          {"pan_limit", s.panLimit, 0, 3.1416},
+                          {"vision_range", s.visionRange, 0, 100}};
+  for (const Value& v : values) {
+    if (!std::isfinite(v.value) || v.value < v.least || v.value > v.most) {
+      return failure(ErrorCode::InvalidArgument,
+                     "The value must lie between " + std::to_string(v.least) + " and " +
+                         std::to_string(v.most) + ".",
+                     std::string("rigid_body.") + v.name);
+    }
+  }
+  return {};
+}
+
+Result<void> validate(const SimulationSettings& settings) {
+  return validateTickRate(settings.tickRate)
+      .and_then([&] { return validate(settings.field); })
+      .and_then([&] { return validate(settings.noise); })
+      .and_then([&] { return validate(settings.rigidBody); });
+}
+
+bool isFinite(const Pose& pose) {
+  return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&
+         std::isfinite(pose.yaw);
+}
+
+tl::unexpected<Error> noSuchRobot(RobotId id) {
+  return failure(ErrorCode::NotFound,
+                 "There is no robot " + std::to_string(id.value) + " on the field.");
+}
+
+/// The nearest place that lies wholly inside the walls.
+Point insideWalls(const FieldSpec& field, const Point& point, double radius) {
+  const double x = field.halfLength() + field.border - radius;
+  const double y = field.halfWidth() + field.border - radius;
+  return {std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
+}
+
+}  // namespace
+
+Simulation::Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Result<Simulation> Simulation::create(const SimulationSettings& settings) {
+  if (auto valid = validate(settings); !valid) return tl::unexpected(valid.error());
+  Simulation simulation;
+  simulation.m_model = makePhysicsModel(settings.physics);
+  if (!simulation.m_model) {
+    std::string known;
+    for (const PhysicsModelInfo& model : physicsModels()) {
+      known += (known.empty() ? "" : ", ") + std::string(model.name);
+    }
+    return failure(ErrorCode::NotFound, "There is no physics model called \"" + settings.physics +
+                                            "\". Known models: " + known + ".");
+  }
+  simulation.m_state.settings = settings;
+  simulation.m_model->reset(simulation.m_state);
+  simulation.m_state.robots.reserve(maxRobots);
+  simulation.m_state.statistics.reserve(maxRobots);
+  simulation.m_events.reserve(4 * maxRobots);
+  return simulation;
+}
+
+void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts> percepts) {
+  assert(commands.size() == robotCount() && percepts.size() == robotCount());
+  m_events.clear();
+  m_model->step(m_state, commands, percepts, m_events);
+  ++m_state.tick;
+  if (m_state.clockRunning) ++m_state.clockTicks;
+}
+
+Result<void> Simulation::restore(const WorldState& state) {
+  if (auto valid = validate(state.settings); !valid) return valid;
+  auto model = makePhysicsModel(state.settings.physics);
+  if (!model || !model->owns(state) || state.statistics.size() != state.robots.size()) {
+    return failure(ErrorCode::InvalidArgument, "This saved moment does not fit its physics model.");
+  }
+  m_state = state;
+  m_model = std::move(model);
+  m_events.clear();
+  return {};
+}
+
+void Simulation::snapshot(Snapshot& out) const {
+  out.tick = m_state.tick;
+  out.time = static_cast<double>(m_state.tick) / m_state.settings.tickRate;
+  out.clock = static_cast<double>(m_state.clockTicks) / m_state.settings.tickRate;
+  out.clockRunning = m_state.clockRunning;
+  out.score = m_state.score;
+  out.robots.resize(robotCount());
+  for (std::size_t i = 0; i < robotCount(); ++i) {
+    out.robots[i].identity = m_state.robots[i];
+    out.robots[i].statistics = m_state.statistics[i];
+  }
+  m_model->describe(m_state, out);
+}
+
+Snapshot Simulation::snapshot() const {
+  Snapshot out;
+  snapshot(out);
+  return out;
+}
+
+std::optional<std::size_t> Simulation::indexOf(RobotId id) const {
+  for (std::size_t i = 0; i < robotCount(); ++i) {
+    if (m_state.robots[i].id == id) return i;
+  }
+  return {};
+}
+
+std::optional<Pose> Simulation::robotPose(RobotId id) const {
+  const auto index = indexOf(id);
+  if (!index) return {};
+  return m_model->robotPose(m_state, *index);
+}
+
+Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pose) {
+  if (identity.id.value < 1 || identity.id.value > maxRobots) {
+    return failure(ErrorCode::InvalidArgument,
+                   "Robot numbers lie between 1 and " + std::to_string(maxRobots) + ".");
+  }
+  if (indexOf(identity.id)) {
+    return failure(ErrorCode::Conflict,
+                   "Robot " + std::to_string(identity.id.value) + " is already on the field.");
+  }
+  if (!isFinite(pose)) {
+    return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");
+  }
+  const FieldSpec& field = m_state.settings.field;
+  m_state.robots.push_back(identity);
+  m_state.statistics.emplace_back();
+  m_model->robotAdded(m_state, {insideWalls(field, pose.position, field.robotRadius), pose.yaw});
+  return {};
+}
+
+Result<void> Simulation::removeRobot(RobotId id) {
+  const auto index = indexOf(id);
+  if (!index) return noSuchRobot(id);
+  const auto offset = static_cast<std::ptrdiff_t>(*index);
+  m_state.robots.erase(m_state.robots.begin() + offset);
+  m_state.statistics.erase(m_state.statistics.begin() + offset);
+  m_model->robotRemoved(m_state, *index);
+  return {};
+}
+
+Result<void> Simulation::placeRobot(RobotId id, const Pose& pose) {
+  const auto index = indexOf(id);
+  if (!index) return noSuchRobot(id);
+  if (!isFinite(pose)) {
+    return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");
+  }
+  const FieldSpec& field = m_state.settings.field;
+  m_model->placeRobot(m_state, *index,
+                      {insideWalls(field, pose.position, field.robotRadius), pose.yaw});
+  return {};
+}
+
+Result<void> Simulation::placeHead(RobotId id, double headYaw) {
+  const auto index = indexOf(id);
+  if (!index) return noSuchRobot(id);
+  if (!std::isfinite(headYaw)) {
+    return failure(ErrorCode::InvalidArgument, "A head direction must be a finite number.");
+  }
+  m_model->placeHead(m_state, *index, headYaw);
+  return {};
+}
+
+Result<void> Simulation::placeBall(const Point& position, const Velocity& velocity) {
+  if (!isFinite({position, 0}) || !isFinite({{velocity.x, velocity.y}, 0})) {
+    return failure(ErrorCode::InvalidArgument, "The ball's place must be finite numbers.");
+  }
+  const FieldSpec& field = m_state.settings.field;
+  m_model->placeBall(m_state, insideWalls(field, position, field.ballRadius), velocity);
+  return {};
+}
+
+Result<void> Simulation::setNoise(const NoiseParameters& noise) {
+  if (auto valid = validate(noise); !valid) return valid;
+  m_state.settings.noise = noise;
+  m_model->settingsChanged(m_state);
+  return {};
+}
+
+Result<void> Simulation::setRigidBody(const RigidBodySettings& settings) {
+  if (auto valid = validate(settings); !valid) return valid;
+  m_state.settings.rigidBody = settings;
+  m_model->settingsChanged(m_state);
+  return {};
+}
+
+}  // namespace pitchboard::sim

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The one list of the values of a WorldState, in order of declaration: the hash, the saved form and
+// whatever else must not forget a value go through it. World is WorldState or const WorldState.
+//
+// A visitor has value(v) for std::string, double, bool, int, std::uint32_t, std::uint64_t and every
+// enumeration; count(vector) before the elements of a vector whose size is its own (a reader
+// resizes it there); sameCount(vector, size) where the size is known already; alternative(variant)
+// before the physics (a reader chooses it there).
+
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::sim {
+namespace state_values {
+
+template <class Visitor, class... Values>
+void all(Visitor& visitor, Values&... values) {
+  (visitor.value(values), ...);
+}
+
+template <class Field, class Visitor>
+void field(Field& f, Visitor& v) {
+  all(v, f.name, f.length, f.width, f.border, f.goalWidth, f.goalDepth, f.goalHeight,
+      f.goalPostRadius, f.goalAreaLength, f.goalAreaWidth, f.penaltyAreaLength, f.penaltyAreaWidth,
+      f.penaltyMarkDistance, f.centreCircleDiameter, f.lineWidth, f.ballRadius, f.robotRadius);
+}
+
+template <class Noise, class Visitor>
+void noise(Noise& n, Visitor& v) {
+  all(v, n.forward, n.sideways, n.rotation, n.kickSpeed, n.kickAngle, n.visionDistance,
+      n.visionBearing, n.robotDistance, n.robotBearing, n.landmarkBearing, n.landmarkProbability,
+      n.missedDetection, n.visionDelay, n.imuWhite, n.imuDrift);
+}
+
+template <class Body, class Visitor>
+void rigidBody(Body& s, Visitor& v) {
+  all(v, s.maxAcceleration, s.maxYawAcceleration, s.robotMass, s.ballMass, s.ballFriction,
+      s.postRestitution, s.robotRestitution, s.falls, s.fallImpulse, s.getUpTime, s.headSpeed,
+      s.fieldOfView, s.panLimit, s.visionRange);
+}
+
+/// One of the alternatives of WorldState::physics, told apart by what its robots have.
+template <class Physics, class Visitor>
+void physics(Physics& state, Visitor& v) {
+  v.count(state.robots);
+  for (auto& r : state.robots) {
+    if constexpr (requires { r.sightings; }) {
+      all(v, r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed, r.sidewaysSpeed,
+          r.yawRate, r.velocity.x, r.velocity.y, r.headYaw, r.panRight, r.action, r.actionB,
+          r.inMotion, r.posture, r.getUpRemaining, r.imuZero, r.imuDrift);
+      v.count(r.sightings);
+      for (auto& s : r.sightings) all(v, s.seen, s.distance, s.bearing);
+    } else {
+      all(v, r.x, r.y, r.rotate, r.view, r.panRight, r.action, r.front, r.turn, r.drift, r.inMotion,
+          r.orientationError);
+    }
+  }
+  auto& ball = state.ball;
+  if constexpr (requires { ball.position; }) {
+    all(v, ball.position.x, ball.position.y, ball.velocity.x, ball.velocity.y);
+  } else {
+    all(v, ball.x, ball.y, ball.vx, ball.vy, ball.friction);
+  }
+}
+
+}  // namespace state_values
+
+template <class World, class Visitor>
+void visitValues(World& world, Visitor& v) {
+  auto& s = world.settings;
+  state_values::all(v, s.physics, s.tickRate, s.seed, s.afterGoal);
+  state_values::field(s.field, v);
+  state_values::noise(s.noise, v);
+  state_values::rigidBody(s.rigidBody, v);
+  state_values::all(v, world.tick, world.score.left, world.score.right, world.clockRunning,
+                    world.clockTicks);
+  v.count(world.robots);
+  for (auto& r : world.robots) state_values::all(v, r.id.value, r.team, r.number, r.imuStartsAt180);
+  v.sameCount(world.statistics, world.robots.size());
+  for (auto& r : world.statistics) {
+    state_values::all(v, r.distanceWalked, r.kicks, r.falls, r.unknownActions, r.lastUnknownAction);
+  }
+  v.alternative(world.physics);
+  std::visit([&v](auto& state) { state_values::physics(state, v); }, world.physics);
+}
+
+}  // namespace pitchboard::sim

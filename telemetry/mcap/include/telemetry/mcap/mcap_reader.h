@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Reads MCAP files, also hostile, cut or damaged ones: by their summary where it is whole, else by
+// walking through the file. Every length is checked against what is left; what cannot be read is
+// left out and named with its offset. Memory: one chunk and the index. One thread.
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <telemetry/mcap/mcap_records.h>
+
+namespace pitchboard::telemetry {
+
+struct McapReaderOptions {
+  std::size_t maxChunkBytes = std::size_t{128} << 20;  ///< unpacked; larger chunks are left out
+  std::size_t maxAttachmentBytes = std::size_t{256} << 20;
+  bool ignoreSummary = false;  ///< walk through the file in any case, checking every chunk
+  /// Called now and then with the part of the file seen (0 to 1); false ends with an error.
+  std::function<bool(double)> progress;
+};
+
+class McapReader {
+ public:
+  /// Error NotFound or SystemError (cannot be opened), ParseError (not an MCAP file), Unsupported
+  /// (a later version of MCAP). Damage behind the first bytes is no error: see problems().
+  static Result<McapReader> open(const std::string& path, const McapReaderOptions& options = {});
+  static Result<McapReader> openBytes(std::string bytes, const McapReaderOptions& options = {});
+  McapReader(McapReader&&) noexcept;
+  McapReader& operator=(McapReader&&) noexcept;
+  ~McapReader();
+
+  /// The file has an end and its summary was used. False: it was walked through (a recording that
+  /// broke off, or a damaged summary); every chunk that is listed was then unpacked and checked.
+  bool indexed() const;
+  /// What is wrong and where, in sentences; at most 100.
+  const std::vector<std::string>& problems() const;
+  std::uint64_t fileBytes() const;
+
+  const std::string& profile() const;
+  const std::string& library() const;
+  const std::map<std::uint16_t, McapSchema>& schemas() const;
+  const std::map<std::uint16_t, McapChannel>& channels() const;
+  const std::vector<McapChunkInfo>& chunks() const;  ///< in the order of the file
+  const std::vector<McapAttachmentInfo>& attachments() const;
+  const std::vector<McapMetadataInfo>& metadata() const;
+  /// From the summary, or counted.
+  const McapStatistics& statistics() const;
+
+  /// Unpacks the body of one of chunks() into `body` (its memory is used again). Error ParseError
+  /// with the offset when it is damaged, Unsupported when the compression is unknown.
+  Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
+  Result<std::string> readAttachment(const McapAttachmentInfo& attachment) const;
+  Result<McapMap> readMetadata(const McapMetadataInfo& metadata) const;
+
+ private:
+  friend class McapScan;
+  struct Impl;
+  explicit McapReader(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> m_impl;
+};
+
+/// Walks through the records of a chunk's body; the body must outlive it.
+class McapCursor {
+ public:
+  explicit McapCursor(std::string_view body) : m_body(body) {}
+
+  enum class Kind : std::uint8_t { Schema, Channel, Message, End };
+  /// Records of other kinds are passed over. End: nothing more, or damaged() at offset().
+  Kind next();
+  const McapSchema& schema() const { return m_schema; }
+  const McapChannel& channel() const { return m_channel; }
+  const McapMessage& message() const { return m_message; }
+  bool damaged() const { return m_damaged; }
+  std::size_t offset() const { return m_at; }  ///< in the body, of the next record
+
+ private:
+  std::string_view m_body;
+  std::size_t m_at = 0;
+  bool m_damaged = false;
+  McapSchema m_schema;
+  McapChannel m_channel;
+  McapMessage m_message;
+};
+
+}  // namespace pitchboard::telemetry

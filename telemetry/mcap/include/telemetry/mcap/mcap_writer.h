@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Writes an MCAP file: chunks compressed by zstd with checksums, message indexes, attachments,
+// metadata, and at the end the summary that lets readers find everything. After every writeChunk()
+// the file holds whole records only, so that what was written before a crash can be read.
+// A McapChunk may be filled in another thread than the one that owns the McapWriter.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <telemetry/mcap/mcap_records.h>
+
+namespace pitchboard::telemetry {
+
+/// Messages on their way into a file: the body of a chunk as it will be compressed.
+class McapChunk {
+ public:
+  void add(const McapSchema& schema);
+  void add(const McapChannel& channel);
+  /// Begins a message of `size` bytes and returns where they go; valid until the next call.
+  char* addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
+                   std::uint64_t publishTime, std::size_t size);
+  void add(const McapMessage& message);
+  void clear();  ///< keeps the memory
+
+  bool empty() const { return m_body.empty(); }
+  std::size_t bytes() const { return m_body.size(); }
+  std::size_t messages() const { return m_index.size(); }
+
+ private:
+  friend class McapWriter;
+  struct Entry {
+    std::uint64_t logTime;
+    std::uint64_t offset;
+    std::uint16_t channel;
+  };
+  std::string m_body;
+  std::vector<Entry> m_index;
+  std::vector<McapSchema> m_schemas;
+  std::vector<McapChannel> m_channels;
+};
+
+struct McapWriterOptions {
+  std::string profile;
+  std::string library = "pitchboard";
+  int level = 3;     ///< of zstd
+  bool sync = true;  ///< every chunk is on the disk before writeChunk() returns
+};
+
+/// One thread. Every function that writes fails with what the system said; nothing is written after
+/// a failure but by finish().
+class McapWriter {
+ public:
+  /// Error Conflict when the file exists (it is left alone), SystemError when it cannot be made.
+  static Result<McapWriter> create(const std::string& path, const McapWriterOptions& options = {});
+  McapWriter(McapWriter&&) noexcept;
+  McapWriter& operator=(McapWriter&&) noexcept;
+  ~McapWriter();  ///< closes the file as it is
+
+  /// After an error the file ends behind the last whole chunk. Fails also when the file was
+  /// removed.
+  Result<void> writeChunk(const McapChunk& chunk);
+  Result<void> attach(std::uint64_t logTime, std::uint64_t createTime, std::string_view name,
+                      std::string_view mediaType, std::string_view data);
+  Result<void> metadata(std::string_view name, const McapMap& values);
+  /// Writes what waits to the disk (with options.sync).
+  Result<void> sync();
+  /// Writes the summary and closes. Possible after an error too: room for it is kept on the disk
+  /// where the file system can; without it the file needs repair.
+  Result<void> finish();
+
+  std::uint64_t bytes() const;  ///< of the file so far
+  const McapStatistics& statistics() const;
+
+ private:
+  struct Impl;
+  explicit McapWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace pitchboard::telemetry

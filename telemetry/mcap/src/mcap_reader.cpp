@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/mcap/mcap_reader.h>
+
+#include <zlib.h>
+#include <algorithm>
+
+#include "mcap_bytes.h"
+#include "mcap_reader_impl.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+constexpr std::size_t mostProblems = 100;
+constexpr std::uint64_t longestSummary = std::uint64_t{512} << 20;
+constexpr std::size_t unpackStep = 256 * 1024;
+
+std::uint32_t crcOf(std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string atOffset(std::uint64_t offset) {
+  return "at byte " + std::to_string(offset);
+}
+
+Error damaged(const McapSource& source, std::uint64_t offset, std::string sentence) {
+  return {ErrorCode::ParseError, std::move(sentence), source.name() + " " + atOffset(offset)};
+}
+
+}  // namespace
+
+McapReader::McapReader(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+McapReader::McapReader(McapReader&&) noexcept = default;
+McapReader& McapReader::operator=(McapReader&&) noexcept = default;
+McapReader::~McapReader() = default;
+
+bool McapReader::indexed() const {
+  return m_impl->indexed;
+}
+const std::vector<std::string>& McapReader::problems() const {
+  return m_impl->problems;
+}
+std::uint64_t McapReader::fileBytes() const {
+  return m_impl->source.size();
+}
+const std::string& McapReader::profile() const {
+  return m_impl->profile;
+}
+const std::string& McapReader::library() const {
+  return m_impl->library;
+}
+const std::map<std::uint16_t, McapSchema>& McapReader::schemas() const {
+  return m_impl->schemas;
+}
+const std::map<std::uint16_t, McapChannel>& McapReader::channels() const {
+  return m_impl->channels;
+}
+const std::vector<McapChunkInfo>& McapReader::chunks() const {
+  return m_impl->chunks;
+}
+const std::vector<McapAttachmentInfo>& McapReader::attachments() const {
+  return m_impl->attachments;
+}
+const std::vector<McapMetadataInfo>& McapReader::metadata() const {
+  return m_impl->metadata;
+}
+const McapStatistics& McapReader::statistics() const {
+  return m_impl->statistics;
+}
+
+Result<McapReader> McapReader::open(const std::string& path, const McapReaderOptions& options) {
+  auto source = McapSource::file(path);
+  if (!source) return tl::unexpected(source.error());
+  auto impl = std::make_unique<Impl>(std::move(*source), options);
+  if (auto header = impl->readHeader(); !header) return tl::unexpected(header.error());
+  impl->indexed = !options.ignoreSummary && impl->readSummary();
+  if (!impl->indexed && !impl->scan()) {
+    return failure(ErrorCode::Conflict, "Reading was stopped.", path);
+  }
+  return McapReader(std::move(impl));
+}
+
+Result<McapReader> McapReader::openBytes(std::string bytes, const McapReaderOptions& options) {
+  auto impl = std::make_unique<Impl>(McapSource::memory(std::move(bytes)), options);
+  if (auto header = impl->readHeader(); !header) return tl::unexpected(header.error());
+  impl->indexed = !options.ignoreSummary && impl->readSummary();
+  if (!impl->indexed && !impl->scan()) {
+    return failure(ErrorCode::Conflict, "Reading was stopped.");
+  }
+  return McapReader(std::move(impl));
+}
+
+void McapReader::Impl::problem(std::uint64_t offset, const std::string& sentence) {
+  if (problems.size() < mostProblems)
+    problems.push_back("At byte " + std::to_string(offset) + ": " + sentence);
+  else
+    ++moreProblems;
+}
+
+Result<void> McapReader::Impl::readHeader() {
+  const std::string_view magic(mcapMagic.data(), mcapMagic.size());
+  const std::string begin(source.look(0, magic.size()));
+  if (begin.size() == magic.size() && begin.substr(0, 5) == magic.substr(0, 5) && begin != magic) {
+    return tl::unexpected(Error{ErrorCode::Unsupported,
+                                "This MCAP file is of a version that this program does not know.",
+                                source.name()});
+  }
+  if (begin != magic) {
+    return tl::unexpected(Error{ErrorCode::ParseError,
+                                "This is not an MCAP file: its first bytes are others.",
+                                source.name()});
+  }
+  dataBegin = magic.size();
+  ByteReader head(source.look(dataBegin, recordHead));
+  const auto op = head.number<std::uint8_t>();
+  const auto length = head.number<std::uint64_t>();
+  if (!head.ok() || op != static_cast<std::uint8_t>(McapOp::Header) || length > longestHead) {
+    problem(dataBegin, "the header is missing.");
+    return {};
+  }
+  ByteReader in(source.look(dataBegin + recordHead, static_cast<std::size_t>(length)));
+  profile = in.text();
+  library = in.text();
+  if (in.ok()) {
+    dataBegin += recordHead + length;
+  } else {
+    problem(dataBegin, "the header is cut.");
+  }
+  return {};
+}
+
+bool McapReader::Impl::readSummary() {
+  constexpr std::size_t tail = recordHead + footerLength + mcapMagic.size();
+  if (source.size() < dataBegin + tail) return false;
+  const std::uint64_t footerAt = source.size() - tail;
+  const std::string end(source.look(footerAt, tail));
+  ByteReader in(end);
+  const auto op = in.number<std::uint8_t>();
+  const auto length = in.number<std::uint64_t>();
+  const auto start = in.number<std::uint64_t>();
+  in.number<std::uint64_t>();
+  const auto crc = in.number<std::uint32_t>();
+  if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::Footer) || length != footerLength ||
+      in.bytes(mcapMagic.size()) != std::string_view(mcapMagic.data(), mcapMagic.size())) {
+    return false;  // a recording that broke off; the walk through the file tells the rest
+  }
+  if (start == 0) return false;
+  if (start < dataBegin || start > footerAt || footerAt - start > longestSummary) {
+    problem(footerAt, "the footer points outside the file; the summary is not used.");
+    return false;
+  }
+  std::string summary;
+  const std::size_t covered = static_cast<std::size_t>(footerAt - start) + recordHead + 16;
+  if (!source.read(start, covered, summary)) return false;
+  if (crc != 0 && crcOf(summary) != crc) {
+    problem(start, "the checksum of the summary is wrong; it is not used.");
+    return false;
+  }
+  summary.resize(static_cast<std::size_t>(footerAt - start));
+  if (takeSummary(summary)) return true;
+  problem(start, "the summary is damaged; it is not used.");
+  schemas.clear();
+  channels.clear();
+  chunks.clear();
+  attachments.clear();
+  metadata.clear();
+  statistics = {};
+  return false;
+}
+
+bool McapReader::Impl::takeSummary(std::string_view summary) {
+  const auto inside = [&](std::uint64_t offset, std::uint64_t length) {
+    return offset >= mcapMagic.size() && length >= recordHead && offset <= source.size() &&
+           length <= source.size() - offset;
+  };
+  bool counted = false;
+  ByteReader in(summary);
+  while (in.left() > 0) {
+    const auto op = static_cast<McapOp>(in.number<std::uint8_t>());
+    const auto content = in.bytes(in.number<std::uint64_t>());
+    if (!in.ok()) return false;
+    switch (op) {
+      case McapOp::Schema: {
+        auto schema = parseSchema(content);
+        if (!schema) return false;
+        schemas.insert_or_assign(schema->id, std::move(*schema));
+        break;
+      }
+      case McapOp::Channel: {
+        auto channel = parseChannel(content);
+        if (!channel) return false;
+        channels.insert_or_assign(channel->id, std::move(*channel));
+        break;
+      }
+      case McapOp::ChunkIndex: {
+        auto chunk = parseChunkIndex(content);
+        if (!chunk || !inside(chunk->offset, chunk->length)) return false;
+        chunks.push_back(std::move(*chunk));
+        break;
+      }
+      case McapOp::AttachmentIndex: {
+        auto info = parseAttachmentIndex(content);
+        if (!info || !inside(info->offset, info->length)) return false;
+        attachments.push_back(std::move(*info));
+        break;
+      }
+      case McapOp::MetadataIndex: {
+        auto info = parseMetadataIndex(content);
+        if (!info || !inside(info->offset, info->length)) return false;
+        metadata.push_back(std::move(*info));
+        break;
+      }
+      case McapOp::Statistics: {
+        auto found = parseStatistics(content);
+        if (!found) return false;
+        statistics = std::move(*found);
+        counted = true;
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  std::sort(chunks.begin(), chunks.end(),
+            [](const auto& a, const auto& b) { return a.offset < b.offset; });
+  // Without chunks the messages, if any, stand loose in the file and only a walk finds them.
+  return counted && (!chunks.empty() || statistics.messages == 0);
+}
+
+Result<void> McapReader::Impl::unpack(std::string_view bytes, std::uint64_t size,
+                                      std::string& body) const {
+  const auto wrong = [](std::string sentence) {
+    return failure(ErrorCode::ParseError, std::move(sentence));
+  };
+  // What a chunk says of its size is believed only as far as its packed bytes make it likely.
+  if (size <= bytes.size() * 64 + (1U << 20)) {
+    body.resize(static_cast<std::size_t>(size));
+    const std::size_t got =
+        ZSTD_decompressDCtx(unpacker, body.data(), body.size(), bytes.data(), bytes.size());
+    if (ZSTD_isError(got)) {
+      return wrong(std::string("it cannot be unpacked (") + ZSTD_getErrorName(got) + ")");
+    }
+    if (got != size) return wrong("its size is not what it says");
+    return {};
+  }
+  ZSTD_DCtx_reset(unpacker, ZSTD_reset_session_only);
+  body.clear();
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+  for (;;) {
+    const std::size_t at = body.size();
+    body.resize(at + unpackStep);
+    ZSTD_outBuffer out{body.data() + at, unpackStep, 0};
+    const std::size_t left = ZSTD_decompressStream(unpacker, &out, &in);
+    body.resize(at + out.pos);
+    if (ZSTD_isError(left)) {
+      return wrong(std::string("it cannot be unpacked (") + ZSTD_getErrorName(left) + ")");
+    }
+    if (body.size() > size) return wrong("its size is not what it says");
+    if ((left == 0 || out.pos == 0) && in.pos == in.size) break;
+  }
+  if (body.size() != size) return wrong("its size is not what it says");
+  return {};
+}
+
+Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string& body) const {
+  const auto wrong = [&](const std::string& why) {
+    return tl::unexpected(damaged(source, chunk.offset, "This part is damaged: " + why + "."));
+  };
+  if (chunk.loose) {
+    if (!source.read(chunk.offset, static_cast<std::size_t>(chunk.length), body)) {
+      return wrong("it cannot be read");
+    }
+    return {};
+  }
+  const std::string_view look = source.look(
+      chunk.offset, static_cast<std::size_t>(std::min<std::uint64_t>(256, chunk.length)));
+  ByteReader in(look);
+  const auto op = in.number<std::uint8_t>();
+  const auto length = in.number<std::uint64_t>();
+  if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::Chunk) ||
+      length != chunk.length - recordHead) {
+    return wrong("there is no chunk here");
+  }
+  const auto head = parseChunkHead(look.substr(recordHead), length);
+  if (!head) return wrong("its head is not of its form");
+  if (head->info.uncompressedSize > options.maxChunkBytes) {
+    return wrong("it says that it unpacks to " + std::to_string(head->info.uncompressedSize) +
+                 " bytes, which is more than is read");
+  }
+  const bool plain = head->info.compression.empty();
+  if (!plain && head->info.compression != "zstd") {
+    return tl::unexpected(Error{ErrorCode::Unsupported,
+                                "This part is packed by \"" + head->info.compression.substr(0, 20) +
+                                    "\", which this program does not read.",
+                                source.name() + " " + atOffset(chunk.offset)});
+  }
+  if (!source.read(chunk.offset + recordHead + head->recordsAt,
+                   static_cast<std::size_t>(head->info.compressedSize), plain ? body : packed)) {
+    return wrong("it cannot be read");
+  }
+  if (!plain) {
+    if (auto done = unpack(packed, head->info.uncompressedSize, body); !done) {
+      return wrong(done.error().message);
+    }
+  }
+  if (head->crc != 0 && crcOf(body) != head->crc) return wrong("its checksum is wrong");
+  return {};
+}
+
+Result<void> McapReader::readChunk(const McapChunkInfo& chunk, std::string& body) const {
+  return m_impl->readChunk(chunk, body);
+}
+
+Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachment) const {
+  const McapSource& source = m_impl->source;
+  const auto wrong = [&](const char* why) {
+    return tl::unexpected(
+        damaged(source, attachment.offset,
+                "The attachment \"" + attachment.name + "\" is damaged: " + why + "."));
+  };
+  if (attachment.length > m_impl->options.maxAttachmentBytes) return wrong("it is too long");
+  std::string record;
+  if (!source.read(attachment.offset, static_cast<std::size_t>(attachment.length), record)) {
+    return wrong("it cannot be read");
+  }
+  ByteReader in(record);
+  if (in.number<std::uint8_t>() != static_cast<std::uint8_t>(McapOp::Attachment) ||
+      in.number<std::uint64_t>() != record.size() - recordHead) {
+    return wrong("there is none here");
+  }
+  const std::string_view content = std::string_view(record).substr(recordHead);
+  const auto head = parseAttachmentHead(content.substr(0, longestHead), content.size());
+  if (!head) return wrong("its head is not of its form");
+  const std::size_t covered = head->dataAt + static_cast<std::size_t>(head->info.dataSize);
+  const auto crc = ByteReader(content.substr(covered)).number<std::uint32_t>();
+  if (crc != 0 && crc != crcOf(content.substr(0, covered))) return wrong("its checksum is wrong");
+  return std::string(content.substr(head->dataAt, static_cast<std::size_t>(head->info.dataSize)));
+}
+
+Result<McapMap> McapReader::readMetadata(const McapMetadataInfo& metadata) const {
+  const McapSource& source = m_impl->source;
+  std::string record;
+  if (metadata.length <= m_impl->options.maxAttachmentBytes &&
+      source.read(metadata.offset, static_cast<std::size_t>(metadata.length), record)) {
+    ByteReader in(record);
+    const auto op = in.number<std::uint8_t>();
+    ByteReader content(in.bytes(in.number<std::uint64_t>()));
+    content.text();
+    McapMap values = content.map();
+    if (op == static_cast<std::uint8_t>(McapOp::Metadata) && in.ok() && content.ok()) return values;
+  }
+  return tl::unexpected(
+      damaged(source, metadata.offset, "The metadata \"" + metadata.name + "\" are damaged."));
+}
+
+McapCursor::Kind McapCursor::next() {
+  while (m_at < m_body.size()) {
+    ByteReader in(m_body.substr(m_at));
+    const auto op = static_cast<McapOp>(in.number<std::uint8_t>());
+    const auto content = in.bytes(in.number<std::uint64_t>());
+    bool whole = in.ok();
+    Kind kind = Kind::End;
+    if (whole && op == McapOp::Message) {
+      const auto message = parseMessage(content);
+      whole = message.has_value();
+      if (whole) m_message = *message;
+      kind = Kind::Message;
+    } else if (whole && op == McapOp::Channel) {
+      auto channel = parseChannel(content);
+      whole = channel.has_value();
+      if (whole) m_channel = std::move(*channel);
+      kind = Kind::Channel;
+    } else if (whole && op == McapOp::Schema) {
+      auto schema = parseSchema(content);
+      whole = schema.has_value();
+      if (whole) m_schema = std::move(*schema);
+      kind = Kind::Schema;
+    }
+    if (!whole) {
+      m_damaged = true;
+      return Kind::End;
+    }
+    m_at += in.at();
+    if (kind != Kind::End) return kind;
+  }
+  return Kind::End;
+}
+
+}  // namespace pitchboard::telemetry

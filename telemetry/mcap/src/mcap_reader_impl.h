@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What McapReader knows of a file, filled by the summary (mcap_reader.cpp) or by walking through
+// the file (mcap_scan.cpp).
+
+#include <zstd.h>
+
+#include <telemetry/mcap/mcap_reader.h>
+
+#include "mcap_parse.h"
+#include "mcap_source.h"
+
+namespace pitchboard::telemetry {
+
+struct McapReader::Impl {
+  McapSource source;
+  McapReaderOptions options;
+  ZSTD_DCtx* unpacker = ZSTD_createDCtx();
+  bool indexed = false;
+  std::vector<std::string> problems;
+  std::size_t moreProblems = 0;
+
+  std::string profile, library;
+  std::uint64_t dataBegin = 0;  ///< behind the header
+  std::map<std::uint16_t, McapSchema> schemas;
+  std::map<std::uint16_t, McapChannel> channels;
+  std::vector<McapChunkInfo> chunks;
+  std::vector<McapAttachmentInfo> attachments;
+  std::vector<McapMetadataInfo> metadata;
+  McapStatistics statistics;
+  mutable std::string packed;
+
+  Impl(McapSource s, const McapReaderOptions& o) : source(std::move(s)), options(o) {}
+  ~Impl() { ZSTD_freeDCtx(unpacker); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void problem(std::uint64_t offset, const std::string& sentence);
+  Result<void> readHeader();
+  /// False: there is none, or it cannot be trusted (then nothing was taken from it).
+  bool readSummary();
+  /// False: options.progress said stop.
+  bool scan();
+  Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
+  Result<void> unpack(std::string_view bytes, std::uint64_t size, std::string& body) const;
+
+ private:
+  bool takeSummary(std::string_view summary);
+};
+
+}  // namespace pitchboard::telemetry

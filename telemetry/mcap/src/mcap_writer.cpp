@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/mcap/mcap_writer.h>
+
+#include <zlib.h>
+#include <zstd.h>
+#include <algorithm>
+#include <optional>
+
+#include <telemetry/mcap/new_file.h>
+
+#include "mcap_bytes.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+/// Room that is kept behind the file for the summary, beyond what the summary needs so far.
+constexpr std::uint64_t spareRoom = 64 * 1024;
+
+std::uint32_t extendCrc(std::uint32_t crc, std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+void putSchema(std::string& out, const McapSchema& schema) {
+  const auto record = beginRecord(out, McapOp::Schema);
+  putNumber(out, schema.id);
+  putText(out, schema.name);
+  putText(out, schema.encoding);
+  putText(out, schema.data);
+  endRecord(out, record);
+}
+
+void putChannel(std::string& out, const McapChannel& channel) {
+  const auto record = beginRecord(out, McapOp::Channel);
+  putNumber(out, channel.id);
+  putNumber(out, channel.schema);
+  putText(out, channel.topic);
+  putText(out, channel.messageEncoding);
+  putMap(out, channel.metadata);
+  endRecord(out, record);
+}
+
+}  // namespace
+
+void McapChunk::add(const McapSchema& schema) {
+  putSchema(m_body, schema);
+  m_schemas.push_back(schema);
+}
+
+void McapChunk::add(const McapChannel& channel) {
+  putChannel(m_body, channel);
+  m_channels.push_back(channel);
+}
+
+char* McapChunk::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
+                            std::uint64_t publishTime, std::size_t size) {
+  const std::size_t at = m_body.size();
+  m_index.push_back({logTime, at, channel});
+  m_body += static_cast<char>(McapOp::Message);
+  putNumber(m_body, static_cast<std::uint64_t>(messageHead + size));
+  putNumber(m_body, channel);
+  putNumber(m_body, sequence);
+  putNumber(m_body, logTime);
+  putNumber(m_body, publishTime);
+  m_body.resize(m_body.size() + size);
+  return m_body.data() + at + recordHead + messageHead;
+}
+
+void McapChunk::add(const McapMessage& message) {
+  char* to = addMessage(message.channel, message.sequence, message.logTime, message.publishTime,
+                        message.data.size());
+  std::copy(message.data.begin(), message.data.end(), to);
+}
+
+void McapChunk::clear() {
+  m_body.clear();
+  m_index.clear();
+  m_schemas.clear();
+  m_channels.clear();
+}
+
+struct McapWriter::Impl {
+  NewFile file;
+  McapWriterOptions options;
+  ZSTD_CCtx* compressor = nullptr;
+  std::uint32_t dataCrc = 0;
+  std::optional<Error> failed;
+  std::uint64_t whole = 0;  ///< the file holds whole records up to here
+  bool closed = false;
+
+  std::string out;  ///< the records of the chunk being written
+  std::string compressed;
+  std::vector<McapSchema> schemas;
+  std::vector<McapChannel> channels;
+  std::string chunkIndexes, attachmentIndexes, metadataIndexes;  ///< records, ready
+  std::uint32_t chunks = 0, attachments = 0, metadatas = 0;
+  McapStatistics statistics;
+
+  explicit Impl(NewFile f) : file(std::move(f)) {}
+  ~Impl() { ZSTD_freeCCtx(compressor); }
+
+  Result<void> fail(const Error& error) {
+    failed = error;
+    file.cutAt(whole);
+    return tl::unexpected(error);
+  }
+
+  std::uint64_t summarySize() const {
+    std::uint64_t size = chunkIndexes.size() + attachmentIndexes.size() + metadataIndexes.size();
+    for (const McapSchema& schema : schemas) size += schema.data.size() + schema.name.size() + 64;
+    for (const McapChannel& channel : channels) {
+      size += channel.topic.size() + 64;
+      for (const auto& [key, value] : channel.metadata) size += key.size() + value.size() + 8;
+    }
+    return size;
+  }
+
+  /// Whole records of the data section.
+  Result<void> write(std::string_view records) {
+    if (failed) return tl::unexpected(*failed);
+    if (!file.keepRoom(records.size() + summarySize() + spareRoom)) {
+      return fail({ErrorCode::SystemError,
+                   "The disk is full; free some room or choose another disk.", file.path()});
+    }
+    if (auto written = file.write(records); !written) return fail(written.error());
+    whole = file.size();
+    dataCrc = extendCrc(dataCrc, records);
+    return {};
+  }
+
+  Result<void> settle() {
+    if (options.sync) {
+      if (auto synced = file.sync(); !synced) return fail(synced.error());
+    }
+    if (auto there = file.stillThere(); !there) return fail(there.error());
+    return {};
+  }
+
+  void putMessageIndexes(const McapChunk& chunk, std::uint64_t offset,
+                         std::vector<std::pair<std::uint16_t, std::uint64_t>>& places);
+  std::string summary(std::uint64_t begin) const;
+};
+
+McapWriter::McapWriter(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+McapWriter::McapWriter(McapWriter&&) noexcept = default;
+McapWriter& McapWriter::operator=(McapWriter&&) noexcept = default;
+McapWriter::~McapWriter() = default;
+
+Result<McapWriter> McapWriter::create(const std::string& path, const McapWriterOptions& options) {
+  auto file = NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  auto impl = std::make_unique<Impl>(std::move(*file));
+  impl->options = options;
+  impl->compressor = ZSTD_createCCtx();
+  ZSTD_CCtx_setParameter(impl->compressor, ZSTD_c_compressionLevel, options.level);
+  std::string begin(mcapMagic.data(), mcapMagic.size());
+  const auto record = beginRecord(begin, McapOp::Header);
+  putText(begin, options.profile);
+  putText(begin, options.library);
+  endRecord(begin, record);
+  if (auto written = impl->write(begin); !written) return tl::unexpected(written.error());
+  return McapWriter(std::move(impl));
+}
+
+/// One record per channel, in the order of the channels' numbers.
+void McapWriter::Impl::putMessageIndexes(
+    const McapChunk& chunk, std::uint64_t offset,
+    std::vector<std::pair<std::uint16_t, std::uint64_t>>& places) {
+  std::map<std::uint16_t, std::vector<const McapChunk::Entry*>> perChannel;
+  for (const McapChunk::Entry& entry : chunk.m_index) perChannel[entry.channel].push_back(&entry);
+  const std::size_t begin = out.size();
+  for (const auto& [channel, entries] : perChannel) {
+    places.emplace_back(channel, offset + out.size() - begin);
+    const auto record = beginRecord(out, McapOp::MessageIndex);
+    putNumber(out, channel);
+    putNumber(out, static_cast<std::uint32_t>(entries.size() * 16));
+    for (const McapChunk::Entry* entry : entries) {
+      putNumber(out, entry->logTime);
+      putNumber(out, entry->offset);
+    }
+    endRecord(out, record);
+  }
+}
+
+Result<void> McapWriter::writeChunk(const McapChunk& chunk) {
+  Impl& impl = *m_impl;
+  if (impl.failed) return tl::unexpected(*impl.failed);
+  if (chunk.empty()) return {};
+  std::uint64_t start = 0, end = 0;
+  if (!chunk.m_index.empty()) {
+    start = end = chunk.m_index.front().logTime;
+    for (const McapChunk::Entry& entry : chunk.m_index) {
+      start = std::min(start, entry.logTime);
+      end = std::max(end, entry.logTime);
+    }
+  }
+  impl.compressed.resize(ZSTD_compressBound(chunk.m_body.size()));
+  const std::size_t size =
+      ZSTD_compress2(impl.compressor, impl.compressed.data(), impl.compressed.size(),
+                     chunk.m_body.data(), chunk.m_body.size());
+  if (ZSTD_isError(size)) {
+    return impl.fail(
+        {ErrorCode::SystemError,
+         std::string("The data cannot be compressed: ") + ZSTD_getErrorName(size) + ".",
+         impl.file.path()});
+  }
+  std::string& out = impl.out;
+  out.clear();
+  const auto record = beginRecord(out, McapOp::Chunk);
+  putNumber(out, start);
+  putNumber(out, end);
+  putNumber(out, static_cast<std::uint64_t>(chunk.m_body.size()));
+  putNumber(out, extendCrc(0, chunk.m_body));
+  putText(out, "zstd");
+  putNumber(out, static_cast<std::uint64_t>(size));
+  out.append(impl.compressed.data(), size);
+  endRecord(out, record);
+  const std::uint64_t offset = impl.file.size();
+  const std::uint64_t length = out.size();
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> places;
+  impl.putMessageIndexes(chunk, offset + length, places);
+  const std::uint64_t indexLength = out.size() - length;
+
+  const std::uint32_t crcBefore = impl.dataCrc;
+  if (auto written = impl.write(out); !written) return written;
+  if (auto settled = impl.settle(); !settled) {
+    // The summary will not name this chunk, so it must not stand in the file either.
+    impl.whole = offset;
+    impl.dataCrc = crcBefore;
+    impl.file.cutAt(offset);
+    return settled;
+  }
+
+  ++impl.chunks;
+  std::string& index = impl.chunkIndexes;
+  const auto indexRecord = beginRecord(index, McapOp::ChunkIndex);
+  for (const std::uint64_t value : {start, end, offset, length}) putNumber(index, value);
+  putNumber(index, static_cast<std::uint32_t>(places.size() * 10));
+  for (const auto& [channel, place] : places) {
+    putNumber(index, channel);
+    putNumber(index, place);
+  }
+  putNumber(index, indexLength);
+  putText(index, "zstd");
+  putNumber(index, static_cast<std::uint64_t>(size));
+  putNumber(index, static_cast<std::uint64_t>(chunk.m_body.size()));
+  endRecord(index, indexRecord);
+
+  impl.schemas.insert(impl.schemas.end(), chunk.m_schemas.begin(), chunk.m_schemas.end());
+  impl.channels.insert(impl.channels.end(), chunk.m_channels.begin(), chunk.m_channels.end());
+  McapStatistics& statistics = impl.statistics;
+  if (!chunk.m_index.empty()) {
+    statistics.start = statistics.messages == 0 ? start : std::min(statistics.start, start);
+    statistics.end = std::max(statistics.end, end);
+  }
+  statistics.messages += chunk.m_index.size();
+  for (const McapChunk::Entry& entry : chunk.m_index) ++statistics.perChannel[entry.channel];
+  return {};
+}
+
+Result<void> McapWriter::attach(std::uint64_t logTime, std::uint64_t createTime,
+                                std::string_view name, std::string_view mediaType,
+                                std::string_view data) {
+  Impl& impl = *m_impl;
+  std::string& out = impl.out;
+  out.clear();
+  const auto record = beginRecord(out, McapOp::Attachment);
+  putNumber(out, logTime);
+  putNumber(out, createTime);
+  putText(out, name);
+  putText(out, mediaType);
+  putNumber(out, static_cast<std::uint64_t>(data.size()));
+  out += data;
+  putNumber(out, extendCrc(0, std::string_view(out).substr(record)));
+  endRecord(out, record);
+  const std::uint64_t offset = impl.file.size();
+  if (auto written = impl.write(out); !written) return written;
+
+  ++impl.attachments;
+  std::string& index = impl.attachmentIndexes;
+  const auto indexRecord = beginRecord(index, McapOp::AttachmentIndex);
+  for (const std::uint64_t value : {offset, static_cast<std::uint64_t>(out.size()), logTime,
+                                    createTime, static_cast<std::uint64_t>(data.size())}) {
+    putNumber(index, value);
+  }
+  putText(index, name);
+  putText(index, mediaType);
+  endRecord(index, indexRecord);
+  return {};
+}
+
+Result<void> McapWriter::metadata(std::string_view name, const McapMap& values) {
+  Impl& impl = *m_impl;
+  std::string& out = impl.out;
+  out.clear();
+  const auto record = beginRecord(out, McapOp::Metadata);
+  putText(out, name);
+  putMap(out, values);
+  endRecord(out, record);
+  const std::uint64_t offset = impl.file.size();
+  if (auto written = impl.write(out); !written) return written;
+
+  ++impl.metadatas;
+  std::string& index = impl.metadataIndexes;
+  const auto indexRecord = beginRecord(index, McapOp::MetadataIndex);
+  putNumber(index, offset);
+  putNumber(index, static_cast<std::uint64_t>(out.size()));
+  putText(index, name);
+  endRecord(index, indexRecord);
+  return {};
+}
+
+Result<void> McapWriter::sync() {
+  return m_impl->settle();
+}
+
+/// Summary, summary offsets and footer, from file offset `begin` on.
+std::string McapWriter::Impl::summary(std::uint64_t begin) const {
+  struct Group {
+    McapOp op;
+    std::size_t start, length;
+  };
+  std::string text;
+  std::vector<Group> groups;
+  const auto group = [&](McapOp op, auto&& fill) {
+    const std::size_t start = text.size();
+    fill();
+    if (text.size() > start) groups.push_back({op, start, text.size() - start});
+  };
+  group(McapOp::Schema, [&] {
+    for (const auto& schema : schemas) putSchema(text, schema);
+  });
+  group(McapOp::Channel, [&] {
+    for (const auto& channel : channels) putChannel(text, channel);
+  });
+  group(McapOp::ChunkIndex, [&] { text += chunkIndexes; });
+  group(McapOp::AttachmentIndex, [&] { text += attachmentIndexes; });
+  group(McapOp::MetadataIndex, [&] { text += metadataIndexes; });
+  group(McapOp::Statistics, [&] {
+    const auto record = beginRecord(text, McapOp::Statistics);
+    putNumber(text, statistics.messages);
+    putNumber(text, static_cast<std::uint16_t>(schemas.size()));
+    putNumber(text, static_cast<std::uint32_t>(channels.size()));
+    putNumber(text, attachments);
+    putNumber(text, metadatas);
+    putNumber(text, chunks);
+    putNumber(text, statistics.start);
+    putNumber(text, statistics.end);
+    putNumber(text, static_cast<std::uint32_t>(statistics.perChannel.size() * 10));
+    for (const auto& [channel, count] : statistics.perChannel) {
+      putNumber(text, channel);
+      putNumber(text, count);
+    }
+    endRecord(text, record);
+  });
+  const std::size_t offsets = text.size();
+  for (const Group& g : groups) {
+    const auto record = beginRecord(text, McapOp::SummaryOffset);
+    text += static_cast<char>(g.op);
+    putNumber(text, begin + g.start);
+    putNumber(text, static_cast<std::uint64_t>(g.length));
+    endRecord(text, record);
+  }
+  const auto footer = beginRecord(text, McapOp::Footer);
+  putNumber(text, begin);
+  putNumber(text, begin + offsets);
+  // The checksum covers the footer's head, whose length is therefore written first.
+  setNumber(text, footer - 8, static_cast<std::uint64_t>(footerLength));
+  putNumber(text, extendCrc(0, text));
+  text.append(mcapMagic.data(), mcapMagic.size());
+  return text;
+}
+
+Result<void> McapWriter::finish() {
+  Impl& impl = *m_impl;
+  if (std::exchange(impl.closed, true)) return {};
+  std::string out;
+  const auto record = beginRecord(out, McapOp::DataEnd);
+  putNumber(out, impl.dataCrc);
+  endRecord(out, record);
+  out += impl.summary(impl.file.size() + out.size());
+  auto written = impl.file.write(out);
+  if (!written) {
+    impl.file.cutAt(impl.whole);
+  } else {
+    impl.file.cutAt(impl.file.size());  // gives back the room that was kept
+    if (impl.options.sync) written = impl.file.sync();
+  }
+  auto closed = impl.file.close();
+  if (!written) return written;
+  return closed;
+}
+
+std::uint64_t McapWriter::bytes() const {
+  return m_impl->file.size();
+}
+const McapStatistics& McapWriter::statistics() const {
+  return m_impl->statistics;
+}
+
+}  // namespace pitchboard::telemetry

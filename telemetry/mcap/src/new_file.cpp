@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/mcap/new_file.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace pitchboard::telemetry {
+
+Result<NewFile> NewFile::create(const std::string& path) {
+  int descriptor = -1;
+  do {
+    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  } while (descriptor < 0 && errno == EINTR);
+  if (descriptor >= 0) return NewFile(path, descriptor);
+  switch (errno) {
+    case EEXIST:
+      return failure(ErrorCode::Conflict, "This file exists; choose another name.", path);
+    case ENOENT:
+      return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.",
+                     path);
+    case EACCES:
+    case EROFS:
+    case EPERM:
+      return failure(ErrorCode::SystemError,
+                     "This folder does not allow new files; choose another one.", path);
+    default:
+      return failure(ErrorCode::SystemError,
+                     std::string("The file cannot be made: ") + std::strerror(errno) + ".", path);
+  }
+}
+
+NewFile::NewFile(NewFile&& other) noexcept
+    : m_path(std::move(other.m_path)),
+      m_descriptor(std::exchange(other.m_descriptor, -1)),
+      m_size(other.m_size) {}
+
+NewFile& NewFile::operator=(NewFile&& other) noexcept {
+  std::swap(m_path, other.m_path);
+  std::swap(m_descriptor, other.m_descriptor);
+  std::swap(m_size, other.m_size);
+  return *this;
+}
+
+NewFile::~NewFile() {
+  if (m_descriptor >= 0) ::close(m_descriptor);
+}
+
+tl::unexpected<Error> NewFile::failed(int reason) const {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+      return failure(ErrorCode::SystemError,
+                     "The disk is full; free some room or choose another disk.", m_path);
+    case EFBIG:
+      return failure(ErrorCode::SystemError,
+                     "The file has reached the largest size that is allowed here.", m_path);
+    default:
+      return failure(ErrorCode::SystemError,
+                     std::string("The file cannot be written: ") + std::strerror(reason) + ".",
+                     m_path);
+  }
+}
+
+Result<void> NewFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return failed(written < 0 ? errno : ENOSPC);
+    m_size += static_cast<std::uint64_t>(written);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return {};
+}
+
+Result<void> NewFile::sync() {
+  // Pipes and some network file systems do not know the call: nothing more can be done there.
+  if (::fdatasync(m_descriptor) == 0 || errno == EINVAL || errno == ENOSYS) return {};
+  return failed(errno);
+}
+
+void NewFile::cutAt(std::uint64_t size) {
+  if (::ftruncate(m_descriptor, static_cast<off_t>(size)) != 0) return;
+  if (::lseek(m_descriptor, static_cast<off_t>(size), SEEK_SET) >= 0) m_size = size;
+}
+
+bool NewFile::keepRoom(std::uint64_t bytes) {
+  return ::fallocate(m_descriptor, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(m_size),
+                     static_cast<off_t>(bytes)) == 0 ||
+         errno != ENOSPC;
+}
+
+Result<void> NewFile::stillThere() const {
+  struct stat status {};
+  if (::fstat(m_descriptor, &status) != 0) return failed(errno);
+  if (status.st_nlink > 0) return {};
+  return failure(ErrorCode::SystemError, "The file was removed while it was written.", m_path);
+}
+
+Result<void> NewFile::close() {
+  const int descriptor = std::exchange(m_descriptor, -1);
+  if (descriptor < 0 || ::close(descriptor) == 0 || errno == EINTR) return {};
+  return failed(errno);
+}
+
+}  // namespace pitchboard::telemetry

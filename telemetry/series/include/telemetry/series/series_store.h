@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The recent past of a source in memory: rows of every group, columnar in chunks, with min/max
+// summaries so that drawing costs what it shows and not what there is. Memory has a budget; the
+// oldest chunks leave first. One writer thread for each group; any number of readers on other
+// threads, which work on immutable views and never make a writer wait for a query.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <telemetry/series/row_sink.h>
+#include <telemetry/series/series_types.h>
+
+namespace pitchboard::telemetry {
+
+struct SeriesOptions {
+  std::size_t memoryBudget = std::size_t{1} << 30;  ///< bytes, all groups together
+};
+
+struct SeriesId {
+  GroupId group = 0;
+  std::uint32_t column = 0;
+  auto operator<=>(const SeriesId&) const = default;
+};
+
+struct Sample {
+  double time = 0.0;  ///< s
+  double value = 0.0;
+  bool operator==(const Sample&) const = default;
+};
+
+struct TimeRange {
+  double begin = 0.0;  ///< s
+  double end = 0.0;    ///< s
+  bool operator==(const TimeRange&) const = default;
+};
+
+/// What one pixel column of a curve covers. NaN samples are not counted in min and max; both are
+/// NaN where there is no other sample.
+struct SeriesBucket {
+  double min = 0.0, max = 0.0;
+  double first = 0.0, last = 0.0;  ///< NaN where that sample is
+  std::uint32_t samples = 0;       ///< 0: there is no sample here
+};
+
+/// Over the finite samples in a closed interval; sigma is that of the population.
+struct SeriesStatistics {
+  std::uint64_t samples = 0;
+  double mean = 0.0, min = 0.0, max = 0.0, sigma = 0.0, rms = 0.0;
+};
+
+/// One group as it was at one instant; immutable, any thread, keeps its chunks alive.
+class GroupView {
+ public:
+  virtual ~GroupView() = default;
+  virtual const GroupInfo& info() const = 0;
+  /// Nothing when there is no row.
+  virtual std::optional<TimeRange> range() const = 0;
+  virtual std::size_t rows() const = 0;
+  /// Rows per second over the last second of the group's time; 0 when unknown.
+  virtual double rate() const = 0;
+
+  virtual std::optional<Sample> latest(std::uint32_t column) const = 0;
+  /// The last sample at or before `time`.
+  virtual std::optional<Sample> at(std::uint32_t column, double time) const = 0;
+  /// The whole row at or before `time`: words and values as they were appended. False: there is
+  /// none.
+  virtual bool rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
+                     std::vector<double>& values) const = 0;
+  /// Time of the last change of value; the first row's when it never changed.
+  virtual std::optional<double> lastChange(std::uint32_t column) const = 0;
+  /// Splits [range.begin, range.end) into out.size() equal parts.
+  virtual void buckets(std::uint32_t column, TimeRange range,
+                       std::span<SeriesBucket> out) const = 0;
+  /// Every sample in the closed interval, in order, at most `most`; says whether that was all.
+  virtual bool samples(std::uint32_t column, TimeRange range, std::vector<Sample>& out,
+                       std::size_t most = SIZE_MAX) const = 0;
+  virtual SeriesStatistics statistics(std::uint32_t column, TimeRange range) const = 0;
+};
+
+class SeriesStore : public RowSink {
+ public:
+  explicit SeriesStore(SeriesOptions options = {});
+  ~SeriesStore() override;
+  SeriesStore(const SeriesStore&) = delete;
+  SeriesStore& operator=(const SeriesStore&) = delete;
+
+  // Any thread, but the rows of one group come from one thread at a time.
+  /// A group of this name with the same columns is taken up again (its rows stay); with other
+  /// columns it starts empty under a new id.
+  GroupId addGroup(const GroupInfo& info) override;
+  /// Rows of one group in order of time; equal times are kept in order. A time before the last one
+  /// means that the source was put back: the rows at and after the new time are dropped first.
+  /// A row of an unknown group, of another width, or whose time is not finite is refused and
+  /// counted.
+  void append(GroupId group, const RowView& row) override;
+  /// Forgets every row; the groups stay.
+  void clear();
+
+  // Any thread.
+  /// Grows whenever groups came (lists are then to be read anew).
+  std::uint64_t groupsRevision() const;
+  std::size_t groups() const;
+  /// Null for an id that was never given. A group that was replaced by one with other columns
+  /// stays, empty; findGroup() gives the other one.
+  std::shared_ptr<const GroupView> view(GroupId group) const;
+  std::optional<GroupId> findGroup(std::string_view name) const;
+  std::optional<SeriesId> find(std::string_view group, std::string_view column) const;
+  /// From the oldest row of any group to the newest.
+  std::optional<TimeRange> range() const;
+  /// Of the rows; chunks that left but are still looked at by a view are not counted.
+  std::size_t memoryBytes() const;
+  std::uint64_t refusedRows() const;
+  void setMemoryBudget(std::size_t bytes);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/series/derived_curve.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace pitchboard::telemetry {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double degree = std::numbers::pi / 180.0;
+
+constexpr std::array<UnitConversion, 10> conversions{{{"cm", "m", {0.01, 0.0}},
+                                                      {"m", "cm", {100.0, 0.0}},
+                                                      {"°", "rad", {degree, 0.0}},
+                                                      {"rad", "°", {1.0 / degree, 0.0}},
+                                                      {"0.1 V", "V", {0.1, 0.0}},
+                                                      {"V", "0.1 V", {10.0, 0.0}},
+                                                      {"µs", "ms", {1e-3, 0.0}},
+                                                      {"ms", "s", {1e-3, 0.0}},
+                                                      {"s", "ms", {1e3, 0.0}},
+                                                      {"rad/s", "°/s", {1.0 / degree, 0.0}}}};
+
+/// The first sample after `time`.
+std::span<const Sample>::iterator firstAfter(std::span<const Sample> samples, double time) {
+  return std::upper_bound(samples.begin(), samples.end(), time,
+                          [](double t, const Sample& s) { return t < s.time; });
+}
+
+}  // namespace
+
+std::span<const UnitConversion> unitConversions() {
+  return conversions;
+}
+
+std::vector<UnitConversion> unitConversionsFrom(std::string_view unit) {
+  std::vector<UnitConversion> out;
+  std::ranges::copy_if(conversions, std::back_inserter(out),
+                       [&](const UnitConversion& c) { return c.from == unit; });
+  return out;
+}
+
+Sample Derivative::next(const Sample& sample) {
+  if (std::isnan(sample.value)) return {sample.time, nothing};
+  const auto before = std::exchange(m_before, sample);
+  if (!before || !(sample.time > before->time)) return {sample.time, nothing};
+  return {sample.time, (sample.value - before->value) / (sample.time - before->time)};
+}
+
+Sample Integral::next(const Sample& sample) {
+  if (std::isnan(sample.value)) return {sample.time, nothing};
+  const auto before = std::exchange(m_before, sample);
+  if (before) m_sum += 0.5 * (before->value + sample.value) * (sample.time - before->time);
+  return {sample.time, m_sum};
+}
+
+void MovingAverage::add(double value) {
+  const double sum = m_sum + value;
+  m_correction +=
+      std::abs(m_sum) >= std::abs(value) ? (m_sum - sum) + value : (value - sum) + m_sum;
+  m_sum = sum;
+}
+
+Sample MovingAverage::next(const Sample& sample) {
+  if (!(m_window > 0.0)) return sample;
+  while (!m_samples.empty() && m_samples.front().time <= sample.time - m_window) {
+    add(-m_samples.front().value);
+    m_samples.pop_front();
+  }
+  if (m_samples.empty()) m_sum = m_correction = 0.0;
+  if (std::isfinite(sample.value)) {
+    m_samples.push_back(sample);
+    add(sample.value);
+  }
+  if (!std::isfinite(sample.value) || m_samples.empty()) return {sample.time, nothing};
+  return {sample.time, (m_sum + m_correction) / static_cast<double>(m_samples.size())};
+}
+
+Sample WrapAngle::next(const Sample& sample) const {
+  double wrapped = std::remainder(sample.value, 2.0 * m_half);
+  if (wrapped <= -m_half) wrapped = m_half;
+  return {sample.time, wrapped};
+}
+
+std::vector<Sample> difference(std::span<const Sample> a, std::span<const Sample> b) {
+  std::vector<Sample> out;
+  out.reserve(a.size());
+  std::size_t next = 0;  // of b: the first after the time of a
+  for (const Sample& sample : a) {
+    while (next < b.size() && b[next].time <= sample.time) ++next;
+    out.push_back({sample.time, next == 0 ? nothing : sample.value - b[next - 1].value});
+  }
+  return out;
+}
+
+SeriesStatistics statisticsOf(std::span<const Sample> samples, TimeRange range) {
+  StatisticsSum sum;
+  auto from = std::lower_bound(samples.begin(), samples.end(), range.begin,
+                               [](const Sample& s, double t) { return s.time < t; });
+  const auto end = firstAfter(samples, range.end);
+  constexpr std::size_t blockSize = 64;
+  std::array<double, blockSize> block{};
+  while (from < end) {
+    std::size_t count = 0;
+    for (; count < blockSize && from < end; ++from) block[count++] = from->value;
+    sum.add(block.data(), count);
+  }
+  return sum.result();
+}
+
+std::optional<double> valueAt(std::span<const Sample> samples, double time) {
+  const auto after = firstAfter(samples, time);
+  if (after == samples.begin()) return std::nullopt;
+  return (after - 1)->value;
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Writes part of a session in another form: CSV (wide or long), JSON lines, or a shorter session.
+// Numbers are written as short as they can be so that reading gives the same bits back, in the same
+// way whatever the computer's language is. One thread.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <telemetry/session/session_reader.h>
+
+namespace pitchboard::telemetry {
+
+enum class ExportFormat : std::uint8_t {
+  CsvWide,  ///< a line per time; a column "B1.VISION_BALL_DIST" per variable, empty where no row is
+  CsvLong,  ///< a line per value: time, robot, variable, value
+  JsonLines,  ///< a line per row or message
+  Mcap        ///< a session with the selected part
+};
+/// "csv-wide", "csv-long", "jsonl", "mcap". Error InvalidArgument names them.
+Result<ExportFormat> exportFormat(std::string_view name);
+/// ".csv", ".jsonl", ".mcap".
+std::string_view fileExtension(ExportFormat format);
+
+struct ExportSelection {
+  SessionRange range{-1e18, 1e18};     ///< s, both ends included
+  std::vector<std::string> robots;     ///< names of groups; empty: all
+  std::vector<std::string> variables;  ///< names, * stands for any letters; empty: all
+  bool messages = true;                ///< events, log, datagrams too (JsonLines and Mcap)
+};
+
+struct ExportReport {
+  std::uint64_t lines = 0;  ///< of text, or messages of a session
+  std::uint64_t bytes = 0;
+};
+
+/// Part done, 0 to 1; false stops.
+using ExportProgress = std::function<bool(double)>;
+
+/// Error InvalidArgument when it ends before it begins.
+Result<void> checkRange(SessionRange range);
+/// Error NotFound when a robot or a variable is not in the session; also as checkRange().
+Result<void> checkSelection(const SessionReader& session, const ExportSelection& selection);
+
+/// Text formats into a sink that takes some 100 kB at a time; when it says false the export ends
+/// with error SystemError. Errors also as checkSelection().
+Result<ExportReport> exportText(const SessionReader& session, ExportFormat format,
+                                const ExportSelection& selection,
+                                const std::function<bool(std::string_view)>& sink,
+                                const ExportProgress& progress = {});
+
+/// Any format into a new file. Error Conflict when it exists; after other errors and when stopped
+/// it is removed.
+Result<ExportReport> exportFile(const SessionReader& session, ExportFormat format,
+                                const ExportSelection& selection, const std::string& path,
+                                const ExportProgress& progress = {});
+
+}  // namespace pitchboard::telemetry

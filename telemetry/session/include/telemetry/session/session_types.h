@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What stands in a session file besides rows: who wrote it, events, log lines, datagrams. Times are
+// seconds of the source (simulated time, or seconds since Live began). Plain values.
+// The format is told in docs/SESSIONS.md.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <telemetry/series/series_types.h>
+#include <telemetry/wire/datagram.h>
+
+namespace pitchboard::telemetry {
+
+/// Version of the format that this program writes. Higher ones are read as far as known.
+inline constexpr int sessionFormat = 1;
+
+struct SessionInfo {
+  std::string program;  ///< "pitchboard 0.1.0"
+  std::string source;   ///< "simulation" or "live"
+  std::string title;    ///< scenario, or what the user called it
+  std::optional<std::uint64_t> seed;
+  WallTime start{};    ///< wall time at which the source was at 0 s; the files' times count on it
+  WallTime created{};  ///< when recording began
+  std::map<std::string, std::string> more;
+  bool operator==(const SessionInfo&) const = default;
+};
+
+/// Streams of JSON messages.
+enum class SessionStream : std::uint8_t {
+  Events,      ///< SessionEvent
+  Log,         ///< SessionLogLine
+  Telemetry,   ///< SessionDatagram from a robot
+  RefereeRaw,  ///< SessionDatagram of the referee
+  Referee,     ///< a referee packet decoded
+  Checkpoints  ///< pieces of a simulated match that can be re-entered exactly
+};
+inline constexpr std::size_t sessionStreamCount = 6;
+
+/// Something that a timeline marks: a goal, a fall, a bookmark.
+struct SessionEvent {
+  double time = 0.0;
+  std::string
+      kind;  ///< "goal", "kick", "fall", "ball-out", "referee", "process", "timeout", "bookmark"
+  std::string group;  ///< the robot's name, or empty
+  std::string text;   ///< for people
+  bool operator==(const SessionEvent&) const = default;
+};
+
+struct SessionLogLine {
+  double time = 0.0;
+  int level = 2;       ///< 1 debug, 2 info, 3 warning, 4 error
+  std::string source;  ///< who says it: "B1/decision"
+  std::string text;
+  bool operator==(const SessionLogLine&) const = default;
+};
+
+/// A datagram as it arrived, any bytes.
+struct SessionDatagram {
+  double time = 0.0;
+  Sender sender;
+  std::uint16_t localPort = 0;
+  std::string payload;
+  bool operator==(const SessionDatagram&) const = default;
+};
+
+/// From `begin` to `end`, both included, in seconds.
+struct SessionRange {
+  double begin = 0.0, end = 0.0;
+  bool operator==(const SessionRange&) const = default;
+};
+
+}  // namespace pitchboard::telemetry

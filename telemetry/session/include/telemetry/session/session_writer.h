@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Records a session into a file in a thread of its own (docs/SESSIONS.md has the format). Rows and
+// messages go through a bounded queue that counts what it had to drop. What was appended is on the
+// disk after a second at the latest; a process that is killed loses no more. Never overwrites.
+// Times are seconds of the source. When the source is put back (an earlier moment is re-entered),
+// nothing in the file is lost: what comes after it follows behind what stands there already.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <base/result.h>
+#include <telemetry/series/row_sink.h>
+#include <telemetry/session/session_types.h>
+
+namespace pitchboard::telemetry {
+
+struct SessionWriterOptions {
+  std::size_t queueBytes = std::size_t{64} << 20;  ///< waiting for the disk; beyond it is dropped
+  std::size_t chunkBytes = std::size_t{2} << 20;   ///< a chunk is closed when it has these bytes,
+  Duration chunkInterval = std::chrono::milliseconds(800);  ///< or this old
+  int level = 7;  ///< of zstd; 70 MB/s of rows, a tenth smaller than 3
+  bool waitWhenFull =
+      false;         ///< append() waits for the disk instead: for runs faster than real time
+  bool sync = true;  ///< the disk must have each chunk, not only the kernel
+};
+
+struct SessionStatus {
+  bool recording = true;
+  /// Why it stopped, for the screen; empty unless something went wrong.
+  std::string problem;
+  double seconds = 0.0;     ///< of the session so far
+  std::uint64_t bytes = 0;  ///< of the file
+  std::uint64_t rows = 0;
+  std::uint64_t messages = 0;  ///< events, log lines, datagrams, ...
+  std::uint64_t dropped = 0;   ///< rows and messages for which the queue had no room
+};
+
+/// Every function may be called from any thread. After a failure append does nothing, and the file
+/// holds what was recorded until then.
+class SessionWriter : public RowSink {
+ public:
+  /// Error Conflict when the file exists, SystemError when it cannot be made.
+  static Result<std::unique_ptr<SessionWriter>> create(const std::string& path,
+                                                       const SessionInfo& info,
+                                                       const SessionWriterOptions& options = {});
+  ~SessionWriter() override;  ///< as finish()
+  SessionWriter(const SessionWriter&) = delete;
+  SessionWriter& operator=(const SessionWriter&) = delete;
+
+  /// The same name with the same columns gives the same id again; the attributes stay those of the
+  /// first time.
+  GroupId addGroup(const GroupInfo& info) override;
+  void append(GroupId group, const RowView& row) override;
+  void append(const SessionEvent& event);
+  void append(const SessionLogLine& line);
+  /// `stream`: Telemetry or RefereeRaw.
+  void append(SessionStream stream, const SessionDatagram& datagram);
+  /// `json`: an object with the source's seconds as "time".
+  void appendJson(SessionStream stream, double time, std::string_view json);
+  /// A file beside the rows: the scenario, the catalog, the profile.
+  void attach(std::string_view name, std::string_view mediaType, std::string_view data);
+
+  SessionStatus status() const;
+  const std::string& path() const;
+  /// Writes what waits and the summary; the error is that of status().problem.
+  Result<void> finish();
+
+ private:
+  struct Impl;
+  explicit SessionWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/session/session_export.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include <telemetry/mcap/new_file.h>
+
+#include "export_clip.h"
+#include "export_text.h"
+#include "session_format.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+using Selected = std::vector<SelectedGroup>;
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// RFC 4180.
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+/// What a format does with the things of a session. Every function says false to stop.
+class LineWriter {
+ public:
+  LineWriter(const SessionReader& session, const Selected& selected, TextBuffer& out)
+      : m_session(session), m_selected(selected), m_out(out) {}
+  virtual ~LineWriter() = default;
+  virtual bool begin() { return true; }
+  virtual bool row(const SessionItem& item) = 0;
+  virtual bool message(const SessionItem&) { return true; }
+  virtual bool end() { return true; }
+
+ protected:
+  const GroupInfo& info(std::size_t group) const { return m_session.groups()[group].info; }
+  const SessionReader& m_session;
+  const Selected& m_selected;
+  TextBuffer& m_out;
+  Cell m_time;
+};
+
+class WideWriter : public LineWriter {
+ public:
+  using LineWriter::LineWriter;
+
+  bool begin() override {
+    m_parts.resize(m_selected.size());
+    m_out.putSafely("time");
+    std::size_t columns = 1;
+    for (std::size_t g = 0; g < m_selected.size(); ++g) {
+      if (!m_selected[g].selected) continue;
+      for (const SelectedColumn& column : m_selected[g].columns) {
+        m_out.putSafely("," + csvField(info(g).name + "." + info(g).columns[column.column].name));
+      }
+      m_parts[g].cells.resize(m_selected[g].columns.size());
+      columns += m_parts[g].cells.size();
+    }
+    m_longestLine = columns * (Cell::room + 1) + Cell::room;
+    return m_out.endLine();
+  }
+
+  bool row(const SessionItem& item) override {
+    Part& part = m_parts[item.group];
+    const auto bits = std::bit_cast<std::uint64_t>(item.time);
+    if (m_open && (bits != m_bits || part.filled) && !line()) return false;
+    m_open = true;
+    m_bits = bits;
+    part.filled = true;
+    const auto& columns = m_selected[item.group].columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      part.cells[i].set(columns[i].type, bitsOf(columns[i], item.row));
+    }
+    return true;
+  }
+
+  bool end() override { return !m_open || line(); }
+
+ private:
+  struct Part {
+    std::vector<Cell> cells;
+    bool filled = false;
+  };
+
+  bool line() {
+    m_open = false;
+    m_time.set(ColumnType::Float64, m_bits);
+    m_out.reserve(m_longestLine);
+    m_out.put(m_time);
+    for (Part& part : m_parts) {
+      for (const Cell& cell : part.cells) {
+        m_out.put(',');
+        if (part.filled) m_out.put(cell);
+      }
+      part.filled = false;
+    }
+    return m_out.endLine();
+  }
+
+  std::vector<Part> m_parts;
+  std::size_t m_longestLine = 0;
+  std::uint64_t m_bits = 0;
+  bool m_open = false;
+};
+
+/// Shared by the forms that name robot and variable in every line.
+class NamedWriter : public LineWriter {
+ public:
+  using LineWriter::LineWriter;
+
+ protected:
+  void prepare(const std::function<std::string(const GroupInfo&, const ColumnInfo&)>& prefix) {
+    m_cells.resize(m_selected.size());
+    m_prefixes.resize(m_selected.size());
+    for (std::size_t g = 0; g < m_selected.size(); ++g) {
+      m_cells[g].resize(m_selected[g].columns.size());
+      for (const SelectedColumn& column : m_selected[g].columns) {
+        m_prefixes[g].push_back(prefix(info(g), info(g).columns[column.column]));
+      }
+    }
+  }
+  std::vector<std::vector<Cell>> m_cells;
+  std::vector<std::vector<std::string>> m_prefixes;
+};
+
+class LongWriter : public NamedWriter {
+ public:
+  using NamedWriter::NamedWriter;
+
+  bool begin() override {
+    prepare([](const GroupInfo& group, const ColumnInfo& column) {
+      return "," + csvField(group.name) + "," + csvField(column.name) + ",";
+    });
+    m_out.putSafely("time,robot,variable,value");
+    return m_out.endLine();
+  }
+
+  bool row(const SessionItem& item) override {
+    m_time.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(item.time));
+    const auto& columns = m_selected[item.group].columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      Cell& cell = m_cells[item.group][i];
+      const std::string& prefix = m_prefixes[item.group][i];
+      cell.set(columns[i].type, bitsOf(columns[i], item.row));
+      m_out.reserve(2 * Cell::room + prefix.size());
+      m_out.put(m_time);
+      m_out.put(prefix);
+      m_out.put(cell);
+      if (!m_out.endLine()) return false;
+    }
+    return true;
+  }
+};
+
+class JsonWriter : public NamedWriter {
+ public:
+  using NamedWriter::NamedWriter;
+
+  bool begin() override {
+    prepare([](const GroupInfo&, const ColumnInfo& column) { return quoted(column.name) + ":"; });
+    for (std::size_t g = 0; g < m_selected.size(); ++g) {
+      m_heads.push_back(",\"robot\":" + quoted(info(g).name) + ",\"values\":{");
+    }
+    return true;
+  }
+
+  bool row(const SessionItem& item) override {
+    putTime(item.time);
+    m_out.putSafely(m_heads[item.group]);
+    const auto& columns = m_selected[item.group].columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      Cell& cell = m_cells[item.group][i];
+      const std::string& prefix = m_prefixes[item.group][i];
+      cell.set(columns[i].type, bitsOf(columns[i], item.row));
+      m_out.reserve(Cell::room + prefix.size() + 8);
+      if (i > 0) m_out.put(',');
+      m_out.put(prefix);
+      if (cell.isNumber())
+        m_out.put(cell);
+      else
+        m_out.put("null");
+    }
+    m_out.putSafely("}}");
+    return m_out.endLine();
+  }
+
+  bool message(const SessionItem& item) override {
+    // A message of another program may have line ends in it.
+    std::string json(item.message->data);
+    std::replace(json.begin(), json.end(), '\n', ' ');
+    std::replace(json.begin(), json.end(), '\r', ' ');
+    putTime(item.time);
+    m_out.putSafely(
+        ",\"stream\":\"" +
+        std::string(session::streams[static_cast<std::size_t>(item.stream)].topic.substr(1)) +
+        "\",\"message\":");
+    m_out.putSafely(json);
+    m_out.putSafely("}");
+    return m_out.endLine();
+  }
+
+ private:
+  void putTime(double time) {
+    m_time.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(time));
+    m_out.reserve(64);
+    m_out.put("{\"time\":");
+    m_out.put(m_time);
+  }
+  std::vector<std::string> m_heads;
+};
+
+}  // namespace
+
+Result<ExportReport> exportText(const SessionReader& session, ExportFormat format,
+                                const ExportSelection& selection,
+                                const std::function<bool(std::string_view)>& sink,
+                                const ExportProgress& progress) {
+  const auto selected = resolveSelection(session, selection);
+  if (!selected) return tl::unexpected(selected.error());
+  TextBuffer out(sink);
+  std::unique_ptr<LineWriter> writer;
+  switch (format) {
+    case ExportFormat::CsvWide:
+      writer = std::make_unique<WideWriter>(session, *selected, out);
+      break;
+    case ExportFormat::CsvLong:
+      writer = std::make_unique<LongWriter>(session, *selected, out);
+      break;
+    case ExportFormat::JsonLines:
+      writer = std::make_unique<JsonWriter>(session, *selected, out);
+      break;
+    case ExportFormat::Mcap:
+      return failure(ErrorCode::InvalidArgument, "A session is no text; it needs a file.");
+  }
+  bool going = writer->begin();
+  bool interrupted = false;
+  const auto visit = [&](const SessionItem& item) {
+    if (!item.isRow) return writer->message(item);
+    return !(*selected)[item.group].selected || writer->row(item);
+  };
+  const auto report = [&](double part) {
+    interrupted = progress && !progress(part);
+    return !interrupted;
+  };
+  if (format == ExportFormat::JsonLines && selection.messages) {
+    going = going && session.walk(selection.range, visit, report);
+  } else {
+    going = going && session.walkRows(selection.range, visit, report);
+  }
+  if (interrupted) return exportStopped();
+  going = going && writer->end() && out.flush();
+  if (!going) {
+    return failure(ErrorCode::SystemError, "The export cannot be written.");
+  }
+  return ExportReport{out.lines(), out.bytes()};
+}
+
+Result<ExportReport> exportFile(const SessionReader& session, ExportFormat format,
+                                const ExportSelection& selection, const std::string& path,
+                                const ExportProgress& progress) {
+  const auto selected = resolveSelection(session, selection);
+  if (!selected) return tl::unexpected(selected.error());
+  Result<ExportReport> report;
+  if (format == ExportFormat::Mcap) {
+    auto out = McapWriter::create(path, {"", session.file().library(), 3, false});
+    if (!out) return tl::unexpected(out.error());
+    report = writeClip(session, selection, *selected, *out, progress);
+  } else {
+    auto out = NewFile::create(path);
+    if (!out) return tl::unexpected(out.error());
+    Result<void> written;
+    report = exportText(
+        session, format, selection,
+        [&](std::string_view text) {
+          written = out->write(text);
+          return written.has_value();
+        },
+        progress);
+    if (!written) report = tl::unexpected(written.error());
+    if (auto closed = out->close(); report && !closed) report = tl::unexpected(closed.error());
+  }
+  if (!report) std::remove(path.c_str());
+  return report;
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How groups, rows and messages look inside a session file (docs/SESSIONS.md). Rows are CDR (OMG,
+// little-endian, plain, version 1) by a ros2msg definition made from the columns.
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <telemetry/mcap/mcap_records.h>
+#include <telemetry/session/session_types.h>
+
+namespace pitchboard::telemetry::session {
+
+inline constexpr std::string_view metadataName = "pitchboard";
+inline constexpr std::string_view checkKey = "check";             ///< CRC-32 of the other metadata
+inline constexpr std::string_view groupKey = "pitchboard.group";  ///< of a row channel's metadata
+
+struct StreamInfo {
+  std::string_view topic, schemaName, jsonSchema;
+};
+/// By SessionStream.
+extern const std::array<StreamInfo, sessionStreamCount> streams;
+
+McapMap toMetadata(const SessionInfo& info);
+std::string checkOf(const McapMap& metadata);
+/// The version of the format is left in `format`; fields that are missing keep their defaults.
+/// Nothing when the check fails.
+std::optional<SessionInfo> infoFromMetadata(const McapMap& metadata, int& format);
+
+std::string groupToJson(const GroupInfo& group);
+/// Nothing when it is not of its form or its 32-bit columns do not stand first.
+std::optional<GroupInfo> groupFromJson(std::string_view json);
+
+/// Names that ros2msg allows (lower case, digits, single underscores), one per column, all
+/// different: "VISION_BALL_DIST" is "vision_ball_dist". None is "source_time", the time's own
+/// field.
+std::vector<std::string> fieldNames(const GroupInfo& group);
+std::string rowTopic(const GroupInfo& group);
+std::string rowSchemaName(const GroupInfo& group);
+std::string rowSchema(const GroupInfo& group);
+
+/// A Float64 column that is kept as single precision.
+inline bool isSingle(const ColumnInfo& column) {
+  return column.type == ColumnType::Float64 && column.resolution > 0.0 &&
+         column.resolution < std::numeric_limits<double>::infinity();
+}
+
+/// Where the parts of a row stand in its bytes: time, words, singles, doubles.
+struct RowLayout {
+  std::size_t words = 0, values = 0;
+  static constexpr std::size_t timeAt = 4, wordsAt = 12;
+  std::size_t singlesAt = 0, doublesAt = 0, size = 0;
+  struct Single {
+    std::size_t place;  ///< among the values
+    double resolution;
+  };
+  std::vector<Single> singles;
+  std::vector<std::size_t> doubles;  ///< places among the values
+
+  RowLayout() = default;
+  explicit RowLayout(const GroupInfo& group);
+  /// `to` has `size` bytes; a row that is too short is filled up with zeros. Singles are rounded.
+  void write(char* to, const RowView& row) const;
+  /// False when the bytes are not a row of this layout. `words` and `values` are reused.
+  bool read(std::string_view bytes, double& time, std::vector<std::uint32_t>& wordsOut,
+            std::vector<double>& valuesOut) const;
+};
+
+std::string toJson(const SessionEvent& event);
+std::string toJson(const SessionLogLine& line, std::uint64_t wallNanoseconds);
+std::string toJson(const SessionDatagram& datagram);
+std::optional<SessionEvent> eventFromJson(std::string_view json);
+std::optional<SessionLogLine> logLineFromJson(std::string_view json);
+std::optional<SessionDatagram> datagramFromJson(std::string_view json);
+/// The "time" of any message.
+std::optional<double> timeFromJson(std::string_view json);
+
+/// Nanoseconds since 1970 of a source's time; times that do not fit are clamped.
+std::uint64_t nanoseconds(WallTime start, double seconds);
+
+}  // namespace pitchboard::telemetry::session

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of a session that are JSON: groups, events, log lines, datagrams, and their schemas.
+
+#include <zlib.h>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include <telemetry/wire/base64.h>
+
+#include "session_format.h"
+
+namespace pitchboard::telemetry::session {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 3> typeNames{"int32", "float32", "float64"};
+constexpr std::array<const char*, 3> kindNames{"number", "flag", "enumeration"};
+
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Discarded instead of an exception; deep nesting is refused, because destroying it recurses.
+Json parse(std::string_view text) {
+  return Json::parse(
+      text, [](int depth, Json::parse_event_t, Json&) { return depth <= 16; }, false);
+}
+
+template <class Names>
+std::optional<std::uint8_t> place(const Names& names, const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_string()) return std::nullopt;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (found->template get_ref<const std::string&>() == names[i]) {
+      return static_cast<std::uint8_t>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::optional<double> number(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+template <class T>
+std::optional<T> whole(std::string_view digits) {
+  T value{};
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || code != std::errc() || end != digits.data() + digits.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+bool isUtf8(std::string_view bytes) {
+  return Json::accept("\"" + [&] {
+    std::string safe;
+    for (const char c : bytes)
+      safe += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    return safe;
+  }() + "\"");
+}
+
+std::optional<Json> objectWithTime(std::string_view text) {
+  Json json = parse(text);
+  if (!json.is_object() || !number(json, "time")) return std::nullopt;
+  return json;
+}
+
+}  // namespace
+
+const std::array<StreamInfo, sessionStreamCount> streams{{
+    {"/events", "pitchboard.Event",
+     R"({"type":"object","title":"pitchboard.Event","properties":{"time":{"type":"number","description":"seconds of the source"},"kind":{"type":"string"},"group":{"type":"string"},"text":{"type":"string"}},"required":["time","kind"]})"},
+    // The fields of foxglove.Log, so that Foxglove's and Lichtblick's log panels show it.
+    {"/log", "foxglove.Log",
+     R"({"type":"object","title":"foxglove.Log","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},"level":{"type":"integer","description":"1 debug, 2 info, 3 warning, 4 error"},"message":{"type":"string"},"name":{"type":"string"},"file":{"type":"string"},"line":{"type":"integer"},"time":{"type":"number","description":"seconds of the source"}},"required":["time","message"]})"},
+    {"/telemetry", "pitchboard.Datagram",
+     R"({"type":"object","title":"pitchboard.Datagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer","description":"port at which it was received"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64","description":"the bytes, where they are not UTF-8 text"}},"required":["time","sender","port"]})"},
+    {"/referee/raw", "pitchboard.RefereeDatagram",
+     R"({"type":"object","title":"pitchboard.RefereeDatagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64"}},"required":["time","sender","port"]})"},
+    {"/referee", "pitchboard.Referee",
+     R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
+    {"/checkpoints",
+     "pitchboard.Checkpoint", R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
+}};
+
+/// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all
+/// times.
+std::string checkOf(const McapMap& metadata) {
+  unsigned long crc = 0;
+  for (const auto& [key, value] : metadata) {
+    if (key == checkKey) continue;
+    for (const std::string* text : {&key, &value}) {
+      crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text->c_str()), text->size() + 1);
+    }
+  }
+  return std::to_string(crc);
+}
+
+McapMap toMetadata(const SessionInfo& info) {
+  McapMap out;
+  for (const auto& [key, value] : info.more) out.insert_or_assign("more." + key, value);
+  out.insert_or_assign("format", std::to_string(sessionFormat));
+  out.insert_or_assign("program", info.program);
+  out.insert_or_assign("source", info.source);
+  out.insert_or_assign("title", info.title);
+  if (info.seed) out.insert_or_assign("seed", std::to_string(*info.seed));
+  out.insert_or_assign("start_ns", std::to_string(info.start.time_since_epoch().count()));
+  out.insert_or_assign("created_ns", std::to_string(info.created.time_since_epoch().count()));
+  out.insert_or_assign(std::string(checkKey), checkOf(out));
+  return out;
+}
+
+std::optional<SessionInfo> infoFromMetadata(const McapMap& metadata, int& format) {
+  const auto check = metadata.find(checkKey);
+  if (check == metadata.end() || check->second != checkOf(metadata)) return std::nullopt;
+  const auto value = [&](std::string_view key) {
+    const auto found = metadata.find(key);
+    return found == metadata.end() ? std::string() : found->second;
+  };
+  const auto time = [&](std::string_view key) {
+    return WallTime(Duration(whole<std::int64_t>(value(key)).value_or(0)));
+  };
+  SessionInfo info;
+  format = whole<int>(value("format")).value_or(0);
+  info.program = value("program");
+  info.source = value("source");
+  info.title = value("title");
+  info.seed = whole<std::uint64_t>(value("seed"));
+  info.start = time("start_ns");
+  info.created = time("created_ns");
+  constexpr std::string_view more = "more.";
+  for (const auto& [key, text] : metadata) {
+    if (key.starts_with(more)) info.more.insert_or_assign(key.substr(more.size()), text);
+  }
+  return info;
+}
+
+std::string groupToJson(const GroupInfo& group) {
+  Json columns = Json::array();
+  const std::vector<std::string> fields = fieldNames(group);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const ColumnInfo& column = group.columns[i];
+    Json json{{"name", column.name},
+              {"field", fields[i]},
+              {"type", typeNames[static_cast<std::size_t>(column.type)]}};
+    if (!column.unit.empty()) json["unit"] = column.unit;
+    if (!column.heading.empty()) json["heading"] = column.heading;
+    if (column.kind != ColumnKind::Number) {
+      json["kind"] = kindNames[static_cast<std::size_t>(column.kind)];
+    }
+    if (isSingle(column)) json["resolution"] = column.resolution;
+    for (const auto& [code, word] : column.labels) json["labels"][std::to_string(code)] = word;
+    columns.push_back(std::move(json));
+  }
+  return dump(Json{{"name", group.name}, {"attributes", group.attributes}, {"columns", columns}});
+}
+
+std::optional<GroupInfo> groupFromJson(std::string_view text_) {
+  const Json json = parse(text_);
+  if (!json.is_object()) return std::nullopt;
+  GroupInfo group;
+  group.name = text(json, "name");
+  if (group.name.empty()) return std::nullopt;
+  if (const auto found = json.find("attributes"); found != json.end() && found->is_object()) {
+    for (const auto& [key, value] : found->items()) {
+      if (value.is_string()) group.attributes[key] = value.get<std::string>();
+    }
+  }
+  const auto columns = json.find("columns");
+  if (columns == json.end() || !columns->is_array()) return std::nullopt;
+  for (const Json& entry : *columns) {
+    if (!entry.is_object()) return std::nullopt;
+    const auto type = place(typeNames, entry, "type");
+    ColumnInfo column;
+    column.name = text(entry, "name");
+    if (!type || column.name.empty()) return std::nullopt;
+    column.type = static_cast<ColumnType>(*type);
+    if (column.type != ColumnType::Float64 && !group.columns.empty() &&
+        group.columns.back().type == ColumnType::Float64) {
+      return std::nullopt;
+    }
+    if (entry.contains("resolution")) {
+      column.resolution = number(entry, "resolution").value_or(0.0);
+      if (!isSingle(column)) return std::nullopt;
+    }
+    column.unit = text(entry, "unit");
+    column.heading = text(entry, "heading");
+    column.kind = static_cast<ColumnKind>(place(kindNames, entry, "kind").value_or(0));
+    if (const auto labels = entry.find("labels"); labels != entry.end() && labels->is_object()) {
+      for (const auto& [code, word] : labels->items()) {
+        const auto value = whole<std::int32_t>(code);
+        if (value && word.is_string()) column.labels[*value] = word.get<std::string>();
+      }
+    }
+    group.columns.push_back(std::move(column));
+  }
+  return group;
+}
+
+std::string toJson(const SessionEvent& event) {
+  return dump(Json{
+      {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}});
+}
+
+std::string toJson(const SessionLogLine& line, std::uint64_t wallNanoseconds) {
+  return dump(
+      Json{{"timestamp",
+            {{"sec", wallNanoseconds / 1'000'000'000}, {"nsec", wallNanoseconds % 1'000'000'000}}},
+           {"level", line.level},
+           {"message", line.text},
+           {"name", line.source},
+           {"file", ""},
+           {"line", 0},
+           {"time", line.time}});
+}
+
+std::string toJson(const SessionDatagram& datagram) {
+  Json json{
+      {"time", datagram.time}, {"sender", datagram.sender.text()}, {"port", datagram.localPort}};
+  if (isUtf8(datagram.payload))
+    json["text"] = datagram.payload;
+  else
+    json["base64"] = toBase64(datagram.payload);
+  return dump(json);
+}
+
+std::optional<SessionEvent> eventFromJson(std::string_view json) {
+  const auto object = objectWithTime(json);
+  if (!object) return std::nullopt;
+  return SessionEvent{*number(*object, "time"), text(*object, "kind"), text(*object, "group"),
+                      text(*object, "text")};
+}
+
+std::optional<SessionLogLine> logLineFromJson(std::string_view json) {
+  const auto object = objectWithTime(json);
+  if (!object) return std::nullopt;
+  return SessionLogLine{
+      *number(*object, "time"),
+      static_cast<int>(std::clamp(number(*object, "level").value_or(2), 0.0, 5.0)),
+      text(*object, "name"), text(*object, "message")};
+}
+
+std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
+  const auto object = objectWithTime(json);
+  if (!object) return std::nullopt;
+  SessionDatagram out;
+  out.time = *number(*object, "time");
+  const std::string sender = text(*object, "sender");
+  const auto colon = sender.rfind(':');
+  if (colon == std::string::npos) return std::nullopt;
+  const auto address = parseAddress(sender.substr(0, colon));
+  const auto port = whole<std::uint16_t>(std::string_view(sender).substr(colon + 1));
+  if (!address || !port) return std::nullopt;
+  out.sender = {*address, *port};
+  out.localPort =
+      static_cast<std::uint16_t>(std::clamp(number(*object, "port").value_or(0.0), 0.0, 65535.0));
+  if (object->contains("base64")) {
+    auto bytes = fromBase64(text(*object, "base64"));
+    if (!bytes) return std::nullopt;
+    out.payload = std::move(*bytes);
+  } else {
+    out.payload = text(*object, "text");
+  }
+  return out;
+}
+
+std::optional<double> timeFromJson(std::string_view json) {
+  const auto object = objectWithTime(json);
+  return object ? number(*object, "time") : std::nullopt;
+}
+
+}  // namespace pitchboard::telemetry::session

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a SessionReader knows of its file. Private to session_reader.cpp and session_walk.cpp.
+
+#include <algorithm>
+#include <list>
+#include <set>
+
+#include <telemetry/session/session_reader.h>
+
+#include "session_format.h"
+
+namespace pitchboard::telemetry {
+
+struct SessionReader::Impl {
+  static constexpr std::size_t mostNotes = 200;
+  static constexpr int noGroup = -1;
+
+  McapReader file;
+  SessionInfo info;
+  bool described = false;  ///< by metadata of ours that are whole
+  std::vector<SessionGroup> groups;
+  std::vector<session::RowLayout> layouts;
+  struct Use {
+    int group = noGroup;
+    SessionStream stream = SessionStream::Events;
+  };
+  std::vector<Use> useOfChannel;  ///< by channel id
+  std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
+  /// Chunks by their start, and the latest end among the first n.
+  std::vector<std::size_t> byStart;
+  std::vector<std::uint64_t> latestEnd;
+
+  mutable std::vector<std::string> notes;
+  mutable std::set<std::size_t> damaged;
+  struct Kept {
+    std::size_t chunk;
+    std::string body;
+  };
+  mutable std::list<Kept> kept;  ///< newest first
+
+  explicit Impl(McapReader f) : file(std::move(f)) {}
+
+  void note(std::string sentence) const {
+    if (notes.size() < mostNotes) notes.push_back(std::move(sentence));
+  }
+  void takeMetadata();
+  void takeChannels();
+  void takeChunks();
+  void findStart();
+  std::string_view body(std::size_t chunk) const;
+  /// `wanted` in order. False: the visitor or the progress said so.
+  template <class Visit>
+  bool walk(std::uint64_t begin, std::uint64_t end, const std::vector<std::uint16_t>& wanted,
+            const Visit& visit, const std::function<bool(double)>& progress) const;
+  static bool mayHold(const McapChunkInfo& chunk, std::uint16_t channel) {
+    return chunk.channels.empty() ||
+           std::binary_search(chunk.channels.begin(), chunk.channels.end(), channel);
+  }
+  /// The session's time of a row or message that says `source` of itself.
+  static double time(double source, const McapMessage& message) {
+    if (message.logTime == message.publishTime) return source;
+    return source +
+           static_cast<double>(static_cast<std::int64_t>(message.logTime - message.publishTime)) /
+               1e9;
+  }
+};
+
+}  // namespace pitchboard::telemetry

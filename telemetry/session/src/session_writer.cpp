@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/session/session_writer.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <telemetry/mcap/mcap_writer.h>
+
+#include "session_format.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A step back that is smaller than this is disorder on the way here and moves nothing.
+constexpr std::uint64_t smallStepBack = 50'000'000;    // ns
+constexpr std::uint64_t gapBetweenPasses = 1'000'000;  // ns
+constexpr std::size_t mostSpareChunks = 4;
+constexpr std::uint16_t mostChannels = 60'000;
+
+struct Attachment {
+  std::uint64_t time;
+  std::string name, mediaType, data;
+};
+
+}  // namespace
+
+struct SessionWriter::Impl {
+  std::string path;
+  SessionInfo info;
+  SessionWriterOptions options;
+  std::optional<McapWriter> file;  ///< of the writing thread once it runs
+  std::thread thread;
+
+  struct Group {
+    GroupInfo info;
+    session::RowLayout layout;
+    std::uint16_t channel = 0;
+    std::uint32_t sequence = 0;
+    std::uint64_t lastLog = 0;
+  };
+
+  mutable std::mutex mutex;  ///< of everything below
+  std::condition_variable wake, room;
+  std::deque<McapChunk> full;
+  McapChunk current;
+  std::vector<McapChunk> spare;
+  std::deque<Attachment> attachments;
+  std::size_t waiting = 0;  ///< bytes in `full`, and what the writing thread has in hand
+  bool stop = false;
+  std::vector<Group> groups;
+  struct Stream {
+    std::uint16_t channel = 0;
+    std::uint32_t sequence = 0;
+  };
+  std::array<Stream, sessionStreamCount> streams{};
+  std::uint16_t channels = 0, schemas = 0;
+  std::uint64_t shift = 0;  ///< ns; how far the file's times are ahead of the source's
+  std::optional<std::uint64_t> firstLog;
+  std::uint64_t lastLog = 0;
+  SessionStatus state;
+  std::optional<Error> error;
+
+  void run();
+  void write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files);
+  bool hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes);
+  void closeCurrent();
+  std::uint16_t addChannel(const McapSchema& schema, McapChannel channel);
+  void note(std::uint64_t log);
+};
+
+SessionWriter::SessionWriter(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+
+SessionWriter::~SessionWriter() {
+  (void)finish();
+}
+
+Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::string& path,
+                                                             const SessionInfo& info,
+                                                             const SessionWriterOptions& options) {
+  McapWriterOptions fileOptions;
+  fileOptions.library = info.program.empty() ? "pitchboard" : info.program;
+  fileOptions.level = options.level;
+  fileOptions.sync = options.sync;
+  auto file = McapWriter::create(path, fileOptions);
+  if (!file) return tl::unexpected(file.error());
+  if (auto written = file->metadata(session::metadataName, session::toMetadata(info)); !written) {
+    return tl::unexpected(written.error());
+  }
+  if (auto synced = file->sync(); !synced) return tl::unexpected(synced.error());
+  auto impl = std::make_unique<Impl>();
+  impl->path = path;
+  impl->info = info;
+  impl->options = options;
+  impl->state.bytes = file->bytes();
+  impl->file = std::move(*file);
+  std::unique_ptr<SessionWriter> writer(new SessionWriter(std::move(impl)));
+  Impl& shared = *writer->m_impl;
+  shared.thread = std::thread([&shared] { shared.run(); });
+  return writer;
+}
+
+void SessionWriter::Impl::run() {
+  auto next = Clock::now() + options.chunkInterval;
+  std::unique_lock lock(mutex);
+  for (;;) {
+    wake.wait_until(lock, next, [this] { return stop || !full.empty() || !attachments.empty(); });
+    const bool last = stop;
+    if ((last || Clock::now() >= next) && !current.empty()) closeCurrent();
+    std::deque<McapChunk> chunks;
+    std::deque<Attachment> files;
+    chunks.swap(full);
+    files.swap(attachments);
+    if (current.empty() || Clock::now() >= next) next = Clock::now() + options.chunkInterval;
+    lock.unlock();
+    if (!error) write(chunks, files);
+    lock.lock();
+    waiting = 0;
+    for (const McapChunk& chunk : full) waiting += chunk.bytes();
+    for (const Attachment& file_ : attachments) waiting += file_.data.size();
+    for (McapChunk& chunk : chunks) {
+      if (spare.size() >= mostSpareChunks) break;
+      chunk.clear();
+      spare.push_back(std::move(chunk));
+    }
+    state.bytes = file->bytes();
+    room.notify_all();
+    if (last || error) break;
+  }
+  lock.unlock();
+  auto finished = file->finish();
+  lock.lock();
+  if (!finished && !error) error = finished.error();
+  state.bytes = file->bytes();
+  state.recording = false;
+  if (error) {
+    state.problem =
+        "Recording stopped. " + error->message + " What was recorded until then is in the file.";
+  }
+  full.clear();
+  current.clear();
+  attachments.clear();
+  room.notify_all();
+}
+
+void SessionWriter::Impl::write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files) {
+  Result<void> done;
+  for (const Attachment& attachment : files) {
+    if (done) {
+      done = file->attach(attachment.time, attachment.time, attachment.name, attachment.mediaType,
+                          attachment.data);
+    }
+  }
+  if (done && !files.empty()) done = file->sync();
+  for (const McapChunk& chunk : chunks) {
+    if (done) done = file->writeChunk(chunk);
+  }
+  if (done) return;
+  const std::lock_guard lock(mutex);
+  error = done.error();
+  state.recording = false;
+}
+
+/// Needs the lock; may let go of it while it waits.
+bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
+  if (stop || error) return false;
+  const auto fits = [&] { return waiting + current.bytes() + bytes <= options.queueBytes; };
+  if (!fits() && options.waitWhenFull && bytes <= options.queueBytes) {
+    if (!current.empty()) closeCurrent();
+    wake.notify_one();
+    room.wait(lock, [&] { return fits() || stop || error; });
+    if (stop || error) return false;
+  }
+  if (fits()) return true;
+  ++state.dropped;
+  return false;
+}
+
+void SessionWriter::Impl::closeCurrent() {
+  waiting += current.bytes();
+  full.push_back(std::move(current));
+  if (spare.empty()) {
+    current = McapChunk();
+  } else {
+    current = std::move(spare.back());
+    spare.pop_back();
+  }
+}
+
+std::uint16_t SessionWriter::Impl::addChannel(const McapSchema& schema, McapChannel channel) {
+  McapSchema numbered = schema;
+  numbered.id = ++schemas;
+  channel.id = ++channels;
+  channel.schema = numbered.id;
+  current.add(numbered);
+  current.add(channel);
+  return channel.id;
+}
+
+void SessionWriter::Impl::note(std::uint64_t log) {
+  if (!firstLog) firstLog = log;
+  lastLog = std::max(lastLog, log);
+  state.seconds = static_cast<double>(lastLog - *firstLog) * 1e-9;
+  if (current.bytes() < options.chunkBytes) return;
+  closeCurrent();
+  wake.notify_one();
+}
+
+GroupId SessionWriter::addGroup(const GroupInfo& info) {
+  Impl& impl = *m_impl;
+  const std::lock_guard lock(impl.mutex);
+  std::size_t sameTopic = 0;
+  for (std::size_t i = 0; i < impl.groups.size(); ++i) {
+    if (impl.groups[i].info.name != info.name) continue;
+    if (impl.groups[i].info.columns == info.columns) return static_cast<GroupId>(i);
+    ++sameTopic;
+  }
+  Impl::Group group{info, session::RowLayout(info)};
+  if (!impl.stop && !impl.error && impl.channels < mostChannels) {
+    const std::string suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string();
+    group.channel = impl.addChannel(
+        {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)},
+        {0,
+         0,
+         session::rowTopic(info) + suffix,
+         "cdr",
+         {{std::string(session::groupKey), session::groupToJson(info)}}});
+  }
+  impl.groups.push_back(std::move(group));
+  return static_cast<GroupId>(impl.groups.size() - 1);
+}
+
+void SessionWriter::append(GroupId id, const RowView& row) {
+  Impl& impl = *m_impl;
+  std::unique_lock lock(impl.mutex);
+  if (id >= impl.groups.size() || impl.groups[id].channel == 0) return;
+  if (!impl.hasRoom(lock, impl.groups[id].layout.size + 64)) return;
+  Impl::Group& group = impl.groups[id];
+  const std::uint64_t publish = session::nanoseconds(impl.info.start, row.time);
+  std::uint64_t log = publish + impl.shift;
+  if (log < group.lastLog) {
+    if (group.lastLog - log > smallStepBack) {
+      impl.shift = impl.lastLog + gapBetweenPasses - publish;
+      log = publish + impl.shift;
+    } else {
+      log = group.lastLog;
+    }
+  }
+  group.lastLog = log;
+  group.layout.write(
+      impl.current.addMessage(group.channel, group.sequence++, log, publish, group.layout.size),
+      row);
+  ++impl.state.rows;
+  impl.note(log);
+}
+
+void SessionWriter::append(const SessionEvent& event) {
+  appendJson(SessionStream::Events, event.time, session::toJson(event));
+}
+
+void SessionWriter::append(const SessionLogLine& line) {
+  appendJson(SessionStream::Log, line.time,
+             session::toJson(line, session::nanoseconds(m_impl->info.start, line.time)));
+}
+
+void SessionWriter::append(SessionStream stream, const SessionDatagram& datagram) {
+  appendJson(stream, datagram.time, session::toJson(datagram));
+}
+
+void SessionWriter::appendJson(SessionStream stream, double time, std::string_view json) {
+  Impl& impl = *m_impl;
+  std::unique_lock lock(impl.mutex);
+  if (!impl.hasRoom(lock, json.size() + 64)) return;
+  const auto place = static_cast<std::size_t>(stream);
+  Impl::Stream& state = impl.streams[place];
+  if (state.channel == 0) {
+    const session::StreamInfo& info = session::streams[place];
+    state.channel = impl.addChannel(
+        {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)},
+        {0, 0, std::string(info.topic), "json", {}});
+  }
+  const std::uint64_t publish = session::nanoseconds(impl.info.start, time);
+  const std::uint64_t log = publish + impl.shift;
+  impl.current.add(McapMessage{state.channel, state.sequence++, log, publish, json});
+  ++impl.state.messages;
+  impl.note(log);
+}
+
+void SessionWriter::attach(std::string_view name, std::string_view mediaType,
+                           std::string_view data) {
+  Impl& impl = *m_impl;
+  std::unique_lock lock(impl.mutex);
+  if (!impl.hasRoom(lock, data.size())) return;
+  const std::uint64_t now =
+      impl.lastLog > 0 ? impl.lastLog : session::nanoseconds(impl.info.start, 0.0);
+  impl.attachments.push_back({now, std::string(name), std::string(mediaType), std::string(data)});
+  impl.waiting += data.size();
+  impl.wake.notify_one();
+}
+
+SessionStatus SessionWriter::status() const {
+  const std::lock_guard lock(m_impl->mutex);
+  return m_impl->state;
+}
+
+const std::string& SessionWriter::path() const {
+  return m_impl->path;
+}
+
+Result<void> SessionWriter::finish() {
+  Impl& impl = *m_impl;
+  {
+    const std::lock_guard lock(impl.mutex);
+    impl.stop = true;
+    impl.wake.notify_one();
+    impl.room.notify_all();
+  }
+  if (impl.thread.joinable()) impl.thread.join();
+  const std::lock_guard lock(impl.mutex);
+  if (impl.error) return tl::unexpected(*impl.error);
+  return {};
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/wire/referee_json.h>
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include <telemetry/wire/datagram.h>
+
+namespace pitchboard::telemetry {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void put(Json& json, const char* key, const std::optional<int>& value) {
+  if (value) json[key] = *value;
+}
+
+std::string hex(const std::array<int, 4>& bytes) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%02x%02x%02x%02x", bytes[0] & 0xff, bytes[1] & 0xff,
+                bytes[2] & 0xff, bytes[3] & 0xff);
+  return text;
+}
+
+Json playerJson(const RefereeState& state, const RefereePlayer& player) {
+  Json json{{"n", player.number},
+            {"penalty", player.penalty},
+            {"secs", player.secondsLeft},
+            {"penaltyName", penaltyName(state, player.penalty)}};
+  put(json, "warnings", player.warnings);
+  put(json, "yellow", player.yellow);
+  put(json, "red", player.red);
+  put(json, "cautions", player.cautions);
+  put(json, "goalkeeper", player.goalkeeper);
+  if (player.unreliable) json["unreliable"] = "bytes overwritten by the 2013 hack fields";
+  return json;
+}
+
+Json teamJson(const RefereeState& state, const RefereeTeam& team) {
+  Json json{{"number", team.number}, {"colour", team.colour}, {"score", team.score}};
+  put(json, "goalColour", team.goalColour);
+  put(json, "goalkeeperColor", team.goalkeeperColour);
+  put(json, "goalkeeper", team.goalkeeper);
+  put(json, "messageBudget", team.messageBudget);
+  put(json, "penaltyShot", team.penaltyShot);
+  put(json, "singleShots", team.singleShots);
+  Json players = Json::array();
+  for (const RefereePlayer& player : team.players()) players.push_back(playerJson(state, player));
+  json["players"] = std::move(players);
+  return json;
+}
+
+Json stateJson(const RefereeState& state) {
+  Json json{{"header", std::string(state.magic.begin(), state.magic.end())},
+            {"version", state.version},
+            {"size", state.size}};
+  put(json, "packetNumber", state.packetNumber);
+  json["playersPerTeam"] = state.playersPerTeam;
+  json["state"] = state.state;
+  json["stateName"] = stateName(state.state);
+  json["firstHalf"] = state.firstHalf != 0;
+  json["kickOffRaw"] = state.kickOffRaw;
+  json["kickOffTeamNumber"] = state.kickOffTeam ? Json(*state.kickOffTeam) : Json(nullptr);
+  if (state.secState) {
+    json["secGameState"] = *state.secState;
+    json["secGameStateName"] = secStateName(*state.secState);
+  }
+  if (state.gameType) {
+    json["gameType"] = *state.gameType;
+    json["gameTypeName"] = gameTypeName(*state.gameType);
+  }
+  if (state.secStateInfo) json["secGameStateInfoHex"] = hex(*state.secStateInfo);
+  put(json, "gamePhase", state.gamePhase);
+  if (state.gamePhase) json["gamePhaseName"] = gamePhaseWords(*state.gamePhase);
+  put(json, "setPlay", state.setPlay);
+  if (state.setPlay) json["setPlayName"] = setPlayWords(state.league, *state.setPlay);
+  put(json, "competitionType", state.competitionType);
+  put(json, "competitionPhase", state.competitionPhase);
+  put(json, "stopped", state.stopped);
+  put(json, "dropInTeam", state.dropInTeam);
+  put(json, "dropInTime", state.dropInTime);
+  json["secsRemaining"] = state.secsRemaining;
+  put(json, "secondaryTime", state.secondaryTime);
+  json["teams"] = Json::array({teamJson(state, state.teams[0]), teamJson(state, state.teams[1])});
+  if (state.extra2013) {
+    const RefereeExtra2013& extra = *state.extra2013;
+    char shots[5];
+    std::snprintf(shots, sizeof shots, "%02x%02x", extra.penaltyShot[0] & 0xff,
+                  extra.penaltyShot[1] & 0xff);
+    json["v7hack_bytes107_115"] = {{"timeOut", extra.timeOut},
+                                   {"penaltyShot", shots},
+                                   {"penaltyTries", extra.penaltyTries},
+                                   {"subTime", extra.subTime}};
+  }
+  return json;
+}
+
+Json number(float value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json replyJson(const RobotReply& reply) {
+  Json json{{"header", "RGrt"},
+            {"version", reply.version},
+            {"size", reply.size},
+            {"team", reply.team},
+            {"player", reply.player}};
+  put(json, "message", reply.message);
+  put(json, "fallen", reply.fallen);
+  if (reply.pose) {
+    json["pose"] = {number((*reply.pose)[0]), number((*reply.pose)[1]), number((*reply.pose)[2])};
+  }
+  if (reply.ballAge) json["ballAge"] = number(*reply.ballAge);
+  if (reply.ball) json["ball"] = {number((*reply.ball)[0]), number((*reply.ball)[1])};
+  return json;
+}
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+}  // namespace
+
+Json refereeJson(const RefereePacket& packet) {
+  return std::visit(Overloaded{[](const RefereeState& state) { return stateJson(state); },
+                               [](const RobotReply& reply) { return replyJson(reply); },
+                               [](const ForwardedReply& forwarded) {
+                                 Json json = replyJson(forwarded.reply);
+                                 json["robot"] = Address{forwarded.robot}.text();
+                                 return json;
+                               },
+                               [](const TrueDataRequest&) {
+                                 return Json{{"header", "RGTr"}};
+                               }},
+                    packet);
+}
+
+}  // namespace pitchboard::telemetry

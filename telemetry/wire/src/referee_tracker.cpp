@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/wire/referee_tracker.h>
+
+#include <algorithm>
+
+namespace pitchboard::telemetry {
+
+RefereeTracker::RefereeTracker() : RefereeTracker(Options{}) {}
+RefereeTracker::RefereeTracker(Options options) : m_options(options) {}
+
+bool RefereeTracker::accept(const RefereeState& state, const Sender& sender, WallTime time) {
+  if (state.trueData()) {
+    ++m_counts.trueData;
+    m_trueData = state;
+    return false;
+  }
+  const bool fresh = m_state && time - m_time < m_options.hold;
+  // One controller sends its two versions from two sockets: only the address tells controllers
+  // apart.
+  if (fresh && sender.address != m_sender.address) {
+    ++m_counts.otherSenders;
+    m_otherSender = time;
+    return false;
+  }
+  if (fresh && state.version < m_state->version) {
+    ++m_counts.compatibility;
+    return false;
+  }
+  if (fresh) countLoss(state);
+  m_state = state;
+  m_sender = sender;
+  m_time = time;
+  ++m_counts.shown;
+  return true;
+}
+
+void RefereeTracker::countLoss(const RefereeState& next) {
+  if (next.version != m_state->version || !next.packetNumber || !m_state->packetNumber) return;
+  const int gap = (*next.packetNumber - *m_state->packetNumber) & 0xff;
+  // Half a turn of the counter or more is a restarted controller, not a hundred lost packets.
+  if (gap > 1 && gap < 128) m_counts.lost += static_cast<std::uint64_t>(gap - 1);
+}
+
+std::optional<Sender> RefereeTracker::sender() const {
+  if (!m_state) return std::nullopt;
+  return m_sender;
+}
+
+std::optional<Duration> RefereeTracker::age(WallTime now) const {
+  if (!m_state) return std::nullopt;
+  return std::max(now - m_time, Duration::zero());
+}
+
+bool RefereeTracker::timedOut(WallTime now) const {
+  const auto since = age(now);
+  return since && *since >= m_options.timeout;
+}
+
+bool RefereeTracker::conflict(WallTime now) const {
+  return m_otherSender && now - *m_otherSender < m_options.hold;
+}
+
+}  // namespace pitchboard::telemetry

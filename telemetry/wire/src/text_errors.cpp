@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/wire/text_errors.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pitchboard::telemetry {
+namespace {
+
+struct Text {
+  std::string_view name;
+  std::string_view words;
+};
+
+constexpr std::array<Text, textErrorCount> texts{{
+    {"empty", "empty message"},
+    {"too-long", "longer than 64 KiB"},
+    {"truncated", "cut off by the network"},
+    {"binary", "not text"},
+    {"missing-fields", "too few fields"},
+    {"missing-end", "no end word"},
+    {"bad-robot", "no usable robot number"},
+    {"not-a-number", "text in place of a number"},
+    {"not-finite", "nan or inf"},
+    {"too-large", "number too large"},
+    {"bad-flag", "flag neither 0 nor 1"},
+    {"too-many-fields", "more extra fields than are kept"},
+    {"trailing-text", "text after the end word"},
+    {"duplicate", "same message twice"},
+}};
+
+}  // namespace
+
+std::string_view errorName(TextError error) {
+  return texts[static_cast<std::size_t>(error)].name;
+}
+std::string_view errorWords(TextError error) {
+  return texts[static_cast<std::size_t>(error)].words;
+}
+
+void ErrorTally::add(TextErrors errors, std::string_view datagram) {
+  if (errors.empty()) return;
+  for (std::size_t i = 0; i < textErrorCount; ++i) {
+    if (!errors.has(static_cast<TextError>(i))) continue;
+    Kind& kind = m_kinds[i];
+    ++kind.count;
+    const std::size_t length = std::min(datagram.size(), sampleBytes);
+    if (length > 0) std::memcpy(kind.text.data(), datagram.data(), length);
+    kind.length = static_cast<std::uint16_t>(length);
+    kind.cut = datagram.size() > sampleBytes;
+  }
+}
+
+std::uint64_t ErrorTally::total() const {
+  std::uint64_t sum = 0;
+  for (const Kind& kind : m_kinds) sum += kind.count;
+  return sum;
+}
+
+std::string ErrorTally::sample(TextError error) const {
+  const Kind& kind = m_kinds[index(error)];
+  std::string out = printable({kind.text.data(), kind.length});
+  return kind.cut ? out + "..." : out;
+}
+
+std::string printable(std::string_view bytes, std::size_t limit) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string out;
+  for (const char c : bytes.substr(0, limit)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) {
+      out += c;
+    } else {
+      out += "\\x";
+      out += digits[byte >> 4U];
+      out += digits[byte & 15U];
+    }
+  }
+  return bytes.size() > limit ? out + "..." : out;
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <telemetry/wire/datagram.h>
+
+namespace pitchboard::telemetry {
+
+/// Memory for one recvmmsg() call; one for all sockets. Only the pages that datagrams really reach
+/// are ever touched.
+struct ReceiveBuffers {
+  static constexpr std::size_t messages = 64;
+  static constexpr std::size_t messageBytes = 65536;  ///< more than a UDP datagram can have
+  static constexpr std::size_t controlBytes = 128;
+
+  ReceiveBuffers();
+  void prepare();
+
+  std::unique_ptr<char[]> bytes;
+  std::array<mmsghdr, messages> heads{};
+  std::array<iovec, messages> vectors{};
+  std::array<sockaddr_in, messages> senders{};
+  alignas(cmsghdr) std::array<std::array<char, controlBytes>, messages> controls{};
+};
+
+/// A bound, non-blocking UDP socket that only receives.
+class UdpSocket {
+ public:
+  UdpSocket() = default;
+  ~UdpSocket();
+  UdpSocket(UdpSocket&& other) noexcept;
+  UdpSocket& operator=(UdpSocket&& other) noexcept;
+
+  /// Error SystemError with the reason in a sentence.
+  static Result<UdpSocket> bind(Address address, std::uint16_t port, int receiveBufferBytes);
+
+  int descriptor() const { return m_descriptor; }
+  std::uint16_t port() const { return m_port; }
+
+  /// Appends up to ReceiveBuffers::messages datagrams to `batch`. Returns how many came; fewer than
+  /// asked for means that the socket is empty. `kernelDrops` is the kernel's count since the bind.
+  std::size_t receive(ReceiveBuffers& buffers, DatagramBatch& batch, std::uint64_t& kernelDrops);
+
+ private:
+  int m_descriptor = -1;
+  std::uint16_t m_port = 0;
+  std::uint32_t m_lastDrops = 0;
+};
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Rows of a form for numbers that are changed while the match runs: name, slider, value with unit.
+
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <functional>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+
+/// One number of a settings value `Values`, and how people see it.
+template <class Values>
+struct Parameter {
+  const char* name;
+  double Values::*member;
+  double factor;   ///< shown = stored × factor
+  double minimum;  ///< shown
+  double maximum;  ///< shown
+  int decimals;
+  const char* unit;  ///< " cm", with its leading space
+  const char* tip;
+};
+
+/// Slider and spin box of one number, kept equal. `edited` is called for changes by hand only.
+class ParameterRow : public QObject {
+ public:
+  ParameterRow(QGridLayout* grid, int row, const QString& name, const QString& unit,
+               const QString& tip, double minimum, double maximum, int decimals,
+               std::function<void(double)> edited, QWidget* parent)
+      : QObject(parent),
+        m_slider(new QSlider(Qt::Horizontal, parent)),
+        m_box(new QDoubleSpinBox(parent)),
+        m_edited(std::move(edited)) {
+    auto* label = new QLabel(name, parent);
+    label->setToolTip(tip);
+    label->setBuddy(m_box);
+    m_box->setDecimals(decimals);
+    m_box->setRange(minimum, maximum);
+    m_box->setSuffix(unit);
+    m_box->setSingleStep((maximum - minimum) / 50);
+    m_box->setAlignment(Qt::AlignRight);
+    m_box->setKeyboardTracking(false);
+    m_box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is the quick way
+    m_box->setToolTip(tip);
+    m_box->setAccessibleName(name);
+    m_box->setMinimumWidth(scaled(parent, 108));
+    m_slider->setRange(0, steps);
+    m_slider->setMinimumWidth(scaled(parent, 60));
+    m_slider->setToolTip(tip);
+    m_slider->setFocusPolicy(Qt::NoFocus);
+    grid->addWidget(label, row, 0);
+    grid->addWidget(m_slider, row, 1);
+    grid->addWidget(m_box, row, 2);
+    connect(m_slider, &QSlider::valueChanged, this, [this](int at) {
+      const double range = m_box->maximum() - m_box->minimum();
+      m_box->setValue(m_box->minimum() + range * at / steps);
+    });
+    connect(m_box, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+      moveSlider();
+      m_edited(value);
+    });
+  }
+
+  /// Shows a value without calling `edited`; leaves a box alone in which somebody types.
+  void show(double value) {
+    if (m_box->hasFocus() || m_slider->isSliderDown()) return;
+    const QSignalBlocker quiet(m_box);
+    m_box->setValue(value);
+    moveSlider();
+  }
+
+ private:
+  static constexpr int steps = 200;
+  void moveSlider() {
+    const QSignalBlocker quiet(m_slider);
+    const double range = m_box->maximum() - m_box->minimum();
+    m_slider->setValue(qRound((m_box->value() - m_box->minimum()) / range * steps));
+  }
+
+  QSlider* m_slider;
+  QDoubleSpinBox* m_box;
+  std::function<void(double)> m_edited;
+};
+
+}  // namespace pitchboard::ui

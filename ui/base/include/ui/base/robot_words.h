@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How robots and numbers are written on the screen.
+
+#include <QString>
+#include <string_view>
+
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::ui {
+
+/// "B1": letter of the team and number on the shirt.
+QString robotName(const sim::RobotIdentity& identity);
+/// "walk forward, slow", or "action 42" for a code that nobody knows.
+QString actionText(int code);
+/// "Blue" from "blue".
+QString capitalised(std::string_view text);
+/// With a real minus sign and fixed decimals.
+QString numberText(double value, int decimals);
+/// "05:12", hours when there are any.
+QString clockText(double seconds);
+/// "18 720": thousands set apart by a thin space.
+QString countText(qulonglong value);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flat_style.h"
+
+#include <QPainter>
+#include <QStyleFactory>
+#include <QStyleOption>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double corner = 3.0;
+
+int textGap() {
+  return scaled(nullptr, 8);
+}
+int arrowRoom() {
+  return scaled(nullptr, 22);
+}
+
+void drawBox(QPainter* painter, const QStyleOption* option, bool pressed) {
+  const bool enabled = option->state & QStyle::State_Enabled;
+  const bool focused = (option->state & QStyle::State_HasFocus) &&
+                       (option->state & QStyle::State_KeyboardFocusChange);
+  const bool hovered = enabled && (option->state & QStyle::State_MouseOver);
+  painter->setPen(focused   ? theme().accentLine
+                  : hovered ? theme().disabledText
+                            : theme().innerLine);
+  painter->setBrush(pressed ? theme().selectedRow : enabled ? theme().button : theme().window);
+  painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), corner, corner);
+}
+
+void drawCombo(const QStyleOptionComboBox* option, QPainter* painter) {
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  drawBox(painter, option, option->state & QStyle::State_On);
+  const double wide = scaled(nullptr, 8), high = wide / 2;
+  const QPointF at(option->rect.right() + 1 - arrowRoom() / 2.0, option->rect.center().y() + 1.0);
+  const QPointF arrow[] = {at + QPointF(-wide / 2, -high / 2), at + QPointF(wide / 2, -high / 2),
+                           at + QPointF(0, high / 2)};
+  painter->setPen(Qt::NoPen);
+  painter->setBrush(option->state & QStyle::State_Enabled ? theme().secondaryText
+                                                          : theme().disabledText);
+  painter->drawPolygon(arrow, 3);
+  painter->restore();
+}
+
+void drawSlider(const QStyleOptionSlider* option, const QRect& handle, QPainter* painter) {
+  const bool enabled = option->state & QStyle::State_Enabled;
+  const int thick = scaled(nullptr, 4);
+  const QRect all = option->rect;
+  const QRectF groove(all.left(), all.center().y() + 1 - thick / 2.0, all.width(), thick);
+  const QPointF knob = QRectF(handle).center();
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  painter->setPen(Qt::NoPen);
+  painter->setBrush(theme().innerLine);
+  painter->drawRoundedRect(groove, thick / 2.0, thick / 2.0);
+  QRectF done = groove;
+  done.setRight(knob.x());
+  painter->setBrush(enabled ? theme().accentFill : theme().disabledText);
+  painter->drawRoundedRect(done, thick / 2.0, thick / 2.0);
+  const double radius = scaled(nullptr, 6);
+  const bool held = option->state & QStyle::State_Sunken;
+  painter->setPen(QPen(held ? theme().accentLine : theme().window, 1.5));
+  painter->setBrush(enabled ? theme().text : theme().disabledText);
+  painter->drawEllipse(QPointF(knob.x(), groove.center().y()), radius, radius);
+  painter->restore();
+}
+
+const QStyleOptionComboBox* plainCombo(QStyle::ComplexControl control,
+                                       const QStyleOptionComplex* option) {
+  if (control != QStyle::CC_ComboBox) return nullptr;
+  const auto* combo = qstyleoption_cast<const QStyleOptionComboBox*>(option);
+  return combo && !combo->editable && combo->frame ? combo : nullptr;
+}
+
+}  // namespace
+
+FlatStyle::FlatStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+
+void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
+                              QPainter* painter, const QWidget* widget) const {
+  if (element != PE_PanelButtonCommand) {
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+    return;
+  }
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  drawBox(painter, option, option->state & (State_Sunken | State_On));
+  painter->restore();
+}
+
+void FlatStyle::drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
+                                   QPainter* painter, const QWidget* widget) const {
+  if (const auto* combo = plainCombo(control, option)) {
+    drawCombo(combo, painter);
+    return;
+  }
+  const auto* slider = qstyleoption_cast<const QStyleOptionSlider*>(option);
+  if (control == CC_Slider && slider && slider->orientation == Qt::Horizontal &&
+      slider->tickPosition == 0) {
+    drawSlider(slider, subControlRect(control, option, SC_SliderHandle, widget), painter);
+    return;
+  }
+  QProxyStyle::drawComplexControl(control, option, painter, widget);
+}
+
+QRect FlatStyle::subControlRect(ComplexControl control, const QStyleOptionComplex* option,
+                                SubControl part, const QWidget* widget) const {
+  const auto* combo = plainCombo(control, option);
+  if (combo && part == SC_ComboBoxEditField) {
+    return visualRect(combo->direction, combo->rect,
+                      combo->rect.adjusted(textGap(), 1, -arrowRoom(), -1));
+  }
+  return QProxyStyle::subControlRect(control, option, part, widget);
+}
+
+QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption* option,
+                                  const QSize& contents, const QWidget* widget) const {
+  QSize size = QProxyStyle::sizeFromContents(type, option, contents, widget);
+  if (type == CT_ComboBox) {
+    size.setWidth(qMax(size.width(), contents.width() + textGap() + arrowRoom() + 2));
+  }
+  return size;
+}
+
+}  // namespace pitchboard::ui

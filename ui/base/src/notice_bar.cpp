@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/notice_bar.h>
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+constexpr std::size_t maxNotices = 20;
+}
+
+NoticeBar::NoticeBar(QWidget* parent)
+    : QFrame(parent), m_text(new QLabel(this)), m_more(new QLabel(this)) {
+  setObjectName(QStringLiteral("noticeBar"));
+  m_text->setObjectName(QStringLiteral("noticeText"));
+  m_text->setWordWrap(true);
+  m_text->setTextFormat(Qt::PlainText);
+  m_text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  m_more->setFont(themeFont(TypeRole::Secondary));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(scaled(this, 12), scaled(this, 6), scaled(this, 8), scaled(this, 6));
+  row->setSpacing(scaled(this, 8));
+  row->addWidget(m_text, 1);
+  row->addWidget(m_more);
+  m_buttons = new QHBoxLayout;
+  m_buttons->setSpacing(scaled(this, 4));
+  row->addLayout(m_buttons);
+  hide();
+}
+
+void NoticeBar::show(const QString& sentence, std::vector<NoticeButton> buttons) {
+  for (const Notice& notice : m_notices) {
+    if (notice.sentence == sentence) return;
+  }
+  // A flood of errors must not keep a person busy closing them.
+  if (m_notices.size() >= maxNotices) m_notices.erase(m_notices.begin() + 1);
+  m_notices.push_back({sentence, std::move(buttons)});
+  present();
+}
+
+QString NoticeBar::text() const {
+  return m_notices.empty() ? QString() : m_text->text();
+}
+
+void NoticeBar::dismiss() {
+  if (!m_notices.empty()) m_notices.erase(m_notices.begin());
+  present();
+}
+
+void NoticeBar::present() {
+  while (QLayoutItem* item = m_buttons->takeAt(0)) {
+    item->widget()->hide();
+    item->widget()->deleteLater();
+    delete item;
+  }
+  setVisible(!m_notices.empty());
+  if (m_notices.empty()) return;
+  const Notice& notice = m_notices.front();
+  m_text->setText(notice.sentence);
+  m_more->setText(m_notices.size() > 1 ? tr("%1 more").arg(m_notices.size() - 1) : QString());
+  m_more->setVisible(m_notices.size() > 1);
+  setStyleSheet(QStringLiteral("#noticeBar { background: %1; border-bottom: 1px solid %2; }"
+                               "#noticeBar QLabel { color: %2; }")
+                    .arg(theme().warningGround.name(), theme().warningText.name()));
+  for (const NoticeButton& wanted : notice.buttons) {
+    auto* button = new QPushButton(wanted.text, this);
+    connect(button, &QPushButton::clicked, this, [this, action = wanted.action] {
+      dismiss();
+      if (action) action();
+    });
+    m_buttons->addWidget(button);
+  }
+  if (notice.buttons.empty()) {
+    auto* close = new QToolButton(this);
+    close->setIcon(themedIcon(QStringLiteral("window-close")));
+    close->setToolTip(tr("Close this notice"));
+    close->setAutoRaise(true);
+    connect(close, &QToolButton::clicked, this, &NoticeBar::dismiss);
+    m_buttons->addWidget(close);
+  }
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/robot_words.h>
+
+#include <cmath>
+
+#include <simcore/world/action.h>
+
+namespace pitchboard::ui {
+
+QString robotName(const sim::RobotIdentity& identity) {
+  const std::string_view letter = info(identity.team).letter;
+  return QLatin1String(letter.data(), static_cast<qsizetype>(letter.size())) +
+         QString::number(identity.number);
+}
+
+QString actionText(int code) {
+  const std::string_view words = sim::actionWords(code);
+  if (words.empty()) return QStringLiteral("action %1 (unknown)").arg(code);
+  return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+}
+
+QString capitalised(std::string_view text) {
+  QString words = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+  if (!words.isEmpty()) words[0] = words[0].toUpper();
+  return words;
+}
+
+QString numberText(double value, int decimals) {
+  QString text = QString::number(std::abs(value), 'f', decimals);
+  // −0.00 would make the sign flicker around zero.
+  const bool zero = text.toDouble() == 0.0;
+  if (value < 0 && !zero) text.prepend(QChar(0x2212));
+  return text;
+}
+
+QString clockText(double seconds) {
+  const auto whole = static_cast<long long>(std::floor(seconds));
+  const QLatin1Char zero('0');
+  const QString minutes =
+      QStringLiteral("%1:%2").arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
+  return whole < 3600 ? minutes : QString::number(whole / 3600) + QLatin1Char(':') + minutes;
+}
+
+QString countText(qulonglong value) {
+  QString text = QString::number(value);
+  for (qsizetype at = text.size() - 3; at > 0; at -= 3) text.insert(at, QChar(0x202f));
+  return text;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The field as a picture without window, for files and documents.
+
+#include <QByteArray>
+#include <QImage>
+
+#include <ui/field/field_scene.h>
+
+namespace pitchboard::ui {
+
+/// The whole field as large as it fits into `size` pixels, without selection marks. UI thread; the
+/// scene is as before afterwards.
+QImage paintPicture(FieldScene& scene, QSize size);
+
+/// The same as an SVG document, whose user unit is one pixel of `size`. Empty when it cannot be
+/// made.
+QByteArray svgPicture(FieldScene& scene, QSize size);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// All that stands on the field: one group of items per robot, the ball, and what tools draw over
+// them. A frame moves items; nothing is built anew unless robots come or go.
+
+#include <QGraphicsScene>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+class BallItem;
+class BeliefItem;
+class ComparedItem;
+class OtherPoseItem;
+class RobotItem;
+class RubberBandItem;
+class RulerItem;
+class SectorItem;
+class TeamBallItem;
+class TrailItem;
+class ViewWedgeItem;
+
+/// What is under a point of the field.
+struct FieldHit {
+  enum class Kind { Nothing, Robot, Handle, Ball };
+  Kind kind = Kind::Nothing;
+  RobotId robot;
+};
+
+class FieldScene : public QGraphicsScene {
+  Q_OBJECT
+ public:
+  explicit FieldScene(QObject* parent = nullptr);
+  ~FieldScene() override;
+
+  const FieldStyle& style() const { return m_style; }
+  /// Changes how things are drawn; items adapt what they cover.
+  template <class Change>
+  void changeStyle(Change change) {
+    change(m_style);
+    styleChanged();
+  }
+
+  void showFrame(const FramePtr& frame);
+  const FramePtr& frame() const { return m_frame; }
+  /// Another source's view of the same robots, drawn beside this one's; null: none.
+  void showOther(const FramePtr& frame);
+  /// A moment of another session, drawn over this one; null: none.
+  void showCompared(const FramePtr& frame);
+
+  const std::vector<RobotId>& selection() const { return m_selection; }
+  /// Robots that are not there are left out.
+  void select(const std::vector<RobotId>& ids);
+  void selectAll();
+  void toggle(RobotId id);
+
+  FieldHit hit(const QPointF& metres) const;
+  std::vector<RobotId> robotsIn(const QRectF& metres) const;
+  std::optional<Pose> pose(RobotId id) const;
+  Point ball() const;
+
+  void setTrailShown(RobotId id, bool shown);
+  bool isTrailShown(RobotId id) const { return !m_hiddenTrails.contains(id); }
+  void setFollowed(std::optional<RobotId> id);
+  std::optional<RobotId> followed() const { return m_followed; }
+
+  RulerItem* ruler() const { return m_ruler; }
+  RubberBandItem* rubberBand() const { return m_band; }
+
+ signals:
+  void selectionChangedTo(const std::vector<pitchboard::RobotId>& ids);
+
+ private:
+  struct Robot;
+  void styleChanged();
+  void matchRobots(const sim::Snapshot& snapshot);
+  void showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
+                 const link::RobotBoardView* board, const link::RobotHealth* health, double time);
+  void showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown);
+  void showThoughts();
+  void showSelected();
+  void setSelection(std::vector<RobotId> ids);
+
+  FieldStyle m_style;
+  FramePtr m_frame;
+  FramePtr m_other;
+  std::map<RobotId, std::unique_ptr<Robot>> m_robots;
+  std::vector<RobotId> m_selection;
+  std::set<RobotId> m_hiddenTrails;
+  std::optional<RobotId> m_followed;
+  BallItem* m_ball;
+  TeamBallItem* m_teamBall;
+  ComparedItem* m_compared;
+  SectorItem* m_eopra;
+  SectorItem* m_starVars;
+  RulerItem* m_ruler;
+  RubberBandItem* m_band;
+};
+
+}  // namespace pitchboard::ui

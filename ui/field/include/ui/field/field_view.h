@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The field: draws the newest frame and turns mouse and keys into commands of the MatchController.
+// UI thread only. The scene is in metres, +y up.
+
+#include <QImage>
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include <base/ids.h>
+#include <ui/sources/match_controller.h>
+
+class QAction;
+
+namespace pitchboard::ui {
+
+struct FieldStyle;
+
+/// What can be shown or hidden on the field, in the order of the layers menu.
+enum class FieldLayer {
+  FieldOfView,
+  Belief,
+  Ghost,
+  PerceivedBall,
+  Trails,
+  Numbers,
+  Grid,
+  Landmarks,
+  Eopra,
+  StarVars,
+  Particles,
+  PlannedPath
+};
+inline constexpr int fieldLayerCount = 12;
+
+class FieldView : public QWidget {
+  Q_OBJECT
+ public:
+  /// Shows the source's frames; what is done by hand goes to the controller. Without a source
+  /// showFrame() feeds it; without a controller nothing can be moved.
+  FieldView(FrameSource* source, MatchController* controller, QWidget* parent = nullptr);
+  explicit FieldView(MatchController* controller, QWidget* parent = nullptr);
+  ~FieldView() override;
+
+  void showFrame(const FramePtr& frame);
+  /// Another source's view of the same robots, drawn beside them with the difference; null: none.
+  void showOther(const FramePtr& frame);
+  /// A moment of another session, drawn over this one; null: none.
+  void showCompared(const FramePtr& frame);
+
+  std::vector<RobotId> selection() const;
+  void select(const std::vector<RobotId>& ids);
+  /// Keeps this robot in the middle of the view; nothing ends it.
+  void follow(std::optional<RobotId> id);
+  std::optional<RobotId> followed() const;
+  /// One checkable action per layer, for menus; also on the tool strip.
+  std::vector<QAction*> layerActions() const;
+  /// How layers look: field of view of all robots, granularity of EOPRA; also on the tool strip.
+  std::vector<QAction*> layerOptionActions() const;
+  /// Select, ruler, add, flip, fit, keys: for the View menu; also on the tool strip.
+  std::vector<QAction*> viewActions() const;
+  void fitField();
+  void setFlipped(bool flipped);
+  bool isFlipped() const;
+  /// The field as a picture without window, for files and documents.
+  QImage picture(QSize size) const;
+  /// The same as an SVG document.
+  QByteArray svgPicture(QSize size) const;
+  /// Side and layers as they are shown, for pictures that are drawn elsewhere.
+  const FieldStyle& style() const;
+
+ signals:
+  void selectionChanged(const std::vector<pitchboard::RobotId>& ids);
+  /// Cursor in metres on the field; not valid when the cursor left it.
+  void cursorMoved(QPointF metres, bool valid);
+  void saveScenarioRequested();
+  void loadMatchRequested();  ///< F2
+  void resetRequested();      ///< F3
+  void clearRequested();      ///< F4
+
+ private:
+  struct Private;
+  std::unique_ptr<Private> d;
+};
+
+}  // namespace pitchboard::ui

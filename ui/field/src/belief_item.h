@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a robot believes: circle of its uncertainty, ghost at the believed pose, and the ball that
+// it perceives, joined to the ghost (or to the robot when it does not localize).
+
+#include <QGraphicsItem>
+#include <optional>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+struct BeliefLook {
+  TeamColor team = TeamColor::Blue;
+  std::optional<Pose> believed;  ///< while localization works
+  double sigma = 0.0;            ///< metres, of the particles
+  std::optional<Point> ball;     ///< perceived, in the field's frame
+  bool ghost = true;             ///< false: the robot itself is drawn at the believed pose
+  Point origin;                  ///< where the line to the ball begins
+  double opacity = 1.0;
+  bool operator==(const BeliefLook&) const = default;
+};
+
+class BeliefItem : public QGraphicsItem {
+ public:
+  /// The published telemetry draws no smaller circle (SYSTEM.md section 7).
+  static constexpr double leastRadius = 0.15;
+
+  explicit BeliefItem(const FieldStyle* style) : m_style(style) {}
+
+  void setLook(const BeliefLook& look);
+  const BeliefLook& look() const { return m_look; }
+  void styleChanges();
+
+  QRectF boundingRect() const override { return m_bounds; }
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  QRectF computeBounds() const;
+  void paintGhost(QPainter* painter) const;
+  void paintPerceivedBall(QPainter* painter) const;
+  void paintBallInside(QPainter* painter) const;
+
+  const FieldStyle* m_style;
+  BeliefLook m_look;
+  QRectF m_bounds;
+};
+
+}  // namespace pitchboard::ui

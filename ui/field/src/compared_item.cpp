@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compared_item.h"
+
+#include <algorithm>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double labelReach_px = 26.0;  // number above a disc
+
+}  // namespace
+
+void ComparedItem::setFrame(const FramePtr& frame) {
+  prepareGeometryChange();
+  m_robots.clear();
+  m_ball.reset();
+  if (frame) {
+    for (std::size_t i = 0; i < frame->snapshot.robots.size(); ++i) {
+      const sim::RobotSnapshot& robot = frame->snapshot.robots[i];
+      const bool heard = i < frame->health.size() && frame->health[i].id == robot.identity.id;
+      if (heard && !frame->health[i].poseKnown) continue;
+      m_robots.push_back({robot.pose, robot.identity.team, robot.identity.number, robot.fallen});
+    }
+    if (frame->ballKnown) m_ball = frame->snapshot.ball;
+  }
+  setVisible(frame != nullptr);
+  update();
+}
+
+QRectF ComparedItem::boundingRect() const {
+  QRectF all;
+  const double reach = m_style->robotDrawRadius() * 1.5 + m_style->metres(labelReach_px);
+  const auto include = [&](const Point& at) {
+    all |= QRectF(at.x - reach, at.y - reach, 2 * reach, 2 * reach);
+  };
+  for (const Robot& robot : m_robots) include(robot.pose.position);
+  if (m_ball) include(*m_ball);
+  return all;
+}
+
+void ComparedItem::paintRobot(QPainter* painter, const Robot& robot) const {
+  const ScreenPainting screen(painter, toScene(robot.pose.position));
+  const double radius = std::max(m_style->field.robotRadius * screen.pixelsPerMetre(), 5.0);
+  const QColor team = theme().team(robot.team);
+  const QColor line = isDarkTheme() ? team.lighter(125) : team.darker(125);
+  painter->setPen(QPen(line, 1.6));
+  painter->setBrush(QBrush(line, robot.fallen ? Qt::DiagCrossPattern : Qt::BDiagPattern));
+  painter->drawEllipse(QPointF(0, 0), radius, radius);
+  painter->drawLine(QPointF(0, 0), screen.direction(robot.pose.yaw) * radius * 1.35);
+  if (!m_style->shows(FieldLayer::Numbers)) return;
+  drawHaloText(painter, {0, radius + 9}, robotName(robot.team, robot.number) + QChar(0x2032),
+               fieldFont(10, false), theme().fieldLines,
+               theme().fieldBorder.darker(isDarkTheme() ? 130 : 190));
+}
+
+void ComparedItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  for (const Robot& robot : m_robots) paintRobot(painter, robot);
+  if (!m_ball) return;
+  const ScreenPainting screen(painter, toScene(*m_ball));
+  const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 4.0);
+  painter->setPen(QPen(theme().ball, 1.6));
+  painter->setBrush(QBrush(theme().ball, Qt::BDiagPattern));
+  painter->drawEllipse(QPointF(0, 0), radius, radius);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Robots and ball of another session at the moment that is compared: hatched discs, so that they
+// are told from robots, from what robots believe and from another source's dotted rings without
+// colour.
+
+#include <QGraphicsItem>
+#include <vector>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+class ComparedItem : public QGraphicsItem {
+ public:
+  explicit ComparedItem(const FieldStyle* style) : m_style(style) {}
+  /// Null: nothing is drawn.
+  void setFrame(const FramePtr& frame);
+  int robots() const { return static_cast<int>(m_robots.size()); }
+  void styleChanges() { prepareGeometryChange(); }
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  struct Robot {
+    Pose pose;
+    TeamColor team = TeamColor::Blue;
+    int number = 0;
+    bool fallen = false;
+  };
+  void paintRobot(QPainter* painter, const Robot& robot) const;
+
+  const FieldStyle* m_style;
+  std::vector<Robot> m_robots;
+  std::optional<Point> m_ball;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "field_background.h"
+
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QRectF centred(double width, double height) {
+  return {-width / 2, -height / 2, width, height};
+}
+
+void paintLines(QPainter& painter, const sim::FieldSpec& f, double lineWidth) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(theme().fieldLines, lineWidth, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
+  // Sizes are measured to the outer edges of the lines.
+  const double inset = lineWidth / 2;
+  const double x = f.halfLength() - inset;
+  const double y = f.halfWidth() - inset;
+  painter.drawRect(QRectF(QPointF(-x, -y), QPointF(x, y)));
+  painter.drawLine(QPointF(0, -y), QPointF(0, y));
+  const double radius = f.centreCircleDiameter / 2 - inset;
+  if (radius > 0) painter.drawEllipse(QPointF(0, 0), radius, radius);
+  const auto area = [&](double length, double width) {
+    if (length <= 0 || width <= 0) return;
+    const double halfWidth = std::min(width / 2 - inset, y);
+    for (const double side : {-1.0, 1.0}) {
+      const double inner = side * (x - length + inset);
+      const QPointF line[] = {
+          {side * x, -halfWidth}, {inner, -halfWidth}, {inner, halfWidth}, {side * x, halfWidth}};
+      painter.drawPolyline(line, 4);
+    }
+  };
+  area(f.goalAreaLength, f.goalAreaWidth);
+  area(f.penaltyAreaLength, f.penaltyAreaWidth);
+  // A cross as thick as a line would be a blot at this size.
+  const double arm = std::max(0.08, 1.6 * lineWidth);
+  QPen thin = painter.pen();
+  thin.setWidthF(0.7 * lineWidth);
+  painter.setPen(thin);
+  const auto cross = [&](double at) {
+    painter.drawLine(QPointF(at - arm, 0), QPointF(at + arm, 0));
+    painter.drawLine(QPointF(at, -arm), QPointF(at, arm));
+  };
+  if (f.penaltyMarkDistance > 0) {
+    cross(-f.halfLength() + f.penaltyMarkDistance);
+    cross(f.halfLength() - f.penaltyMarkDistance);
+  }
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().fieldLines);
+  painter.drawEllipse(QPointF(0, 0), 0.9 * lineWidth, 0.9 * lineWidth);
+}
+
+void paintGoals(QPainter& painter, const sim::FieldSpec& f, double pixel) {
+  QColor net = theme().fieldLines;
+  QColor ground = net;
+  ground.setAlphaF(0.16F);
+  net.setAlphaF(0.22F);
+  QColor edge = theme().fieldLines;
+  edge.setAlphaF(0.62F);
+  for (const double side : {-1.0, 1.0}) {
+    const QRectF box = QRectF(QPointF(side * f.halfLength(), -f.goalWidth / 2),
+                              QPointF(side * (f.halfLength() + f.goalDepth), f.goalWidth / 2))
+                           .normalized();
+    painter.fillRect(box, ground);
+    const double mesh = 0.15;
+    if (mesh > 7 * pixel) {
+      painter.setPen(QPen(net, pixel));
+      for (double at = box.left() + mesh; at < box.right() - mesh / 3; at += mesh) {
+        painter.drawLine(QPointF(at, box.top()), QPointF(at, box.bottom()));
+      }
+      for (double at = box.top() + mesh; at < box.bottom() - mesh / 3; at += mesh) {
+        painter.drawLine(QPointF(box.left(), at), QPointF(box.right(), at));
+      }
+    }
+    painter.setPen(QPen(edge, 1.5 * pixel));
+    painter.setBrush(Qt::NoBrush);
+    const double line = side * f.halfLength();
+    const double back = side * (f.halfLength() + f.goalDepth) - side * pixel;
+    const QPointF frame[] = {{line, -f.goalWidth / 2},
+                             {back, -f.goalWidth / 2},
+                             {back, f.goalWidth / 2},
+                             {line, f.goalWidth / 2}};
+    painter.drawPolyline(frame, 4);
+    painter.setPen(QPen(theme().fieldBorder.darker(150), 1.2 * pixel));
+    painter.setBrush(theme().fieldLines);
+    const double radius = std::max(f.goalPostRadius, 2.5 * pixel);
+    for (const double y : {-f.goalWidth / 2, f.goalWidth / 2}) {
+      painter.drawEllipse(QPointF(line, y), radius, radius);
+    }
+  }
+}
+
+/// The four corners that landmark vision tells apart, in their colours.
+void paintLandmarks(QPainter& painter, const sim::FieldSpec& f, double pixel) {
+  const double x = f.halfLength();
+  const double y = f.halfWidth();
+  const std::pair<QPointF, QColor> corners[] = {{{-x, y}, QColor(0x3d, 0x7b, 0xd9)},
+                                                {{x, y}, QColor(0xd4, 0x4a, 0x44)},
+                                                {{-x, -y}, QColor(0xe0, 0xb8, 0x2e)},
+                                                {{x, -y}, QColor(0x94, 0x57, 0xc4)}};
+  painter.setPen(QPen(theme().fieldLines, 1.5 * pixel));
+  const double radius = std::max(0.12, 6 * pixel);
+  for (const auto& [corner, color] : corners) {
+    painter.setBrush(color);
+    painter.drawEllipse(corner, radius, radius);
+  }
+}
+
+void paintGrid(QPainter& painter, const FieldStyle& style, const QTransform& sceneToView,
+               const QRectF& area) {
+  const sim::FieldSpec& f = style.field;
+  const double right = f.halfLength() + f.border;
+  const double top = f.halfWidth() + f.border;
+  const double perMetre = std::abs(sceneToView.m11());
+  const double step = perMetre > 320 ? 0.1 : perMetre > 140 ? 0.5 : perMetre > 24 ? 1.0 : 2.0;
+  const int decimals = step < 1.0 ? 1 : 0;
+  QColor line = theme().fieldLines;
+  line.setAlphaF(0.22F);
+  QColor axis = theme().fieldLines;
+  axis.setAlphaF(0.5F);
+  const QFont& font = fieldFont(10, false);
+  const QColor halo = theme().fieldBorder;
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  const auto each = [&](double limit, auto&& draw) {
+    const int last = static_cast<int>(std::floor(limit / step + 1e-9));
+    for (int i = -last; i <= last; ++i) draw(i * step, i == 0);
+  };
+  const QRectF field = sceneToView.mapRect(QRectF(-right, -top, 2 * right, 2 * top));
+  const QRectF seen = field.intersected(area);
+  each(right, [&](double x, bool zero) {
+    const double at = std::round(sceneToView.map(QPointF(x, 0)).x());
+    painter.setPen(QPen(zero ? axis : line, 1));
+    painter.drawLine(QPointF(at, seen.top()), QPointF(at, seen.bottom()));
+    drawHaloText(&painter, {at, seen.bottom() - 8}, fieldNumber(x, decimals), font,
+                 theme().fieldLines, halo);
+  });
+  each(top, [&](double y, bool zero) {
+    const double at = std::round(sceneToView.map(QPointF(0, y)).y());
+    painter.setPen(QPen(zero ? axis : line, 1));
+    painter.drawLine(QPointF(seen.left(), at), QPointF(seen.right(), at));
+    if (at < seen.bottom() - 20) {
+      drawHaloText(&painter, {seen.left() + 14, at}, fieldNumber(y, decimals), font,
+                   theme().fieldLines, halo);
+    }
+  });
+  painter.setRenderHint(QPainter::Antialiasing, true);
+}
+
+}  // namespace
+
+void paintFieldBackground(QPainter& painter, const FieldStyle& style, const QTransform& sceneToView,
+                          const QRectF& area) {
+  painter.fillRect(area, theme().window);
+  const sim::FieldSpec& f = style.field;
+  const double pixel = 1.0 / std::abs(sceneToView.m11());
+  const double lineWidth = std::max(f.lineWidth, 1.4 * pixel);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setTransform(sceneToView, true);
+  painter.fillRect(centred(f.length + 2 * f.border, f.width + 2 * f.border), theme().fieldBorder);
+  painter.fillRect(centred(f.length, f.width), theme().grass);
+  paintLines(painter, f, lineWidth);
+  paintGoals(painter, f, pixel);
+  if (style.shows(FieldLayer::Landmarks)) paintLandmarks(painter, f, pixel);
+  painter.restore();
+  if (style.shows(FieldLayer::Grid)) {
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    paintGrid(painter, style, sceneToView, area);
+    painter.restore();
+  }
+}
+
+const QPixmap& FieldBackground::pixmap(const FieldStyle& style, const QTransform& sceneToView,
+                                       QSize size, double devicePixelRatio) {
+  if (m_pixmap.isNull() || m_size != size || m_ratio != devicePixelRatio ||
+      m_layers != style.layers || m_transform != sceneToView || !(m_field == style.field)) {
+    const QSize device = size * devicePixelRatio;
+    if (m_pixmap.size() != device) m_pixmap = QPixmap(device);
+    m_pixmap.setDevicePixelRatio(devicePixelRatio);
+    m_size = size;
+    m_ratio = devicePixelRatio;
+    m_layers = style.layers;
+    m_transform = sceneToView;
+    m_field = style.field;
+    QPainter painter(&m_pixmap);
+    paintFieldBackground(painter, style, sceneToView, QRectF(QPointF(0, 0), QSizeF(size)));
+  }
+  return m_pixmap;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The window onto the scene: zoom, pan, side, background, and what is said when there is nothing to
+// see. Mouse and keys go to the pointer and the key map.
+
+#include <QGraphicsView>
+#include <functional>
+
+#include <ui/field/field_scene.h>
+
+#include "field_background.h"
+
+namespace pitchboard::ui {
+
+class FieldPointer;
+
+class FieldCanvas : public QGraphicsView {
+  Q_OBJECT
+ public:
+  FieldCanvas(FieldScene* scene, FieldPointer* pointer, QWidget* parent);
+
+  void fit();
+  void setFlipped(bool flipped);
+  void zoomAt(const QPointF& viewPoint, double factor);
+  void centreOnMetres(const QPointF& metres);
+  QPointF metresAt(const QPointF& viewPoint) const;
+  QPointF viewPointAt(const QPointF& metres) const;
+  /// Last place of the cursor in metres.
+  QPointF cursor() const { return m_cursor; }
+
+  /// Asked first for every key; says whether it took it.
+  void setKeyHandler(std::function<bool(QKeyEvent*)> handler) { m_keyHandler = std::move(handler); }
+
+  /// What to say while there are no robots; an empty text: how to begin a simulation.
+  void setEmptyText(std::function<QString()> text) { m_emptyText = std::move(text); }
+
+ signals:
+  void cursorMoved(QPointF metres, bool valid);
+  void menuRequested(QPoint globalPosition, QPointF metres);
+  /// Space, without having been used to move the view.
+  void spaceTapped();
+
+ protected:
+  bool viewportEvent(QEvent* event) override;
+  bool event(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void drawBackground(QPainter* painter, const QRectF& rect) override;
+  void drawForeground(QPainter* painter, const QRectF& rect) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+
+ private:
+  void paintEmptyState(QPainter* painter) const;
+  double fittingScale() const;
+  void setScale(double pixelsPerMetre);
+  void pan(const QPointF& to);
+  void updateCursorShape();
+
+  FieldScene* m_scene;
+  FieldPointer* m_pointer;
+  FieldBackground m_background;
+  std::function<bool(QKeyEvent*)> m_keyHandler;
+  std::function<QString()> m_emptyText;
+  QPointF m_cursor;
+  QPointF m_panFrom;
+  bool m_panning = false;
+  bool m_spaceDown = false;
+  bool m_spaceUsed = false;
+  bool m_fitted = true;
+};
+
+}  // namespace pitchboard::ui

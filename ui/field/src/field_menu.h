@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The field's context menu.
+
+#include <QPointF>
+#include <functional>
+
+#include <ui/field/field_scene.h>
+
+class QMenu;
+
+namespace pitchboard::ui {
+
+/// What the menu cannot do through the controller or the scene.
+struct FieldMenuActions {
+  std::function<void(RobotId)> editPose;
+  std::function<void()> editBall;
+  std::function<void()> saveMoment;
+};
+
+/// Fills `menu` for the place where it was asked for.
+void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
+                   const QPointF& metres, const FieldMenuActions& actions);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "field_pointer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <base/angles.h>
+
+#include "overlay_items.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double dragThreshold_px = 3.0;
+constexpr double degreesPerNotch = 5.0;
+
+}  // namespace
+
+FieldPointer::FieldPointer(FieldScene* scene, MatchController* controller, QObject* parent)
+    : QObject(parent), m_scene(scene), m_controller(controller) {}
+
+bool FieldPointer::canEdit() const {
+  return m_controller && m_scene->frame() && !m_scene->style().readOnly;
+}
+
+void FieldPointer::setTool(FieldTool tool) {
+  if (tool == m_tool) return;
+  cancel();
+  m_tool = tool;
+  m_scene->ruler()->setVisible(false);
+  emit toolChanged(tool);
+}
+
+Qt::CursorShape FieldPointer::shape(const QPointF& at) const {
+  if (m_tool != FieldTool::Select) return Qt::CrossCursor;
+  if (m_drag == Drag::Robots || m_drag == Drag::Ball) return Qt::ClosedHandCursor;
+  switch (m_scene->hit(at).kind) {
+    case FieldHit::Kind::Handle:
+      return Qt::PointingHandCursor;
+    case FieldHit::Kind::Robot:
+    case FieldHit::Kind::Ball:
+      return canEdit() ? Qt::OpenHandCursor : Qt::ArrowCursor;
+    case FieldHit::Kind::Nothing:
+      break;
+  }
+  return Qt::ArrowCursor;
+}
+
+std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotId>& ids) const {
+  std::vector<RobotPlacement> placements;
+  for (const RobotId id : ids) {
+    auto pose = m_scene->pose(id);
+    if (!pose) continue;
+    // Keys and wheel come faster than frames: none of their steps may be lost.
+    if (m_scene->frame() && m_scene->frame()->serial == m_onTheWaySince) {
+      for (const RobotPlacement& moved : m_onTheWay) {
+        if (moved.id == id) pose = moved.to;
+      }
+    }
+    placements.push_back({id, *pose, *pose});
+  }
+  return placements;
+}
+
+void FieldPointer::place(const std::vector<RobotPlacement>& placements) {
+  if (placements.empty()) return;
+  if (m_scene->frame()->serial != m_onTheWaySince) m_onTheWay.clear();
+  m_onTheWaySince = m_scene->frame()->serial;
+  for (const RobotPlacement& placement : placements) {
+    std::erase_if(m_onTheWay, [&](const auto& moved) { return moved.id == placement.id; });
+    m_onTheWay.push_back(placement);
+  }
+  m_controller->moveRobots(placements);
+}
+
+void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
+  cancel();
+  m_from = m_at = at;
+  m_moved = false;
+  m_clickedOneOfSeveral = false;
+  m_selectedBefore = m_scene->selection();
+  if (m_tool == FieldTool::Ruler) {
+    m_drag = Drag::Ruler;
+    m_scene->ruler()->setLine(at, at);
+    m_scene->ruler()->setVisible(true);
+    return;
+  }
+  if (m_tool == FieldTool::Add) {
+    if (canEdit()) {
+      const double yaw = info(m_team).facesLeft ? std::numbers::pi : 0.0;
+      m_controller->addRobot(m_team, {fromScene(at), yaw});
+    }
+    return;
+  }
+  const FieldHit hit = m_scene->hit(at);
+  switch (hit.kind) {
+    case FieldHit::Kind::Handle:
+      beginTurn(hit.robot);
+      break;
+    case FieldHit::Kind::Robot:
+      if (modifiers & Qt::ControlModifier) {
+        m_scene->toggle(hit.robot);
+      } else if (modifiers & Qt::ShiftModifier) {
+        beginRobots(hit.robot);
+        beginTurn(hit.robot);
+      } else {
+        beginRobots(hit.robot);
+      }
+      break;
+    case FieldHit::Kind::Ball:
+      m_drag = Drag::Ball;
+      m_ballFrom = m_scene->ball();
+      break;
+    case FieldHit::Kind::Nothing:
+      m_drag = Drag::Band;
+      if (!(modifiers & Qt::ControlModifier)) {
+        m_scene->select({});
+        m_selectedBefore.clear();
+      }
+      break;
+  }
+  if (!canEdit() && m_drag != Drag::Band) m_drag = Drag::None;
+}
+
+void FieldPointer::beginRobots(RobotId hit) {
+  const auto& selected = m_scene->selection();
+  const bool among = std::find(selected.begin(), selected.end(), hit) != selected.end();
+  m_clickedOneOfSeveral = among && selected.size() > 1;
+  m_pivot = hit;
+  if (!among) m_scene->select({hit});
+  m_drag = Drag::Robots;
+  m_placements = standing(m_scene->selection());
+}
+
+void FieldPointer::beginTurn(RobotId hit) {
+  m_drag = Drag::Turn;
+  m_pivot = hit;
+  m_placements = standing(m_scene->selection());
+}
+
+void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
+  m_at = at;
+  if (m_drag == Drag::None) return;
+  const QPointF way = at - m_from;
+  if (!m_moved) {
+    m_moved = std::hypot(way.x(), way.y()) >= m_scene->style().metres(dragThreshold_px);
+    if (!m_moved) return;
+  }
+  switch (m_drag) {
+    case Drag::Robots:
+      dragRobots();
+      break;
+    case Drag::Turn:
+      dragTurn();
+      break;
+    case Drag::Band: {
+      m_scene->rubberBand()->setVisible(true);
+      m_scene->rubberBand()->setBand(QRectF(m_from, at));
+      std::vector<RobotId> ids = m_selectedBefore;
+      for (const RobotId id : m_scene->robotsIn(QRectF(m_from, at).normalized())) {
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+      }
+      m_scene->select(ids);
+      break;
+    }
+    case Drag::Ruler:
+      m_scene->ruler()->setLine(m_from, at);
+      break;
+    case Drag::Ball:
+    case Drag::None:
+      break;
+  }
+  preview();
+}
+
+void FieldPointer::dragRobots() {
+  for (RobotPlacement& placement : m_placements) {
+    placement.to.position = {placement.from.position.x + m_at.x() - m_from.x(),
+                             placement.from.position.y + m_at.y() - m_from.y()};
+  }
+}
+
+void FieldPointer::dragTurn() {
+  const auto pivot = std::find_if(m_placements.begin(), m_placements.end(),
+                                  [this](const auto& p) { return p.id == m_pivot; });
+  if (pivot == m_placements.end()) return;
+  const Point& centre = pivot->from.position;
+  const double yaw = std::atan2(m_at.y() - centre.y, m_at.x() - centre.x);
+  const double turned = wrapToPi(yaw - pivot->from.yaw);
+  for (RobotPlacement& placement : m_placements) {
+    placement.to.yaw = wrapToPi(placement.from.yaw + turned);
+  }
+}
+
+void FieldPointer::preview() {
+  if (!canEdit()) return;
+  if (m_drag == Drag::Robots || m_drag == Drag::Turn) m_controller->previewRobots(m_placements);
+  if (m_drag == Drag::Ball) m_controller->previewBall(fromScene(m_at));
+}
+
+void FieldPointer::hold() {
+  if (m_drag != Drag::None && m_moved) preview();
+}
+
+void FieldPointer::release(const QPointF& at, Qt::KeyboardModifiers modifiers) {
+  if (m_drag == Drag::None) return;
+  move(at, modifiers);
+  if (m_moved && canEdit()) finish();
+  if (!m_moved && m_drag == Drag::Robots && m_clickedOneOfSeveral) m_scene->select({m_pivot});
+  m_scene->rubberBand()->setVisible(false);
+  m_drag = Drag::None;
+}
+
+void FieldPointer::finish() {
+  if (m_drag == Drag::Robots || m_drag == Drag::Turn) m_controller->moveRobots(m_placements);
+  if (m_drag == Drag::Ball) m_controller->moveBall(m_ballFrom, fromScene(m_at));
+}
+
+void FieldPointer::doubleClick(const QPointF& at) {
+  const FieldHit hit = m_scene->hit(at);
+  if (hit.kind != FieldHit::Kind::Robot || m_tool != FieldTool::Select) return;
+  m_scene->select({hit.robot});
+  if (canEdit()) emit poseRequested(hit.robot);
+}
+
+bool FieldPointer::turnAt(const QPointF& at, double notches) {
+  const FieldHit hit = m_scene->hit(at);
+  if (hit.kind != FieldHit::Kind::Robot || !canEdit()) return false;
+  const auto& selected = m_scene->selection();
+  const bool together = std::find(selected.begin(), selected.end(), hit.robot) != selected.end();
+  auto placements = standing(together ? selected : std::vector<RobotId>{hit.robot});
+  for (RobotPlacement& placement : placements) {
+    placement.to.yaw = wrapToPi(placement.from.yaw + radiansFromDegrees(notches * degreesPerNotch));
+  }
+  place(placements);
+  return true;
+}
+
+bool FieldPointer::cancel() {
+  if (m_drag == Drag::None) return false;
+  if (m_moved && canEdit()) {
+    for (RobotPlacement& placement : m_placements) placement.to = placement.from;
+    if (m_drag == Drag::Ball) m_at = toScene(m_ballFrom);
+    preview();
+  }
+  if (m_drag == Drag::Band) m_scene->select(m_selectedBefore);
+  m_scene->rubberBand()->setVisible(false);
+  m_scene->ruler()->setVisible(false);
+  m_drag = Drag::None;
+  return true;
+}
+
+void FieldPointer::nudge(const QPointF& metres) {
+  if (!canEdit()) return;
+  auto placements = standing(m_scene->selection());
+  for (RobotPlacement& placement : placements) {
+    placement.to.position.x += metres.x();
+    placement.to.position.y += metres.y();
+  }
+  place(placements);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the left mouse button does on the field: drag robots and ball, turn robots, select, measure,
+// add. Positions in metres of the scene. While something is held it stays at the cursor, whatever
+// the match does meanwhile; the whole drag is one undoable command.
+
+#include <QObject>
+#include <QPointF>
+#include <optional>
+#include <vector>
+
+#include <ui/field/field_scene.h>
+
+namespace pitchboard::ui {
+
+enum class FieldTool { Select, Ruler, Add };
+
+class FieldPointer : public QObject {
+  Q_OBJECT
+ public:
+  FieldPointer(FieldScene* scene, MatchController* controller, QObject* parent);
+
+  void setTool(FieldTool tool);
+  FieldTool tool() const { return m_tool; }
+  /// Of the robots that the add tool puts down.
+  void setTeam(TeamColor team) { m_team = team; }
+  Qt::CursorShape shape(const QPointF& at) const;
+
+  void press(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  void move(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  void release(const QPointF& at, Qt::KeyboardModifiers modifiers);
+  void doubleClick(const QPointF& at);
+  /// The wheel over a robot; false when there is none.
+  bool turnAt(const QPointF& at, double notches);
+  /// Puts back what is being dragged; says whether anything was.
+  bool cancel();
+  /// Moves the selected robots by so much.
+  void nudge(const QPointF& metres);
+  /// Call when a new frame has arrived: what is held is put back under the cursor.
+  void hold();
+
+ signals:
+  void toolChanged(pitchboard::ui::FieldTool tool);
+  void poseRequested(pitchboard::RobotId id);
+
+ private:
+  enum class Drag { None, Robots, Turn, Ball, Band, Ruler };
+  void beginRobots(RobotId hit);
+  void beginTurn(RobotId hit);
+  void dragRobots();
+  void dragTurn();
+  void preview();
+  void finish();
+  /// Moves that the next frame will show; further ones before it start from there.
+  void place(const std::vector<RobotPlacement>& placements);
+  std::vector<RobotPlacement> standing(const std::vector<RobotId>& ids) const;
+  bool canEdit() const;
+
+  FieldScene* m_scene;
+  MatchController* m_controller;
+  FieldTool m_tool = FieldTool::Select;
+  TeamColor m_team = TeamColor::Blue;
+  Drag m_drag = Drag::None;
+  bool m_moved = false;  // beyond the distance of an unsteady click
+  QPointF m_from, m_at;
+  std::vector<RobotPlacement> m_placements;
+  RobotId m_pivot;  // the robot whose handle is held
+  Point m_ballFrom;
+  std::vector<RobotId> m_selectedBefore;
+  std::vector<RobotPlacement> m_onTheWay;
+  std::uint64_t m_onTheWaySince = 0;  // serial of the frame they were made on
+  bool m_clickedOneOfSeveral = false;
+};
+
+}  // namespace pitchboard::ui

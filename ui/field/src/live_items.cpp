@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_items.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QColor halo() {
+  return theme().fieldBorder.darker(isDarkTheme() ? 130 : 190);
+}
+
+}  // namespace
+
+void TeamBallItem::setBall(const std::optional<link::TeamBall>& ball) {
+  setVisible(ball.has_value());
+  if (!ball) return;
+  prepareGeometryChange();
+  m_ball = *ball;
+  setPos(toScene(ball->position));
+  update();
+}
+
+double TeamBallItem::radius() const {
+  return std::max(m_ball.spread, m_style->ballDrawRadius() + m_style->metres(5.0));
+}
+
+QRectF TeamBallItem::boundingRect() const {
+  const double reach = radius() + m_style->metres(26.0);
+  const double wide = reach + m_style->metres(50.0);
+  return {-wide, -reach, 2 * wide, 2 * reach};
+}
+
+void TeamBallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  const ScreenPainting screen(painter, QPointF(0, 0));
+  const double ring = radius() * screen.pixelsPerMetre();
+  const double arm = 4.0;
+  QPen pen(theme().ball, 1.8);
+  pen.setCapStyle(Qt::FlatCap);
+  painter->setPen(pen);
+  painter->setBrush(Qt::NoBrush);
+  painter->drawEllipse(QPointF(0, 0), ring, ring);
+  painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
+  painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
+  drawHaloText(painter, {0, -ring - 9},
+               QObject::tr("%1 of %2 agree").arg(m_ball.agree).arg(m_ball.see),
+               fieldFont(10, false), theme().fieldLines, halo());
+}
+
+void OtherPoseItem::setOther(const OtherPose& other) {
+  if (other == m_other) return;
+  prepareGeometryChange();
+  m_other = other;
+  setPos(toScene(other.pose.position));
+  update();
+}
+
+QRectF OtherPoseItem::boundingRect() const {
+  const double reach = m_style->robotDrawRadius() * 1.5 + m_style->metres(24.0);
+  const double wide = reach + m_style->metres(30.0);
+  const QRectF own(-wide, -reach, 2 * wide, 2 * reach);
+  const QPointF joined = toScene(m_other.here) - toScene(m_other.pose.position);
+  return own.united(QRectF(QPointF(0, 0), joined).normalized());
+}
+
+void OtherPoseItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  const ScreenPainting screen(painter, QPointF(0, 0));
+  const double radius = std::max(m_style->field.robotRadius * screen.pixelsPerMetre(), 5.0);
+  const QColor line = theme().accentLine;
+  QPen pen(line, 1.8, Qt::SolidLine, Qt::FlatCap);
+  const QPointF robot = screen.pixels(toScene(m_other.here) - toScene(m_other.pose.position));
+  const double away = std::hypot(robot.x(), robot.y());
+  painter->setPen(QPen(line, 1.2, Qt::DotLine));
+  if (away > radius) painter->drawLine(robot * (radius / away), robot);
+  pen.setDashPattern({1.5, 1.5});
+  painter->setPen(pen);
+  painter->setBrush(Qt::NoBrush);
+  painter->drawEllipse(QPointF(0, 0), radius, radius);
+  pen.setStyle(Qt::SolidLine);
+  painter->setPen(pen);
+  painter->drawLine(QPointF(0, 0), screen.direction(m_other.pose.yaw) * radius * 1.35);
+  drawHaloText(painter, {0, -radius - 10}, m_other.words, fieldFont(10, false), theme().fieldLines,
+               halo());
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What tools draw over the field: the ruler with its reading, the rubber band, and the robot that
+// is about to be added.
+
+#include <QGraphicsItem>
+#include <optional>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+/// Distance in metres and direction in degrees, counter-clockwise from +x: "2.34 m   −31.0°".
+QString rulerText(const QPointF& from, const QPointF& to);
+
+class RulerItem : public QGraphicsItem {
+ public:
+  explicit RulerItem(const FieldStyle* style) : m_style(style) {}
+  void setLine(const QPointF& from, const QPointF& to);
+  QPointF from() const { return m_from; }
+  QPointF to() const { return m_to; }
+  void styleChanges() { prepareGeometryChange(); }
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  const FieldStyle* m_style;
+  QPointF m_from, m_to;
+};
+
+class RubberBandItem : public QGraphicsItem {
+ public:
+  explicit RubberBandItem(const FieldStyle* style) : m_style(style) {}
+  void setBand(const QRectF& metres);
+  QRectF band() const { return m_band; }
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  const FieldStyle* m_style;
+  QRectF m_band;
+};
+
+}  // namespace pitchboard::ui

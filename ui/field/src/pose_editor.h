@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A small popup with the place of a robot or of the ball as numbers: metres and degrees. Changes
+// are shown at once; Enter keeps them as one undoable command, Esc puts back what was.
+
+#include <QFrame>
+#include <functional>
+
+#include <base/geometry.h>
+#include <simcore/world/field.h>
+
+class QDoubleSpinBox;
+
+namespace pitchboard::ui {
+
+/// What is edited, and how its changes reach the world.
+struct PoseEdit {
+  QString title;
+  Pose from;
+  bool hasHeading = true;
+  std::function<void(const Pose&)> preview;  ///< while typing, and `from` on Esc
+  std::function<void(const Pose&)> keep;     ///< at most once, and only for a change
+};
+
+class PoseEditor : public QFrame {
+  Q_OBJECT
+ public:
+  PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* parent);
+
+  Pose pose() const;
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  bool isChanged() const;
+
+  PoseEdit m_edit;
+  bool m_cancelled = false;
+  QDoubleSpinBox* m_x;
+  QDoubleSpinBox* m_y;
+  QDoubleSpinBox* m_heading = nullptr;  // none for the ball
+};
+
+}  // namespace pitchboard::ui

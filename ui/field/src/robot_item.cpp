@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "robot_item.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+#include "field_stamps.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double handleGap_px = 18.0;
+
+void paintNumber(QPainter& painter, double radius, const QString& text) {
+  const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
+  painter.setFont(fieldFont(static_cast<int>(std::lround(std::max(8.0, size))), true));
+  painter.setPen(Qt::white);
+  painter.drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, text);
+}
+
+QPointF across(const QPointF& direction) {
+  return {-direction.y(), direction.x()};
+}
+
+}  // namespace
+
+RobotItem::RobotItem(const FieldStyle* style, RobotId id) : m_style(style), m_id(id) {}
+
+void RobotItem::setLook(const RobotLook& look) {
+  if (look == m_look) return;
+  if (look.selected != m_look.selected || look.word != m_look.word) prepareGeometryChange();
+  const bool moved = !(look.pose.position == m_look.pose.position);
+  m_look = look;
+  if (moved) setPos(toScene(look.pose.position));
+  setOpacity(look.opacity);
+  update();
+}
+
+QPointF RobotItem::handlePosition(const FieldStyle& style, const Pose& pose) {
+  const double reach = style.robotDrawRadius() * 1.7 + style.metres(handleGap_px);
+  return {pose.position.x + reach * std::cos(pose.yaw),
+          pose.position.y + reach * std::sin(pose.yaw)};
+}
+
+double RobotItem::handleRadius(const FieldStyle& style) {
+  return style.metres(5.0);
+}
+
+QRectF RobotItem::boundingRect() const {
+  double reach = m_style->robotDrawRadius() * 1.8 + m_style->metres(3.0);
+  if (m_look.selected) {
+    reach = m_style->robotDrawRadius() * 1.7 + m_style->metres(handleGap_px + 8.0);
+  }
+  QRectF area(-reach, -reach, 2 * reach, 2 * reach);
+  if (!m_look.word.isEmpty()) {
+    const double half = m_style->metres(60.0);
+    const double tall = m_style->robotDrawRadius() + m_style->metres(28.0);
+    area = area.united(QRectF(-half, -tall, 2 * half, 2 * tall));
+  }
+  return area;
+}
+
+void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  const ScreenPainting screen(painter, QPointF(0, 0));
+  const double radius = std::max(m_style->field.robotRadius * screen.pixelsPerMetre(), 5.0);
+  if (m_style->ornaments && (m_look.selected || m_look.followed)) {
+    paintSelection(painter, screen, radius);
+  }
+  paintBody(painter, screen, radius);
+  if (!m_look.word.isEmpty()) {
+    drawHaloText(painter, {0, radius * 1.7 + 9}, m_look.word, fieldFont(11, false),
+                 theme().fieldLines, theme().fieldBorder.darker(isDarkTheme() ? 130 : 190));
+  }
+}
+
+void RobotItem::paintSelection(QPainter* painter, const ScreenPainting& screen,
+                               double radius) const {
+  const QColor accent = theme().accentLine;
+  painter->setBrush(Qt::NoBrush);
+  const double ring = radius + std::max(5.0, radius * 0.35);
+  if (m_look.followed) {
+    painter->setPen(QPen(accent, 1.2, Qt::DotLine));
+    painter->drawEllipse(QPointF(0, 0), ring + 3.5, ring + 3.5);
+  }
+  if (!m_look.selected) return;
+  const QPen pen(accent, 2.2, Qt::SolidLine, Qt::FlatCap);
+  const auto paintRing = [&](double ringRadius, const QColor& ground) {
+    return [&pen, ringRadius, ground](QPainter& p) {
+      p.setPen(pen);
+      p.setBrush(ground);
+      p.drawEllipse(QPointF(0, 0), ringRadius, ringRadius);
+    };
+  };
+  drawStamp(painter, {}, {Stamp::Kind::Ring, stampSize(ring), accent.rgba(), 0, {}},
+            {ring + 2, ring + 2}, paintRing(ring, Qt::transparent));
+  if (m_style->readOnly) return;
+  painter->setPen(pen);
+  const QPointF ahead = screen.direction(m_look.pose.yaw);
+  const double reach = radius * 1.7 + handleGap_px;
+  painter->drawLine(ahead * ring, ahead * (reach - 4));
+  const QColor inside = theme().fieldBorder;
+  drawStamp(painter, ahead * reach,
+            {Stamp::Kind::Ring, stampSize(4.0), accent.rgba(), inside.rgba(), {}}, {6, 6},
+            paintRing(4.0, inside));
+}
+
+void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const {
+  const QColor team = theme().team(m_look.team);
+  const QColor outline = isDarkTheme() ? QColor(16, 20, 24) : QColor(26, 34, 42);
+  const QPointF ahead = screen.direction(m_look.pose.yaw);
+  const QPointF side = across(ahead);
+  const double stroke = std::clamp(radius * 0.11, 1.0, 2.5);
+  painter->setPen(QPen(outline, stroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  if (m_look.fallen) {
+    // Lying along its heading: a long body instead of a disc, without a nose.
+    QPen body(outline, radius * 1.25 + 2 * stroke, Qt::SolidLine, Qt::RoundCap);
+    painter->setPen(body);
+    painter->drawLine(-ahead * radius * 0.75, ahead * radius * 0.75);
+    body.setColor(team);
+    body.setWidthF(radius * 1.25);
+    painter->setPen(body);
+    painter->drawLine(-ahead * radius * 0.75, ahead * radius * 0.75);
+  } else {
+    painter->setBrush(team.darker(112));
+    const QPointF nose[] = {ahead * radius * 1.62, ahead * radius * 0.45 + side * radius * 0.80,
+                            ahead * radius * 0.45 - side * radius * 0.80};
+    painter->drawPolygon(nose, 3);
+  }
+  const bool numbered = m_style->shows(FieldLayer::Numbers);
+  const bool fitsInside = radius >= 6.5;
+  const QString text = numbered && fitsInside ? QString::number(m_look.number) : QString();
+  if (m_look.fallen) {
+    if (!text.isEmpty()) paintNumber(*painter, radius, text);
+  } else {
+    drawStamp(painter, {},
+              {Stamp::Kind::Disc, stampSize(radius), team.rgba(), outline.rgba(), text},
+              {radius + stroke, radius + stroke}, [&](QPainter& p) {
+                p.setPen(QPen(outline, stroke));
+                p.setBrush(team);
+                p.drawEllipse(QPointF(0, 0), radius, radius);
+                if (!text.isEmpty()) paintNumber(p, radius, text);
+              });
+  }
+  if (numbered && !fitsInside) {
+    // Too small to write in: the name goes beside the robot.
+    drawHaloText(painter, {0, -radius - 8}, robotName(m_look.team, m_look.number),
+                 fieldFont(10, true), theme().fieldLines, theme().fieldBorder.darker(130));
+  }
+}
+
+}  // namespace pitchboard::ui

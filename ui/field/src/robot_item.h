@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A robot's body: disc, nose in the direction of its heading, number, selection ring and handle.
+
+#include <QGraphicsItem>
+#include <QString>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+/// All that a body shows.
+struct RobotLook {
+  Pose pose;
+  TeamColor team = TeamColor::Blue;
+  int number = 1;
+  bool fallen = false;
+  bool selected = false;
+  bool followed = false;
+  QString word;          ///< beside the robot: "fallen", "penalised", "timeout 37 s"
+  double opacity = 1.0;  ///< 0.45 for a robot that has timed out
+  bool operator==(const RobotLook&) const = default;
+};
+
+class RobotItem : public QGraphicsItem {
+ public:
+  RobotItem(const FieldStyle* style, RobotId id);
+
+  RobotId id() const { return m_id; }
+  const RobotLook& look() const { return m_look; }
+  void setLook(const RobotLook& look);
+  /// Call before the zoom changes what the item covers.
+  void styleChanges() { prepareGeometryChange(); }
+
+  /// Where the turning handle is, in metres of the scene.
+  static QPointF handlePosition(const FieldStyle& style, const Pose& pose);
+  static double handleRadius(const FieldStyle& style);  ///< metres
+
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
+  void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
+
+  const FieldStyle* m_style;
+  RobotId m_id;
+  RobotLook m_look;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trail_item.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+double distance(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
+}  // namespace
+
+TrailItem::TrailItem(const FieldStyle* style) : m_style(style) {}
+
+void TrailItem::clear() {
+  if (m_count == 0) return;
+  prepareGeometryChange();
+  m_count = 0;
+  m_bounds = QRectF();
+}
+
+void TrailItem::append(const Point& position, double time) {
+  const QPointF at = toScene(position);
+  if (m_count > 0 && (time < m_now || distance(at, m_tip) > longestJump)) clear();
+  if (m_count > 0 && time == m_now && at == m_tip) return;
+  const bool tipMoved = m_count == 0 || at != m_tip;
+  m_now = time;
+  m_tip = at;
+  const int before = m_count;
+  dropOld();
+  bool changed = m_count != before;
+  if (m_count == 0 || distance(at, mark(m_count - 1).at) >= step) {
+    if (m_count == capacity) {
+      m_first = (m_first + 1) % capacity;
+      --m_count;
+    }
+    m_marks[static_cast<std::size_t>((m_first + m_count) % capacity)] = {at, time};
+    ++m_count;
+    changed = true;
+  }
+  if (changed) {
+    updateBounds();
+  } else if (tipMoved && m_count > 1) {
+    update();
+  }
+}
+
+void TrailItem::dropOld() {
+  while (m_count > 0 && m_now - mark(0).time > seconds) {
+    m_first = (m_first + 1) % capacity;
+    --m_count;
+  }
+}
+
+void TrailItem::updateBounds() {
+  prepareGeometryChange();
+  if (m_count == 0) {
+    m_bounds = QRectF();
+    return;
+  }
+  double left = m_tip.x(), right = left, low = m_tip.y(), high = low;
+  for (int i = 0; i < m_count; ++i) {
+    const QPointF& p = mark(i).at;
+    left = std::min(left, p.x());
+    right = std::max(right, p.x());
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
+  // The tip may run ahead by one step before the bounds are made anew.
+  m_bounds = QRectF(left, low, right - left, high - low).adjusted(-step, -step, step, step);
+}
+
+QRectF TrailItem::boundingRect() const {
+  const double margin = m_style->metres(2.0);
+  return m_bounds.adjusted(-margin, -margin, margin, margin);
+}
+
+void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  if (m_count < 2) return;
+  // A few strokes of growing strength instead of one per point.
+  constexpr int shades = 6;
+  const ScreenPainting screen(painter, m_tip);
+  const auto pixels = [&](const QPointF& at) { return screen.pixels(at - m_tip); };
+  // Separate lines with flat caps need no stroker; at this width no joint shows.
+  std::array<QLineF, capacity + 1> lines;
+  QPen pen(theme().fieldLines, 1.5);
+  pen.setCapStyle(Qt::FlatCap);
+  QPointF last = pixels(mark(0).at);
+  int i = 1;
+  for (int shade = 0; shade < shades; ++shade) {
+    const double until = m_now - seconds * (shades - 1 - shade) / shades;
+    int used = 0;
+    const auto lineTo = [&](const QPointF& next) {
+      lines[static_cast<std::size_t>(used++)] = QLineF(last, next);
+      last = next;
+    };
+    while (i < m_count && mark(i).time <= until) lineTo(pixels(mark(i++).at));
+    if (shade == shades - 1) lineTo(QPointF(0, 0));
+    if (used == 0) continue;
+    pen.setColor(onGrass(theme().fieldLines, 0.08 + 0.52 * (shade + 1) / shades));
+    painter->setPen(pen);
+    painter->drawLines(lines.data(), used);
+  }
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Where a robot has been: a line that fades with age. Bounded in time and in points.
+
+#include <QGraphicsItem>
+#include <array>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+class TrailItem : public QGraphicsItem {
+ public:
+  static constexpr double seconds = 8.0;      ///< simulated
+  static constexpr double step = 0.03;        ///< metres between points
+  static constexpr double longestJump = 0.4;  ///< metres; more is a move by hand, not a walk
+
+  explicit TrailItem(const FieldStyle* style);
+
+  /// `time` in simulated seconds; going back in time or jumping starts the trail anew.
+  void append(const Point& position, double time);
+  void clear();
+  /// Points kept now; for tests.
+  int size() const { return m_count; }
+  void styleChanges() { prepareGeometryChange(); }
+
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  static constexpr int capacity = 128;
+  struct Mark {
+    QPointF at;
+    double time = 0.0;
+  };
+  const Mark& mark(int i) const {
+    return m_marks[static_cast<std::size_t>((m_first + i) % capacity)];
+  }
+  void dropOld();
+  void updateBounds();
+
+  const FieldStyle* m_style;
+  std::array<Mark, capacity> m_marks;  // ring
+  int m_first = 0;
+  int m_count = 0;
+  QPointF m_tip;
+  double m_now = 0.0;
+  QRectF m_bounds;
+};
+
+}  // namespace pitchboard::ui

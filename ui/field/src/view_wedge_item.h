@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a robot's camera can see: a sector round the direction of the head, as far as the playing
+// area with its border goes.
+
+#include <QGraphicsItem>
+#include <QPolygonF>
+
+#include <ui/field/field_style.h>
+
+namespace pitchboard::ui {
+
+class ViewWedgeItem : public QGraphicsItem {
+ public:
+  /// Simulated vision (SYSTEM.md section 4).
+  static constexpr double openingDegrees = 70.0;
+  static constexpr double range = 3.0;  ///< metres
+
+  explicit ViewWedgeItem(const FieldStyle* style) : m_style(style) {}
+
+  void setHead(const Point& position, double headYaw);
+  void styleChanges();
+  /// Its corners in metres of the scene; empty for a robot that sees nothing of the field.
+  const QPolygonF& outline() const { return m_outline; }
+
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  void updateOutline();
+
+  const FieldStyle* m_style;
+  Point m_position;
+  double m_yaw = 0.0;
+  QPolygonF m_outline;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Where Live listens, whom it believes, how it reads messages, and monitor mode. Not modal: the
+// match goes on. Errors are shown in the dialog. UI thread only.
+
+#include <QDialog>
+
+#include <ui/sources/live_settings.h>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QSpinBox;
+
+namespace pitchboard::ui {
+
+class LiveController;
+
+class LiveSettingsDialog : public QDialog {
+  Q_OBJECT
+ public:
+  LiveSettingsDialog(LiveController* live, QSettings* settings, QWidget* parent);
+  /// Takes what is in the boxes; false when something is wrong, which is then shown.
+  bool apply();
+
+ private:
+  QWidget* makeNetwork();
+  QWidget* makeRobots();
+  QWidget* makeReferee();
+  QWidget* makeMessages();
+  QSpinBox* addNumber(QFormLayout* form, const char* name, const QString& label, int low, int high,
+                      const QString& tip);
+  QDoubleSpinBox* addReal(QFormLayout* form, const char* name, const QString& label, double low,
+                          double high, int decimals, const QString& unit, const QString& tip);
+  void adopt();
+  void showProfile();
+  void chooseProfile();
+  void editProfile();
+  bool fail(const QString& sentence);
+  bool read(LiveSettings& live);
+
+  LiveController* m_live;
+  QSettings* m_settings;
+  QLineEdit* m_bind;
+  QSpinBox *m_portBase, *m_robots, *m_refereePort, *m_ourTeam, *m_cells;
+  QLineEdit* m_senders;
+  QDoubleSpinBox *m_timeout, *m_full, *m_low, *m_empty;
+  QComboBox *m_field, *m_colours;
+  QCheckBox* m_monitor;
+  QLineEdit* m_monitorAddress;
+  QLabel *m_profileName, *m_problem;
+  telemetry::Profile m_profile;
+  QString m_profileFile;
+};
+
+/// Opens the dialog, or brings the open one to the front.
+void showLiveSettings(LiveController* live, QSettings* settings, QWidget* window);
+
+}  // namespace pitchboard::ui

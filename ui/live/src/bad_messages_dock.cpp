@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/live/bad_messages_dock.h>
+
+#include <QLabel>
+#include <QStackedWidget>
+#include <QTableView>
+#include <QTimer>
+
+#include <ui/base/table_style.h>
+#include <ui/sources/live_controller.h>
+
+#include "bad_messages_model.h"
+
+namespace pitchboard::ui {
+namespace {
+
+class BadMessagesDock : public QStackedWidget {
+ public:
+  BadMessagesDock(const StudioContext& context, QWidget* parent)
+      : QStackedWidget(parent),
+        m_live(context.live),
+        m_model(new BadMessagesModel(this)),
+        m_table(new QTableView(this)),
+        m_empty(new QLabel(this)) {
+    constexpr int refreshMilliseconds = 500;
+    m_model->setObjectName(QStringLiteral("badMessages"));
+    m_table->setModel(m_model);
+    styleTable(m_table);
+    const int widths[] = {180, 230, 80};
+    for (int column = 0; column < 3; ++column) {
+      m_table->setColumnWidth(column, scaled(m_table, widths[column]));
+    }
+    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setBackgroundRole(QPalette::Base);
+    m_empty->setAutoFillBackground(true);
+    m_empty->setMargin(scaled(this, 12));
+    m_empty->setWordWrap(true);
+    addWidget(m_empty);
+    addWidget(m_table);
+    auto* timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, [this] {
+      if (isVisible()) refresh();
+    });
+    timer->start(refreshMilliseconds);
+    refresh();
+  }
+
+ protected:
+  void showEvent(QShowEvent* event) override {
+    refresh();
+    QStackedWidget::showEvent(event);
+  }
+
+ private:
+  void refresh() {
+    m_model->update(m_live->details());
+    m_empty->setText(
+        m_live->isListening()
+            ? tr("Every message could be used. Messages that cannot be read appear here, "
+                 "with the reason and their text.")
+            : tr("Live is not listening. Choose Live in the tool bar."));
+    setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
+  }
+
+  LiveController* m_live;
+  BadMessagesModel* m_model;
+  QTableView* m_table;
+  QLabel* m_empty;
+};
+
+}  // namespace
+
+QWidget* makeBadMessagesDock(const StudioContext& context, QWidget* parent) {
+  return new BadMessagesDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bad_messages_model.h"
+
+#include <ui/base/robot_words.h>
+
+namespace pitchboard::ui {
+
+void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
+                           const telemetry::ErrorTally& errors) const {
+  for (std::size_t i = 0; i < telemetry::textErrorCount; ++i) {
+    const auto error = static_cast<telemetry::TextError>(i);
+    if (errors.count(error) == 0) continue;
+    const std::string_view words = telemetry::errorWords(error);
+    rows.push_back({who, QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())),
+                    errors.count(error), QString::fromStdString(errors.sample(error))});
+  }
+}
+
+void BadMessagesModel::update(const link::LiveDetails& details) {
+  std::vector<Row> rows;
+  add(rows, tr("everybody"), details.team.errors);
+  for (const telemetry::RobotStatus& robot : details.team.robots) {
+    add(rows,
+        tr("robot %1 at %2").arg(robot.number).arg(QString::fromStdString(robot.sender.text())),
+        robot.errors);
+  }
+  for (const telemetry::SenderStatus& sender : details.team.senders) {
+    add(rows, tr("sender %1").arg(QString::fromStdString(sender.address.text())), sender.errors);
+  }
+  const auto count = [&rows](const QString& who, const QString& kind, quint64 number,
+                             const QString& sample = {}) {
+    if (number > 0) rows.push_back({who, kind, number, sample});
+  };
+  count(tr("referee's port"), QString::fromStdString(details.unknownRefereeReason),
+        details.unknownReferee, QString::fromStdString(details.unknownRefereeSample));
+  count(tr("everybody"), tr("from senders that are not on the list"), details.team.refusedByFilter);
+  count(tr("everybody"), tr("of robots beyond the 64th"), details.team.refusedRobots);
+  count(tr("network"), tr("lost because nobody took them in time"), details.network.queueDrops);
+  for (const telemetry::PortStatus& port : details.network.ports) {
+    count(tr("port %1").arg(port.port), tr("lost in the kernel: its buffer was full"),
+          port.kernelDrops);
+    count(tr("port %1").arg(port.port), tr("longer than 64 KiB, cut"), port.truncated);
+  }
+  const auto sameRow = [](const Row& a, const Row& b) {
+    return a.who == b.who && a.kind == b.kind;
+  };
+  if (!std::equal(rows.begin(), rows.end(), m_rows.begin(), m_rows.end(), sameRow)) {
+    beginResetModel();
+    m_rows = std::move(rows);
+    endResetModel();
+    return;
+  }
+  if (rows == m_rows) return;
+  m_rows = std::move(rows);
+  emit dataChanged(index(0, 0), index(rowCount() - 1, columns - 1));
+}
+
+int BadMessagesModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+}
+
+int BadMessagesModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : columns;
+}
+
+QVariant BadMessagesModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  if (role == Qt::TextAlignmentRole && index.column() == Count) {
+    return QVariant(Qt::AlignRight | Qt::AlignVCenter);
+  }
+  if (role != Qt::DisplayRole && role != Qt::ToolTipRole) return {};
+  switch (index.column()) {
+    case Who:
+      return row.who;
+    case Kind:
+      return row.kind;
+    case Count:
+      return countText(row.count);
+    case Sample:
+      return row.sample;
+    default:
+      return {};
+  }
+}
+
+QVariant BadMessagesModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  const QString names[] = {tr("Who"), tr("What is wrong"), tr("How many"), tr("Last text")};
+  return section >= 0 && section < columns ? names[section] : QVariant();
+}
+
+}  // namespace pitchboard::ui

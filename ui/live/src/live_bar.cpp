@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/live/live_bar.h>
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QSettings>
+#include <QTimer>
+#include <QToolButton>
+
+#include <ui/base/theme.h>
+#include <ui/live/live_settings_dialog.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/live_settings.h>
+
+namespace pitchboard::ui {
+
+LiveBar::LiveBar(const StudioContext& context, QWidget* parent)
+    : QWidget(parent),
+      m_context(context),
+      m_ports(new QToolButton(this)),
+      m_team(new QComboBox(this)),
+      m_monitor(new QToolButton(this)) {
+  constexpr int refreshMilliseconds = 500;
+  m_ports->setObjectName(QStringLiteral("livePorts"));
+  m_ports->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  m_ports->setIcon(themedIcon(QStringLiteral("configure")));
+  connect(m_ports, &QToolButton::clicked, this,
+          [this] { showLiveSettings(m_context.live, m_context.settings, window()); });
+  m_team->setObjectName(QStringLiteral("ourTeam"));
+  m_team->setMinimumWidth(scaled(this, 150));
+  connect(m_team, &QComboBox::activated, this, [this](int at) {
+    m_context.live->setOurTeam(m_team->itemData(at).toInt());
+    m_context.settings->setValue(QStringLiteral("live/ourTeam"), m_team->itemData(at));
+  });
+  m_monitor->setObjectName(QStringLiteral("monitorMode"));
+  m_monitor->setCheckable(true);
+  m_monitor->setText(tr("Monitor"));
+  connect(m_monitor, &QToolButton::clicked, this, &LiveBar::switchMonitor);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(scaled(this, 8));
+  row->addWidget(m_ports);
+  row->addWidget(m_team);
+  row->addWidget(m_monitor);
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] {
+    if (isVisible()) refresh();
+  });
+  timer->start(refreshMilliseconds);
+  connect(context.live, &LiveController::optionsChanged, this, &LiveBar::refresh);
+  refresh();
+}
+
+void LiveBar::refresh() {
+  const link::LiveOptions& options = m_context.live->options();
+  m_ports->setText(m_context.live->portsText());
+  QStringList tip{tr("Click for all settings of Live."),
+                  options.bind.value == 0
+                      ? tr("Listening at every address of this computer.")
+                      : tr("Listening at %1.").arg(QString::fromStdString(options.bind.text()))};
+  const link::LiveDetails details = m_context.live->details();
+  for (const telemetry::PortStatus& port : details.network.ports) {
+    if (!port.problem.empty()) tip << QString::fromStdString(port.problem);
+  }
+  m_ports->setToolTip(tip.join(QLatin1Char('\n')));
+  m_monitor->setChecked(options.monitor.has_value());
+  m_monitor->setToolTip(
+      options.monitor
+          ? tr("Monitor mode is on: once a second the referee's program at %1 is asked for true "
+               "data. "
+               "Nothing else is sent.%2")
+                .arg(QString::fromStdString(options.monitor->text()),
+                     details.monitorProblem.empty()
+                         ? QString()
+                         : QLatin1Char('\n') + QString::fromStdString(details.monitorProblem))
+          : tr("Ask the referee's program for monitor mode (controllers of 2026). Off: nothing is "
+               "sent at all."));
+  showTeams();
+}
+
+void LiveBar::showTeams() {
+  if (m_team->view()->isVisible()) return;
+  struct Entry {
+    QString text;
+    int number;
+    bool operator==(const Entry&) const = default;
+  };
+  QList<Entry> wanted{{tr("Our team: choose"), 0}};
+  const int ours = m_context.live->options().ourTeam;
+  const FramePtr frame = m_context.live->frame();
+  if (frame && frame->referee) {
+    for (const link::RefereeTeamView& team : frame->referee->teams) {
+      wanted.append({tr("Team %1 (%2)").arg(team.number).arg(QString::fromStdString(team.colour)),
+                     team.number});
+    }
+  }
+  const auto isOurs = [ours](const Entry& entry) { return entry.number == ours; };
+  if (std::none_of(wanted.begin(), wanted.end(), isOurs)) {
+    wanted.append({tr("Team %1 (not in this game)").arg(ours), ours});
+  }
+  QList<Entry> shown;
+  for (int i = 0; i < m_team->count(); ++i) {
+    shown.append({m_team->itemText(i), m_team->itemData(i).toInt()});
+  }
+  if (shown != wanted) {
+    m_team->clear();
+    for (const Entry& entry : wanted) m_team->addItem(entry.text, entry.number);
+  }
+  m_team->setCurrentIndex(m_team->findData(ours));
+  m_team->setToolTip(
+      tr("Whose robots are heard: decides whose penalties are shown on cards and field. "
+         "The teams are those that the referee names."));
+}
+
+void LiveBar::switchMonitor(bool on) {
+  if (!on) {
+    m_context.live->setMonitor({});
+    return;
+  }
+  const QString saved = m_context.settings->value(QStringLiteral("live/monitorAddress")).toString();
+  if (const auto address = telemetry::parseAddress(saved.toStdString())) {
+    m_context.live->setMonitor(*address);
+  } else {
+    // Whom to ask is not known yet.
+    m_monitor->setChecked(false);
+    showLiveSettings(m_context.live, m_context.settings, window());
+  }
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/live/live_overlay.h>
+
+#include <ui/field/field_view.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+
+namespace pitchboard::ui {
+
+LiveOverlay::LiveOverlay(MatchController* controller, LiveController* live, SourceSwitch* shown,
+                         FieldView* field, QObject* parent)
+    : QObject(parent), m_controller(controller), m_live(live), m_shown(shown), m_field(field) {
+  // Each source's frames are drawn when the shown one has a new one; the other's in between.
+  for (FrameSource* source :
+       {static_cast<FrameSource*>(controller), static_cast<FrameSource*>(live)}) {
+    connect(source, &FrameSource::frameReceived, this, [this, source] {
+      if (m_on && source != m_shown->current()) show();
+    });
+    connect(source, &FrameSource::restarted, this, &LiveOverlay::show);
+  }
+  connect(shown, &SourceSwitch::changed, this, &LiveOverlay::show);
+}
+
+void LiveOverlay::setOn(bool on) {
+  m_on = on;
+  if (on) m_live->start();
+  show();
+}
+
+FramePtr LiveOverlay::other() const {
+  if (!m_on) return nullptr;
+  switch (m_shown->kind()) {
+    case SourceKind::Simulate:
+      return m_live->frame();
+    case SourceKind::Live:
+      return m_controller->frame();
+    case SourceKind::Replay:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+void LiveOverlay::show() {
+  m_field->showOther(other());
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/live/live_settings_dialog.h>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QSpinBox>
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include <ui/base/theme.h>
+#include <ui/sources/live_controller.h>
+
+#include "profile_editor.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QLabel* explanation(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setFont(themeFont(TypeRole::Secondary));
+  label->setForegroundRole(QPalette::PlaceholderText);
+  label->setWordWrap(true);
+  return label;
+}
+
+QFormLayout* page(QWidget* widget) {
+  auto* form = new QFormLayout(widget);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  return form;
+}
+
+}  // namespace
+
+LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings, QWidget* parent)
+    : QDialog(parent), m_live(live), m_settings(settings) {
+  setObjectName(QStringLiteral("liveSettings"));
+  setWindowTitle(tr("Live settings"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  auto* tabs = new QTabWidget(this);
+  tabs->addTab(makeNetwork(), tr("Network"));
+  tabs->addTab(makeRobots(), tr("Robots"));
+  tabs->addTab(makeReferee(), tr("Referee"));
+  tabs->addTab(makeMessages(), tr("Messages"));
+  m_problem = new QLabel(this);
+  m_problem->setObjectName(QStringLiteral("liveProblem"));
+  m_problem->setWordWrap(true);
+  m_problem->hide();
+  auto* buttons = new QDialogButtonBox(
+      QDialogButtonBox::Ok | QDialogButtonBox::Apply | QDialogButtonBox::Cancel, this);
+  connect(buttons, &QDialogButtonBox::accepted, this, [this] {
+    if (apply()) accept();
+  });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(buttons->button(QDialogButtonBox::Apply), &QPushButton::clicked, this,
+          &LiveSettingsDialog::apply);
+  auto* column = new QVBoxLayout(this);
+  column->addWidget(tabs);
+  column->addWidget(m_problem);
+  column->addWidget(buttons);
+  resize(scaled(this, 460), scaled(this, 380));
+  adopt();
+}
+
+QSpinBox* LiveSettingsDialog::addNumber(QFormLayout* form, const char* name, const QString& label,
+                                        int low, int high, const QString& tip) {
+  auto* box = new QSpinBox(this);
+  box->setObjectName(QLatin1String(name));
+  box->setRange(low, high);
+  box->setToolTip(tip);
+  form->addRow(label, box);
+  return box;
+}
+
+QDoubleSpinBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name,
+                                            const QString& label, double low, double high,
+                                            int decimals, const QString& unit, const QString& tip) {
+  auto* box = new QDoubleSpinBox(this);
+  box->setObjectName(QLatin1String(name));
+  box->setDecimals(decimals);
+  box->setRange(low, high);
+  box->setSingleStep(decimals > 1 ? 0.05 : 1.0);
+  box->setSuffix(unit);
+  box->setToolTip(tip);
+  form->addRow(label, box);
+  return box;
+}
+
+QWidget* LiveSettingsDialog::makeNetwork() {
+  auto* widget = new QWidget(this);
+  QFormLayout* form = page(widget);
+  m_bind = new QLineEdit(widget);
+  m_bind->setObjectName(QStringLiteral("bind"));
+  m_bind->setToolTip(tr("0.0.0.0: every address of this computer, broadcasts included"));
+  form->addRow(tr("Listen at"), m_bind);
+  m_portBase =
+      addNumber(form, "portBase", tr("Port base"), 0, 65534, tr("Robot n sends to port base + n"));
+  m_robots = addNumber(form, "robots", tr("Robots"), 1, 64, tr("How many ports after the base"));
+  m_refereePort = addNumber(form, "refereePort", tr("Referee's port"), 1, 65535, {});
+  m_senders = new QLineEdit(widget);
+  m_senders->setObjectName(QStringLiteral("senders"));
+  m_senders->setPlaceholderText(tr("everybody"));
+  m_senders->setToolTip(
+      tr("Addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: everybody"));
+  form->addRow(tr("Only from"), m_senders);
+  form->addRow(
+      explanation(tr("A port that another program holds is named in the status bar and tried "
+                     "again every three seconds; the others work meanwhile."),
+                  widget));
+  return widget;
+}
+
+QWidget* LiveSettingsDialog::makeRobots() {
+  auto* widget = new QWidget(this);
+  QFormLayout* form = page(widget);
+  m_timeout = addReal(form, "timeout", tr("Timeout after"), 0.1, 3600, 1, tr(" s"),
+                      tr("A robot that is silent for so long is greyed"));
+  m_cells = addNumber(form, "cells", tr("Battery cells"), 0, 24,
+                      tr("In series. Automatic: the fewest that explain the highest voltage seen"));
+  m_cells->setSpecialValueText(tr("automatic"));
+  const QString volts = tr(" V per cell");
+  m_full = addReal(form, "full", tr("Full at"), 0.1, 10, 2, volts, {});
+  m_low = addReal(form, "low", tr("Low below"), 0.1, 10, 2, volts, tr("Shown in red"));
+  m_empty = addReal(form, "empty", tr("Empty at"), 0.0, 10, 2, volts, {});
+  m_colours = new QComboBox(widget);
+  m_colours->addItem(tr("of the team"), false);
+  m_colours->addItem(tr("one for each number"), true);
+  form->addRow(tr("Colour"), m_colours);
+  m_field = new QComboBox(widget);
+  for (const sim::FieldSpec& field : sim::builtInFields()) {
+    m_field->addItem(tr("%1: %2 × %3 m")
+                         .arg(QString::fromStdString(field.name))
+                         .arg(field.length)
+                         .arg(field.width),
+                     QString::fromStdString(field.name));
+  }
+  form->addRow(tr("Field"), m_field);
+  return widget;
+}
+
+QWidget* LiveSettingsDialog::makeReferee() {
+  auto* widget = new QWidget(this);
+  QFormLayout* form = page(widget);
+  m_ourTeam = addNumber(form, "ourTeam", tr("Our team's number"), 0, 65535,
+                        tr("As in the referee's program; decides whose penalties are shown"));
+  m_ourTeam->setSpecialValueText(tr("not chosen"));
+  m_monitor = new QCheckBox(tr("Ask the referee for monitor mode"), widget);
+  m_monitor->setObjectName(QStringLiteral("monitor"));
+  m_monitorAddress = new QLineEdit(widget);
+  m_monitorAddress->setObjectName(QStringLiteral("monitorAddress"));
+  m_monitorAddress->setPlaceholderText(tr("address of the referee's computer"));
+  connect(m_monitor, &QCheckBox::toggled, m_monitorAddress, &QWidget::setEnabled);
+  form->addRow(m_monitor);
+  form->addRow(tr("Referee at"), m_monitorAddress);
+  form->addRow(explanation(tr("Controllers of 2026 send more to programs that ask for it. While "
+                              "this is on, one packet of "
+                              "five bytes (RGTr and a zero) goes to UDP port 3636 of that one "
+                              "address every second. It is the "
+                              "only thing that Live ever sends, it never goes to a robot, and it "
+                              "is off at every start."),
+                           widget));
+  return widget;
+}
+
+QWidget* LiveSettingsDialog::makeMessages() {
+  auto* widget = new QWidget(this);
+  QFormLayout* form = page(widget);
+  m_profileName = new QLabel(widget);
+  m_profileName->setObjectName(QStringLiteral("profileName"));
+  m_profileName->setWordWrap(true);
+  form->addRow(tr("Order of fields"), m_profileName);
+  auto* row = new QHBoxLayout;
+  const auto add = [&](const QString& text, const char* name, auto slot) {
+    auto* button = new QPushButton(text, widget);
+    button->setObjectName(QLatin1String(name));
+    connect(button, &QPushButton::clicked, this, slot);
+    row->addWidget(button);
+  };
+  add(tr("Published"), "publishedProfile", [this] {
+    m_profile = telemetry::publishedProfile();
+    m_profileFile.clear();
+    showProfile();
+  });
+  add(tr("From file…"), "profileFromFile", [this] { chooseProfile(); });
+  add(tr("Edit…"), "editProfile", [this] { editProfile(); });
+  row->addStretch(1);
+  form->addRow(row);
+  form->addRow(
+      explanation(tr("Teams insert fields of their own. A profile says in which order a "
+                     "message has its fields and what they mean. Fields after those of the "
+                     "profile are shown as OTHER_1, OTHER_2, ..."),
+                  widget));
+  return widget;
+}
+
+void LiveSettingsDialog::adopt() {
+  const link::LiveOptions& o = m_live->options();
+  const LiveSettings saved = loadLiveSettings(*m_settings);
+  m_bind->setText(QString::fromStdString(o.bind.text()));
+  m_portBase->setValue(o.portBase);
+  m_robots->setValue(o.robots);
+  m_refereePort->setValue(o.refereePort);
+  m_senders->setText(saved.senders);
+  m_timeout->setValue(std::chrono::duration<double>(o.team.timeout).count());
+  m_cells->setValue(o.team.battery.cells);
+  m_full->setValue(o.team.battery.fullPerCell);
+  m_low->setValue(o.team.battery.lowPerCell);
+  m_empty->setValue(o.team.battery.emptyPerCell);
+  m_colours->setCurrentIndex(o.colourByNumber ? 1 : 0);
+  m_field->setCurrentIndex(m_field->findData(QString::fromStdString(o.field.name)));
+  m_ourTeam->setValue(o.ourTeam);
+  m_monitor->setChecked(o.monitor.has_value());
+  m_monitorAddress->setEnabled(o.monitor.has_value());
+  QString address = saved.monitorAddress;
+  if (const FramePtr frame = m_live->frame(); address.isEmpty() && frame && frame->referee) {
+    address = QString::fromStdString(frame->referee->sender).section(QLatin1Char(':'), 0, 0);
+  }
+  m_monitorAddress->setText(o.monitor ? QString::fromStdString(o.monitor->text()) : address);
+  m_profile = o.profile;
+  m_profileFile = saved.profileFile;
+  showProfile();
+}
+
+void LiveSettingsDialog::showProfile() {
+  m_profileName->setText((m_profileFile.isEmpty()
+                              ? tr("%1, %2 fields")
+                              : tr("%1, %2 fields, from %3")
+                                    .arg(QStringLiteral("%1"), QStringLiteral("%2"),
+                                         QFileInfo(m_profileFile).fileName()))
+                             .arg(QString::fromStdString(m_profile.name))
+                             .arg(m_profile.fields.size()));
+  m_profileName->setToolTip(m_profileFile);
+}
+
+void LiveSettingsDialog::chooseProfile() {
+  auto* ask = new QFileDialog(this, tr("Profile of messages"), QFileInfo(m_profileFile).path(),
+                              tr("Profiles (*.json)"));
+  ask->setAttribute(Qt::WA_DeleteOnClose);
+  ask->setFileMode(QFileDialog::ExistingFile);
+  connect(ask, &QFileDialog::fileSelected, this, [this](const QString& file) {
+    auto loaded = telemetry::loadProfile(file.toStdString());
+    if (!loaded) {
+      fail(QString::fromStdString(loaded.error().text()));
+      return;
+    }
+    m_problem->hide();
+    m_profile = std::move(*loaded);
+    m_profileFile = file;
+    showProfile();
+  });
+  ask->open();
+}
+
+void LiveSettingsDialog::editProfile() {
+  auto* editor = new ProfileEditor(m_profile, m_profileFile, this);
+  connect(editor, &ProfileEditor::saved, this,
+          [this](const telemetry::Profile& profile, const QString& file) {
+            m_profile = profile;
+            m_profileFile = file;
+            showProfile();
+          });
+  editor->show();
+}
+
+bool LiveSettingsDialog::fail(const QString& sentence) {
+  QPalette red = m_problem->palette();
+  red.setColor(QPalette::WindowText, theme().errorText);
+  m_problem->setPalette(red);
+  m_problem->setText(sentence);
+  m_problem->show();
+  return false;
+}
+
+bool LiveSettingsDialog::read(LiveSettings& live) {
+  link::LiveOptions& o = live.options;
+  const auto words = [](const Error& error) { return QString::fromStdString(error.text()); };
+  const auto bind = telemetry::parseAddress(m_bind->text().trimmed().toStdString());
+  if (!bind) return fail(tr("Listen at: %1").arg(words(bind.error())));
+  o.bind = *bind;
+  o.portBase = m_portBase->value();
+  o.robots = m_robots->value();
+  o.refereePort = m_refereePort->value();
+  live.senders = m_senders->text();
+  auto senders = sendersFromText(live.senders);
+  if (!senders) return fail(tr("Only from: %1").arg(words(senders.error())));
+  o.team.senders = std::move(*senders);
+  o.team.timeout = std::chrono::milliseconds(qRound64(m_timeout->value() * 1000));
+  o.team.battery = {m_cells->value(), m_full->value(), m_low->value(), m_empty->value()};
+  if (!(o.team.battery.emptyPerCell < o.team.battery.lowPerCell &&
+        o.team.battery.lowPerCell < o.team.battery.fullPerCell)) {
+    return fail(tr("Battery: empty must be less than low, and low less than full."));
+  }
+  o.colourByNumber = m_colours->currentData().toBool();
+  if (const auto field = sim::fieldByName(m_field->currentData().toString().toStdString())) {
+    o.field = *field;
+  }
+  o.ourTeam = m_ourTeam->value();
+  live.monitorAddress = m_monitorAddress->text().trimmed();
+  o.monitor.reset();
+  if (m_monitor->isChecked()) {
+    const auto referee = telemetry::parseAddress(live.monitorAddress.toStdString());
+    if (!referee) return fail(tr("Referee at: %1").arg(words(referee.error())));
+    o.monitor = *referee;
+  }
+  o.profile = m_profile;
+  live.profileFile = m_profileFile;
+  if (const auto good = link::validate(o); !good) return fail(words(good.error()));
+  return true;
+}
+
+bool LiveSettingsDialog::apply() {
+  LiveSettings live;
+  live.options = m_live->options();
+  if (!read(live)) return false;
+  m_problem->hide();
+  saveLiveSettings(*m_settings, live);
+  m_live->setOptions(live.options);
+  return true;
+}
+
+void showLiveSettings(LiveController* live, QSettings* settings, QWidget* window) {
+  auto* dialog = window->findChild<LiveSettingsDialog*>();
+  if (dialog == nullptr) dialog = new LiveSettingsDialog(live, settings, window);
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/live/live_status.h>
+
+#include <QObject>
+#include <QStringList>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/robot_words.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* frame) {
+  if (!details.networkProblem.empty()) return QString::fromStdString(details.networkProblem);
+  if (!details.monitorProblem.empty()) return QString::fromStdString(details.monitorProblem);
+  QStringList closed;
+  for (const telemetry::PortStatus& port : details.network.ports) {
+    if (!port.bound) closed << QString::number(port.port);
+  }
+  if (!closed.isEmpty()) {
+    return QObject::tr("Not received: port %1 (tried again)")
+        .arg(closed.mid(0, 4).join(QStringLiteral(", ")) +
+             (closed.size() > 4 ? QStringLiteral(", …") : QString()));
+  }
+  if (frame == nullptr) return {};
+  for (std::size_t i = 0; i < frame->health.size(); ++i) {
+    const link::RobotHealth& robot = frame->health[i];
+    const QString name = robotName(frame->snapshot.robots[i].identity);
+    if (robot.conflict) return QObject::tr("Number %1 is sent by two programs").arg(robot.number);
+    if (robot.timedOut) {
+      return QObject::tr("%1 has not been heard for %2 s. Its card comes back by itself.")
+          .arg(name)
+          .arg(static_cast<qint64>(robot.age));
+    }
+  }
+  if (frame->referee && frame->referee->conflict) {
+    return QObject::tr("A second referee program is heard");
+  }
+  return {};
+}
+
+}  // namespace
+
+LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::MatchFrame* frame,
+                                  double seconds) {
+  const quint64 referee = details.referee.shown + details.referee.compatibility +
+                          details.referee.otherSenders + details.referee.trueData;
+  if (seconds - m_before.seconds >= 1.0 || details.team.datagrams < m_before.datagrams) {
+    m_before = m_now;
+    m_now = {seconds, details.team.datagrams, referee};
+    const double passed = m_now.seconds - m_before.seconds;
+    const auto rate = [passed](quint64 now, quint64 before) {
+      return passed > 0.0 && now >= before ? static_cast<double>(now - before) / passed : 0.0;
+    };
+    m_rate = rate(m_now.datagrams, m_before.datagrams);
+    m_refereeRate = rate(m_now.referee, m_before.referee);
+  }
+  LiveStatusText text;
+  quint64 lost =
+      details.network.kernelDrops() + details.network.queueDrops + details.team.refusedRobots;
+  for (const telemetry::RobotStatus& robot : details.team.robots) lost += robot.lost;
+  text.network = QObject::tr("UDP %1/s, %2 lost, %3 bad")
+                     .arg(countText(static_cast<qulonglong>(std::llround(m_rate))), countText(lost),
+                          countText(details.team.errors.total() + details.unknownReferee));
+  text.referee = frame == nullptr || !frame->referee ? QObject::tr("No referee heard")
+                                                     : QObject::tr("Referee: version %1, %2/s")
+                                                           .arg(frame->referee->version)
+                                                           .arg(numberText(m_refereeRate, 0));
+  text.trouble = troubleOf(details, frame);
+  QStringList tip{QObject::tr("%1 datagrams; lost: %2 in the kernel, %3 here")
+                      .arg(countText(details.network.datagrams()),
+                           countText(details.network.kernelDrops()),
+                           countText(details.network.queueDrops + details.team.refusedRobots))};
+  for (const telemetry::PortStatus& port : details.network.ports) {
+    if (!port.bound)
+      tip << QString::fromStdString(port.problem);
+    else if (port.datagrams > 0) {
+      tip << QObject::tr("port %1: %2 datagrams").arg(port.port).arg(countText(port.datagrams));
+    }
+  }
+  text.tip = tip.join(QLatin1Char('\n'));
+  return text;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "profile_editor.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <iterator>
+#include <set>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::FieldMeaning;
+using telemetry::FieldType;
+using telemetry::Profile;
+using telemetry::ProfileField;
+
+enum Column { Name, Type, Unit, Group, Meaning, columns };
+
+constexpr const char* typeWords[] = {"int", "float", "flag"};
+
+QComboBox* choice(QTableWidget* table, int row, int column) {
+  return static_cast<QComboBox*>(table->cellWidget(row, column));
+}
+
+QString meaningText(FieldMeaning meaning) {
+  const std::string_view name = telemetry::meaningName(meaning);
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+}
+
+}  // namespace
+
+ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidget* parent)
+    : QDialog(parent),
+      m_file(file),
+      m_name(new QLineEdit(this)),
+      m_end(new QLineEdit(this)),
+      m_table(new QTableWidget(0, columns, this)),
+      m_problem(new QLabel(this)) {
+  setObjectName(QStringLiteral("profileEditor"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  setWindowTitle(tr("Fields of a message"));
+  m_name->setText(QString::fromStdString(profile.name));
+  m_end->setText(QString::fromStdString(profile.end));
+  m_end->setToolTip(tr("The word that ends a message"));
+  auto* form = new QFormLayout;
+  form->addRow(tr("Name"), m_name);
+  form->addRow(tr("Last word"), m_end);
+
+  m_table->setHorizontalHeaderLabels(
+      {tr("Name"), tr("Type"), tr("Unit"), tr("Group"), tr("Meaning")});
+  m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  m_table->verticalHeader()->setDefaultSectionSize(scaled(this, 26));
+  m_table->horizontalHeader()->setStretchLastSection(true);
+  for (const ProfileField& field : profile.fields) addRow(m_table->rowCount(), field);
+  connect(m_table, &QTableWidget::itemChanged, this, &ProfileEditor::check);
+  for (QLineEdit* edit : {m_name, m_end}) {
+    connect(edit, &QLineEdit::textChanged, this, &ProfileEditor::check);
+  }
+
+  auto* tools = new QHBoxLayout;
+  const auto addTool = [&](const char* icon, const QString& tip, const char* name, auto slot) {
+    auto* button = new QToolButton(this);
+    button->setObjectName(QLatin1String(name));
+    button->setIcon(themedIcon(QLatin1String(icon)));
+    button->setText(tip);
+    button->setToolTip(tip);
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    connect(button, &QToolButton::clicked, this, slot);
+    tools->addWidget(button);
+  };
+  addTool("list-add", tr("Add"), "addField", [this] {
+    const int row = m_table->currentRow() + 1;
+    ProfileField field;
+    field.name = "FIELD_" + std::to_string(m_table->rowCount() + 1);
+    addRow(row > 0 ? row : m_table->rowCount(), field);
+    m_table->setCurrentCell(row > 0 ? row : m_table->rowCount() - 1, Name);
+    check();
+  });
+  addTool("list-remove", tr("Remove"), "removeField", [this] { removeRows(); });
+  addTool("go-up", tr("Up"), "fieldUp", [this] { moveRow(-1); });
+  addTool("go-down", tr("Down"), "fieldDown", [this] { moveRow(1); });
+  tools->addStretch(1);
+
+  m_problem->setObjectName(QStringLiteral("profileProblem"));
+  m_problem->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  m_save = buttons->addButton(tr("Save as…"), QDialogButtonBox::ActionRole);
+  m_save->setObjectName(QStringLiteral("saveProfile"));
+  connect(m_save, &QPushButton::clicked, this, &ProfileEditor::askAndSave);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(form);
+  column->addWidget(m_table, 1);
+  column->addLayout(tools);
+  column->addWidget(m_problem);
+  column->addWidget(buttons);
+  resize(scaled(this, 620), scaled(this, 560));
+  check();
+}
+
+void ProfileEditor::addRow(int row, const ProfileField& field) {
+  const QSignalBlocker quiet(m_table);
+  m_table->insertRow(row);
+  const auto text = [&](int column, const std::string& value) {
+    m_table->setItem(row, column, new QTableWidgetItem(QString::fromStdString(value)));
+  };
+  text(Name, field.name);
+  text(Unit, field.unit);
+  text(Group, field.group);
+  auto* type = new QComboBox(m_table);
+  for (const char* word : typeWords) type->addItem(QLatin1String(word));
+  type->setCurrentIndex(static_cast<int>(field.type));
+  auto* meaning = new QComboBox(m_table);
+  for (std::size_t i = 0; i < telemetry::fieldMeaningCount; ++i) {
+    meaning->addItem(i == 0 ? tr("(only shown)") : meaningText(static_cast<FieldMeaning>(i)));
+  }
+  meaning->setCurrentIndex(static_cast<int>(field.meaning));
+  m_table->setCellWidget(row, Type, type);
+  m_table->setCellWidget(row, Meaning, meaning);
+  for (QComboBox* box : {type, meaning}) {
+    connect(box, &QComboBox::currentIndexChanged, this, &ProfileEditor::check);
+  }
+}
+
+ProfileField ProfileEditor::fieldAt(int row) const {
+  const auto text = [&](int column) {
+    const QTableWidgetItem* item = m_table->item(row, column);
+    return item == nullptr ? std::string() : item->text().trimmed().toStdString();
+  };
+  return {text(Name), static_cast<FieldType>(choice(m_table, row, Type)->currentIndex()),
+          text(Unit), text(Group),
+          static_cast<FieldMeaning>(choice(m_table, row, Meaning)->currentIndex())};
+}
+
+Profile ProfileEditor::profile() const {
+  Profile made;
+  made.name = m_name->text().trimmed().toStdString();
+  made.end = m_end->text().trimmed().toStdString();
+  for (int row = 0; row < m_table->rowCount(); ++row) made.fields.push_back(fieldAt(row));
+  return made;
+}
+
+void ProfileEditor::moveRow(int by) {
+  const int row = m_table->currentRow();
+  const int to = row + by;
+  if (row < 0 || to < 0 || to >= m_table->rowCount()) return;
+  const ProfileField field = fieldAt(row);
+  m_table->removeRow(row);
+  addRow(to, field);
+  m_table->setCurrentCell(to, Name);
+  check();
+}
+
+void ProfileEditor::removeRows() {
+  std::set<int> rows;
+  for (const QModelIndex& index : m_table->selectionModel()->selectedIndexes()) {
+    rows.insert(index.row());
+  }
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) m_table->removeRow(*row);
+  check();
+}
+
+void ProfileEditor::say(const QString& sentence, bool bad) {
+  QPalette colours = palette();
+  colours.setColor(QPalette::WindowText, bad ? theme().errorText : theme().secondaryText);
+  m_problem->setPalette(colours);
+  m_problem->setText(sentence);
+}
+
+void ProfileEditor::check() {
+  const Profile now = profile();
+  const auto good = telemetry::validate(now);
+  m_save->setEnabled(good.has_value());
+  if (good)
+    say(tr("%1 fields. Saving puts the profile to use.").arg(now.fields.size()), false);
+  else
+    say(QString::fromStdString(good.error().text()), true);
+}
+
+bool ProfileEditor::saveTo(const QString& path) {
+  const Profile now = profile();
+  const std::string text = telemetry::profileText(now);
+  // Reading it back finds everything that reading it later would.
+  if (const auto again = telemetry::parseProfile(text, path.toStdString()); !again) {
+    say(QString::fromStdString(again.error().text()), true);
+    return false;
+  }
+  QSaveFile file(path);
+  if (!file.open(QIODevice::WriteOnly) ||
+      file.write(text.data(), static_cast<qint64>(text.size())) < 0 || !file.commit()) {
+    say(tr("%1 cannot be written: %2. Choose another folder.").arg(path, file.errorString()), true);
+    return false;
+  }
+  m_file = path;
+  emit saved(now, path);
+  say(tr("Saved as %1.").arg(QFileInfo(path).fileName()), false);
+  return true;
+}
+
+void ProfileEditor::askAndSave() {
+  auto* ask = new QFileDialog(this, tr("Save the profile"), m_file, tr("Profiles (*.json)"));
+  ask->setAttribute(Qt::WA_DeleteOnClose);
+  ask->setAcceptMode(QFileDialog::AcceptSave);
+  ask->setDefaultSuffix(QStringLiteral("json"));
+  connect(ask, &QFileDialog::fileSelected, this, &ProfileEditor::saveTo);
+  ask->open();
+}
+
+}  // namespace pitchboard::ui

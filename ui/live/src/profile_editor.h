@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A profile of messages as a table: one row for each field, in the order of the message. Saved as
+// JSON. What is wrong is said under the table. UI thread only.
+
+#include <QDialog>
+#include <QString>
+
+#include <telemetry/wire/profile.h>
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableWidget;
+
+namespace pitchboard::ui {
+
+class ProfileEditor : public QDialog {
+  Q_OBJECT
+ public:
+  /// `file`: where it was read from; empty when there is none yet.
+  ProfileEditor(const telemetry::Profile& profile, const QString& file, QWidget* parent);
+
+  /// What the table says at the moment, valid or not.
+  telemetry::Profile profile() const;
+  /// False when it is not valid or cannot be written; the reason is shown.
+  bool saveTo(const QString& file);
+
+ signals:
+  void saved(const pitchboard::telemetry::Profile& profile, const QString& file);
+
+ private:
+  void addRow(int row, const telemetry::ProfileField& field);
+  telemetry::ProfileField fieldAt(int row) const;
+  void moveRow(int by);
+  void removeRows();
+  void check();
+  void askAndSave();
+  void say(const QString& sentence, bool bad);
+
+  QString m_file;
+  QLineEdit *m_name, *m_end;
+  QTableWidget* m_table;
+  QLabel* m_problem;
+  QPushButton* m_save;
+};
+
+}  // namespace pitchboard::ui

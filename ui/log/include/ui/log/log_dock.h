@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ui/sources/studio_context.h>
+
+namespace pitchboard::ui {
+
+/// The log with a filter of words; follows the newest line until one scrolls up; Ctrl+C copies.
+QWidget* makeLogDock(const StudioContext& context, QWidget* parent);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "log_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+
+void LogModel::append(const std::vector<link::LogLine>& lines) {
+  const std::size_t kept = std::min(lines.size(), maxLines);
+  m_dropped += lines.size() - kept;
+  if (kept == 0) return;
+  const std::size_t surplus =
+      m_lines.size() + kept > maxLines ? m_lines.size() + kept - maxLines : 0;
+  if (surplus > 0) {
+    beginRemoveRows({}, 0, static_cast<int>(surplus) - 1);
+    m_lines.erase(m_lines.begin(), m_lines.begin() + static_cast<std::ptrdiff_t>(surplus));
+    m_dropped += surplus;
+    endRemoveRows();
+  }
+  const int first = static_cast<int>(m_lines.size());
+  beginInsertRows({}, first, first + static_cast<int>(kept) - 1);
+  m_lines.insert(m_lines.end(), lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end());
+  endInsertRows();
+}
+
+void LogModel::clear() {
+  beginResetModel();
+  m_lines.clear();
+  m_dropped = 0;
+  endResetModel();
+}
+
+int LogModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(m_lines.size());
+}
+
+int LogModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : columns;
+}
+
+QVariant LogModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const link::LogLine& line = m_lines[static_cast<std::size_t>(index.row())];
+  if (role == Qt::DisplayRole) {
+    switch (index.column()) {
+      case Time: {
+        const double tenths = std::floor(line.time * 10) / 10;
+        return clockText(tenths) + QLatin1Char('.') +
+               QString::number(static_cast<int>(std::llround(tenths * 10)) % 10);
+      }
+      case Origin:
+        return QString::fromStdString(line.origin);
+      case Text:
+        return QString::fromStdString(line.text);
+      default:
+        return {};
+    }
+  }
+  if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
+  if (role == Qt::ForegroundRole) {
+    if (line.warning && index.column() == Text) return theme().warningText;
+    if (index.column() != Text) return theme().secondaryText;
+  }
+  return {};
+}
+
+QVariant LogModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  const QString names[] = {tr("Time"), tr("Origin"), tr("Message")};
+  return section >= 0 && section < columns ? names[section] : QVariant();
+}
+
+link::LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate) {
+  link::LogLine line;
+  line.time = static_cast<double>(event.tick) / tickRate;
+  line.origin = robot.isEmpty() ? "simulation" : robot.toStdString();
+  switch (event.kind) {
+    case sim::EventKind::Goal:
+      line.text =
+          event.value == 0 ? "goal for the team on the left" : "goal for the team on the right";
+      break;
+    case sim::EventKind::BallOut:
+      line.text = "the ball is out";
+      break;
+    case sim::EventKind::Kick:
+      line.text = "kicks the ball";
+      break;
+    case sim::EventKind::Fall:
+      line.text = "falls";
+      line.warning = true;
+      break;
+    case sim::EventKind::GotUp:
+      line.text = "is up again";
+      break;
+    case sim::EventKind::UnknownAction:
+      line.text =
+          "chose the unknown action code " + std::to_string(event.value) + ", which counts as stop";
+      line.warning = true;
+      break;
+  }
+  return line;
+}
+
+}  // namespace pitchboard::ui

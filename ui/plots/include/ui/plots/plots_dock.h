@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The plots: tabs of plots over one linked time, their tool row, and what is kept of them between
+// runs. UI thread only.
+
+#include <QPointer>
+#include <QTimer>
+#include <QWidget>
+#include <optional>
+
+#include <telemetry/series/series_store.h>
+#include <ui/plots/plot_layout.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/studio_context.h>
+
+class QAction;
+class QComboBox;
+class QMenu;
+class QTabWidget;
+
+namespace pitchboard::ui {
+
+class NoticeBar;
+class PlotFeed;
+class PlotPage;
+class PlotPane;
+
+class PlotsDock : public QWidget {
+  Q_OBJECT
+ public:
+  /// The layout of the last time comes from `context.settings`, when there are any.
+  PlotsDock(const StudioContext& context, QWidget* parent);
+  ~PlotsDock() override;
+
+  PlotFeed* feed() const { return m_feed; }
+  LinkedTime* time() const { return m_context.time; }
+  PlotPage* currentPage() const;
+  QList<PlotPage*> pages() const;
+  PlotPage* addPage(const PageSpec& spec);
+  void closePage(int index);
+  void renamePage(int index);
+
+  PlotLayout layoutSpec() const;
+  void setLayoutSpec(const PlotLayout& layout);
+
+  const StudioContext& context() const { return m_context; }
+  /// Says what went wrong, above the plots.
+  void showNotice(const QString& sentence);
+
+  /// Adds to the page in front, and brings it there.
+  void plotVariables(const QStringList& names);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+  QSize sizeHint() const override;
+
+ private:
+  void makeTools();
+  void scheduleDraw();
+  void drawNow();
+  void takeRows();
+  void save();
+  void showWindow();
+
+  StudioContext m_context;
+  QPointer<LinkedTime> m_time;  // the window deletes it before its docks
+  PlotFeed* m_feed;
+  QTabWidget* m_tabs;
+  NoticeBar* m_notices;
+  QComboBox* m_window;
+  QAction* m_follow;
+  QAction* m_marks;
+  QAction* m_box;
+  QTimer m_draw, m_saveSoon;
+  bool m_restoring = false;
+  quint64 m_drawnGeneration = 0;
+  std::optional<telemetry::TimeRange> m_drawnData;
+};
+
+QWidget* makePlotsDock(const StudioContext& context, QWidget* parent);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "chart_pane.h"
+
+#include <QMenu>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+#include <ui/sources/linked_time.h>
+
+#include "side_by_side.h"
+#include "time_gestures.h"
+#include "time_ruler.h"
+#include "value_chart.h"
+
+namespace pitchboard::ui {
+namespace {
+constexpr int pixelsPerValueStep = 18;  // px of the mock
+constexpr int lowestChart = 40;
+}  // namespace
+
+ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
+    : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
+  setSurface(m_chart);
+  m_chart->setMinimumHeight(scaled(this, lowestChart));
+  m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
+  m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); },
+                           ValueChart::Painting::Parts);
+  connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
+  connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {
+    const ValueScale scale = valueScale();
+    const double anchor = scale.toValue(y);
+    setValues({anchor + (scale.limits.low - anchor) * factor,
+               anchor + (scale.limits.high - anchor) * factor});
+  });
+  connect(m_gestures, &TimeGestures::valuePanned, this, [this](double pixels) {
+    // Automatic limits follow the curves; only limits set by hand are moved by hand.
+    if (m_spec.autoValues) return;
+    const ValueScale scale = valueScale();
+    const double by = pixels / (scale.bottom - scale.top) * (scale.limits.high - scale.limits.low);
+    setValues({scale.limits.low + by, scale.limits.high + by});
+  });
+  connect(m_gestures, &TimeGestures::boxDrawn, this, [this](const QRectF& box) {
+    const ValueScale scale = valueScale();
+    setValues({scale.toValue(std::min(box.bottom(), scale.bottom)),
+               scale.toValue(std::max(box.top(), scale.top))});
+  });
+  connect(m_gestures, &TimeGestures::fitRequested, this, [this] {
+    PaneSpec options = m_spec;
+    options.autoValues = true;
+    setOptions(options);
+  });
+}
+
+QWidget* ChartPane::surface() const {
+  return m_chart->viewport();
+}
+int ChartPane::wantedLeft() const {
+  return m_chart->wantedLeft();
+}
+void ChartPane::setBoxTool(bool on) {
+  m_gestures->setBoxTool(on);
+}
+void ChartPane::restyle() {
+  m_chart->applyTheme();
+}
+
+ValueScale ChartPane::valueScale() const {
+  const QRectF area = m_chart->plotArea();
+  return {m_chart->yLimits(), area.top(), area.bottom()};
+}
+
+void ChartPane::setValues(ValueLimits limits) {
+  const double span = limits.high - limits.low;
+  const double size = std::max(std::abs(limits.low), std::abs(limits.high));
+  // Beyond the digits of a double nothing could be told apart.
+  if (!std::isfinite(span) || !(span > size * 1e-12) || span > 1e300) return;
+  PaneSpec options = m_spec;
+  options.autoValues = false;
+  options.values = limits;
+  setOptions(options);
+}
+
+void ChartPane::draw() {
+  const int room = scaled(this, 5);  // half a label above and below
+  m_chart->setMargins(left(), room, scaled(this, rightMargin), room);
+  const QRectF area = m_chart->plotArea();
+  if (area.isEmpty()) return;
+  const telemetry::TimeRange range = m_feed->time()->range();
+  const int columns = std::max(1, static_cast<int>(area.width() * devicePixelRatioF()));
+  m_traces.clear();
+  m_traces.resize(m_curves.size());
+  sideBySide(static_cast<int>(m_curves.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    m_traces[i] = traceOf(m_curves[i].view(), range, columns);
+  });
+  bool any = false;
+  double low = 0.0, high = 0.0;
+  for (const CurveTrace& trace : m_traces) {
+    if (!trace.any) continue;
+    low = any ? std::min(low, trace.low) : trace.low;
+    high = any ? std::max(high, trace.high) : trace.high;
+    any = true;
+  }
+  const int steps =
+      std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep), 2, 12);
+  NiceLimits nice{m_spec.values, niceStep(m_spec.values.high - m_spec.values.low, steps)};
+  if (m_spec.autoValues) nice = any ? niceLimits(low, high, steps) : niceLimits(0.0, 1.0, steps);
+  const std::vector<AxisTick> ticks = ticksOf(timeScale(), *m_feed, this);
+  const bool divided = ticks.size() > 1;
+  const int before = wantedLeft();
+  m_chart->setAxes({range.begin, range.end},
+                   divided ? ticks[1].time - ticks[0].time : range.end - range.begin, nice.limits,
+                   nice.step, ticks.empty() ? range.begin : ticks[0].time);
+  m_chart->setTitles({}, m_spec.valueTitle);
+  shape();
+  m_chart->redraw();
+  if (wantedLeft() != before) emit leftChanged();
+}
+
+void ChartPane::shape() {
+  std::size_t points = 0;
+  for (const CurveTrace& trace : m_traces) points += trace.samples.size() + trace.columns.size();
+  m_shapes.clear();
+  m_shapedFor = timeScale();
+  const ValueScale values = valueScale();
+  for (const Curve& curve : m_curves) {
+    const CurveSpec& spec = curve.spec();
+    m_shapes.push_back(
+        {{},
+         {curve.color(), spec.style, spec.width * scaled(this, 100) / 100.0, points > manyPoints}});
+  }
+  sideBySide(static_cast<int>(m_shapes.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    m_shapes[i].lines =
+        polylines(m_traces[i], m_shapedFor, values, m_shapes[i].look.style == CurveStyle::Steps);
+  });
+}
+
+void ChartPane::paintCurves(QPainter& painter) const {
+  for (std::size_t i = 0; i < m_shapes.size(); ++i) {
+    paintTrace(painter, m_traces[i], m_shapes[i].lines, m_shapedFor, m_shapes[i].look);
+  }
+}
+
+void ChartPane::extendMenu(QMenu* menu) {
+  QAction* automatic = menu->addAction(tr("Values follow the curves"));
+  automatic->setCheckable(true);
+  automatic->setChecked(m_spec.autoValues);
+  connect(automatic, &QAction::triggered, this, [this](bool on) {
+    PaneSpec options = m_spec;
+    options.autoValues = on;
+    options.values = m_chart->yLimits();
+    setOptions(options);
+  });
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A curve in a plot: its description, and the column that it shows at the moment. A variable's
+// column is the source's; a derived curve has a column of its own that is computed beside the UI
+// thread. UI thread only.
+
+#include <memory>
+
+#include <ui/plots/plot_layout.h>
+
+#include "plot_feed.h"
+
+namespace pitchboard::ui {
+
+class DerivedSeries;
+
+class Curve {
+ public:
+  explicit Curve(CurveSpec spec);
+  ~Curve();
+  Curve(Curve&&) noexcept;
+  Curve& operator=(Curve&&) noexcept;
+
+  const CurveSpec& spec() const { return m_spec; }
+  void setSpec(const CurveSpec& spec);
+
+  /// Takes the newest rows.
+  void update(PlotFeed& feed);
+  /// No data: see note().
+  bool isWaiting() const { return !m_view; }
+  /// Why there is nothing to see: "waiting for B1/…", what is wrong with an expression. Else empty.
+  QString note() const { return m_note; }
+  bool isFaulty() const { return m_faulty; }
+  /// More rows come although the source stands still.
+  bool isWorking() const;
+
+  const ColumnView& view() const { return m_view; }
+  /// Xy: the second input, over view().
+  const ColumnView& ordinate() const { return m_ordinate; }
+
+  QString name() const { return curveName(m_spec); }
+  QString unit() const;
+  QColor color() const;
+  /// At the cursor, or the newest value without one.
+  std::optional<double> valueAt(std::optional<double> time) const;
+  /// The same as text, codes in words.
+  QString valueTextAt(std::optional<double> time) const;
+  /// "walk forward, slow" for a code; its number when nobody gave it a word.
+  QString codeText(double value) const;
+
+ private:
+  CurveSpec m_spec;
+  ColumnView m_view;
+  ColumnView m_ordinate;
+  QString m_note;
+  bool m_faulty = false;
+  std::unique_ptr<DerivedSeries> m_derived;
+};
+
+/// Curves of the mock, then four more; each has a shade for either theme.
+QColor curveColor(int number);
+inline constexpr int curveColors = 8;
+/// Ground of a stretch of a lane: walking, turning, stopping, kicking and gait have theirs.
+QColor laneColor(const QString& word, int code);
+
+}  // namespace pitchboard::ui

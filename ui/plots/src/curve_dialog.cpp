@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QCompleter>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+
+#include <ui/base/theme.h>
+
+#include "expression.h"
+#include "plot_feed.h"
+
+namespace pitchboard::ui {
+namespace {
+
+// In the order of CurveKind.
+constexpr std::array<const char*, 8> kindNames{
+    QT_TRANSLATE_NOOP("CurveDialog", "Variable"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Derivative (per second)"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Integral over time"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Moving average"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Difference of two"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Wrapped angle"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Other unit"),
+    QT_TRANSLATE_NOOP("CurveDialog", "Expression")};
+
+QDoubleSpinBox* numberBox(QWidget* parent) {
+  auto* box = new QDoubleSpinBox(parent);
+  box->setRange(-1e9, 1e9);
+  box->setDecimals(6);
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  return box;
+}
+
+QDialogButtonBox* buttons(QDialog* dialog) {
+  auto* box = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, dialog);
+  QObject::connect(box, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
+  QObject::connect(box, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  return box;
+}
+
+QLabel* problemLabel(QWidget* parent) {
+  auto* label = new QLabel(parent);
+  label->setObjectName(QStringLiteral("problem"));
+  label->setWordWrap(true);
+  label->setFont(themeFont(TypeRole::Secondary));
+  QPalette palette = label->palette();
+  palette.setColor(QPalette::WindowText, theme().errorText);
+  label->setPalette(palette);
+  label->setMinimumHeight(2 * label->fontMetrics().height());
+  return label;
+}
+
+}  // namespace
+
+CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent)
+    : QDialog(parent),
+      m_feed(feed),
+      m_curve(curve),
+      m_form(new QFormLayout(this)),
+      m_kind(new QComboBox(this)),
+      m_first(new QLineEdit(this)),
+      m_second(new QLineEdit(this)),
+      m_expression(new QLineEdit(this)),
+      m_parameter(numberBox(this)),
+      m_offset(numberBox(this)),
+      m_unit(new QLineEdit(this)),
+      m_title(new QLineEdit(this)),
+      m_problem(problemLabel(this)) {
+  setWindowTitle(tr("Curve"));
+  setMinimumWidth(scaled(this, 460));
+  for (const char* name : kindNames) m_kind->addItem(tr(name));
+  m_kind->setObjectName(QStringLiteral("curveKind"));
+  m_first->setObjectName(QStringLiteral("firstVariable"));
+  m_second->setObjectName(QStringLiteral("secondVariable"));
+  m_expression->setObjectName(QStringLiteral("expression"));
+  m_parameter->setObjectName(QStringLiteral("parameter"));
+  const QStringList names = feed->names();
+  for (QLineEdit* edit : {m_first, m_second}) {
+    auto* completer = new QCompleter(names, edit);
+    completer->setFilterMode(Qt::MatchContains);
+    completer->setCaseSensitivity(Qt::CaseInsensitive);
+    completer->setMaxVisibleItems(15);
+    edit->setCompleter(completer);
+    edit->setPlaceholderText(tr("part of a name, e.g. ball_dist"));
+  }
+  m_expression->setPlaceholderText(QStringLiteral("B1.VISION_BALL_DIST / 100"));
+  m_expression->setToolTip(
+      tr("Operators + - * / ^, comparisons, condition ? a : b; functions sin, "
+         "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
+         "pi; t is the time in seconds. Variables: GROUP.NAME"));
+  m_title->setPlaceholderText(tr("as the variable"));
+  m_unit->setPlaceholderText(tr("as the variable"));
+  m_form->addRow(tr("Kind"), m_kind);
+  m_form->addRow(tr("Variable"), m_first);
+  m_form->addRow(tr("Minus"), m_second);
+  m_form->addRow(tr("Expression"), m_expression);
+  m_form->addRow(tr("Parameter"), m_parameter);
+  m_form->addRow(tr("Plus"), m_offset);
+  m_form->addRow(tr("Unit"), m_unit);
+  m_form->addRow(tr("Name"), m_title);
+  m_form->addRow(m_problem);
+  QDialogButtonBox* box = buttons(this);
+  m_accept = box->button(QDialogButtonBox::Ok);
+  m_form->addRow(box);
+
+  m_kind->setCurrentIndex(static_cast<int>(curve.kind));
+  m_first->setText(curve.inputs.value(0));
+  m_second->setText(curve.inputs.value(1));
+  m_expression->setText(curve.expression);
+  m_parameter->setValue(curve.parameter);
+  m_offset->setValue(curve.offset);
+  m_unit->setText(curve.unit);
+  m_title->setText(curve.title);
+  connect(m_kind, &QComboBox::currentIndexChanged, this, &CurveDialog::showKind);
+  for (QLineEdit* edit : {m_first, m_second, m_expression}) {
+    connect(edit, &QLineEdit::textChanged, this, &CurveDialog::check);
+  }
+  connect(m_parameter, &QDoubleSpinBox::valueChanged, this, &CurveDialog::check);
+  showKind();
+}
+
+void CurveDialog::showKind() {
+  const auto kind = static_cast<CurveKind>(m_kind->currentIndex());
+  const bool expression = kind == CurveKind::Expression;
+  const bool parameter = kind == CurveKind::MovingAverage || kind == CurveKind::WrapAngle ||
+                         kind == CurveKind::Conversion;
+  const auto show = [this](QWidget* field, bool on) {
+    field->setVisible(on);
+    m_form->labelForField(field)->setVisible(on);
+  };
+  show(m_first, !expression);
+  show(m_second, kind == CurveKind::Difference);
+  show(m_expression, expression);
+  show(m_parameter, parameter);
+  show(m_offset, kind == CurveKind::Conversion);
+  auto* label = qobject_cast<QLabel*>(m_form->labelForField(m_parameter));
+  label->setText(kind == CurveKind::MovingAverage ? tr("Window, s")
+                 : kind == CurveKind::WrapAngle   ? tr("Full turn")
+                                                  : tr("Factor"));
+  if (m_parameter->value() == 0.0) {
+    m_parameter->setValue(kind == CurveKind::WrapAngle ? 360.0 : 1.0);
+  }
+  check();
+}
+
+QString CurveDialog::problem() const {
+  const CurveSpec spec = curve();
+  if (spec.kind == CurveKind::Expression) {
+    const auto parsed = Expression::parse(spec.expression);
+    return parsed ? QString() : QString::fromStdString(parsed.error().message);
+  }
+  for (const QString& input : spec.inputs) {
+    if (input.indexOf(QLatin1Char('/')) <= 0) {
+      return tr("A variable is written GROUP/NAME, e.g. B1/VISION_BALL_DIST.");
+    }
+  }
+  if (spec.kind == CurveKind::MovingAverage && spec.parameter <= 0.0) {
+    return tr("The window must be longer than 0 s.");
+  }
+  if (spec.kind == CurveKind::WrapAngle && spec.parameter <= 0.0) {
+    return tr("A full turn is 360 in degrees, 6.283185 in radians.");
+  }
+  return {};
+}
+
+void CurveDialog::check() {
+  const QString wrong = problem();
+  m_accept->setEnabled(wrong.isEmpty());
+  // An empty form needs no complaint yet.
+  const bool empty = m_first->text().isEmpty() && m_expression->text().isEmpty();
+  m_problem->setText(empty ? QString() : wrong);
+}
+
+CurveSpec CurveDialog::curve() const {
+  CurveSpec spec = m_curve;
+  spec.kind = static_cast<CurveKind>(m_kind->currentIndex());
+  const bool two = spec.kind == CurveKind::Difference ||
+                   (spec.kind == CurveKind::Variable && m_curve.inputs.size() == 2);
+  spec.inputs.clear();
+  if (spec.kind != CurveKind::Expression) spec.inputs << m_first->text().trimmed();
+  if (two) spec.inputs << m_second->text().trimmed();
+  spec.expression = spec.kind == CurveKind::Expression ? m_expression->text().trimmed() : QString();
+  const bool parameter = spec.kind == CurveKind::MovingAverage ||
+                         spec.kind == CurveKind::WrapAngle || spec.kind == CurveKind::Conversion;
+  spec.parameter = parameter ? m_parameter->value() : 0.0;
+  spec.offset = spec.kind == CurveKind::Conversion ? m_offset->value() : 0.0;
+  spec.unit = m_unit->text().trimmed();
+  spec.title = m_title->text().trimmed();
+  return spec;
+}
+
+AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, QWidget* parent)
+    : QDialog(parent),
+      m_pane(pane),
+      m_title(new QLineEdit(pane.title, this)),
+      m_valueTitle(new QLineEdit(pane.valueTitle, this)),
+      m_fixed(new QCheckBox(tr("Fixed limits"), this)),
+      m_low(new QLineEdit(this)),
+      m_high(new QLineEdit(this)),
+      m_problem(problemLabel(this)) {
+  setWindowTitle(tr("Title and axes"));
+  setMinimumWidth(scaled(this, 340));
+  const ValueLimits limits = pane.autoValues ? shown : pane.values;
+  m_low->setText(QString::number(limits.low));
+  m_high->setText(QString::number(limits.high));
+  m_low->setObjectName(QStringLiteral("lowLimit"));
+  m_high->setObjectName(QStringLiteral("highLimit"));
+  m_fixed->setObjectName(QStringLiteral("fixedLimits"));
+  m_fixed->setChecked(!pane.autoValues);
+  auto* form = new QFormLayout(this);
+  form->addRow(tr("Title"), m_title);
+  form->addRow(tr("Value axis"), m_valueTitle);
+  form->addRow(m_fixed);
+  form->addRow(tr("From"), m_low);
+  form->addRow(tr("To"), m_high);
+  form->addRow(m_problem);
+  QDialogButtonBox* box = buttons(this);
+  m_accept = box->button(QDialogButtonBox::Ok);
+  form->addRow(box);
+  connect(m_fixed, &QCheckBox::toggled, this, &AxesDialog::check);
+  connect(m_low, &QLineEdit::textChanged, this, &AxesDialog::check);
+  connect(m_high, &QLineEdit::textChanged, this, &AxesDialog::check);
+  check();
+}
+
+void AxesDialog::check() {
+  const bool fixed = m_fixed->isChecked();
+  m_low->setEnabled(fixed);
+  m_high->setEnabled(fixed);
+  bool lowIs = false, highIs = false;
+  const double low = m_low->text().toDouble(&lowIs);
+  const double high = m_high->text().toDouble(&highIs);
+  QString problem;
+  if (fixed && (!lowIs || !highIs))
+    problem = tr("Limits are numbers, with a decimal point.");
+  else if (fixed && !(low < high))
+    problem = tr("The first limit must be the smaller one.");
+  m_problem->setText(problem);
+  m_accept->setEnabled(problem.isEmpty());
+}
+
+PaneSpec AxesDialog::pane() const {
+  PaneSpec pane = m_pane;
+  pane.title = m_title->text().trimmed();
+  pane.valueTitle = m_valueTitle->text().trimmed();
+  pane.autoValues = !m_fixed->isChecked();
+  pane.values = {m_low->text().toDouble(), m_high->text().toDouble()};
+  return pane;
+}
+
+}  // namespace pitchboard::ui

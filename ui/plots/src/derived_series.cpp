@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "derived_series.h"
+
+#include <QCoreApplication>
+#include <QThreadPool>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include <telemetry/series/derived_curve.h>
+
+#include "expression.h"
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::Sample;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t rowsAtOnce = 1 << 16;
+constexpr std::size_t memoryBudget = std::size_t{256} << 20;  // bytes of one derived curve
+// An input that is silent for longer is not waited for; its last value holds.
+constexpr double longestWait = 1.0;  // s
+
+/// One row of inputs to one value; the first input's time is the row's.
+using Step = std::function<double(double time, std::span<const double> values)>;
+
+template <class Curve>
+Step stepOf(Curve curve) {
+  return [curve](double time, std::span<const double> values) mutable {
+    return curve.next(Sample{time, values[0]}).value;
+  };
+}
+
+double halfTurn(const CurveSpec& spec, const std::string& unit) {
+  if (spec.parameter > 0.0) return spec.parameter / 2;
+  return unit == "rad" ? std::numbers::pi : 180.0;
+}
+
+Step makeStep(const CurveSpec& spec, const std::string& unit) {
+  switch (spec.kind) {
+    case CurveKind::Derivative:
+      return stepOf(telemetry::Derivative());
+    case CurveKind::Integral:
+      return stepOf(telemetry::Integral());
+    case CurveKind::MovingAverage:
+      return stepOf(telemetry::MovingAverage(spec.parameter));
+    case CurveKind::WrapAngle:
+      return stepOf(telemetry::WrapAngle(halfTurn(spec, unit)));
+    case CurveKind::Conversion:
+      return stepOf(telemetry::LinearConversion{spec.parameter, spec.offset});
+    case CurveKind::Difference:
+      return [](double, std::span<const double> values) { return values[0] - values[1]; };
+    case CurveKind::Expression: {
+      auto expression = Expression::parse(spec.expression);
+      if (!expression) return {};
+      auto shared = std::make_shared<Expression>(std::move(*expression));
+      return [shared](double time, std::span<const double> values) {
+        return shared->evaluate(time, values);
+      };
+    }
+    case CurveKind::Variable:
+      break;
+  }
+  return {};
+}
+
+std::string unitOf(const CurveSpec& spec, const std::string& input) {
+  if (!spec.unit.isEmpty()) return spec.unit.toStdString();
+  switch (spec.kind) {
+    case CurveKind::Derivative:
+      return input.empty() ? "1/s" : input + "/s";
+    case CurveKind::Integral:
+      return input.empty() ? "s" : input + "·s";
+    case CurveKind::Conversion:
+    case CurveKind::Expression:
+      return {};
+    default:
+      return input;
+  }
+}
+
+}  // namespace
+
+/// Shared with the job on the worker thread. `step`, `store`'s writing side and `done` belong to
+/// the job while `running`, else to the UI thread.
+struct DerivedSeries::Work {
+  CurveSpec spec;
+  QStringList inputs;
+  QString fault;
+  Step step;
+  telemetry::SeriesStore store{{memoryBudget}};
+  telemetry::GroupId group = 0;
+  std::atomic<bool> running = false;
+  std::atomic<bool> cancelled = false;
+  double done = -infinity;  ///< time of the newest row computed
+  quint64 generation = 0;
+  bool behind = false;
+
+  void run(const std::vector<ColumnView>& views, double until);
+};
+
+void DerivedSeries::Work::run(const std::vector<ColumnView>& views, double until) {
+  std::vector<Sample> times;
+  std::vector<std::vector<Sample>> others(views.size());
+  std::vector<double> values(views.size());
+  bool all = false;
+  while (!all && !cancelled) {
+    times.clear();
+    all = views[0].group->samples(views[0].column, {std::nextafter(done, infinity), until}, times,
+                                  rowsAtOnce);
+    if (times.empty()) break;
+    std::vector<std::size_t> next(views.size(), 0);
+    for (std::size_t i = 1; i < views.size(); ++i) {
+      const auto held = views[i].group->at(views[i].column, times.front().time);
+      values[i] = held ? held->value : std::nan("");
+      others[i].clear();
+      views[i].group->samples(views[i].column,
+                              {std::nextafter(times.front().time, infinity), times.back().time},
+                              others[i]);
+    }
+    for (const Sample& sample : times) {
+      values[0] = sample.value;
+      for (std::size_t i = 1; i < views.size(); ++i) {
+        while (next[i] < others[i].size() && others[i][next[i]].time <= sample.time) {
+          values[i] = others[i][next[i]++].value;
+        }
+      }
+      const double value = step(sample.time, values);
+      store.append(group, {sample.time, {}, std::span(&value, 1)});
+    }
+    done = times.back().time;
+  }
+}
+
+DerivedSeries::DerivedSeries(const CurveSpec& spec) : m_work(std::make_shared<Work>()) {
+  m_work->spec = spec;
+  m_work->inputs = spec.inputs;
+  if (spec.kind == CurveKind::Expression) {
+    const auto expression = Expression::parse(spec.expression);
+    if (expression)
+      m_work->inputs = expression->variables();
+    else
+      m_work->fault = QString::fromStdString(expression.error().message);
+  }
+}
+
+DerivedSeries::~DerivedSeries() {
+  m_work->cancelled = true;
+}
+
+bool DerivedSeries::isFaulty() const {
+  return !m_work->fault.isEmpty();
+}
+
+bool DerivedSeries::isWorking() const {
+  return !isFaulty() && (m_work->running || m_work->behind);
+}
+
+void DerivedSeries::update(PlotFeed& feed) {
+  m_note = m_work->fault;
+  if (isFaulty()) return;
+  std::vector<ColumnView> views;
+  QStringList missing;
+  for (const QString& input : m_work->inputs) {
+    views.push_back(feed.find(input));
+    if (!views.back()) missing << input;
+  }
+  if (!missing.isEmpty()) {
+    m_note = QCoreApplication::translate("Curve", "waiting for %1")
+                 .arg(missing.join(QStringLiteral(", ")));
+  }
+  const auto newest = [&views](std::size_t i) {
+    const auto range = views[i].group->range();
+    return range ? range->end : -infinity;
+  };
+  const bool stale = m_work->generation != feed.generation();
+  const bool wentBack = !m_work->running && missing.isEmpty() && newest(0) < m_work->done;
+  if (stale || wentBack) {
+    // Another source, or one that was put back: nothing computed so far holds.
+    m_work->cancelled = true;
+    auto fresh = std::make_shared<Work>();
+    fresh->spec = m_work->spec;
+    fresh->inputs = m_work->inputs;
+    fresh->generation = feed.generation();
+    m_work = fresh;
+  }
+  if (!missing.isEmpty() || m_work->running) return;
+  if (!m_work->step) {
+    const std::string unit = views[0].info().unit;
+    m_work->step = makeStep(m_work->spec, unit);
+    telemetry::GroupInfo info;
+    info.name = "derived";
+    telemetry::ColumnInfo column;
+    column.name = "value";
+    column.unit = unitOf(m_work->spec, unit);
+    info.columns.push_back(column);
+    m_work->group = m_work->store.addGroup(info);
+  }
+  double until = newest(0);
+  const double longAgo = until - longestWait;
+  for (std::size_t i = 1; i < views.size(); ++i) until = std::min(until, newest(i));
+  until = std::max(until, longAgo);
+  m_work->behind = until > m_work->done;
+  if (!m_work->behind) return;
+  m_work->running = true;
+  QThreadPool::globalInstance()->start([work = m_work, views = std::move(views), until] {
+    work->run(views, until);
+    work->running = false;
+  });
+}
+
+ColumnView DerivedSeries::view() const {
+  if (!m_work->fault.isEmpty() || m_work->store.groups() == 0) return {};
+  auto view = m_work->store.view(0);
+  if (!view || !view->range()) return {};
+  return {std::move(view), 0};
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "marks_panel.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <ui/base/table_style.h>
+#include <ui/base/theme.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/timeline.h>
+
+#include "marks_model.h"
+#include "plot_pane.h"
+
+namespace pitchboard::ui {
+namespace {
+constexpr int mostEventsNamed = 3;
+}
+
+QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
+                      const PlotFeed& feed) {
+  if (a > b) std::swap(a, b);
+  const auto first = std::lower_bound(events.begin(), events.end(), a,
+                                      [](const TimelineEvent& e, double t) { return e.time < t; });
+  const auto last = std::upper_bound(first, events.end(), b,
+                                     [](double t, const TimelineEvent& e) { return t < e.time; });
+  if (first == last) return {};
+  QStringList named;
+  for (auto event = first; event != last && named.size() < mostEventsNamed; ++event) {
+    named << QCoreApplication::translate("MarksPanel", "%1 at %2")
+                 .arg(sentenceOf(*event), feed.timeText(event->time, 2));
+  }
+  const auto more = (last - first) - named.size();
+  const QString all = named.join(QStringLiteral(", "));
+  return more > 0 ? QCoreApplication::translate("MarksPanel", "Between A and B: %1 and %2 more.")
+                        .arg(all)
+                        .arg(more)
+                  : QCoreApplication::translate("MarksPanel", "Between A and B: %1.").arg(all);
+}
+
+MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
+    : QWidget(parent),
+      m_feed(feed),
+      m_timeline(timeline),
+      m_model(new MarksModel(this)),
+      m_times(new QLabel(this)),
+      m_difference(new QLabel(this)),
+      m_table(new QTableView(this)),
+      m_events(new QLabel(this)) {
+  setObjectName(QStringLiteral("marksPanel"));
+  setBackgroundRole(QPalette::Base);
+  setAutoFillBackground(true);
+  m_table->setModel(m_model);
+  styleTable(m_table);
+  m_table->setAlternatingRowColors(false);
+  m_table->setIconSize(QSize(scaled(this, 8), scaled(this, 8)));
+  m_table->horizontalHeader()->setStretchLastSection(false);
+  m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
+  m_table->setColumnWidth(MarksModel::Name, scaled(this, 130));
+  for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
+    m_table->setColumnWidth(c, scaled(this, 60));
+  }
+  m_times->setTextFormat(Qt::RichText);
+  m_difference->setFont(themeFont(TypeRole::Secondary, true));
+  m_difference->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  m_times->setFont(themeFont(TypeRole::Secondary));
+  m_events->setFont(themeFont(TypeRole::Secondary));
+  m_events->setForegroundRole(QPalette::PlaceholderText);
+  m_events->setWordWrap(true);
+  m_events->setObjectName(QStringLiteral("eventsBetween"));
+  const int gap = scaled(this, 8);
+  m_events->setContentsMargins(gap, gap / 2, gap, gap);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(gap, scaled(this, 4), gap, scaled(this, 2));
+  head->addWidget(m_times, 1);
+  head->addWidget(m_difference);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addLayout(head);
+  column->addWidget(m_table, 1);
+  column->addWidget(m_events);
+  auto* copy = new QAction(tr("Copy table"), this);
+  copy->setShortcut(QKeySequence::Copy);
+  copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  connect(copy, &QAction::triggered, this, &MarksPanel::copyTable);
+  m_table->addAction(copy);
+  m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
+  hide();
+}
+
+QSize MarksPanel::sizeHint() const {
+  return {scaled(this, 372), scaled(this, 120)};
+}
+
+void MarksPanel::copyTable() const {
+  QApplication::clipboard()->setText(m_model->text());
+}
+
+void MarksPanel::refresh(const QList<PlotPane*>& panes) {
+  LinkedTime* time = m_feed->time();
+  setVisible(time->hasMarks());
+  if (!time->hasMarks()) return;
+  const double a = *time->mark(TimeMark::A);
+  const double b = *time->mark(TimeMark::B);
+  m_times->setText(QStringLiteral("<b>A</b> %1 &nbsp;&nbsp; <b>B</b> %2")
+                       .arg(m_feed->timeText(a, 3), m_feed->timeText(b, 3)));
+  m_difference->setText(QStringLiteral("Δt %1 s").arg(
+      QString::number(b - a, 'f', 3).replace(QLatin1Char('-'), QStringLiteral("\u2212"))));
+  QList<MarksRow> rows;
+  for (const PlotPane* pane : panes) {
+    if (!pane->isOverTime()) continue;
+    for (const Curve& curve : pane->curves()) rows << marksRow(curve, a, b);
+  }
+  m_model->setRows(std::move(rows));
+  m_events->setText(m_timeline != nullptr
+                        ? eventsBetween(m_timeline->events()->events(), a, b, *m_feed)
+                        : QString());
+}
+
+}  // namespace pitchboard::ui

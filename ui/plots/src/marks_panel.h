@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Beside the plots: the times of A and B, the table between them, and what happened there.
+
+#include <QWidget>
+#include <deque>
+
+#include <ui/sources/timeline_event.h>
+
+#include "plot_feed.h"
+
+class QLabel;
+class QTableView;
+
+namespace pitchboard::ui {
+
+class MarksModel;
+class PlotPane;
+class Timeline;
+
+class MarksPanel : public QWidget {
+  Q_OBJECT
+ public:
+  /// Without a timeline nothing is said of events.
+  MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent);
+
+  MarksModel* model() const { return m_model; }
+  /// What the curves of these plots are at and between the marks. Hidden without marks.
+  void refresh(const QList<PlotPane*>& panes);
+  void copyTable() const;
+  QSize sizeHint() const override;
+
+ private:
+  PlotFeed* m_feed;
+  Timeline* m_timeline;
+  MarksModel* m_model;
+  QLabel* m_times;
+  QLabel* m_difference;
+  QTableView* m_table;
+  QLabel* m_events;
+};
+
+/// "Between A and B: B1 kicks at 05:04.60, goal for BLUE at 05:06.10 and 2 more." Events in order
+/// of time, written as the feed writes it; the marks (s) in either order. Empty when there are
+/// none.
+QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
+                      const PlotFeed& feed);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plot_export.h"
+
+#include <QBuffer>
+#include <QCoreApplication>
+#include <QPainter>
+#include <QSaveFile>
+#include <QSvgGenerator>
+#include <cmath>
+#include <limits>
+
+#include <ui/plots/axis_ticks.h>
+
+#include "plot_page.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double pngRatio = 2.0;
+
+tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
+  return failure(ErrorCode::SystemError,
+                 QCoreApplication::translate("PlotExport", "The file could not be written: %1.")
+                     .arg(file.errorString())
+                     .toStdString(),
+                 file.fileName().toStdString());
+}
+
+Result<void> writeBytes(const QString& path, const QByteArray& bytes) {
+  QSaveFile file(path);
+  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
+    return cannotWrite(file);
+  }
+  return {};
+}
+
+QString quoted(QString text) {
+  if (!text.contains(QLatin1Char(',')) && !text.contains(QLatin1Char('"')) &&
+      !text.contains(QLatin1Char('\n'))) {
+    return text;
+  }
+  return QLatin1Char('"') + text.replace(QLatin1Char('"'), QStringLiteral("\"\"")) +
+         QLatin1Char('"');
+}
+
+/// Samples of one column, read piece by piece: a file may be larger than memory.
+class SampleReader {
+ public:
+  SampleReader(const ColumnView& view, telemetry::TimeRange range) : m_view(view), m_rest(range) {
+    fill();
+  }
+  double time() const {
+    return m_next < m_samples.size() ? m_samples[m_next].time
+                                     : std::numeric_limits<double>::infinity();
+  }
+  double take() {
+    const double value = m_samples[m_next++].value;
+    if (m_next == m_samples.size()) fill();
+    return value;
+  }
+
+ private:
+  void fill() {
+    constexpr std::size_t piece = 1 << 14;
+    m_samples.clear();
+    m_next = 0;
+    if (m_done) return;
+    m_done = m_view.group->samples(m_view.column, m_rest, m_samples, piece);
+    if (m_samples.empty()) return;
+    // Samples of one time stay together, so that the next piece can begin after it.
+    if (!m_done) {
+      const double last = m_samples.back().time;
+      while (m_samples.size() > 1 && m_samples.back().time == last) m_samples.pop_back();
+      m_rest.begin = std::nextafter(m_samples.back().time, std::numeric_limits<double>::infinity());
+    }
+  }
+
+  ColumnView m_view;
+  telemetry::TimeRange m_rest;
+  std::vector<telemetry::Sample> m_samples;
+  std::size_t m_next = 0;
+  bool m_done = false;
+};
+
+}  // namespace
+
+QImage plotPicture(const PlotPage& page, double ratio) {
+  QWidget* widget = page.picture();
+  QImage image(widget->size() * ratio, QImage::Format_RGB32);
+  image.setDevicePixelRatio(ratio);
+  image.fill(widget->palette().color(QPalette::Base));
+  widget->render(&image);
+  return image;
+}
+
+Result<void> savePlotPng(const PlotPage& page, const QString& path) {
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  if (!plotPicture(page, pngRatio).save(&buffer, "PNG")) {
+    return failure(ErrorCode::SystemError, "The picture could not be made.");
+  }
+  return writeBytes(path, bytes);
+}
+
+Result<void> savePlotSvg(const PlotPage& page, const QString& path) {
+  QWidget* widget = page.picture();
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  QSvgGenerator generator;
+  generator.setOutputDevice(&buffer);
+  generator.setSize(widget->size());
+  generator.setViewBox(widget->rect());
+  generator.setTitle(page.name());
+  QPainter painter(&generator);
+  painter.fillRect(widget->rect(), widget->palette().color(QPalette::Base));
+  widget->render(&painter);
+  painter.end();
+  return writeBytes(path, bytes);
+}
+
+void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeRange range) {
+  QStringList names{QStringLiteral("time [s]")};
+  std::vector<SampleReader> readers;
+  for (const PlotPane* pane : panes) {
+    for (const Curve& curve : pane->curves()) {
+      if (curve.isWaiting()) continue;
+      names << quoted(curve.unit().isEmpty()
+                          ? curve.name()
+                          : QStringLiteral("%1 [%2]").arg(curve.name(), curve.unit()));
+      readers.emplace_back(curve.view(), range);
+      if (!curve.ordinate()) continue;
+      names << quoted(curveName(variableCurve(curve.spec().inputs.value(1))));
+      readers.emplace_back(curve.ordinate(), range);
+    }
+  }
+  device.write(names.join(QLatin1Char(',')).toUtf8() + "\r\n");
+  while (true) {
+    double time = std::numeric_limits<double>::infinity();
+    for (const SampleReader& reader : readers) time = std::min(time, reader.time());
+    if (!std::isfinite(time)) return;
+    QByteArray line = QByteArray::number(time, 'g', 15);
+    for (SampleReader& reader : readers) {
+      line += ',';
+      if (reader.time() != time) continue;
+      const double value = reader.take();
+      if (std::isfinite(value))
+        line += QByteArray::number(value, 'g', 17);
+      else
+        line += std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+    }
+    if (device.write(line + "\r\n") < 0) return;
+  }
+}
+
+Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange range,
+                         const QString& path) {
+  QSaveFile file(path);
+  if (!file.open(QIODevice::WriteOnly)) return cannotWrite(file);
+  writeCsv(file, panes, range);
+  if (!file.commit()) return cannotWrite(file);
+  return {};
+}
+
+QString valuesText(const QList<PlotPane*>& panes, std::optional<double> time) {
+  QString text;
+  for (const PlotPane* pane : panes) {
+    for (const Curve& curve : pane->curves()) {
+      const auto value = curve.valueAt(time);
+      text += curve.name() + QLatin1Char('\t') +
+              (value ? QString::number(*value, 'g', 15) : QString()) + QLatin1Char('\t') +
+              curve.unit() + QLatin1Char('\n');
+    }
+  }
+  return text;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plot_feed.h"
+
+#include <QTimer>
+
+#include <ui/base/time_axis.h>
+#include <ui/sources/linked_time.h>
+
+namespace pitchboard::ui {
+
+PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
+    : QObject(parent), m_source(source), m_time(time), m_timer(new QTimer(this)) {
+  m_timer->setInterval(refreshMilliseconds);
+  connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
+  connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
+}
+
+void PlotFeed::setRunning(bool on) {
+  if (on == m_timer->isActive()) return;
+  if (on) {
+    refresh();
+    m_timer->start();
+  } else {
+    m_timer->stop();
+    // Views keep their rows in memory.
+    m_views.clear();
+  }
+}
+
+void PlotFeed::forget() {
+  m_found.clear();
+  m_views.clear();
+  m_store.reset();
+  ++m_generation;
+  if (m_timer->isActive()) refresh();
+}
+
+void PlotFeed::refresh() {
+  const auto store = m_source->series();
+  const quint64 revision = store ? store->groupsRevision() : 0;
+  if (store != m_store || revision != m_storeRevision) {
+    m_store = store;
+    m_storeRevision = revision;
+    m_found.clear();
+    ++m_generation;
+  }
+  m_views.clear();
+  m_time->setData(m_store ? m_store->range() : std::nullopt);
+  emit refreshed();
+}
+
+ColumnView PlotFeed::find(const QString& name) {
+  if (!m_store) return {};
+  auto known = m_found.find(name);
+  if (known == m_found.end()) {
+    const qsizetype slash = name.indexOf(QLatin1Char('/'));
+    if (slash <= 0) return {};
+    const auto id =
+        m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
+    if (!id) return {};
+    known = m_found.emplace(name, *id).first;
+  }
+  auto& view = m_views[known->second.group];
+  if (!view) view = m_store->view(known->second.group);
+  if (!view) return {};
+  return {view, known->second.column};
+}
+
+QString PlotFeed::timeText(double time, int decimals) const {
+  if (!m_clock) return momentText(time, decimals);
+  const QDateTime moment = m_clock->addMSecs(qRound64(time * 1000.0));
+  return moment.toString(decimals > 0 ? QStringLiteral("HH:mm:ss.zzz")
+                                      : QStringLiteral("HH:mm:ss"));
+}
+
+QStringList PlotFeed::names() const {
+  QStringList all;
+  if (!m_store) return all;
+  for (telemetry::GroupId group = 0; group < m_store->groups(); ++group) {
+    const auto view = m_store->view(group);
+    if (!view) continue;
+    const QString prefix = QString::fromStdString(view->info().name) + QLatin1Char('/');
+    for (const auto& column : view->info().columns) {
+      all << prefix + QString::fromStdString(column.name);
+    }
+  }
+  return all;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What plots read: one consistent look at a source's rows, renewed on a timer while somebody
+// watches. UI thread only.
+
+#include <QDateTime>
+#include <QObject>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <telemetry/series/series_store.h>
+#include <ui/sources/frame_source.h>
+
+class QTimer;
+
+namespace pitchboard::ui {
+
+class LinkedTime;
+
+/// A column as it was at the last refresh. Cheap to copy; any thread may read it.
+struct ColumnView {
+  std::shared_ptr<const telemetry::GroupView> group;
+  std::uint32_t column = 0;
+
+  explicit operator bool() const { return group != nullptr; }
+  const telemetry::ColumnInfo& info() const { return group->info().columns[column]; }
+  bool isCoded() const { return info().kind != telemetry::ColumnKind::Number; }
+};
+
+class PlotFeed : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int refreshMilliseconds = 33;
+
+  /// Both outlive the feed.
+  PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent = nullptr);
+
+  FrameSource* source() const { return m_source; }
+  LinkedTime* time() const { return m_time; }
+  /// `GROUP/COLUMN`; nothing when there is no such variable now.
+  ColumnView find(const QString& name);
+  /// Every variable there is, `GROUP/COLUMN`.
+  QStringList names() const;
+  /// Wall clock at second 0, where the source has one (Live): then times are written as time of
+  /// day.
+  const std::optional<QDateTime>& clock() const { return m_clock; }
+  void setClock(const std::optional<QDateTime>& clock) { m_clock = clock; }
+  /// "05:03.250", or the time of day; s of the source.
+  QString timeText(double time, int decimals) const;
+  /// Grows when variables came or went: what find() said before is void.
+  quint64 generation() const { return m_generation; }
+
+  /// Refreshes by itself while on; plots that cannot be seen cost nothing.
+  void setRunning(bool on);
+  /// Takes a new look now.
+  void refresh();
+
+ signals:
+  /// There may be something new to draw.
+  void refreshed();
+
+ private:
+  void forget();
+
+  FrameSource* m_source;
+  LinkedTime* m_time;
+  QTimer* m_timer;
+  std::shared_ptr<const telemetry::SeriesStore> m_store;
+  quint64 m_storeRevision = 0;
+  quint64 m_generation = 1;
+  std::optional<QDateTime> m_clock;
+  std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
+  std::map<QString, telemetry::SeriesId> m_found;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/plots/plot_menus.h>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QColorDialog>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QMenu>
+#include <QMimeData>
+#include <QPixmap>
+#include <functional>
+
+#include <telemetry/series/derived_curve.h>
+#include <ui/base/theme.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/sources/linked_time.h>
+
+#include "chart_pane.h"
+#include "curve_dialog.h"
+#include "plot_export.h"
+#include "plot_page.h"
+#include "plot_presets.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("PlotMenus", text);
+}
+
+/// Asks where to, puts the suffix there, writes, and says what went wrong.
+void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QString& filter,
+            const std::function<Result<void>(const QString&)>& write) {
+  QString path = QFileDialog::getSaveFileName(dock, title, name, filter);
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += QLatin1Char('.') + QFileInfo(name).suffix();
+  if (const auto written = write(path); !written) {
+    dock->showNotice(QString::fromStdString(written.error().text()));
+  }
+}
+
+void addExports(QMenu* menu, PlotsDock* dock) {
+  menu->addAction(tr("Export picture (PNG)…"), dock, [dock] {
+    saveAs(dock, tr("Export the plots as a picture"), QStringLiteral("plots.png"),
+           tr("Pictures (*.png)"),
+           [dock](const QString& path) { return savePlotPng(*dock->currentPage(), path); });
+  });
+  menu->addAction(tr("Export drawing (SVG)…"), dock, [dock] {
+    saveAs(dock, tr("Export the plots as a drawing"), QStringLiteral("plots.svg"),
+           tr("Drawings (*.svg)"),
+           [dock](const QString& path) { return savePlotSvg(*dock->currentPage(), path); });
+  });
+  menu->addAction(tr("Export visible data (CSV)…"), dock, [dock] {
+    saveAs(dock, tr("Export the data that is visible"), QStringLiteral("plots.csv"),
+           tr("Tables (*.csv)"), [dock](const QString& path) {
+             return savePlotCsv(dock->currentPage()->panes(), dock->time()->range(), path);
+           });
+  });
+  menu->addSeparator();
+  menu->addAction(tr("Copy picture"), dock, [dock] {
+    QApplication::clipboard()->setImage(
+        plotPicture(*dock->currentPage(), dock->devicePixelRatioF()));
+  });
+  menu->addAction(tr("Copy values"), dock, [dock] {
+    QApplication::clipboard()->setText(
+        valuesText(dock->currentPage()->panes(), dock->time()->cursor()));
+  });
+}
+
+void openLayout(PlotsDock* dock, const Result<PlotLayout>& layout) {
+  if (layout)
+    dock->setLayoutSpec(*layout);
+  else
+    dock->showNotice(QString::fromStdString(layout.error().text()));
+}
+
+void addPresets(QMenu* menu, PlotsDock* dock) {
+  menu->addAction(tr("Save layout as…"), dock, [dock] {
+    bool taken = false;
+    const QString name =
+        QInputDialog::getText(dock, tr("Save layout"), tr("Name of the layout:"), QLineEdit::Normal,
+                              dock->currentPage()->name(), &taken);
+    if (!taken || name.trimmed().isEmpty()) return;
+    PlotPresets(dock->context().settings).save(name.trimmed(), dock->layoutSpec());
+  });
+  QMenu* open = menu->addMenu(tr("Open layout"));
+  QMenu* remove = menu->addMenu(tr("Delete layout"));
+  QObject::connect(menu, &QMenu::aboutToShow, open, [dock, open, remove] {
+    open->clear();
+    remove->clear();
+    for (const QString& name : PlotPresets(dock->context().settings).names()) {
+      open->addAction(name, dock, [dock, name] {
+        openLayout(dock, PlotPresets(dock->context().settings).load(name));
+      });
+      remove->addAction(name, dock,
+                        [dock, name] { PlotPresets(dock->context().settings).remove(name); });
+    }
+    open->setEnabled(!open->isEmpty());
+    remove->setEnabled(!remove->isEmpty());
+  });
+  menu->addAction(tr("Import layout…"), dock, [dock] {
+    const QString path = QFileDialog::getOpenFileName(dock, tr("Import a layout of plots"), {},
+                                                      tr("Layouts (*.json);;All files (*)"));
+    if (!path.isEmpty()) openLayout(dock, PlotPresets::readFile(path));
+  });
+  menu->addAction(tr("Export layout…"), dock, [dock] {
+    saveAs(dock, tr("Export the layout of the plots"), QStringLiteral("plots.json"),
+           tr("Layouts (*.json)"), [dock](const QString& path) {
+             return PlotPresets::writeFile(path, dock->layoutSpec());
+           });
+  });
+}
+
+QIcon swatch(const QColor& color) {
+  QPixmap pixmap(12, 12);
+  pixmap.fill(color);
+  return pixmap;
+}
+
+/// A menu of values of one member of a curve.
+template <class Value>
+void addChoices(QMenu* menu, PlotPane* pane, int curve, Value CurveSpec::*member,
+                const std::vector<std::pair<QString, Value>>& choices) {
+  const CurveSpec now = pane->curves()[static_cast<std::size_t>(curve)].spec();
+  for (const auto& [name, value] : choices) {
+    CurveSpec changed = now;
+    changed.*member = value;
+    QAction* action =
+        menu->addAction(name, pane, [pane, curve, changed] { pane->setCurve(curve, changed); });
+    action->setCheckable(true);
+    action->setChecked(now.*member == value);
+  }
+}
+
+void addLooks(QMenu* menu, PlotPane* pane, int curve) {
+  const CurveSpec now = pane->curves()[static_cast<std::size_t>(curve)].spec();
+  QMenu* colors = menu->addMenu(tr("Colour"));
+  for (int number = 0; number < curveColors; ++number) {
+    CurveSpec changed = now;
+    changed.colorNumber = number;
+    changed.color = QColor();
+    colors->addAction(swatch(curveColor(number)), tr("Colour %1").arg(number + 1), pane,
+                      [pane, curve, changed] { pane->setCurve(curve, changed); });
+  }
+  colors->addAction(tr("Other…"), pane, [pane, curve, now] {
+    const QColor color =
+        QColorDialog::getColor(now.color.isValid() ? now.color : curveColor(now.colorNumber), pane);
+    if (!color.isValid()) return;
+    CurveSpec changed = now;
+    changed.color = color;
+    pane->setCurve(curve, changed);
+  });
+  addChoices<CurveStyle>(menu->addMenu(tr("Style")), pane, curve, &CurveSpec::style,
+                         {{tr("Line"), CurveStyle::Line},
+                          {tr("Steps"), CurveStyle::Steps},
+                          {tr("Points"), CurveStyle::Points},
+                          {tr("Line and points"), CurveStyle::LineAndPoints}});
+  addChoices<double>(
+      menu->addMenu(tr("Width")), pane, curve, &CurveSpec::width,
+      {{tr("Thin"), 1.0}, {tr("Normal"), 1.5}, {tr("Thick"), 2.5}, {tr("Very thick"), 4.0}});
+}
+
+/// Curves that can be computed from this one.
+void addDerived(QMenu* menu, PlotPage* page, PlotPane* pane, int index) {
+  const Curve& curve = pane->curves()[static_cast<std::size_t>(index)];
+  if (curve.spec().kind != CurveKind::Variable || pane->kind() == PaneKind::Xy) return;
+  QMenu* derived = menu->addMenu(tr("Derived curve"));
+  const CurveSpec base = variableCurve(curve.spec().inputs.value(0));
+  const auto offer = [derived, page, pane](const QString& name, const CurveSpec& spec,
+                                           bool ownPlot) {
+    derived->addAction(name, page, [page, pane, spec, ownPlot] {
+      if (!ownPlot && pane->kind() == PaneKind::Chart) {
+        pane->addCurve(spec);
+        return;
+      }
+      PaneSpec chart;
+      chart.curves << spec;
+      page->insertPane(static_cast<int>(page->panes().indexOf(pane)) + 1, chart);
+    });
+  };
+  const auto with = [&base](CurveKind kind, double parameter) {
+    CurveSpec spec = base;
+    spec.kind = kind;
+    spec.parameter = parameter;
+    return spec;
+  };
+  // What has another unit gets a plot of its own.
+  offer(tr("Derivative"), with(CurveKind::Derivative, 0.0), true);
+  offer(tr("Integral"), with(CurveKind::Integral, 0.0), true);
+  for (const double seconds : {0.2, 1.0, 5.0}) {
+    offer(tr("Moving average, %1 s").arg(seconds), with(CurveKind::MovingAverage, seconds), false);
+  }
+  const std::string unit = curve.isWaiting() ? std::string() : curve.view().info().unit;
+  offer(tr("Wrapped angle"), with(CurveKind::WrapAngle, unit == "rad" ? 6.283185307179586 : 360.0),
+        false);
+  for (const auto& conversion : telemetry::unitConversionsFrom(unit)) {
+    CurveSpec spec = with(CurveKind::Conversion, conversion.conversion.factor);
+    spec.offset = conversion.conversion.offset;
+    spec.unit = QString::fromUtf8(conversion.to.data(), qsizetype(conversion.to.size()));
+    offer(tr("In %1").arg(spec.unit), spec, true);
+  }
+  for (const Curve& other : pane->curves()) {
+    if (&other == &curve || other.spec().kind != CurveKind::Variable) continue;
+    CurveSpec spec = with(CurveKind::Difference, 0.0);
+    spec.inputs << other.spec().inputs.value(0);
+    offer(tr("Minus %1").arg(other.name()), spec, false);
+  }
+}
+
+/// The same curves drawn in another way.
+void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
+  const auto offer = [menu, page, pane](const QString& name, PaneSpec spec, PaneKind kind) {
+    spec.kind = kind;
+    menu->addAction(name, page, [page, pane, spec] { page->replacePane(pane, spec); });
+  };
+  const PaneSpec spec = pane->spec();
+  const auto plain = std::all_of(spec.curves.begin(), spec.curves.end(),
+                                 [](const CurveSpec& c) { return c.kind == CurveKind::Variable; });
+  if (pane->kind() == PaneKind::Chart && spec.curves.size() >= 2 && plain) {
+    PaneSpec xy = spec;
+    xy.autoValues = true;
+    xy.curves.clear();
+    for (qsizetype i = 0; i + 1 < spec.curves.size(); i += 2) {
+      CurveSpec pair = spec.curves[i];
+      pair.inputs << spec.curves[i + 1].inputs.value(0);
+      xy.curves << pair;
+    }
+    offer(tr("Show one over the other (XY)"), xy, PaneKind::Xy);
+  }
+  if (pane->kind() == PaneKind::Xy) {
+    PaneSpec chart = spec;
+    chart.curves.clear();
+    for (const CurveSpec& pair : spec.curves) {
+      for (const QString& input : pair.inputs) {
+        chart.curves << variableCurve(input);
+        chart.curves.back().colorNumber = static_cast<int>(chart.curves.size()) - 1;
+      }
+    }
+    offer(tr("Show over time"), chart, PaneKind::Chart);
+  }
+  if (pane->kind() == PaneKind::Chart) offer(tr("Show as lanes"), spec, PaneKind::Lane);
+  if (pane->kind() == PaneKind::Lane) offer(tr("Show as curves"), spec, PaneKind::Chart);
+}
+
+void askForAxes(PlotsDock* dock, PlotPane* pane) {
+  const auto* chart = qobject_cast<ChartPane*>(pane);
+  AxesDialog dialog(pane->spec(), chart != nullptr ? chart->valueScale().limits : ValueLimits{},
+                    dock);
+  if (dialog.exec() == QDialog::Accepted) pane->setOptions(dialog.pane());
+}
+
+}  // namespace
+
+QMenu* makePlotsMenu(PlotsDock* dock) {
+  auto* menu = new QMenu(tr("&Plots"), dock);
+  menu->addAction(tr("Add curve…"), dock, [dock] { askForCurve(dock); });
+  menu->addAction(tr("Rename tab…"), dock,
+                  [dock] { dock->renamePage(int(dock->pages().indexOf(dock->currentPage()))); });
+  menu->addSeparator();
+  addPresets(menu, dock);
+  menu->addSeparator();
+  addExports(menu, dock);
+  return menu;
+}
+
+void askForCurve(PlotsDock* dock) {
+  CurveDialog dialog(dock->feed(), CurveSpec{}, dock);
+  if (dialog.exec() != QDialog::Accepted) return;
+  const CurveSpec curve = dialog.curve();
+  if (curve.kind == CurveKind::Variable)
+    dock->currentPage()->addVariables(curve.inputs);
+  else
+    dock->currentPage()->addCurve(curve);
+}
+
+void editCurve(PlotsDock* dock, PlotPane* pane, int curve) {
+  CurveDialog dialog(dock->feed(), pane->curves()[static_cast<std::size_t>(curve)].spec(), dock);
+  if (dialog.exec() == QDialog::Accepted) pane->setCurve(curve, dialog.curve());
+}
+
+void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, const QPoint& at) {
+  auto* menu = new QMenu(dock);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->setObjectName(QStringLiteral("plotMenu"));
+  const auto offerCurve = [&](QMenu* into, int index) {
+    into->addAction(tr("Edit…"), dock, [dock, pane, index] { editCurve(dock, pane, index); });
+    if (pane->kind() != PaneKind::Lane) addLooks(into, pane, index);
+    addDerived(into, page, pane, index);
+    into->addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove curve"), page,
+                    [page, pane, index] {
+                      pane->removeCurve(index);
+                      if (pane->curves().empty()) page->removePane(pane);
+                    });
+  };
+  if (curve >= 0) {
+    offerCurve(menu, curve);
+  } else {
+    for (std::size_t i = 0; i < pane->curves().size(); ++i) {
+      const Curve& each = pane->curves()[i];
+      QMenu* sub = menu->addMenu(swatch(each.color()), each.name());
+      offerCurve(sub, static_cast<int>(i));
+    }
+    menu->addAction(tr("Add curve…"), dock, [dock] { askForCurve(dock); });
+    menu->addSeparator();
+    if (pane->kind() != PaneKind::Lane) {
+      menu->addAction(tr("Title and axes…"), dock, [dock, pane] { askForAxes(dock, pane); });
+    }
+    pane->extendMenu(menu);
+    addKinds(menu, page, pane);
+    if (pane->isOverTime()) {
+      const double moment = pane->timeScale().toTime(pane->surface()->mapFromGlobal(at).x());
+      menu->addAction(tr("Show the field at this moment"), dock,
+                      [dock, moment] { dock->time()->requestMoment(moment); });
+    }
+    menu->addSeparator();
+    addExports(menu, dock);
+    menu->addSeparator();
+    menu->addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove plot"), page,
+                    [page, pane] { page->removePane(pane); });
+  }
+  menu->popup(at);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plot_page.h"
+
+#include <QDragEnterEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMimeData>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include <ui/base/plot_target.h>
+#include <ui/base/theme.h>
+#include <ui/sources/linked_time.h>
+
+#include "marks_panel.h"
+#include "time_ruler.h"
+
+namespace pitchboard::ui {
+namespace {
+constexpr int plainLeft = 40;   // px of the mock: at least this for the numbers of values
+constexpr int edge = 14;        // a drop this close to an edge makes a plot of its own
+constexpr int mostNames = 200;  // of one drop
+}  // namespace
+
+QStringList draggedVariables(const QMimeData* data) {
+  if (data == nullptr || !data->hasFormat(variablesMimeType)) return {};
+  QStringList names;
+  for (const QString& line : QString::fromUtf8(data->data(variablesMimeType)).split('\n')) {
+    const QString name = line.trimmed();
+    if (name.indexOf(QLatin1Char('/')) > 0 && !names.contains(name) && names.size() < mostNames) {
+      names << name;
+    }
+  }
+  return names;
+}
+
+PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent)
+    : QWidget(parent),
+      m_feed(feed),
+      m_name(spec.name),
+      m_stack(new QWidget(this)),
+      m_panes(new QSplitter(Qt::Vertical, m_stack)),
+      m_empty(new QLabel(m_stack)),
+      m_marks(new MarksPanel(feed, timeline, this)) {
+  setObjectName(QStringLiteral("plotPage"));
+  setAcceptDrops(true);
+  const auto scale = [this] { return timeScale(); };
+  m_heads = new MarkHeads(feed->time(), scale, m_stack);
+  m_ruler = new TimeRuler(feed, scale, m_stack);
+  m_lines = new TimeLines(feed->time(), scale, m_stack);
+  m_stack->setBackgroundRole(QPalette::Base);
+  m_stack->setAutoFillBackground(true);
+  m_panes->setChildrenCollapsible(false);
+  m_panes->setHandleWidth(scaled(this, 4));
+  m_empty->setObjectName(QStringLiteral("emptyPlots"));
+  m_empty->setText(
+      tr("Drag variables here, or press Enter on one in Variables.\n"
+         "Add curve chooses from a list."));
+  m_empty->setAlignment(Qt::AlignCenter);
+  m_empty->setForegroundRole(QPalette::PlaceholderText);
+  auto* column = new QVBoxLayout(m_stack);
+  column->setContentsMargins(0, scaled(this, 2), 0, 0);
+  column->setSpacing(0);
+  column->addWidget(m_heads);
+  column->addWidget(m_empty, 1);
+  column->addWidget(m_panes, 1);
+  column->addWidget(m_ruler);
+  auto* split = new QSplitter(Qt::Horizontal, this);
+  split->setChildrenCollapsible(false);
+  split->setHandleWidth(scaled(this, 1));
+  split->addWidget(m_stack);
+  split->addWidget(m_marks);
+  split->setStretchFactor(0, 1);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(split);
+  m_stack->installEventFilter(this);
+  connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::changed);
+  connect(feed->time(), &LinkedTime::cursorChanged, this, [this] {
+    if (!isVisible()) return;
+    for (PlotPane* pane : panes()) {
+      if (pane->isOverTime())
+        pane->showValues();
+      else
+        pane->refresh();
+      if (pane->kind() == PaneKind::Lane) pane->surface()->update();
+    }
+  });
+  for (const PaneSpec& pane : spec.panes) insertPane(m_panes->count(), pane);
+  QList<int> shares;
+  for (const PaneSpec& pane : spec.panes) shares << pane.share;
+  m_panes->setSizes(shares);
+  align();
+}
+
+PageSpec PlotPage::spec() const {
+  PageSpec spec{m_name, {}};
+  const QList<int> sizes = m_panes->sizes();
+  const QList<PlotPane*> all = panes();
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    PaneSpec pane = all[i]->spec();
+    // A splitter that was never shown has no sizes yet.
+    if (sizes.value(i) > 0) pane.share = sizes[i];
+    spec.panes << pane;
+  }
+  return spec;
+}
+
+void PlotPage::setName(const QString& name) {
+  m_name = name;
+  emit changed();
+}
+
+QList<PlotPane*> PlotPage::panes() const {
+  QList<PlotPane*> all;
+  for (int i = 0; i < m_panes->count(); ++i) all << static_cast<PlotPane*>(m_panes->widget(i));
+  return all;
+}
+
+PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
+  PlotPane* pane = makePane(m_feed, spec, m_panes);
+  m_panes->insertWidget(index, pane);
+  m_panes->setStretchFactor(index, spec.kind == PaneKind::Lane ? 0 : 1);
+  pane->setBoxTool(m_boxTool);
+  connect(pane, &PlotPane::leftChanged, this, &PlotPage::align);
+  connect(pane, &PlotPane::changed, this, &PlotPage::changed);
+  connect(pane, &PlotPane::changed, this, [this] { m_marks->refresh(panes()); });
+  connect(pane, &PlotPane::menuRequested, this,
+          [this, pane](int curve, const QPoint& at) { emit menuRequested(pane, curve, at); });
+  connect(pane, &PlotPane::editRequested, this,
+          [this, pane](int curve) { emit editRequested(pane, curve); });
+  pane->refresh();
+  pane->show();
+  align();
+  m_lines->raise();
+  emit changed();
+  return pane;
+}
+
+void PlotPage::removePane(PlotPane* pane) {
+  pane->setParent(nullptr);
+  pane->deleteLater();
+  align();
+  m_marks->refresh(panes());
+  emit changed();
+}
+
+void PlotPage::replacePane(PlotPane* pane, const PaneSpec& spec) {
+  const int index = m_panes->indexOf(pane);
+  if (index < 0) return;
+  const QList<int> sizes = m_panes->sizes();
+  pane->setParent(nullptr);
+  pane->deleteLater();
+  insertPane(index, spec);
+  m_panes->setSizes(sizes);
+}
+
+bool PlotPage::isCoded(const QString& name) const {
+  const ColumnView view = m_feed->find(name);
+  return view && view.isCoded();
+}
+
+void PlotPage::addVariables(const QStringList& names) {
+  for (const QString& name : names) {
+    const PaneKind kind = isCoded(name) ? PaneKind::Lane : PaneKind::Chart;
+    PlotPane* taker = nullptr;
+    for (PlotPane* pane : panes()) {
+      if (pane->kind() == kind) taker = pane;  // the last one: where somebody worked last
+    }
+    if (taker != nullptr)
+      taker->addCurve(variableCurve(name));
+    else
+      insertPane(m_panes->count(),
+                 PaneSpec{kind, {}, {}, true, {}, false, {variableCurve(name)}, 100});
+  }
+}
+
+void PlotPage::addCurve(const CurveSpec& curve) {
+  for (PlotPane* pane : panes()) {
+    if (pane->kind() == PaneKind::Chart) {
+      pane->addCurve(curve);
+      return;
+    }
+  }
+  insertPane(0, PaneSpec{PaneKind::Chart, {}, {}, true, {}, false, {curve}, 100});
+}
+
+PlotPage::Target PlotPage::targetAt(const QPoint& position, qsizetype count) const {
+  const QPoint at = m_stack->mapFrom(this, position);
+  const int reach = scaled(this, edge);
+  Target target;
+  target.index = m_panes->count();
+  const QList<PlotPane*> all = panes();
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    const QRect area(all[i]->mapTo(m_stack, QPoint()), all[i]->size());
+    if (at.y() < area.top() + reach && at.y() >= area.top() - reach) {
+      target.index = static_cast<int>(i);
+      target.area = QRect(area.left(), area.top() - reach / 2, area.width(), reach);
+      return target;
+    }
+    if (area.contains(at) && at.y() < area.bottom() - reach) {
+      return {Place::OnPane, all[i], static_cast<int>(i), area};
+    }
+  }
+  // Below the last plot, or on an empty page.
+  target.area = all.isEmpty()
+                    ? m_stack->rect()
+                    : QRect(0, m_stack->height() - 2 * reach, m_stack->width(), 2 * reach);
+  const int third = m_stack->width() / 3;
+  if (count == 2 && at.x() > m_stack->width() - third) {
+    target.place = Place::NewXy;
+    target.area.setLeft(m_stack->width() - third);
+  }
+  return target;
+}
+
+void PlotPage::drop(const QStringList& names, const QPoint& position) {
+  if (names.isEmpty()) return;
+  const Target target = targetAt(position, names.size());
+  if (target.place == Place::NewXy) {
+    PaneSpec xy;
+    xy.kind = PaneKind::Xy;
+    xy.curves << variableCurve(names[0]);
+    xy.curves[0].inputs << names[1];
+    insertPane(m_panes->count(), xy);
+    return;
+  }
+  PaneSpec chart, lane;
+  lane.kind = PaneKind::Lane;
+  int number = 0;
+  for (const QString& name : names) {
+    const bool coded = isCoded(name);
+    const PaneKind kind = coded ? PaneKind::Lane : PaneKind::Chart;
+    if (target.place == Place::OnPane && target.pane->kind() == kind) {
+      target.pane->addCurve(variableCurve(name));
+      continue;
+    }
+    CurveSpec curve = variableCurve(name);
+    curve.colorNumber = number++;
+    (coded ? lane : chart).curves << curve;
+  }
+  int index = target.place == Place::OnPane ? target.index + 1 : target.index;
+  if (!chart.curves.isEmpty()) insertPane(index++, chart);
+  if (!lane.curves.isEmpty()) insertPane(index, lane);
+}
+
+void PlotPage::dragEnterEvent(QDragEnterEvent* event) {
+  if (!draggedVariables(event->mimeData()).isEmpty()) event->acceptProposedAction();
+}
+
+void PlotPage::dragMoveEvent(QDragMoveEvent* event) {
+  const QStringList names = draggedVariables(event->mimeData());
+  if (names.isEmpty()) return;
+  event->acceptProposedAction();
+  const Target target = targetAt(event->position().toPoint(), names.size());
+  const QString words = target.place == Place::OnPane  ? tr("add to this plot")
+                        : target.place == Place::NewXy ? tr("one over the other (XY)")
+                                                       : tr("new plot");
+  m_lines->setHint(DropHint{target.area, words});
+}
+
+void PlotPage::dragLeaveEvent(QDragLeaveEvent*) {
+  m_lines->setHint({});
+}
+
+void PlotPage::dropEvent(QDropEvent* event) {
+  m_lines->setHint({});
+  const QStringList names = draggedVariables(event->mimeData());
+  if (names.isEmpty()) return;
+  event->acceptProposedAction();
+  drop(names, event->position().toPoint());
+}
+
+void PlotPage::align() {
+  // A new width can change the numbers, and with them the wish.
+  if (m_aligning) return;
+  m_aligning = true;
+  int left = scaled(this, plainLeft);
+  bool overTime = false;
+  for (PlotPane* pane : panes()) {
+    left = qMax(left, pane->wantedLeft());
+    overTime = overTime || pane->isOverTime();
+  }
+  m_left = left;
+  for (PlotPane* pane : panes()) pane->setLeft(left);
+  giveLanesTheirHeight();
+  const bool empty = m_panes->count() == 0;
+  m_empty->setVisible(empty);
+  m_panes->setVisible(!empty);
+  m_ruler->setVisible(overTime);
+  m_aligning = false;
+  placeLines();
+  m_ruler->update();
+  m_heads->update();
+}
+
+// A splitter does not take back what a plot of fixed height cannot use.
+void PlotPage::giveLanesTheirHeight() {
+  QList<int> sizes = m_panes->sizes();
+  const QList<PlotPane*> all = panes();
+  bool wrong = false;
+  int freed = 0, charts = 0;
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    if (all[i]->kind() != PaneKind::Lane) {
+      ++charts;
+      continue;
+    }
+    wrong = wrong || sizes[i] != all[i]->maximumHeight();
+    freed += sizes[i] - all[i]->maximumHeight();
+    sizes[i] = all[i]->maximumHeight();
+  }
+  if (!wrong || charts == 0) return;
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    if (all[i]->kind() != PaneKind::Lane) sizes[i] = qMax(1, sizes[i] + freed / charts);
+  }
+  m_panes->setSizes(sizes);
+}
+
+TimeScale PlotPage::timeScale() const {
+  const int right = qMax(m_stack->width() - scaled(this, PlotPane::rightMargin), m_left + 1);
+  return {m_feed->time()->range(), static_cast<double>(m_left), static_cast<double>(right)};
+}
+
+void PlotPage::placeLines() {
+  int bottom = 0;
+  for (PlotPane* pane : panes()) {
+    if (pane->isOverTime()) bottom = pane->mapTo(m_stack, QPoint(0, pane->height())).y();
+  }
+  const bool hinting = m_lines->hint().has_value();
+  const int top = m_heads->isVisibleTo(m_stack) ? m_heads->geometry().bottom() : 0;
+  m_lines->setGeometry(0, hinting ? 0 : top, m_stack->width(),
+                       hinting || bottom == 0 ? m_stack->height() : bottom - top);
+  m_lines->raise();
+}
+
+bool PlotPage::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == m_stack &&
+      (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest)) {
+    placeLines();
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void PlotPage::setBoxTool(bool on) {
+  m_boxTool = on;
+  for (PlotPane* pane : panes()) pane->setBoxTool(on);
+}
+
+bool PlotPage::isWorking() const {
+  for (const PlotPane* pane : panes()) {
+    for (const Curve& curve : pane->curves()) {
+      if (curve.isWorking()) return true;
+    }
+  }
+  return false;
+}
+
+void PlotPage::refresh() {
+  for (PlotPane* pane : panes()) pane->refresh();
+  m_marks->refresh(panes());
+  m_ruler->update();
+  giveLanesTheirHeight();
+  placeLines();
+  m_lines->follow();
+}
+
+}  // namespace pitchboard::ui

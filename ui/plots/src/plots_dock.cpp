@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/plots/plots_dock.h>
+
+#include <QAction>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QHBoxLayout>
+#include <QInputDialog>
+#include <QJsonDocument>
+#include <QSettings>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/plot_target.h>
+#include <ui/base/theme.h>
+#include <ui/plots/plot_menus.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+#include "plot_feed.h"
+#include "plot_page.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr int drawMilliseconds = 16;
+constexpr int saveMilliseconds = 1000;
+const QString layoutKey = QStringLiteral("plots/layout");
+const QString windowKey = QStringLiteral("plots/window");
+
+QString windowText(double seconds) {
+  return seconds < 60 ? QObject::tr("%1 s").arg(seconds) : QObject::tr("%1 min").arg(seconds / 60);
+}
+
+QToolButton* toolButton(QAction* action, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setDefaultAction(action);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  button->setIconSize(QSize(scaled(parent, 16), scaled(parent, 16)));
+  button->setFont(themeFont(TypeRole::Secondary));
+  if (action->icon().isNull()) button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  if (action->menu() != nullptr) button->setPopupMode(QToolButton::InstantPopup);
+  return button;
+}
+
+}  // namespace
+
+PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
+    : QWidget(parent),
+      m_context(context),
+      m_time(context.time),
+      m_feed(new PlotFeed(context.source, context.time, this)),
+      m_tabs(new QTabWidget(this)),
+      m_notices(new NoticeBar(this)),
+      m_window(new QComboBox(this)) {
+  setObjectName(QStringLiteral("plots"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(m_notices);
+  column->addWidget(m_tabs, 1);
+  m_tabs->setDocumentMode(true);
+  m_tabs->setMovable(true);
+  m_tabs->tabBar()->setFont(themeFont(TypeRole::Secondary));
+  m_tabs->tabBar()->setExpanding(false);
+  m_tabs->setElideMode(Qt::ElideRight);
+  makeTools();
+  m_draw.setSingleShot(true);
+  m_draw.setInterval(drawMilliseconds);
+  m_saveSoon.setSingleShot(true);
+  m_saveSoon.setInterval(saveMilliseconds);
+  connect(&m_draw, &QTimer::timeout, this, &PlotsDock::drawNow);
+  connect(&m_saveSoon, &QTimer::timeout, this, &PlotsDock::save);
+  connect(m_tabs, &QTabWidget::tabBarDoubleClicked, this, &PlotsDock::renamePage);
+  connect(m_tabs, &QTabWidget::currentChanged, this, &PlotsDock::scheduleDraw);
+  connect(m_feed, &PlotFeed::refreshed, this, &PlotsDock::takeRows);
+  for (const auto moved : {&LinkedTime::rangeChanged, &LinkedTime::marksChanged}) {
+    connect(context.time, moved, this, &PlotsDock::scheduleDraw);
+  }
+  if (context.plots != nullptr) {
+    connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
+  }
+  if (context.timeline != nullptr) {
+    connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
+  }
+  PlotLayout layout;
+  if (context.settings != nullptr) {
+    const auto saved = QJsonDocument::fromJson(context.settings->value(layoutKey).toByteArray());
+    // A layout that cannot be read is not worth a message at every start: the plots begin empty.
+    if (const auto read = layoutFromJson(saved.object())) layout = *read;
+    const double window = context.settings->value(windowKey).toDouble();
+    if (window > 0.0) context.time->setWindow(window);
+  }
+  setLayoutSpec(layout);
+}
+
+PlotsDock::~PlotsDock() {
+  save();
+}
+
+QSize PlotsDock::sizeHint() const {
+  return {scaled(this, 800), scaled(this, 248)};
+}
+
+void PlotsDock::makeTools() {
+  auto* corner = new QWidget(this);
+  auto* row = new QHBoxLayout(corner);
+  row->setContentsMargins(0, 0, scaled(this, 4), 0);
+  row->setSpacing(scaled(this, 2));
+  LinkedTime* time = m_context.time;
+
+  m_follow = new QAction(themedIcon(QStringLiteral("media-seek-forward")), tr("Follow live"), this);
+  m_follow->setToolTip(tr("Follow the newest moment"));
+  m_follow->setCheckable(true);
+  m_follow->setChecked(time->isFollowing());
+  connect(m_follow, &QAction::triggered, time, &LinkedTime::setFollowing);
+  connect(time, &LinkedTime::followingChanged, m_follow, &QAction::setChecked);
+
+  for (const double seconds : LinkedTime::windows) {
+    m_window->addItem(windowText(seconds), seconds);
+  }
+  m_window->setObjectName(QStringLiteral("plotWindow"));
+  m_window->setToolTip(tr("How much is shown while following"));
+  m_window->setFont(themeFont(TypeRole::Secondary));
+  m_window->setFocusPolicy(Qt::NoFocus);
+  connect(m_window, &QComboBox::activated, this, [this, time](int index) {
+    time->setWindow(m_window->itemData(index).toDouble());
+    time->setFollowing(true);
+  });
+  connect(time, &LinkedTime::windowChanged, this, &PlotsDock::showWindow);
+  showWindow();
+
+  m_marks = new QAction(tr("A|B"), this);
+  m_marks->setToolTip(tr("Marks A and B: differences and statistics between two moments"));
+  m_marks->setCheckable(true);
+  m_marks->setChecked(time->hasMarks());
+  connect(m_marks, &QAction::triggered, time, &LinkedTime::showMarks);
+  connect(time, &LinkedTime::marksChanged, m_marks,
+          [this, time] { m_marks->setChecked(time->hasMarks()); });
+
+  m_box =
+      new QAction(themedIcon(QStringLiteral("select-rectangular")), tr("Zoom into a box"), this);
+  m_box->setToolTip(tr("Drag a box to zoom into it (also Shift-drag)"));
+  m_box->setCheckable(true);
+  connect(m_box, &QAction::toggled, this, [this](bool on) {
+    for (PlotPage* page : pages()) page->setBoxTool(on);
+  });
+
+  auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Show everything"), this);
+  fit->setToolTip(tr("Show all there is (also a double click on a plot)"));
+  connect(fit, &QAction::triggered, time, &LinkedTime::fitAll);
+
+  auto* add = new QAction(themedIcon(QStringLiteral("list-add")), tr("Add curve…"), this);
+  add->setToolTip(tr("Add a variable, or a curve computed from variables"));
+  connect(add, &QAction::triggered, this, [this] { askForCurve(this); });
+
+  auto* more = new QAction(themedIcon(QStringLiteral("application-menu")), tr("Plots"), this);
+  more->setToolTip(tr("Tabs, layouts, export"));
+  more->setMenu(makePlotsMenu(this));
+
+  auto* newPage = new QAction(themedIcon(QStringLiteral("tab-new")), tr("New tab"), this);
+  connect(newPage, &QAction::triggered, this, [this] {
+    addPage({tr("Plots %1").arg(m_tabs->count() + 1), {}});
+    m_tabs->setCurrentIndex(m_tabs->count() - 1);
+  });
+
+  row->addWidget(toolButton(m_follow, corner));
+  row->addWidget(m_window);
+  for (QAction* action : {m_marks, m_box, fit, add, newPage, more}) {
+    row->addWidget(toolButton(action, corner));
+  }
+  m_tabs->setCornerWidget(corner, Qt::TopRightCorner);
+}
+
+void PlotsDock::showWindow() {
+  const double seconds = m_context.time->window();
+  int index = m_window->findData(seconds);
+  constexpr auto offered = static_cast<int>(LinkedTime::windows.size());
+  if (index < 0) {
+    // Zoomed by hand: one more entry tells what it is now.
+    while (m_window->count() > offered) m_window->removeItem(offered);
+    m_window->addItem(tr("%1 s").arg(seconds, 0, 'g', 3), seconds);
+    index = offered;
+  }
+  m_window->setCurrentIndex(index);
+  if (!m_restoring) m_saveSoon.start();
+}
+
+PlotPage* PlotsDock::currentPage() const {
+  return static_cast<PlotPage*>(m_tabs->currentWidget());
+}
+
+QList<PlotPage*> PlotsDock::pages() const {
+  QList<PlotPage*> all;
+  for (int i = 0; i < m_tabs->count(); ++i) all << static_cast<PlotPage*>(m_tabs->widget(i));
+  return all;
+}
+
+PlotPage* PlotsDock::addPage(const PageSpec& spec) {
+  auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_tabs);
+  page->setBoxTool(m_box->isChecked());
+  const int index = m_tabs->addTab(page, spec.name);
+  auto* close = new QToolButton(m_tabs->tabBar());
+  close->setIcon(themedIcon(QStringLiteral("window-close")));
+  close->setIconSize(QSize(scaled(this, 14), scaled(this, 14)));
+  close->setFixedSize(scaled(this, 16), scaled(this, 16));
+  close->setAutoRaise(true);
+  close->setFocusPolicy(Qt::NoFocus);
+  close->setToolTip(tr("Close this tab"));
+  connect(close, &QToolButton::clicked, this, [this, page] { closePage(m_tabs->indexOf(page)); });
+  m_tabs->tabBar()->setTabButton(index, QTabBar::RightSide, close);
+  connect(page, &PlotPage::changed, this, [this, page] {
+    m_tabs->setTabText(m_tabs->indexOf(page), page->name());
+    if (!m_restoring) m_saveSoon.start();
+    scheduleDraw();
+  });
+  connect(page, &PlotPage::menuRequested, this,
+          [this, page](PlotPane* pane, int curve, const QPoint& at) {
+            showPlotMenu(this, page, pane, curve, at);
+          });
+  connect(page, &PlotPage::editRequested, this,
+          [this](PlotPane* pane, int curve) { editCurve(this, pane, curve); });
+  if (!m_restoring) m_saveSoon.start();
+  return page;
+}
+
+void PlotsDock::closePage(int index) {
+  QWidget* page = m_tabs->widget(index);
+  if (page == nullptr) return;
+  m_tabs->removeTab(index);
+  page->deleteLater();
+  if (m_tabs->count() == 0) addPage({tr("Plots"), {}});
+  m_saveSoon.start();
+}
+
+void PlotsDock::renamePage(int index) {
+  if (index < 0) return;
+  auto* page = static_cast<PlotPage*>(m_tabs->widget(index));
+  bool taken = false;
+  const QString name = QInputDialog::getText(this, tr("Rename tab"), tr("Name of the tab:"),
+                                             QLineEdit::Normal, page->name(), &taken);
+  if (taken && !name.trimmed().isEmpty()) page->setName(name.trimmed());
+}
+
+PlotLayout PlotsDock::layoutSpec() const {
+  PlotLayout layout;
+  for (const PlotPage* page : pages()) layout.pages << page->spec();
+  layout.current = m_tabs->currentIndex();
+  return layout;
+}
+
+void PlotsDock::setLayoutSpec(const PlotLayout& layout) {
+  m_restoring = true;
+  while (m_tabs->count() > 0) {
+    QWidget* page = m_tabs->widget(0);
+    m_tabs->removeTab(0);
+    page->deleteLater();
+  }
+  for (const PageSpec& page : layout.pages) addPage(page);
+  if (layout.pages.isEmpty()) addPage({tr("Plots"), {}});
+  m_tabs->setCurrentIndex(layout.current);
+  m_restoring = false;
+  scheduleDraw();
+}
+
+void PlotsDock::save() {
+  if (m_context.settings == nullptr) return;
+  m_context.settings->setValue(layoutKey,
+                               QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
+  if (m_time) m_context.settings->setValue(windowKey, m_time->window());
+}
+
+void PlotsDock::showNotice(const QString& sentence) {
+  m_notices->show(sentence);
+}
+
+void PlotsDock::plotVariables(const QStringList& names) {
+  m_feed->refresh();
+  currentPage()->addVariables(names);
+  if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
+    dock->show();
+    dock->raise();
+  }
+}
+
+void PlotsDock::showEvent(QShowEvent*) {
+  m_feed->setRunning(true);
+  scheduleDraw();
+}
+
+void PlotsDock::hideEvent(QHideEvent*) {
+  m_feed->setRunning(false);
+}
+
+void PlotsDock::takeRows() {
+  const auto known = m_context.time->data();
+  const bool pending = currentPage() != nullptr && currentPage()->isWorking();
+  if (known == m_drawnData && m_drawnGeneration == m_feed->generation() && !pending) return;
+  m_drawnData = known;
+  m_drawnGeneration = m_feed->generation();
+  drawNow();
+}
+
+void PlotsDock::scheduleDraw() {
+  if (isVisible() && !m_draw.isActive()) m_draw.start();
+}
+
+void PlotsDock::drawNow() {
+  m_draw.stop();
+  if (m_context.timeline != nullptr) m_feed->setClock(m_context.timeline->clock());
+  if (PlotPage* page = currentPage(); page != nullptr && isVisible()) page->refresh();
+}
+
+QWidget* makePlotsDock(const StudioContext& context, QWidget* parent) {
+  return new PlotsDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "time_gestures.h"
+
+#include <QMouseEvent>
+#include <QRubberBand>
+#include <QWheelEvent>
+#include <QWidget>
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+constexpr double stepFactor = 0.8;   // one notch of the wheel
+constexpr double notch = 120.0;      // eighths of a degree, as Qt counts them
+constexpr double markReach = 4.0;    // px of the mock
+constexpr double smallestBox = 4.0;  // px; less is a click
+constexpr double flatBox = 10.0;     // px; lower boxes choose times only
+}  // namespace
+
+TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeScale()> scale)
+    : QObject(surface), m_surface(surface), m_time(time), m_scale(std::move(scale)) {
+  surface->setMouseTracking(true);
+  surface->installEventFilter(this);
+}
+
+bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
+  if (watched != m_surface) return false;
+  switch (event->type()) {
+    case QEvent::Wheel:
+      wheel(static_cast<QWheelEvent*>(event));
+      return true;
+    case QEvent::MouseButtonPress:
+      if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
+      press(static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseMove:
+      move(static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseButtonRelease:
+      if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
+      release(static_cast<QMouseEvent*>(event));
+      return true;
+    case QEvent::MouseButtonDblClick:
+      if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return false;
+      m_time->fitAll();
+      emit fitRequested();
+      return true;
+    case QEvent::Leave:
+      m_time->setCursor({});
+      return false;
+    default:
+      return false;
+  }
+}
+
+void TimeGestures::wheel(QWheelEvent* event) {
+  const QPoint turned = event->angleDelta();
+  event->accept();
+  if (turned.y() == 0) {
+    // A wheel that is tilted, or two fingers sideways.
+    const TimeScale scale = m_scale();
+    m_time->pan(-turned.x() / notch * 0.1 * (scale.range.end - scale.range.begin));
+    return;
+  }
+  const double factor = std::pow(stepFactor, turned.y() / notch);
+  if (event->modifiers() & Qt::ControlModifier) {
+    if (m_hasValues) emit valueZoomed(factor, event->position().y());
+    return;
+  }
+  m_time->zoom(factor, m_scale().toTime(event->position().x()));
+}
+
+std::optional<TimeMark> TimeGestures::markAt(const QPointF& position) const {
+  const TimeScale scale = m_scale();
+  for (const TimeMark mark : {TimeMark::B, TimeMark::A}) {
+    const auto at = m_time->mark(mark);
+    if (at && std::abs(scale.toX(*at) - position.x()) <= scaled(m_surface, markReach)) return mark;
+  }
+  return {};
+}
+
+void TimeGestures::press(QMouseEvent* event) {
+  m_from = m_last = event->position();
+  const bool left = event->button() == Qt::LeftButton;
+  if (left && (m_boxTool || (event->modifiers() & Qt::ShiftModifier))) {
+    m_drag = Drag::Box;
+    if (m_band == nullptr) m_band = new QRubberBand(QRubberBand::Rectangle, m_surface);
+    m_band->setGeometry(QRect(m_from.toPoint(), QSize()));
+    m_band->show();
+    return;
+  }
+  if (const auto mark = markAt(m_from); left && mark) {
+    m_drag = Drag::Mark;
+    m_mark = *mark;
+    return;
+  }
+  m_drag = Drag::Pan;
+  m_surface->setCursor(Qt::ClosedHandCursor);
+}
+
+void TimeGestures::move(QMouseEvent* event) {
+  const QPointF at = event->position();
+  const TimeScale scale = m_scale();
+  const double time = scale.toTime(at.x());
+  switch (m_drag) {
+    case Drag::None:
+      if (markAt(at))
+        m_surface->setCursor(Qt::SplitHCursor);
+      else
+        m_surface->unsetCursor();
+      break;
+    case Drag::Pan: {
+      m_time->pan(-(at.x() - m_last.x()) / (scale.right - scale.left) *
+                  (scale.range.end - scale.range.begin));
+      if (at.y() != m_last.y()) emit valuePanned(at.y() - m_last.y());
+      break;
+    }
+    case Drag::Box: {
+      QRect box = QRect(m_from.toPoint(), at.toPoint()).normalized();
+      if (!m_hasValues || box.height() < flatBox) {
+        box.setTop(0);
+        box.setBottom(m_surface->height());
+      }
+      m_band->setGeometry(box);
+      break;
+    }
+    case Drag::Mark:
+      m_time->setMark(m_mark, time);
+      break;
+  }
+  m_last = at;
+  const bool inside = at.x() >= scale.left && at.x() <= scale.right;
+  m_time->setCursor(inside && m_drag != Drag::Pan ? std::optional(m_scale().toTime(at.x()))
+                                                  : std::nullopt);
+}
+
+void TimeGestures::release(QMouseEvent* event) {
+  const Drag drag = std::exchange(m_drag, Drag::None);
+  if (drag == Drag::Pan) m_surface->unsetCursor();
+  if (drag != Drag::Box) return;
+  m_band->hide();
+  const QRectF box = QRectF(m_from, event->position()).normalized();
+  if (box.width() < smallestBox) return;
+  const TimeScale scale = m_scale();
+  m_time->setRange({scale.toTime(std::max(box.left(), scale.left)),
+                    scale.toTime(std::min(box.right(), scale.right))});
+  if (m_hasValues && box.height() >= flatBox) emit boxDrawn(box);
+}
+
+}  // namespace pitchboard::ui

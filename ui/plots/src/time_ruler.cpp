@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "time_ruler.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+constexpr int rulerHeight = 16;  // px of the mock
+constexpr int headRow = 14;
+constexpr int headWidth = 14;
+constexpr int pixelsPerStep = 64;
+constexpr TimeMark bothMarks[] = {TimeMark::A, TimeMark::B};
+}  // namespace
+
+std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed, const QWidget* widget) {
+  return axisTicks({scale.range, scale.left, scale.right - scale.left},
+                   scaled(widget, pixelsPerStep), feed.clock());
+}
+
+TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWidget* parent)
+    : QWidget(parent), m_feed(feed), m_scale(std::move(scale)) {
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+}
+
+QSize TimeRuler::sizeHint() const {
+  return {100, scaled(this, rulerHeight)};
+}
+
+void TimeRuler::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setFont(themeFont(TypeRole::Small));
+  painter.setPen(theme().secondaryText);
+  const TimeScale scale = m_scale();
+  const double half = scaled(this, pixelsPerStep);
+  for (const AxisTick& tick : ticksOf(scale, *m_feed, this)) {
+    const double x = scale.toX(tick.time);
+    painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
+  }
+}
+
+MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent)
+    : QWidget(parent), m_time(time), m_scale(std::move(scale)) {
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  setVisible(time->hasMarks());
+  connect(time, &LinkedTime::marksChanged, this, [this] {
+    setVisible(m_time->hasMarks());
+    update();
+  });
+  connect(time, &LinkedTime::rangeChanged, this, [this] { update(); });
+}
+
+QSize MarkHeads::sizeHint() const {
+  return {100, scaled(this, headRow)};
+}
+
+QRectF MarkHeads::headRect(TimeMark mark) const {
+  const auto at = m_time->mark(mark);
+  if (!at) return {};
+  const double x = m_scale().toX(*at);
+  const double wide = scaled(this, headWidth);
+  return {x - wide / 2, 0.0, wide, static_cast<double>(height())};
+}
+
+void MarkHeads::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(themeFont(TypeRole::Small, true));
+  const TimeScale scale = m_scale();
+  for (const TimeMark mark : bothMarks) {
+    const QRectF head = headRect(mark);
+    if (head.center().x() < scale.left - 1 || head.center().x() > scale.right + 1) continue;
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme().accentFill);
+    painter.drawRoundedRect(head, 2, 2);
+    painter.setPen(Qt::white);
+    painter.drawText(head, Qt::AlignCenter,
+                     mark == TimeMark::A ? QStringLiteral("A") : QStringLiteral("B"));
+  }
+}
+
+void MarkHeads::mousePressEvent(QMouseEvent* event) {
+  for (const TimeMark mark : {TimeMark::B, TimeMark::A}) {
+    if (headRect(mark).contains(event->position())) {
+      m_dragged = mark;
+      setCursor(Qt::SplitHCursor);
+      return;
+    }
+  }
+}
+
+void MarkHeads::mouseMoveEvent(QMouseEvent* event) {
+  if (!m_dragged) return;
+  const TimeScale scale = m_scale();
+  m_time->setMark(*m_dragged,
+                  scale.toTime(std::clamp(event->position().x(), scale.left, scale.right)));
+}
+
+void MarkHeads::mouseReleaseEvent(QMouseEvent*) {
+  m_dragged.reset();
+  unsetCursor();
+}
+
+TimeLines::TimeLines(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent)
+    : QWidget(parent), m_time(time), m_scale(std::move(scale)) {
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setAttribute(Qt::WA_NoSystemBackground);
+  for (const auto moved :
+       {&LinkedTime::marksChanged, &LinkedTime::cursorChanged, &LinkedTime::rangeChanged}) {
+    connect(time, moved, this, &TimeLines::follow);
+  }
+}
+
+QList<double> TimeLines::places() const {
+  const TimeScale scale = m_scale();
+  QList<double> all;
+  const auto add = [&](std::optional<double> time) {
+    const double x = time ? scale.toX(*time) : -1.0;
+    all << (x >= scale.left - 0.5 && x <= scale.right + 0.5 ? std::round(x) : -1.0);
+  };
+  for (const TimeMark mark : bothMarks) add(m_time->mark(mark));
+  add(m_time->cursor());
+  return all;
+}
+
+void TimeLines::follow() {
+  const QList<double> now = places();
+  if (now == m_drawn) return;
+  for (const double x : m_drawn + now) {
+    if (x >= 0) update(static_cast<int>(x) - 2, 0, 5, height());
+  }
+  m_drawn = now;
+}
+
+void TimeLines::setHint(const std::optional<DropHint>& hint) {
+  if (hint == m_hint) return;
+  m_hint = hint;
+  update();
+}
+
+void TimeLines::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  const ThemeColors& colors = theme();
+  m_drawn = places();
+  for (qsizetype i = 0; i < m_drawn.size(); ++i) {
+    if (m_drawn[i] < 0) continue;
+    const bool cursor = i == m_drawn.size() - 1;
+    painter.setPen(cursor ? QPen(colors.secondaryText, 1.0)
+                          : QPen(colors.accentLine, 1.0, Qt::DashLine));
+    painter.drawLine(QPointF(m_drawn[i], 0), QPointF(m_drawn[i], height()));
+  }
+  if (!m_hint) return;
+  QColor ground = colors.accentFill;
+  ground.setAlpha(50);
+  painter.setPen(QPen(colors.accentLine, 2));
+  painter.setBrush(ground);
+  painter.drawRect(m_hint->area.adjusted(1, 1, -1, -1));
+  painter.setPen(colors.text);
+  painter.drawText(m_hint->area, Qt::AlignCenter, m_hint->words);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What stands above and below the plots of a page and runs over all of them: the heads of the A and
+// B marks, the numbers of the time axis, and the lines of marks and cursor. UI thread only.
+
+#include <QWidget>
+#include <functional>
+#include <optional>
+
+#include <ui/base/time_axis.h>
+#include <ui/sources/linked_time.h>
+
+#include "curve_trace.h"
+
+namespace pitchboard::ui {
+
+class TimeGestures;
+
+/// Numbers of the linked time axis; below the lowest plot.
+class TimeRuler : public QWidget {
+  Q_OBJECT
+ public:
+  TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWidget* parent);
+  QSize sizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  const PlotFeed* m_feed;
+  std::function<TimeScale()> m_scale;
+};
+
+/// Heads of A and B, which can be dragged; there is no row while there are no marks.
+class MarkHeads : public QWidget {
+  Q_OBJECT
+ public:
+  MarkHeads(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent);
+  QSize sizeHint() const override;
+  QRectF headRect(TimeMark mark) const;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+
+ private:
+  LinkedTime* m_time;
+  std::function<TimeScale()> m_scale;
+  std::optional<TimeMark> m_dragged;
+};
+
+/// Where something that is dragged over a page would go.
+struct DropHint {
+  QRect area;     ///< of the plot it would join, or the line of a new one
+  QString words;  ///< "add to this plot", "new plot"
+  bool operator==(const DropHint&) const = default;
+};
+
+/// Round times of the axis, for its numbers and for the grid above them.
+std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed, const QWidget* widget);
+
+/// Lines of marks and cursor over all plots; lets the mouse through.
+class TimeLines : public QWidget {
+  Q_OBJECT
+ public:
+  TimeLines(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent);
+  void setHint(const std::optional<DropHint>& hint);
+  const std::optional<DropHint>& hint() const { return m_hint; }
+  /// Redraws what has moved since the last time.
+  void follow();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QList<double> places() const;
+
+  LinkedTime* m_time;
+  std::function<TimeScale()> m_scale;
+  QList<double> m_drawn;  // x of each line
+  std::optional<DropHint> m_hint;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "value_chart.h"
+
+#include <QChart>
+#include <QGraphicsItem>
+#include <QLegend>
+#include <QLineSeries>
+#include <QPaintEngine>
+#include <QPainter>
+#include <QResizeEvent>
+#include <QValueAxis>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+
+#include "side_by_side.h"
+
+namespace pitchboard::ui {
+
+/// Keeps what it painted as a picture: a cursor that moves over it costs a copy. A file format
+/// with lines (SVG) gets the lines.
+class ValueChart::Layer : public QGraphicsItem {
+ public:
+  explicit Layer(QGraphicsItem* parent) : QGraphicsItem(parent) {}
+
+  QRectF boundingRect() const override { return area; }
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override {
+    if (!curves || area.isEmpty()) return;
+    if (painter->paintEngine()->type() != QPaintEngine::Raster) {
+      painter->setClipRect(area);
+      curves(*painter);
+      return;
+    }
+    const double ratio = painter->device()->devicePixelRatioF();
+    const QSize size = (area.size() * ratio).toSize();
+    if (size.isEmpty()) return;
+    if (stale || ratio != paintedRatio) {
+      paintParts(size, ratio);
+      paintedRatio = ratio;
+      stale = false;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      painter->drawImage(area.topLeft() + QPointF(leftOf(i, size) / ratio, 0.0), parts[i]);
+    }
+  }
+
+  void setArea(const QRectF& to) {
+    prepareGeometryChange();
+    area = to;
+    stale = true;
+  }
+
+  QRectF area;
+  Painter curves;
+  Painting painting = Painting::Whole;
+  bool stale = true;
+
+ private:
+  // Parts stand side by side. They are narrow so that one stays in a core's cache while it is
+  // painted.
+  static constexpr int partWidth = 120;  // px
+
+  int leftOf(std::size_t part, const QSize& size) const {
+    return static_cast<int>(static_cast<std::size_t>(size.width()) * part / parts.size());
+  }
+  void paintParts(const QSize& size, double ratio) {
+    const int wanted = painting == Painting::Whole ? 1 : std::max(1, size.width() / partWidth);
+    parts.resize(static_cast<std::size_t>(wanted));
+    sideBySide(wanted, [&](int number) {
+      const auto i = static_cast<std::size_t>(number);
+      const int left = leftOf(i, size);
+      const QSize own(leftOf(i + 1, size) - left, size.height());
+      QImage& part = parts[i];
+      if (part.size() != own) part = QImage(own, QImage::Format_ARGB32_Premultiplied);
+      part.setDevicePixelRatio(ratio);
+      part.fill(Qt::transparent);
+      const QPointF from = area.topLeft() + QPointF(left / ratio, 0.0);
+      QPainter inner(&part);
+      inner.translate(-from);
+      inner.setClipRect(QRectF(from, QSizeF(own) / ratio));
+      curves(inner);
+    });
+  }
+
+  std::vector<QImage> parts;
+  double paintedRatio = 0.0;
+};
+
+ValueChart::ValueChart(QWidget* parent)
+    : QChartView(new QChart, parent), m_axisX(new QValueAxis(this)), m_axisY(new QValueAxis(this)) {
+  setFrameShape(NoFrame);
+  setRubberBand(NoRubberBand);
+  setAcceptDrops(false);  // the page takes drops for all its plots
+  viewport()->setAcceptDrops(false);
+  setContextMenuPolicy(Qt::NoContextMenu);  // the plot has one
+  viewport()->setContextMenuPolicy(Qt::NoContextMenu);
+  setMinimumSize(0, 0);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setOptimizationFlag(DontSavePainterState);
+  setViewportUpdateMode(QGraphicsView::MinimalViewportUpdate);
+  chart()->legend()->hide();
+  chart()->setDropShadowEnabled(false);
+  chart()->setMargins({});
+  chart()->setBackgroundRoundness(0);
+  chart()->setPlotAreaBackgroundVisible(true);
+  chart()->setContentsMargins(0, 0, 0, 0);
+  chart()->layout()->setContentsMargins(0, 0, 0, 0);
+  // Axes are laid out by the domain of a series.
+  auto* series = new QLineSeries(chart());
+  chart()->addSeries(series);
+  chart()->addAxis(m_axisX, Qt::AlignBottom);
+  chart()->addAxis(m_axisY, Qt::AlignLeft);
+  series->attachAxis(m_axisX);
+  series->attachAxis(m_axisY);
+  for (QValueAxis* axis : {m_axisX, m_axisY}) {
+    axis->setLabelsVisible(false);
+    axis->setLineVisible(false);
+    axis->setTickType(QValueAxis::TicksDynamic);
+  }
+  m_layer = new Layer(chart());
+  m_layer->setZValue(100);
+  applyTheme();
+}
+
+void ValueChart::applyTheme() {
+  const ThemeColors& colors = theme();
+  chart()->setBackgroundBrush(colors.view);
+  chart()->setBackgroundPen(Qt::NoPen);
+  chart()->setPlotAreaBackgroundBrush(colors.view);
+  chart()->setPlotAreaBackgroundPen(QPen(colors.innerLine, 1));
+  setBackgroundBrush(colors.view);
+  QColor grid = colors.innerLine;
+  grid.setRgb((grid.red() + colors.view.red()) / 2, (grid.green() + colors.view.green()) / 2,
+              (grid.blue() + colors.view.blue()) / 2);
+  for (QValueAxis* axis : {m_axisX, m_axisY}) {
+    axis->setGridLinePen(QPen(grid, 1));
+    axis->setTitleFont(themeFont(TypeRole::Small));
+    axis->setTitleBrush(colors.secondaryText);
+  }
+  redraw();
+}
+
+void ValueChart::setMargins(int left, int top, int right, int bottom) {
+  const QMargins margins(left, top, right, bottom);
+  if (margins == m_margins) return;
+  m_margins = margins;
+  place();
+}
+
+void ValueChart::resizeEvent(QResizeEvent* event) {
+  QChartView::resizeEvent(event);
+  place();
+  emit resized();
+}
+
+void ValueChart::place() {
+  const QRectF area = QRectF(rect()).marginsRemoved(m_margins);
+  m_area = area.isValid() ? area : QRectF();
+  if (m_area.isEmpty()) return;
+  chart()->setPlotArea(m_area);
+  // Axes and grid take the new place only with the next layout.
+  chart()->layout()->invalidate();
+  chart()->layout()->activate();
+  m_layer->setArea(m_area);
+  redraw();
+}
+
+void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor) {
+  const auto put = [](QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
+                      double toStep) {
+    if (now == to && step == toStep) return;
+    // While limits and step disagree Qt would make a grid line for every step of the new range.
+    if (step != toStep) axis->setTickInterval(std::max(step, toStep));
+    if (!(now == to)) axis->setRange(to.low, to.high);
+    if (step != toStep) axis->setTickInterval(toStep);
+    now = to;
+    step = toStep;
+  };
+  if (xAnchor != m_axisX->tickAnchor()) m_axisX->setTickAnchor(xAnchor);
+  put(m_axisX, m_x, x, m_stepX, xStep);
+  put(m_axisY, m_y, y, m_stepY, yStep);
+}
+
+void ValueChart::setTitles(const QString& x, const QString& y) {
+  m_axisX->setTitleText(x);
+  m_axisY->setTitleText(y);
+  m_axisX->setTitleVisible(!x.isEmpty());
+  m_axisY->setTitleVisible(!y.isEmpty());
+}
+
+int ValueChart::wantedLeft() const {
+  const QFontMetrics metrics(themeFont(TypeRole::Small));
+  const int decimals = decimalsOf(m_stepY);
+  const int widest = std::max(metrics.horizontalAdvance(numberText(m_y.low, decimals)),
+                              metrics.horizontalAdvance(numberText(m_y.high, decimals)));
+  const int title = m_axisY->titleText().isEmpty() ? 0 : scaled(this, 18);
+  return widest + scaled(this, 10) + title;
+}
+
+void ValueChart::setCurvePainter(Painter painter, Painting painting) {
+  m_layer->curves = std::move(painter);
+  m_layer->painting = painting;
+  redraw();
+}
+
+void ValueChart::redraw() {
+  m_layer->stale = true;
+  viewport()->update();
+}
+
+void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
+  if (m_area.isEmpty() || !(m_stepY > 0.0)) return;
+  painter->setPen(theme().innerLine);
+  painter->setBrush(Qt::NoBrush);
+  painter->drawRect(m_area);
+  painter->setFont(themeFont(TypeRole::Small));
+  painter->setPen(theme().secondaryText);
+  const QFontMetricsF metrics(painter->font());
+  const double half = metrics.height() / 2;
+  const int decimals = decimalsOf(m_stepY);
+  const ValueLimits y = m_y;
+  for (double k = std::ceil(y.low / m_stepY - 1e-9); k * m_stepY <= y.high + m_stepY * 1e-9; ++k) {
+    const double at = m_area.bottom() - (k * m_stepY - y.low) / (y.high - y.low) * m_area.height();
+    painter->drawText(QRectF(0, at - half, m_area.left() - scaled(this, 6), 2 * half),
+                      Qt::AlignRight | Qt::AlignVCenter, numberText(k * m_stepY, decimals));
+  }
+  if (!m_labelsX || !(m_stepX > 0.0)) return;
+  const int decimalsX = decimalsOf(m_stepX);
+  const ValueLimits x = m_x;
+  for (double k = std::ceil(x.low / m_stepX - 1e-9); k * m_stepX <= x.high + m_stepX * 1e-9; ++k) {
+    const double at = m_area.left() + (k * m_stepX - x.low) / (x.high - x.low) * m_area.width();
+    painter->drawText(QRectF(at - 60, m_area.bottom() + scaled(this, 2), 120, 2 * half),
+                      Qt::AlignHCenter | Qt::AlignTop, numberText(k * m_stepX, decimalsX));
+  }
+}
+
+}  // namespace pitchboard::ui

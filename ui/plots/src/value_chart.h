@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A Qt chart with two value axes whose curves are painted by a function: Qt's own series would need
+// every point as a QPointF each time. Axes, grid and titles are Qt's; the numbers beside them are
+// painted here with a real minus sign. UI thread only.
+
+#include <QChartView>
+#include <functional>
+
+#include <ui/plots/axis_ticks.h>
+
+class QLineSeries;
+class QValueAxis;
+
+namespace pitchboard::ui {
+
+class ValueChart : public QChartView {
+  Q_OBJECT
+ public:
+  using Painter = std::function<void(QPainter&)>;
+  /// Parts: the painter is called on several threads at once, each with a clip of its own, and
+  /// paints what lies in that; the chart's thread waits meanwhile.
+  enum class Painting { Whole, Parts };
+
+  explicit ValueChart(QWidget* parent = nullptr);
+
+  /// Where the curves are, in the view.
+  QRectF plotArea() const { return m_area; }
+  void setMargins(int left, int top, int right, int bottom);
+  /// Grid lines on multiples of the steps; those of x counted from `xAnchor`.
+  void setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor = 0.0);
+  ValueLimits xLimits() const { return m_x; }
+  ValueLimits yLimits() const { return m_y; }
+  void setTitles(const QString& x, const QString& y);
+  /// Numbers under the x axis: of an XY plot, not of a time axis that others label.
+  void setLabelsX(bool on) { m_labelsX = on; }
+  /// Room for the numbers of the y axis and its title, px.
+  int wantedLeft() const;
+
+  void setCurvePainter(Painter painter, Painting painting = Painting::Whole);
+  /// The curves have changed: paint them anew at the next opportunity.
+  void redraw();
+  void applyTheme();
+
+ signals:
+  void resized();
+
+ protected:
+  void drawForeground(QPainter* painter, const QRectF& rect) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  class Layer;
+  void place();
+
+  QValueAxis* m_axisX;
+  QValueAxis* m_axisY;
+  Layer* m_layer;
+  QMargins m_margins;
+  QRectF m_area;
+  ValueLimits m_x, m_y;
+  double m_stepX = 0.0, m_stepY = 0.0;
+  bool m_labelsX = false;
+};
+
+}  // namespace pitchboard::ui

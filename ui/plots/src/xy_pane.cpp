@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "xy_pane.h"
+
+#include <QMenu>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPolygonF>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+#include <ui/sources/linked_time.h>
+
+#include "value_chart.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
+constexpr int pixelsPerStepX = 64;        // px of the mock
+constexpr int pixelsPerStepY = 24;
+constexpr double stepFactor = 0.8;
+constexpr double notch = 120.0;
+
+/// Widens the axis that has more room, so that a unit is as long on both.
+void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
+  const double perX = (x.high - x.low) / size.width();
+  const double perY = (y.high - y.low) / size.height();
+  const auto widen = [](ValueLimits& limits, double span) {
+    const double middle = (limits.low + limits.high) / 2;
+    limits = {middle - span / 2, middle + span / 2};
+  };
+  if (perX < perY)
+    widen(x, perY * size.width());
+  else
+    widen(y, perX * size.height());
+}
+
+}  // namespace
+
+std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetry::TimeRange range,
+                              std::size_t most) {
+  std::vector<QPointF> points;
+  if (!x || !y) return points;
+  const auto add = [&](double time, double value) {
+    const auto other = y.group->at(y.column, time);
+    points.emplace_back(value, other ? other->value : std::nan(""));
+  };
+  std::vector<telemetry::Sample> samples;
+  if (x.group->samples(x.column, range, samples, most)) {
+    points.reserve(samples.size());
+    for (const telemetry::Sample& sample : samples) add(sample.time, sample.value);
+    return points;
+  }
+  for (std::size_t i = 0; i < most; ++i) {
+    const double time = range.begin + (range.end - range.begin) * static_cast<double>(i) /
+                                          static_cast<double>(most - 1);
+    if (const auto sample = x.group->at(x.column, time)) add(time, sample->value);
+  }
+  return points;
+}
+
+XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
+    : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
+  setSurface(m_chart);
+  m_chart->setMinimumHeight(scaled(this, 80));
+  m_chart->setLabelsX(true);
+  m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
+  m_chart->viewport()->installEventFilter(this);
+  connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
+}
+
+QWidget* XyPane::surface() const {
+  return m_chart->viewport();
+}
+ValueLimits XyPane::xLimits() const {
+  return m_chart->xLimits();
+}
+ValueLimits XyPane::yLimits() const {
+  return m_chart->yLimits();
+}
+void XyPane::restyle() {
+  m_chart->applyTheme();
+}
+
+void XyPane::draw() {
+  m_chart->setMargins(std::max(left(), m_chart->wantedLeft()), scaled(this, 5),
+                      scaled(this, rightMargin), scaled(this, 34));
+  const QRectF area = m_chart->plotArea();
+  if (area.isEmpty()) return;
+  m_points.clear();
+  ValueLimits x{INFINITY, -INFINITY}, y{INFINITY, -INFINITY};
+  QString xTitle, yTitle;
+  for (const Curve& curve : m_curves) {
+    m_points.push_back(
+        xyPoints(curve.view(), curve.ordinate(), m_feed->time()->range(), mostPoints));
+    for (const QPointF& point : m_points.back()) {
+      if (!std::isfinite(point.x()) || !std::isfinite(point.y())) continue;
+      x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
+      y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
+    }
+    if (xTitle.isEmpty()) {
+      xTitle = curveName(variableCurve(curve.spec().inputs.value(0)));
+      yTitle = curveName(variableCurve(curve.spec().inputs.value(1)));
+    }
+  }
+  const int stepsX = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerStepX));
+  const int stepsY = std::max(1, static_cast<int>(area.height()) / scaled(this, pixelsPerStepY));
+  if (m_fits) {
+    m_x = niceLimits(x.low, x.high, stepsX).limits;
+    m_y = m_spec.autoValues ? niceLimits(y.low, y.high, stepsY).limits : m_spec.values;
+    if (m_spec.equalScales) equalize(m_x, m_y, area.size());
+  }
+  m_chart->setAxes(m_x, niceStep(m_x.high - m_x.low, stepsX), m_y,
+                   niceStep(m_y.high - m_y.low, stepsY));
+  m_chart->setTitles(xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle);
+  m_chart->redraw();
+}
+
+QPointF XyPane::toView(const QPointF& value) const {
+  const QRectF area = m_chart->plotArea();
+  return {area.left() + (value.x() - m_x.low) / (m_x.high - m_x.low) * area.width(),
+          area.bottom() - (value.y() - m_y.low) / (m_y.high - m_y.low) * area.height()};
+}
+
+QPointF XyPane::toValue(const QPointF& view) const {
+  const QRectF area = m_chart->plotArea();
+  return {m_x.low + (view.x() - area.left()) / area.width() * (m_x.high - m_x.low),
+          m_y.low + (area.bottom() - view.y()) / area.height() * (m_y.high - m_y.low)};
+}
+
+void XyPane::paintCurves(QPainter& painter) {
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  const auto cursor = m_feed->time()->cursor();
+  for (std::size_t i = 0; i < m_points.size() && i < m_curves.size(); ++i) {
+    const Curve& curve = m_curves[i];
+    const bool dots = curve.spec().style == CurveStyle::Points;
+    const double width = curve.spec().width * scaled(this, 100) / 100.0;
+    QPolygonF line;
+    const auto end = [&] {
+      if (line.size() > 1 && !dots) painter.drawPolyline(line);
+      line.clear();
+    };
+    painter.setPen(QPen(curve.color(), m_points[i].size() > 2000 ? 0.0 : width));
+    painter.setBrush(curve.color());
+    for (const QPointF& point : m_points[i]) {
+      if (!std::isfinite(point.x()) || !std::isfinite(point.y())) {
+        end();
+        continue;
+      }
+      line << toView(point);
+      if (dots) painter.drawEllipse(line.last(), width, width);
+    }
+    end();
+    // Where it was at the cursor, or is now.
+    const auto x = curve.valueAt(cursor);
+    const auto y = !curve.ordinate() ? std::nullopt
+                   : cursor          ? curve.ordinate().group->at(curve.ordinate().column, *cursor)
+                                     : curve.ordinate().group->latest(curve.ordinate().column);
+    if (!x || !y || !std::isfinite(*x) || !std::isfinite(y->value)) continue;
+    painter.setPen(QPen(theme().view, 1.0));
+    painter.drawEllipse(toView({*x, y->value}), scaled(this, 4), scaled(this, 4));
+  }
+}
+
+bool XyPane::eventFilter(QObject*, QEvent* event) {
+  switch (event->type()) {
+    case QEvent::Wheel: {
+      auto* wheel = static_cast<QWheelEvent*>(event);
+      wheel->accept();
+      const QPointF anchor = toValue(wheel->position());
+      const double factor = std::pow(stepFactor, wheel->angleDelta().y() / notch);
+      const ValueLimits x{anchor.x() + (m_x.low - anchor.x()) * factor,
+                          anchor.x() + (m_x.high - anchor.x()) * factor};
+      const ValueLimits y{anchor.y() + (m_y.low - anchor.y()) * factor,
+                          anchor.y() + (m_y.high - anchor.y()) * factor};
+      const double size =
+          std::max({std::abs(x.low), std::abs(x.high), std::abs(y.low), std::abs(y.high)});
+      const double least = std::min(x.high - x.low, y.high - y.low);
+      if (!(least > size * 1e-12) || size > 1e300) return true;
+      m_x = x;
+      m_y = y;
+      m_fits = false;
+      draw();
+      return true;
+    }
+    case QEvent::MouseButtonPress:
+      if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
+      m_last = static_cast<QMouseEvent*>(event)->position();
+      m_dragging = true;
+      return true;
+    case QEvent::MouseMove: {
+      if (!m_dragging) return false;
+      const QPointF at = static_cast<QMouseEvent*>(event)->position();
+      const QPointF by = toValue(m_last) - toValue(at);
+      m_last = at;
+      m_x = {m_x.low + by.x(), m_x.high + by.x()};
+      m_y = {m_y.low + by.y(), m_y.high + by.y()};
+      m_fits = false;
+      draw();
+      return true;
+    }
+    case QEvent::MouseButtonRelease:
+      m_dragging = false;
+      return false;
+    case QEvent::MouseButtonDblClick:
+      showAll();
+      return true;
+    default:
+      return false;
+  }
+}
+
+void XyPane::showAll() {
+  m_fits = true;
+  draw();
+}
+
+void XyPane::extendMenu(QMenu* menu) {
+  QAction* equal = menu->addAction(tr("Equal scales"));
+  equal->setCheckable(true);
+  equal->setChecked(m_spec.equalScales);
+  connect(equal, &QAction::triggered, this, [this](bool on) {
+    PaneSpec options = m_spec;
+    options.equalScales = on;
+    m_fits = true;
+    setOptions(options);
+  });
+}
+
+}  // namespace pitchboard::ui

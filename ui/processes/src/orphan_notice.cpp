@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/processes/orphan_notice.h>
+
+#include <QObject>
+#include <QStringList>
+
+#include <robotlink/blackboard/system_v.h>
+#include <ui/base/notice_bar.h>
+#include <ui/sources/match_controller.h>
+
+namespace pitchboard::ui {
+
+void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
+  std::vector<int> keys;
+  QStringList names;
+  for (const link::SegmentInfo& segment :
+       link::SystemVSegments::list(controller->options().keyBase)) {
+    if (!segment.orphan) continue;
+    keys.push_back(segment.key);
+    names << QString::number(segment.key);
+  }
+  if (keys.empty()) return;
+  const QString sentence =
+      keys.size() == 1
+          ? QObject::tr(
+                "An earlier run left a blackboard behind (key %1), with its old values. "
+                "Removing it restarts the match.")
+                .arg(names.front())
+          : QObject::tr(
+                "An earlier run left %1 blackboards behind (keys %2), with their old "
+                "values. Removing them restarts the match.")
+                .arg(keys.size())
+                .arg(names.join(QStringLiteral(", ")));
+  notices->show(sentence, {{QObject::tr("Remove"),
+                            [controller, keys] {
+                              controller->restartAfter([keys] {
+                                for (const int key : keys) {
+                                  const auto segment = link::SystemVSegments::info(key);
+                                  // Somebody else may have come to use it meanwhile.
+                                  if (segment && segment->attached == 0) {
+                                    (void)link::SystemVSegments::remove(key);
+                                  }
+                                }
+                              });
+                            }},
+                           {QObject::tr("Keep"), {}}});
+}
+
+}  // namespace pitchboard::ui

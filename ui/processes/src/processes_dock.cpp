@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/processes/processes_dock.h>
+
+#include <QLabel>
+#include <QMenu>
+#include <QStackedWidget>
+#include <QTimer>
+
+#include <ui/base/table_style.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+
+#include "processes_model.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QString emptyText(const MatchController& controller) {
+  if (controller.isOpening()) return QObject::tr("Opening…");
+  if (!controller.isOpen()) {
+    return QObject::tr("No match is open. Choose a scenario in the tool bar.");
+  }
+  switch (controller.cognition()) {
+    case link::Cognition::Inline:
+      if (controller.options().cognition != link::Cognition::Inline) {
+        return QObject::tr(
+            "The robots decide inside the studio, because separate processes could "
+            "not be started: the Log says why.");
+      }
+      return QObject::tr(
+          "The robots decide inside the studio, so there are no separate processes to "
+          "show. Start the studio with --cognition external to have them.");
+    case link::Cognition::None:
+      return QObject::tr(
+          "Nothing was started. Attach your own processes to the robots' "
+          "blackboards: key 100 × robot number (plus the key base).");
+    case link::Cognition::External:
+      return QObject::tr("There are no robots, so no processes run.");
+  }
+  return {};
+}
+
+class ProcessesDock : public QStackedWidget {
+ public:
+  ProcessesDock(const StudioContext& context, QWidget* parent)
+      : QStackedWidget(parent),
+        m_controller(context.controller),
+        m_source(context.source),
+        m_model(new ProcessesModel(this)),
+        m_table(new QTableView(this)),
+        m_empty(new QLabel(this)) {
+    constexpr int refreshMilliseconds = 250;
+    m_table->setObjectName(QStringLiteral("processesTable"));
+    m_table->setModel(m_model);
+    styleTable(m_table);
+    const int widths[] = {68, 140, 84, 220};
+    for (int column = 0; column < 4; ++column) {
+      m_table->setColumnWidth(column, scaled(m_table, widths[column]));
+    }
+    m_empty->setObjectName(QStringLiteral("noProcesses"));
+    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setBackgroundRole(QPalette::Base);
+    m_empty->setAutoFillBackground(true);
+    m_empty->setMargin(scaled(this, 12));
+    m_empty->setWordWrap(true);
+    addWidget(m_table);
+    addWidget(m_empty);
+    auto* timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, [this] {
+      if (isVisible()) refresh();
+    });
+    timer->start(refreshMilliseconds);
+    connect(m_source, &SourceSwitch::changed, this, [this] { refresh(); });
+    for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
+      connect(m_controller, changed, this, [this] { refresh(); });
+    }
+    m_table->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(m_table, &QWidget::customContextMenuRequested, this,
+            [this](const QPoint& at) { showMenu(at); });
+    refresh();
+  }
+
+ private:
+  void refresh() {
+    const bool simulated = m_source->kind() == SourceKind::Simulate;
+    if (const FramePtr frame = m_source->frame())
+      m_model->update(*frame);
+    else
+      m_model->clear();
+    m_empty->setText(simulated
+                         ? emptyText(*m_controller)
+                         : tr("These robots' processes run on the robots. The letters on the cards "
+                              "tell which of them work."));
+    setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
+  }
+
+  void showMenu(const QPoint& at) {
+    const QModelIndex index = m_table->indexAt(at);
+    if (m_source->kind() != SourceKind::Simulate || !index.isValid()) return;
+    const RobotId id = m_model->robotAt(index.row());
+    const QString name = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
+    QMenu menu(this);
+    menu.addAction(themedIcon(QStringLiteral("view-refresh")),
+                   tr("Restart all processes of %1").arg(name), m_controller,
+                   [this, id] { m_controller->restartProcesses(id); });
+    menu.addAction(themedIcon(QStringLiteral("media-playback-stop")),
+                   tr("Stop all processes of %1").arg(name), m_controller,
+                   [this, id] { m_controller->stopProcesses(id); });
+    menu.exec(m_table->viewport()->mapToGlobal(at));
+  }
+
+  MatchController* m_controller;
+  SourceSwitch* m_source;
+  ProcessesModel* m_model;
+  QTableView* m_table;
+  QLabel* m_empty;
+};
+
+}  // namespace
+
+QWidget* makeProcessesDock(const StudioContext& context, QWidget* parent) {
+  return new ProcessesDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a robot's card says, as a value: computed from the source's frames, drawn by RobotCard.
+
+#include <QString>
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <robotlink/match/match_runner.h>
+
+namespace pitchboard::ui {
+
+enum class LampState { Unknown, Working, Silent };
+
+struct Lamp {
+  LampState state = LampState::Unknown;
+  int seconds = 0;  ///< silent for so long (real time); 0 otherwise
+  bool operator==(const Lamp&) const = default;
+};
+
+enum class TagKind { None, Warning, Error };
+
+/// A further value that a card can show: "VISION_BALL_DIST", "83.2", "cm".
+struct CardValue {
+  QString name, text, unit;
+  bool operator==(const CardValue&) const = default;
+};
+
+struct CardState {
+  static constexpr int lampCount = 5;
+  static constexpr std::array<char, lampCount> letters{'C', 'V', 'L', 'D', 'I'};
+  static constexpr std::array<const char*, lampCount> processes{"communication", "vision",
+                                                                "localization", "decision", "IMU"};
+
+  RobotId id;
+  TeamColor team = TeamColor::Blue;
+  int number = 0;
+  QString name;
+  int voltage = 0;  ///< tenths of a volt, 0 = not told
+  std::array<Lamp, lampCount> lamps;
+  QString tag;
+  TagKind tagKind = TagKind::None;
+  QString action;
+  QString detail;  ///< age of the tick and distance walked; or how it is heard
+  QString detailTip;
+  bool live = false;                          ///< heard by network
+  bool timedOut = false;                      ///< greyed
+  std::optional<telemetry::Battery> battery;  ///< as the robot's cells have it; else from `voltage`
+  std::vector<CardValue> values;              ///< shown where the user asked for them
+  bool operator==(const CardState& other) const;
+
+  bool batteryLow() const { return battery ? battery->low : voltage > 0 && voltage < lowVoltage; }
+  /// Charge for the bar, 0..1, between empty and full of a four-cell battery.
+  double charge() const;
+
+  /// What lamp i stands for: in Live the letter C is control, not communication.
+  QString process(std::size_t lamp) const;
+
+  static constexpr int lowVoltage = 160;
+};
+
+/// The cards of robots that are heard: everything they say is in the frame.
+std::vector<CardState> liveCards(const link::MatchFrame& frame);
+
+/// Remembers since when each process has been silent. A process that was never seen working is
+/// unknown, not silent. Time stands still while the match is paused.
+class CardTracker {
+ public:
+  /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
+  std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
+  /// Forgets everything: another match.
+  void reset() {
+    m_robots.clear();
+    m_age = 0.0;
+    m_serial = 0;
+  }
+
+ private:
+  struct History {
+    std::array<bool, CardState::lampCount> seen{};
+    std::array<qint64, CardState::lampCount> silentSince{};
+    std::array<Lamp, CardState::lampCount> lamps{};
+  };
+  void updateLamps(History& history, const link::MatchFrame& frame,
+                   const link::RobotBoardView& board);
+  std::map<RobotId, History> m_robots;
+  qint64 m_playing = 0;  // ms of unpaused time
+  qint64 m_last = -1;
+  qint64 m_changed = 0;  // when the frame's serial last changed, real ms
+  std::uint64_t m_serial = 0;
+  double m_age = 0.0;  // ms, smoothed
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The cards of all robots, refreshed ten times a second. Selects both ways with the field. Cards
+// are dragged into another order, or out of the list into a window of their own; what they show is
+// chosen in their menu and kept.
+
+#include <QElapsedTimer>
+#include <QScrollArea>
+#include <map>
+
+#include <ui/robots/card_state.h>
+#include <ui/robots/robot_card.h>
+#include <ui/sources/studio_context.h>
+
+class QDockWidget;
+class QLabel;
+class QMenu;
+class QVBoxLayout;
+
+namespace pitchboard::ui {
+
+class RobotsDock : public QScrollArea {
+  Q_OBJECT
+ public:
+  RobotsDock(const StudioContext& context, QWidget* parent);
+  /// Those in the list, from the top; not those that float.
+  QList<RobotCard*> cards() const;
+  void setAllCollapsed(bool collapsed);
+  /// Gives the card a window of its own; closing that puts it back.
+  void floatCard(RobotId id);
+  QDockWidget* floating(RobotId id) const;
+  /// Puts the card before the one at this place of the list.
+  void moveCard(RobotId id, qsizetype place);
+  void setParts(const CardParts& parts);
+  const CardParts& parts() const { return m_parts; }
+  QSize sizeHint() const override;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void refresh();
+  std::vector<CardState> states();
+  void showSelection();
+  void showCards(const std::vector<CardState>& states);
+  RobotCard* makeCard(RobotId id);
+  void arrange();
+  void unfloat(RobotId id);
+  void follow(RobotCard* card, const QPoint& globalPosition);
+  void drop(RobotCard* card, const QPoint& globalPosition);
+  void loadParts();
+  void showMenu(RobotCard* card, const QPoint& at);
+  void addMatchActions(QMenu& menu, RobotCard* card);
+  void addPartActions(QMenu& menu, RobotCard* card);
+
+  StudioContext m_context;
+  CardTracker m_tracker;
+  QElapsedTimer m_clock;
+  CardParts m_parts;
+  std::map<RobotId, RobotCard*> m_cards;
+  std::map<RobotId, QDockWidget*> m_floating;
+  std::vector<RobotId> m_order;  // of all robots ever seen here
+  QVBoxLayout* m_column;
+  QLabel* m_empty;
+};
+
+QWidget* makeRobotsDock(const StudioContext& context, QWidget* parent);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/robots/card_state.h>
+
+#include <algorithm>
+
+#include <ui/base/robot_words.h>
+
+namespace pitchboard::ui {
+namespace {
+
+// A communication process sets no flag on its blackboard: its child process tells.
+bool communicationRuns(const link::MatchFrame& frame, RobotId id) {
+  return std::any_of(frame.children.begin(), frame.children.end(), [id](const auto& child) {
+    return child.spec.robot == id && child.spec.name == "communication" &&
+           child.state == link::ChildState::Running;
+  });
+}
+
+void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int action, bool fallen) {
+  for (std::size_t i = 0; i < card.lamps.size(); ++i) {
+    if (card.lamps[i].state != LampState::Silent) continue;
+    card.tagKind = TagKind::Error;
+    card.tag = QStringLiteral("%1 silent %2 s")
+                   .arg(QLatin1Char(CardState::letters[i]))
+                   .arg(card.lamps[i].seconds);
+    return;
+  }
+  if (card.batteryLow()) {
+    card.tagKind = TagKind::Error;
+    card.tag = QStringLiteral("battery low");
+  } else if (fallen) {
+    card.tagKind = TagKind::Warning;
+    card.tag = QStringLiteral("fallen");
+  } else if (statistics.unknownActions > 0 && statistics.lastUnknownAction == action) {
+    card.tagKind = TagKind::Warning;
+    card.tag = QStringLiteral("unknown action");
+  }
+}
+
+std::vector<CardValue> boardValues(const sim::RobotSnapshot& robot,
+                                   const link::RobotBoardView& board) {
+  const auto whole = [](int value) { return numberText(value, 0); };
+  const auto real = [](double value, int decimals) { return numberText(value, decimals); };
+  const QString cm = QStringLiteral("cm"), degree = QStringLiteral("°");
+  return {{QStringLiteral("TRUE_X"), real(robot.pose.position.x, 2), QStringLiteral("m")},
+          {QStringLiteral("TRUE_Y"), real(robot.pose.position.y, 2), QStringLiteral("m")},
+          {QStringLiteral("LOCALIZATION_X"), whole(board.localizationX), cm},
+          {QStringLiteral("LOCALIZATION_Y"), whole(board.localizationY), cm},
+          {QStringLiteral("LOCALIZATION_THETA"), whole(board.localizationTheta), degree},
+          {QStringLiteral("LOCALIZATION_RBT01_X"), real(double(board.belief), 1), cm},
+          {QStringLiteral("VISION_BALL_DIST"), real(double(board.ballDistCm), 1), cm},
+          {QStringLiteral("VISION_PAN_DEG"), real(double(board.panDeg), 1), degree},
+          {QStringLiteral("DECISION_ACTION_A"), whole(board.actionA), {}}};
+}
+
+QString ageText(double milliseconds) {
+  if (milliseconds < 1000) return QStringLiteral("%1 ms").arg(qRound(milliseconds));
+  return QStringLiteral("%1 s").arg(numberText(milliseconds / 1000, 1));
+}
+
+}  // namespace
+
+bool CardState::operator==(const CardState& o) const {
+  const auto same = [](const auto& a, const auto& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->volts == b->volts && a->fraction == b->fraction && a->low == b->low));
+  };
+  return id == o.id && team == o.team && number == o.number && name == o.name &&
+         voltage == o.voltage && lamps == o.lamps && tag == o.tag && tagKind == o.tagKind &&
+         action == o.action && detail == o.detail && detailTip == o.detailTip && live == o.live &&
+         timedOut == o.timedOut && same(battery, o.battery) && values == o.values;
+}
+
+QString CardState::process(std::size_t lamp) const {
+  return lamp == 0 && live ? QStringLiteral("control") : QLatin1String(processes[lamp]);
+}
+
+double CardState::charge() const {
+  if (battery) return battery->fraction;
+  constexpr double empty = 146.5, full = 191.5;
+  return std::clamp((voltage - empty) / (full - empty), 0.0, 1.0);
+}
+
+void CardTracker::updateLamps(History& history, const link::MatchFrame& frame,
+                              const link::RobotBoardView& board) {
+  const std::array<bool, CardState::lampCount> working{
+      communicationRuns(frame, board.id), board.visionWorking, board.localizationWorking,
+      board.decisionWorking, board.imuWorking};
+  for (std::size_t i = 0; i < working.size(); ++i) {
+    Lamp& lamp = history.lamps[i];
+    if (working[i]) {
+      history.seen[i] = true;
+      lamp = {LampState::Working, 0};
+    } else if (history.seen[i] && !frame.paused) {
+      if (lamp.state != LampState::Silent) history.silentSince[i] = m_playing;
+      lamp = {LampState::Silent, static_cast<int>((m_playing - history.silentSince[i]) / 1000)};
+    }
+  }
+}
+
+std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64 now) {
+  if (!frame.health.empty() || frame.origin == link::FrameOrigin::Live) return liveCards(frame);
+  const qint64 passed = m_last >= 0 ? now - m_last : 0;
+  if (!frame.paused) m_playing += passed;
+  m_last = now;
+  if (frame.serial != m_serial) {
+    m_changed = now;
+    m_serial = frame.serial;
+  }
+  constexpr double smoothing = 0.1;
+  const double age = static_cast<double>(now - m_changed) + 500.0 / std::max(1.0, frame.tickRate);
+  m_age += smoothing * (age - m_age);
+
+  std::vector<CardState> cards;
+  cards.reserve(frame.snapshot.robots.size());
+  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+    CardState card;
+    card.id = robot.identity.id;
+    card.team = robot.identity.team;
+    card.number = robot.identity.number;
+    card.name = robotName(robot.identity);
+    int action = robot.action;
+    History& history = m_robots[card.id];
+    const auto board = std::find_if(frame.boards.begin(), frame.boards.end(),
+                                    [&](const auto& view) { return view.id == card.id; });
+    if (board != frame.boards.end()) {
+      card.voltage = board->voltage;
+      updateLamps(history, frame, *board);
+      action = board->actionA;
+    }
+    card.lamps = history.lamps;
+    card.action = actionText(action);
+    // Age only matters when it grows; a small one would flicker.
+    card.detail = (frame.paused ? QStringLiteral("paused") : ageText(m_age)) +
+                  QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
+    card.detailTip = QStringLiteral("Age of the tick shown; distance walked");
+    if (board != frame.boards.end()) card.values = boardValues(robot, *board);
+    chooseTag(card, robot.statistics, action, robot.fallen);
+    cards.push_back(std::move(card));
+  }
+  std::erase_if(m_robots, [&frame](const auto& entry) {
+    return std::none_of(frame.snapshot.robots.begin(), frame.snapshot.robots.end(),
+                        [&](const auto& robot) { return robot.identity.id == entry.first; });
+  });
+  return cards;
+}
+
+}  // namespace pitchboard::ui

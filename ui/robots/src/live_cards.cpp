@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/robot_words.h>
+#include <ui/robots/card_state.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QString secondsText(double seconds) {
+  return seconds < 10 ? numberText(seconds, 1) : numberText(std::floor(seconds), 0);
+}
+
+QString detailOf(const link::RobotHealth& robot) {
+  // A small age would only flicker: robots speak about once a second.
+  QStringList parts{QStringLiteral("%1 s").arg(secondsText(robot.age)),
+                    QStringLiteral("%1/s").arg(
+                        numberText(robot.timedOut ? 0.0 : robot.rate, robot.timedOut ? 0 : 1))};
+  if (robot.loss && !robot.timedOut) {
+    parts << QStringLiteral("%1 %").arg(numberText(*robot.loss * 100, 1));
+  }
+  if (robot.errors > 0) parts << QStringLiteral("%1 bad").arg(countText(robot.errors));
+  return parts.join(QStringLiteral(" · "));
+}
+
+QString tipOf(const link::RobotHealth& robot) {
+  QStringList tip{
+      QStringLiteral("Heard from %1").arg(QString::fromStdString(robot.sender)),
+      QStringLiteral("Last message %1 s ago, %2 per second, jitter %3 ms")
+          .arg(secondsText(robot.age), numberText(robot.rate, 1),
+               numberText(robot.jitter * 1000, 0)),
+      QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
+          .arg(countText(robot.messages), countText(robot.bytes), countText(robot.errors)),
+      robot.loss ? QStringLiteral("%1 % lost").arg(numberText(*robot.loss * 100, 1))
+                 : QStringLiteral("Loss is not known: the messages have no sequence number")};
+  if (robot.recoveries > 0) tip << QStringLiteral("Came back %1 times").arg(robot.recoveries);
+  if (!robot.poseKnown) tip << QStringLiteral("Its messages have no position");
+  return tip.join(QLatin1Char('\n'));
+}
+
+void chooseTag(CardState& card, const link::RobotHealth& robot) {
+  const auto put = [&card](TagKind kind, const QString& text) {
+    card.tagKind = kind;
+    card.tag = text;
+  };
+  if (robot.timedOut) {
+    put(TagKind::Error, QStringLiteral("TIMEOUT %1 s").arg(static_cast<qint64>(robot.age)));
+  } else if (robot.conflict) {
+    put(TagKind::Error, QStringLiteral("number sent twice"));
+  } else if (robot.penalty) {
+    // "pickup or incapable": the seconds must not be cut off.
+    const QString words =
+        QString::fromStdString(robot.penalty->words).section(QStringLiteral(" or "), 0, 0);
+    put(TagKind::Warning, robot.penalty->secondsLeft > 0
+                              ? QStringLiteral("%1 %2 s").arg(words).arg(robot.penalty->secondsLeft)
+                              : words);
+  } else if (const auto silent =
+                 std::find_if(card.lamps.begin(), card.lamps.end(),
+                              [](const Lamp& lamp) { return lamp.state == LampState::Silent; });
+             silent != card.lamps.end()) {
+    put(TagKind::Error,
+        QStringLiteral("%1 silent %2 s")
+            .arg(QLatin1Char(
+                CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]))
+            .arg(silent->seconds));
+  } else if (card.batteryLow()) {
+    put(TagKind::Error, QStringLiteral("battery low"));
+  }
+}
+
+Lamp lampOf(telemetry::ProcessState state, double since) {
+  const auto seconds = static_cast<int>(std::min(since, 1e6));
+  switch (state) {
+    case telemetry::ProcessState::Working:
+      return {LampState::Working, 0};
+    case telemetry::ProcessState::Silent:
+      return {LampState::Silent, seconds};
+    case telemetry::ProcessState::Unknown:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<CardState> liveCards(const link::MatchFrame& frame) {
+  std::vector<CardState> cards;
+  cards.reserve(frame.health.size());
+  for (std::size_t i = 0; i < frame.health.size() && i < frame.snapshot.robots.size(); ++i) {
+    const link::RobotHealth& robot = frame.health[i];
+    const sim::RobotIdentity& identity = frame.snapshot.robots[i].identity;
+    CardState card;
+    card.id = robot.id;
+    card.team = identity.team;
+    card.number = identity.number;
+    card.name = robotName(identity);
+    card.live = true;
+    card.timedOut = robot.timedOut;
+    card.battery = robot.battery;
+    card.voltage = robot.battery ? static_cast<int>(std::lround(robot.battery->volts * 10)) : 0;
+    for (std::size_t lamp = 0; lamp < card.lamps.size(); ++lamp) {
+      card.lamps[lamp] = lampOf(robot.processes[lamp], robot.processSince[lamp]);
+    }
+    card.action = robot.action ? actionText(*robot.action) : QString();
+    if (robot.timedOut && !card.action.isEmpty()) {
+      card.action = QStringLiteral("last: %1").arg(card.action);
+    }
+    card.detail = detailOf(robot);
+    card.detailTip = tipOf(robot);
+    for (const link::HeardValue& value : robot.values) {
+      card.values.push_back({QString::fromStdString(value.name), QString::fromStdString(value.text),
+                             QString::fromStdString(value.unit)});
+    }
+    chooseTag(card, robot);
+    cards.push_back(std::move(card));
+  }
+  return cards;
+}
+
+}  // namespace pitchboard::ui

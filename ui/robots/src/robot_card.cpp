@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/robots/robot_card.h>
+
+#include <QApplication>
+#include <QHelpEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QToolTip>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+
+RobotCard::RobotCard(QWidget* parent) : QFrame(parent) {
+  setFocusPolicy(Qt::TabFocus);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+}
+
+void RobotCard::setState(const CardState& state) {
+  if (state == m_state) return;
+  // Most updates change the last row only.
+  CardState rest = state;
+  rest.action = m_state.action;
+  rest.detail = m_state.detail;
+  rest.detailTip = m_state.detailTip;
+  const bool footOnly = rest == m_state;
+  const bool taller = state.tag.isEmpty() != m_state.tag.isEmpty() && !m_parts.processes;
+  m_state = state;
+  if (taller) updateGeometry();
+  setAccessibleName(state.name);
+  setAccessibleDescription(QStringLiteral("%1, %2").arg(state.action, state.tag));
+  if (!footOnly)
+    update();
+  else if (!m_collapsed)
+    update(rowRect(2));
+}
+
+void RobotCard::setParts(const CardParts& parts) {
+  if (parts == m_parts) return;
+  m_parts = parts;
+  updateGeometry();
+  update();
+}
+
+void RobotCard::setSelected(bool selected) {
+  if (selected == m_selected) return;
+  m_selected = selected;
+  update();
+}
+
+void RobotCard::setCollapsed(bool collapsed) {
+  if (collapsed == m_collapsed) return;
+  m_collapsed = collapsed;
+  updateGeometry();
+  update();
+}
+
+QSize RobotCard::sizeHint() const {
+  int height = 30;
+  if (!m_collapsed) {
+    const int rows = 3 + static_cast<int>(m_parts.values.size());
+    height = 10;
+    for (int row = 0; row < rows; ++row) {
+      if (const int high = rowHeight(row); high > 0) height += high;
+    }
+  }
+  return {scaled(this, 236), scaled(this, height)};
+}
+
+QSize RobotCard::minimumSizeHint() const {
+  return {scaled(this, 190), sizeHint().height()};
+}
+
+bool RobotCard::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    QString tip;
+    for (int lamp = 0; lamp < CardState::lampCount && m_parts.processes; ++lamp) {
+      if (lampRect(lamp).contains(help->pos())) tip = lampTip(lamp);
+    }
+    if (!m_collapsed && rowRect(2).contains(help->pos())) {
+      tip = m_state.detailTip;
+    }
+    if (tip.isEmpty())
+      QToolTip::hideText();
+    else
+      QToolTip::showText(help->globalPos(), tip, this);
+    return true;
+  }
+  return QFrame::event(event);
+}
+
+QString RobotCard::lampTip(int lamp) const {
+  const auto index = static_cast<std::size_t>(lamp);
+  const QString process = m_state.process(index);
+  const Lamp& state = m_state.lamps[index];
+  if (state.state == LampState::Working) return tr("%1: working").arg(process);
+  if (state.state == LampState::Silent) {
+    return tr("%1: silent for %2 s").arg(process).arg(state.seconds);
+  }
+  return m_state.live ? tr("%1: nothing known").arg(process)
+                      : tr("%1: not heard of since the match began").arg(process);
+}
+
+void RobotCard::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return QFrame::mousePressEvent(event);
+  if (chevronRect().contains(event->pos()))
+    setCollapsed(!m_collapsed);
+  else
+    emit clicked(event->modifiers());
+  m_pressed = event->pos();
+  m_held = !chevronRect().contains(event->pos());
+  m_dragging = false;
+}
+
+void RobotCard::mouseMoveEvent(QMouseEvent* event) {
+  if (!m_held) return;
+  if ((event->pos() - m_pressed).manhattanLength() >= QApplication::startDragDistance()) {
+    m_dragging = true;
+  }
+  if (m_dragging) emit dragged(event->globalPosition().toPoint());
+}
+
+void RobotCard::mouseReleaseEvent(QMouseEvent* event) {
+  m_held = false;
+  if (std::exchange(m_dragging, false)) emit dropped(event->globalPosition().toPoint());
+}
+
+void RobotCard::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_Space:
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      emit clicked(event->modifiers());
+      return;
+    case Qt::Key_Left:
+      setCollapsed(true);
+      return;
+    case Qt::Key_Right:
+      setCollapsed(false);
+      return;
+    default:
+      QFrame::keyPressEvent(event);
+  }
+}
+
+void RobotCard::contextMenuEvent(QContextMenuEvent* event) {
+  emit menuRequested(event->globalPos());
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a card looks (mock/card.png): all lengths are of the mock and follow the font.
+#include <QPainter>
+#include <QPainterPath>
+
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+#include <ui/robots/robot_card.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double corner = 3.0;
+
+QRectF sharp(const QRect& rect) {
+  return QRectF(rect).adjusted(0.5, 0.5, -0.5, -0.5);
+}
+
+}  // namespace
+
+QRect RobotCard::rowRect(int row) const {
+  const int left = scaled(this, 9), wide = width() - left - scaled(this, 8);
+  int top = 5;
+  for (int above = 0; above < row; ++above) top += rowHeight(above);
+  const int gap = row == 0 ? 4 : row == 1 ? 5 : 0;
+  return {left, scaled(this, top), wide, scaled(this, std::max(0, rowHeight(row) - gap))};
+}
+
+int RobotCard::rowHeight(int row) const {
+  if (row == 0) return 24;
+  if (row == 1) return m_parts.processes || !m_state.tag.isEmpty() ? 21 : 0;
+  if (row == 2) return m_parts.action || m_parts.health ? 19 : 0;
+  return 16;
+}
+
+QRect RobotCard::lampRect(int lamp) const {
+  if (m_collapsed) {
+    const QRect row = rowRect(0);
+    return {row.left() + scaled(this, 60 + lamp * 12), row.top() + scaled(this, 5), scaled(this, 8),
+            scaled(this, 10)};
+  }
+  const QRect row = rowRect(1);
+  return {row.left() + scaled(this, lamp * 24), row.top(), scaled(this, 20), row.height()};
+}
+
+QRect RobotCard::chevronRect() const {
+  const QRect row = rowRect(0);
+  return {row.right() - scaled(this, 16), row.top(), scaled(this, 20), row.height()};
+}
+
+void RobotCard::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paintFrame(painter);
+  paintHead(painter);
+  paintLamps(painter);
+  if (m_collapsed) return;
+  paintTag(painter);
+  paintFoot(painter);
+  paintValues(painter);
+}
+
+void RobotCard::paintFrame(QPainter& painter) const {
+  painter.setPen(m_selected || hasFocus() ? theme().accentLine : theme().innerLine);
+  painter.setBrush(m_state.timedOut ? theme().view : theme().window);
+  painter.drawRoundedRect(sharp(rect()), corner, corner);
+  if (m_selected) {
+    QPainterPath outline;
+    outline.addRoundedRect(rect(), corner, corner);
+    painter.save();
+    painter.setClipPath(outline);
+    painter.fillRect(0, 0, scaled(this, 3), height(), theme().accentLine);
+    painter.restore();
+  }
+}
+
+void RobotCard::paintHead(QPainter& painter) const {
+  const double greyed = m_state.timedOut ? 0.5 : 1.0;
+  painter.setOpacity(greyed);
+  const QRect row = rowRect(0);
+  const QRect badge(row.left(), row.top(), row.height(), row.height());
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().team(m_state.team));
+  painter.drawRoundedRect(badge, corner, corner);
+  painter.setFont(themeFont(TypeRole::Body, true));
+  painter.setPen(Qt::white);
+  painter.drawText(badge, Qt::AlignCenter, QString::number(m_state.number));
+  painter.setPen(theme().text);
+  painter.drawText(row.adjusted(row.height() + scaled(this, 8), 0, 0, 0),
+                   Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
+
+  painter.setOpacity(1.0);
+  painter.setPen(theme().secondaryText);
+  painter.setFont(themeFont(TypeRole::Small));
+  painter.drawText(chevronRect(), Qt::AlignCenter,
+                   m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
+
+  if (m_state.voltage <= 0 || !m_parts.battery) return;
+  painter.setOpacity(greyed);
+  const bool low = m_state.batteryLow();
+  const QRect bar(chevronRect().left() - scaled(this, 40), row.center().y() - scaled(this, 4),
+                  scaled(this, 36), scaled(this, 10));
+  const QColor color = low ? theme().errorText : theme().secondaryText;
+  painter.setPen(color);
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRoundedRect(sharp(bar), 1.5, 1.5);
+  QRectF inside = QRectF(bar).adjusted(2, 2, -2, -2);
+  inside.setWidth(inside.width() * m_state.charge());
+  painter.fillRect(inside, color);
+  painter.setFont(themeFont(TypeRole::Body, low));
+  painter.setPen(low ? theme().errorText : theme().text);
+  painter.drawText(
+      QRect(row.left(), row.top(), bar.left() - scaled(this, 6) - row.left(), row.height()),
+      Qt::AlignRight | Qt::AlignVCenter,
+      numberText(m_state.voltage / 10.0, 1) + QStringLiteral(" V"));
+  painter.setOpacity(1.0);
+}
+
+void RobotCard::paintLamps(QPainter& painter) const {
+  if (!m_parts.processes) return;
+  for (int i = 0; i < CardState::lampCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const LampState state = m_state.lamps[index].state;
+    const QRect box = lampRect(i);
+    QFont font = themeFont(TypeRole::Small, true);
+    if (state == LampState::Working) {
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(m_collapsed ? theme().workingMark : theme().workingGround);
+      painter.drawRoundedRect(box, 2, 2);
+      painter.setPen(theme().workingText);
+    } else if (state == LampState::Silent) {
+      font.setStrikeOut(true);
+      painter.setPen(theme().errorText);
+      painter.setBrush(theme().errorGround);
+      painter.drawRoundedRect(sharp(box), 2, 2);
+    } else {
+      QPen dashes(theme().disabledText, 1);
+      // Short enough that every side, corners included, shows some.
+      dashes.setDashPattern({2, 2});
+      dashes.setCapStyle(Qt::FlatCap);
+      painter.setPen(dashes);
+      painter.setBrush(Qt::NoBrush);
+      painter.drawRoundedRect(sharp(box), 2, 2);
+      painter.setPen(theme().disabledText);
+    }
+    if (m_collapsed) continue;
+    painter.setFont(font);
+    painter.drawText(box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
+  }
+}
+
+void RobotCard::paintTag(QPainter& painter) const {
+  if (m_state.tagKind == TagKind::None) return;
+  const bool error = m_state.tagKind == TagKind::Error;
+  painter.setFont(themeFont(TypeRole::Small, true));
+  const QRect row = rowRect(1);
+  const int wide = qMin(
+      painter.fontMetrics().horizontalAdvance(m_state.tag) + scaled(this, 12),
+      m_parts.processes ? row.right() - lampRect(CardState::lampCount - 1).right() - scaled(this, 4)
+                        : row.width());
+  const QRect box(row.right() - wide + 1, row.top(), wide, row.height());
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(error ? theme().errorGround : theme().warningGround);
+  painter.drawRoundedRect(box, 2, 2);
+  painter.setPen(error ? theme().errorText : theme().warningText);
+  painter.drawText(
+      box, Qt::AlignCenter,
+      painter.fontMetrics().elidedText(m_state.tag, Qt::ElideRight, wide - scaled(this, 6)));
+}
+
+void RobotCard::paintFoot(QPainter& painter) const {
+  const QRect row = rowRect(2);
+  painter.setFont(themeFont(TypeRole::Secondary));
+  painter.setPen(theme().secondaryText);
+  const QString detail = m_parts.health ? m_state.detail : QString();
+  painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, detail);
+  if (!m_parts.action) return;
+  const int taken = painter.fontMetrics().horizontalAdvance(detail) + scaled(this, 8);
+  painter.setFont(themeFont(TypeRole::Body));
+  painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
+  const QRect room = row.adjusted(0, 0, -taken, 0);
+  painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
+                   painter.fontMetrics().elidedText(m_state.action, Qt::ElideRight, room.width()));
+}
+
+const CardValue* RobotCard::value(const QString& name) const {
+  for (const CardValue& known : m_state.values) {
+    if (known.name == name) return &known;
+  }
+  return nullptr;
+}
+
+void RobotCard::paintValues(QPainter& painter) const {
+  painter.setFont(themeFont(TypeRole::Secondary));
+  const int unitWidth = scaled(this, 40);
+  for (qsizetype i = 0; i < m_parts.values.size(); ++i) {
+    const QRect row = rowRect(3 + static_cast<int>(i));
+    const CardValue* known = value(m_parts.values[i]);
+    const bool greyed = known == nullptr || m_state.timedOut;
+    painter.setPen(theme().secondaryText);
+    painter.drawText(
+        row, Qt::AlignLeft | Qt::AlignVCenter,
+        painter.fontMetrics().elidedText(m_parts.values[i], Qt::ElideMiddle, row.width() * 6 / 10));
+    if (known == nullptr) continue;
+    painter.drawText(row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
+                     Qt::AlignLeft | Qt::AlignVCenter, known->unit);
+    painter.setPen(greyed ? theme().disabledText : theme().text);
+    painter.drawText(row.adjusted(0, 0, -unitWidth, 0), Qt::AlignRight | Qt::AlignVCenter,
+                     known->text);
+  }
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/robots/robots_dock.h>
+
+#include <QDockWidget>
+#include <QEvent>
+#include <QLabel>
+#include <QMainWindow>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <base/angles.h>
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/live/live_overlay.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/pose_difference.h>
+#include <ui/sources/robot_selection.h>
+#include <ui/sources/source_switch.h>
+
+namespace pitchboard::ui {
+
+RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
+    : QScrollArea(parent), m_context(context) {
+  constexpr int refreshMilliseconds = 100;
+  setObjectName(QStringLiteral("robotCards"));
+  setFrameShape(QFrame::NoFrame);
+  setWidgetResizable(true);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* list = new QWidget(this);
+  list->setBackgroundRole(QPalette::Base);
+  list->setAutoFillBackground(true);
+  viewport()->setBackgroundRole(QPalette::Base);
+  m_column = new QVBoxLayout(list);
+  const int gap = scaled(this, 4);
+  m_column->setContentsMargins(gap, gap, gap, gap);
+  m_column->setSpacing(gap);
+  m_empty = new QLabel(list);
+  m_empty->setObjectName(QStringLiteral("noRobots"));
+  m_empty->setFont(themeFont(TypeRole::Secondary));
+  m_empty->setForegroundRole(QPalette::PlaceholderText);
+  m_empty->setContentsMargins(scaled(this, 8), scaled(this, 8), scaled(this, 8), 0);
+  m_empty->setWordWrap(true);
+  m_column->addWidget(m_empty);
+  m_column->addStretch(1);
+  setWidget(list);
+  loadParts();
+
+  m_clock.start();
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] {
+    if (isVisible() || !m_floating.empty()) refresh();
+  });
+  timer->start(refreshMilliseconds);
+  connect(context.source, &FrameSource::restarted, this, [this] {
+    m_tracker.reset();
+    refresh();
+  });
+  connect(context.selection, &RobotSelection::changed, this, &RobotsDock::showSelection);
+}
+
+QSize RobotsDock::sizeHint() const {
+  return {scaled(this, 256), scaled(this, 300)};
+}
+
+std::vector<CardState> RobotsDock::states() {
+  const FramePtr frame = m_context.source->frame();
+  if (!frame) return {};
+  std::vector<CardState> cards = m_tracker.update(*frame, m_clock.elapsed());
+  const FramePtr other = m_context.overlay != nullptr ? m_context.overlay->other() : nullptr;
+  if (!other) return cards;
+  for (CardState& card : cards) {
+    for (const sim::RobotSnapshot& robot : frame->snapshot.robots) {
+      if (robot.identity.id != card.id) continue;
+      const auto difference = poseDifference(*other, card.id, robot.pose);
+      if (!difference) break;
+      const QString words = differenceText(*difference);
+      card.detail = words + QStringLiteral(" · ") + card.detail;
+      card.detailTip += tr("\nTruth and what is heard are %1 apart").arg(words);
+      card.values.push_back({QStringLiteral("BELIEF_ERROR"),
+                             numberText(difference->metres * 100, 1), QStringLiteral("cm")});
+      card.values.push_back({QStringLiteral("BELIEF_ERROR_THETA"),
+                             numberText(degreesFromRadians(difference->radians), 1),
+                             QStringLiteral("°")});
+    }
+  }
+  return cards;
+}
+
+void RobotsDock::refresh() {
+  showCards(states());
+}
+
+void RobotsDock::showCards(const std::vector<CardState>& states) {
+  m_empty->setVisible(states.empty());
+  if (states.empty()) m_empty->setText(m_context.source->emptyText());
+  for (auto known = m_cards.begin(); known != m_cards.end();) {
+    const RobotId id = (known++)->first;
+    if (std::any_of(states.begin(), states.end(), [id](const auto& s) { return s.id == id; })) {
+      continue;
+    }
+    delete m_cards[id];
+    m_cards.erase(id);
+    if (const auto window = m_floating.find(id); window != m_floating.end()) {
+      window->second->deleteLater();
+      m_floating.erase(window);
+    }
+  }
+  bool isNew = false;
+  for (const CardState& state : states) {
+    RobotCard*& card = m_cards[state.id];
+    if (card == nullptr) {
+      card = makeCard(state.id);
+      isNew = true;
+    }
+    card->setState(state);
+    if (std::find(m_order.begin(), m_order.end(), state.id) == m_order.end()) {
+      m_order.push_back(state.id);
+    }
+  }
+  if (isNew) arrange();
+  showSelection();
+}
+
+RobotCard* RobotsDock::makeCard(RobotId id) {
+  auto* card = new RobotCard(widget());
+  card->setParts(m_parts);
+  connect(card, &RobotCard::clicked, this, [this, id](Qt::KeyboardModifiers modifiers) {
+    if (modifiers & Qt::ControlModifier)
+      m_context.selection->toggle(id);
+    else
+      m_context.selection->set({id});
+  });
+  connect(card, &RobotCard::menuRequested, this,
+          [this, card](const QPoint& at) { showMenu(card, at); });
+  connect(card, &RobotCard::dragged, this, [this, card](const QPoint& at) { follow(card, at); });
+  connect(card, &RobotCard::dropped, this, [this, card](const QPoint& at) { drop(card, at); });
+  return card;
+}
+
+void RobotsDock::arrange() {
+  int place = 0;
+  for (const RobotId id : m_order) {
+    const auto card = m_cards.find(id);
+    if (card == m_cards.end() || m_floating.count(id) != 0) continue;
+    m_column->removeWidget(card->second);
+    m_column->insertWidget(place++, card->second);
+  }
+}
+
+QList<RobotCard*> RobotsDock::cards() const {
+  QList<RobotCard*> listed;
+  for (const RobotId id : m_order) {
+    const auto card = m_cards.find(id);
+    if (card != m_cards.end() && m_floating.count(id) == 0) listed.append(card->second);
+  }
+  return listed;
+}
+
+void RobotsDock::moveCard(RobotId id, qsizetype place) {
+  QList<RobotCard*> listed = cards();
+  std::vector<RobotId> ids;
+  for (const RobotCard* card : listed) {
+    if (card->state().id != id) ids.push_back(card->state().id);
+  }
+  const auto at = std::clamp<qsizetype>(place, 0, static_cast<qsizetype>(ids.size()));
+  const RobotId before =
+      at < static_cast<qsizetype>(ids.size()) ? ids[static_cast<std::size_t>(at)] : RobotId{};
+  std::erase(m_order, id);
+  m_order.insert(std::find(m_order.begin(), m_order.end(), before), id);
+  arrange();
+}
+
+void RobotsDock::follow(RobotCard* card, const QPoint& at) {
+  if (m_floating.count(card->state().id) != 0) return;
+  const QPoint here = widget()->mapFromGlobal(at);
+  if (!viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
+    setCursor(Qt::DragCopyCursor);
+    return;
+  }
+  unsetCursor();
+  qsizetype place = 0;
+  for (const RobotCard* other : cards()) {
+    if (other != card && other->geometry().center().y() < here.y()) ++place;
+  }
+  if (cards().indexOf(card) != place) moveCard(card->state().id, place);
+}
+
+void RobotsDock::drop(RobotCard* card, const QPoint& at) {
+  unsetCursor();
+  const RobotId id = card->state().id;
+  if (m_floating.count(id) != 0 || viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
+    return;
+  }
+  floatCard(id);
+  floating(id)->move(at);
+}
+
+QDockWidget* RobotsDock::floating(RobotId id) const {
+  const auto window = m_floating.find(id);
+  return window == m_floating.end() ? nullptr : window->second;
+}
+
+void RobotsDock::floatCard(RobotId id) {
+  const auto card = m_cards.find(id);
+  auto* main = qobject_cast<QMainWindow*>(window());
+  if (card == m_cards.end() || m_floating.count(id) != 0 || main == nullptr) return;
+  auto* dock = new QDockWidget(card->second->state().name, main);
+  dock->setObjectName(QStringLiteral("card-%1").arg(id.value));
+  m_column->removeWidget(card->second);
+  dock->setWidget(card->second);
+  dock->installEventFilter(this);
+  m_floating[id] = dock;
+  main->addDockWidget(Qt::LeftDockWidgetArea, dock);
+  dock->setFloating(true);
+  dock->adjustSize();
+  dock->show();
+  card->second->show();
+}
+
+bool RobotsDock::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Close) {
+    for (const auto& [id, dock] : m_floating) {
+      if (dock != watched) continue;
+      unfloat(id);
+      break;
+    }
+  }
+  return QScrollArea::eventFilter(watched, event);
+}
+
+void RobotsDock::unfloat(RobotId id) {
+  QDockWidget* dock = m_floating.at(id);
+  m_floating.erase(id);
+  RobotCard* card = m_cards.at(id);
+  card->setParent(widget());
+  arrange();
+  card->show();
+  dock->deleteLater();
+}
+
+void RobotsDock::showSelection() {
+  for (const auto& [id, card] : m_cards) card->setSelected(m_context.selection->contains(id));
+}
+
+void RobotsDock::setAllCollapsed(bool collapsed) {
+  for (const auto& [id, card] : m_cards) card->setCollapsed(collapsed);
+}
+
+QWidget* makeRobotsDock(const StudioContext& context, QWidget* parent) {
+  return new RobotsDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

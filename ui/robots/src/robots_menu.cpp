@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the cards' menu offers, and which parts of a card are shown.
+#include <QMenu>
+#include <QSettings>
+#include <algorithm>
+
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/robot_menus.h>
+#include <ui/sources/source_switch.h>
+
+#include "blackboard_window.h"
+
+namespace pitchboard::ui {
+namespace {
+
+struct Part {
+  const char* key;  // in the settings: never change it
+  const char* text;
+  bool CardParts::*shown;
+};
+constexpr Part cardParts[] = {{"battery", "Battery", &CardParts::battery},
+                              {"processes", "Processes", &CardParts::processes},
+                              {"action", "Action", &CardParts::action},
+                              {"health", "Age, rate, loss, errors", &CardParts::health}};
+
+const QString hiddenKey = QStringLiteral("cards/hidden");
+const QString valuesKey = QStringLiteral("cards/values");
+
+}  // namespace
+
+void RobotsDock::loadParts() {
+  if (m_context.settings == nullptr) return;
+  const QStringList hidden = m_context.settings->value(hiddenKey).toStringList();
+  for (const Part& part : cardParts)
+    m_parts.*part.shown = !hidden.contains(QLatin1String(part.key));
+  m_parts.values = m_context.settings->value(valuesKey).toStringList();
+}
+
+void RobotsDock::setParts(const CardParts& parts) {
+  m_parts = parts;
+  for (const auto& [id, card] : m_cards) card->setParts(parts);
+  if (m_context.settings == nullptr) return;
+  QStringList hidden;
+  for (const Part& part : cardParts) {
+    if (!(parts.*part.shown)) hidden << QLatin1String(part.key);
+  }
+  m_context.settings->setValue(hiddenKey, hidden);
+  m_context.settings->setValue(valuesKey, parts.values);
+}
+
+void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
+  const RobotId id = card->state().id;
+  MatchController* controller = m_context.controller;
+  if (controller->robot(id) == nullptr) return;
+  addBehaviourMenu(&menu, controller, {id});
+  addTeamMenu(&menu, controller, {id});
+  menu.addAction(tr("Blackboard…"), this, [this, id] {
+    (new BlackboardWindow(m_context.controller, id, window()))->show();
+  });
+  menu.addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove %1").arg(card->state().name),
+                 controller, [controller, id] { controller->removeRobots({id}); });
+  menu.addSeparator();
+}
+
+void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
+  QMenu* show = menu.addMenu(tr("Show on cards"));
+  for (const Part& part : cardParts) {
+    QAction* action = show->addAction(tr(part.text));
+    action->setCheckable(true);
+    action->setChecked(m_parts.*part.shown);
+    connect(action, &QAction::toggled, this, [this, shown = part.shown](bool on) {
+      CardParts changed = m_parts;
+      changed.*shown = on;
+      setParts(changed);
+    });
+  }
+  show->addSeparator();
+  QStringList names;
+  for (const CardValue& value : card->state().values) names << value.name;
+  for (const QString& name : m_parts.values) {
+    if (!names.contains(name)) names << name;
+  }
+  for (const QString& name : names) {
+    QAction* action = show->addAction(name);
+    action->setCheckable(true);
+    action->setChecked(m_parts.values.contains(name));
+    connect(action, &QAction::toggled, this, [this, name](bool on) {
+      CardParts changed = m_parts;
+      if (on)
+        changed.values << name;
+      else
+        changed.values.removeAll(name);
+      setParts(changed);
+    });
+  }
+}
+
+void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
+  const RobotId id = card->state().id;
+  QMenu menu(this);
+  if (m_context.source->kind() == SourceKind::Simulate) addMatchActions(menu, card);
+  QAction* follow = menu.addAction(tr("Follow"));
+  follow->setCheckable(true);
+  follow->setChecked(m_context.field->followed() == id);
+  connect(follow, &QAction::toggled, m_context.field, [field = m_context.field, id](bool on) {
+    field->follow(on ? std::optional(id) : std::nullopt);
+  });
+  if (m_floating.count(id) == 0) {
+    menu.addAction(tr("In a window of its own"), this, [this, id] { floatCard(id); });
+  } else {
+    menu.addAction(tr("Back to the list"), this, [this, id] { unfloat(id); });
+  }
+  addPartActions(menu, card);
+  menu.addSeparator();
+  menu.addAction(tr("Collapse all"), this, [this] { setAllCollapsed(true); });
+  menu.addAction(tr("Expand all"), this, [this] { setAllCollapsed(false); });
+  menu.addAction(tr("Order by number"), this, [this] {
+    std::sort(m_order.begin(), m_order.end());
+    arrange();
+  });
+  menu.exec(at);
+}
+
+}  // namespace pitchboard::ui

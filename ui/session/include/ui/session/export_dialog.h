@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Exports part of the session that Replay has open, or of what memory holds of the match or of
+// Live: numbers (CSV, JSON lines), a shorter session, a report, the field as a picture or a video.
+// The dialog stays while a worker writes, shows how far it is, and can be cancelled; it never stops
+// the window. UI thread only.
+
+#include <QDialog>
+#include <QThreadPool>
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include <telemetry/series/series_store.h>
+#include <ui/session/export_forms.h>
+#include <ui/sources/session_recording.h>
+
+class QComboBox;
+class QDialogButtonBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+class QSpinBox;
+class QTemporaryDir;
+
+namespace pitchboard::ui {
+
+class FieldView;
+class VideoExport;
+
+/// What is exported from: a file, or memory.
+struct ExportSource {
+  QString session;                     ///< the file; empty: memory
+  std::function<SessionMaker()> make;  ///< from memory: what writes it (SessionRecording)
+  QString folder, name;                ///< of the file that is proposed, without its ending
+};
+
+class ExportDialog : public QDialog {
+  Q_OBJECT
+ public:
+  /// `range` is what is chosen at first. The field (it outlives the dialog) is what pictures show
+  /// and whose layers and side videos have.
+  ExportDialog(ExportSource source, telemetry::TimeRange range, FieldView* field, QWidget* parent);
+  ~ExportDialog() override;  ///< cancels what is being written
+
+  /// Writes in the chosen form; finished() or failed() follows. Never overwrites.
+  void exportTo(const QString& path);
+  /// What makes videos, instead of "ffmpeg".
+  void setVideoProgram(const QString& program) { m_program = program; }
+  bool isWriting() const { return m_writing; }
+  /// Ending of the chosen form's files: ".csv".
+  QString suffix() const;
+
+ signals:
+  void written(const QString& path);
+  void failed(const QString& sentence);
+
+ private:
+  const ExportForm& form() const;
+  void showRows();
+  void ask();
+  void write(const ExportRequest& request);
+  void writeVideo(const ExportRequest& request);
+  void writePicture(const QString& path);
+  void succeed(const QString& path);
+  void fail(const QString& sentence);
+  void cancel();
+  void tell(const QString& text, bool error);
+  void setWriting(bool writing);
+
+  ExportSource m_source;
+  FieldView* m_field;
+  QComboBox* m_format;
+  QDoubleSpinBox* m_begin;
+  QDoubleSpinBox* m_end;
+  QLineEdit* m_robots;
+  QLineEdit* m_variables;
+  QComboBox* m_size;
+  QSpinBox* m_rate;
+  QFormLayout* m_rows;
+  QProgressBar* m_progress;
+  QLabel* m_message;
+  QPushButton* m_export;
+  QString m_program = QStringLiteral("ffmpeg");
+  std::unique_ptr<QTemporaryDir> m_memory;  // holds the session that is written from memory
+  std::unique_ptr<VideoExport> m_video;
+  bool m_writing = false;
+  std::atomic<bool> m_cancelled = false;
+  QThreadPool m_worker;
+};
+
+}  // namespace pitchboard::ui

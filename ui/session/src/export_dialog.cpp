@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/session/export_dialog.h>
+
+#include <QBuffer>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QSpinBox>
+#include <QTemporaryDir>
+
+#include <ui/base/theme.h>
+#include <ui/field/field_style.h>
+#include <ui/field/field_view.h>
+
+#include "video_export.h"
+
+namespace pitchboard::ui {
+namespace {
+
+std::vector<std::string> namesOf(const QString& text) {
+  static const QRegularExpression between(QStringLiteral("[\\s,;]+"));
+  std::vector<std::string> names;
+  for (const QString& name : text.split(between, Qt::SkipEmptyParts)) {
+    names.push_back(name.toStdString());
+  }
+  return names;
+}
+
+}  // namespace
+
+ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range, FieldView* field,
+                           QWidget* parent)
+    : QDialog(parent),
+      m_source(std::move(source)),
+      m_field(field),
+      m_format(new QComboBox(this)),
+      m_begin(new QDoubleSpinBox(this)),
+      m_end(new QDoubleSpinBox(this)),
+      m_robots(new QLineEdit(this)),
+      m_variables(new QLineEdit(this)),
+      m_size(new QComboBox(this)),
+      m_rate(new QSpinBox(this)),
+      m_rows(new QFormLayout),
+      m_progress(new QProgressBar(this)),
+      m_message(new QLabel(this)) {
+  setWindowTitle(tr("Export"));
+  setObjectName(QStringLiteral("exportDialog"));
+  m_format->setObjectName(QStringLiteral("exportFormat"));
+  m_robots->setObjectName(QStringLiteral("exportRobots"));
+  m_variables->setObjectName(QStringLiteral("exportVariables"));
+  m_message->setObjectName(QStringLiteral("exportMessage"));
+  m_size->setObjectName(QStringLiteral("exportSize"));
+  m_rate->setObjectName(QStringLiteral("exportRate"));
+  m_progress->setObjectName(QStringLiteral("exportProgress"));
+  for (const ExportForm& form : exportForms()) m_format->addItem(tr(form.words));
+  for (const QSize size :
+       {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
+    m_size->addItem(tr("%1 × %2").arg(size.width()).arg(size.height()), size);
+  }
+  m_rate->setRange(1, 60);
+  m_rate->setValue(30);
+  m_rate->setSuffix(tr(" pictures a second"));
+  for (QDoubleSpinBox* box : {m_begin, m_end}) {
+    box->setRange(-1e7, 1e7);
+    box->setDecimals(3);
+    box->setSuffix(tr(" s"));
+  }
+  m_begin->setValue(range.begin);
+  m_end->setValue(range.end);
+  m_robots->setPlaceholderText(tr("all, or e.g. B1 R2 match"));
+  m_variables->setPlaceholderText(tr("all, or e.g. VISION_* LOCALIZATION_X"));
+  m_message->setWordWrap(true);
+  m_message->setForegroundRole(QPalette::PlaceholderText);
+  m_progress->setRange(0, 1000);
+  m_progress->hide();
+  m_rows->addRow(tr("Form"), m_format);
+  m_rows->addRow(tr("From"), m_begin);
+  m_rows->addRow(tr("To"), m_end);
+  m_rows->addRow(tr("Robots"), m_robots);
+  m_rows->addRow(tr("Variables"), m_variables);
+  m_rows->addRow(tr("Size"), m_size);
+  m_rows->addRow(tr("Rate"), m_rate);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  m_export = buttons->addButton(tr("Export…"), QDialogButtonBox::ActionRole);
+  m_export->setObjectName(QStringLiteral("exportButton"));
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(m_rows);
+  column->addWidget(m_progress);
+  column->addWidget(m_message);
+  column->addWidget(buttons);
+  resize(scaled(this, 420), sizeHint().height());
+  m_worker.setMaxThreadCount(1);
+  connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::showRows);
+  showRows();
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(m_export, &QPushButton::clicked, this, [this] {
+    if (m_writing)
+      cancel();
+    else
+      ask();
+  });
+}
+
+ExportDialog::~ExportDialog() {
+  m_cancelled = true;
+  m_worker.waitForDone();
+}
+
+const ExportForm& ExportDialog::form() const {
+  return exportForms()[static_cast<std::size_t>(m_format->currentIndex())];
+}
+
+QString ExportDialog::suffix() const {
+  return QLatin1String(form().suffix);
+}
+
+// Only what the chosen form asks for.
+void ExportDialog::showRows() {
+  const ExportKind kind = form().kind;
+  const bool picture = kind == ExportKind::Png || kind == ExportKind::Svg;
+  for (QWidget* row : {m_begin, m_end}) m_rows->setRowVisible(row, !picture);
+  for (QWidget* row : {m_robots, m_variables}) {
+    m_rows->setRowVisible(row, kind == ExportKind::Numbers);
+  }
+  m_rows->setRowVisible(m_size, picture || kind == ExportKind::Video);
+  m_rows->setRowVisible(m_rate, kind == ExportKind::Video);
+}
+
+void ExportDialog::ask() {
+  const QDir folder(m_source.folder);
+  QString path =
+      QFileDialog::getSaveFileName(this, tr("Export"), folder.filePath(m_source.name + suffix()));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += suffix();
+  // The file dialog has asked whether the old one is to go.
+  QFile::remove(path);
+  exportTo(path);
+}
+
+void ExportDialog::exportTo(const QString& path) {
+  if (m_writing) return;
+  m_cancelled = false;
+  const ExportForm& chosen = form();
+  if (chosen.kind == ExportKind::Png || chosen.kind == ExportKind::Svg) {
+    writePicture(path);
+    return;
+  }
+  ExportRequest request;
+  request.session = m_source.session;
+  request.path = path;
+  request.selection.range = {m_begin->value(), m_end->value()};
+  request.selection.robots = namesOf(m_robots->text());
+  request.selection.variables = namesOf(m_variables->text());
+  if (chosen.kind != ExportKind::Numbers) {
+    request.selection.robots.clear();
+    request.selection.variables.clear();
+  }
+  if (request.selection.range.begin > request.selection.range.end) {
+    fail(tr("The range ends before it begins."));
+    return;
+  }
+  setWriting(true);
+  if (!request.session.isEmpty()) {
+    write(request);
+    return;
+  }
+  // From memory: what is there now is written to a session that is gone with the dialog.
+  m_memory = std::make_unique<QTemporaryDir>();
+  request.session = m_memory->filePath(QStringLiteral("memory.mcap"));
+  SessionMaker make = m_source.make ? m_source.make() : SessionMaker();
+  if (!make) {
+    setWriting(false);
+    fail(tr("Nothing was written: there is nothing in memory yet."));
+    return;
+  }
+  m_worker.start([this, request, make = std::move(make)] {
+    const auto made = make(request.session);
+    QMetaObject::invokeMethod(
+        this,
+        [this, made, request] {
+          if (made && !m_cancelled) {
+            write(request);
+            return;
+          }
+          setWriting(false);
+          fail(
+              m_cancelled
+                  ? tr("Cancelled; nothing was written.")
+                  : tr("Nothing was written: %1").arg(QString::fromStdString(made.error().text())));
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void ExportDialog::write(const ExportRequest& request) {
+  if (form().kind == ExportKind::Video) {
+    writeVideo(request);
+    return;
+  }
+  QByteArray picture;
+  if (form().kind == ExportKind::Report) {
+    QBuffer buffer(&picture);
+    m_field->picture({1040, 740}).save(&buffer, "PNG");
+  }
+  m_worker.start([this, request, chosen = form(), picture] {
+    const auto done = writeExport(request, chosen, picture, [this](double part) {
+      QMetaObject::invokeMethod(
+          this, [this, part] { m_progress->setValue(static_cast<int>(part * 1000)); },
+          Qt::QueuedConnection);
+      return !m_cancelled;
+    });
+    QMetaObject::invokeMethod(
+        this,
+        [this, done, path = request.path] {
+          setWriting(false);
+          if (done) {
+            succeed(path);
+          } else {
+            fail(m_cancelled ? tr("Cancelled; nothing was written.")
+                             : tr("Nothing was written: %1")
+                                   .arg(QString::fromStdString(done.error().text())));
+          }
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void ExportDialog::writeVideo(const ExportRequest& request) {
+  m_video = std::make_unique<VideoExport>(m_field->style(), nullptr);
+  connect(m_video.get(), &VideoExport::progressed, this,
+          [this](double part) { m_progress->setValue(static_cast<int>(part * 1000)); });
+  connect(m_video.get(), &VideoExport::finished, this, [this](const QString& path) {
+    setWriting(false);
+    succeed(path);
+  });
+  connect(m_video.get(), &VideoExport::failed, this, [this](const QString& sentence) {
+    setWriting(false);
+    fail(sentence);
+  });
+  VideoOptions options;
+  options.path = request.path;
+  options.size = m_size->currentData().toSize();
+  options.framesPerSecond = m_rate->value();
+  options.program = m_program;
+  const auto range = request.selection.range;
+  if (const auto started = m_video->start(request.session, {range.begin, range.end}, options);
+      !started) {
+    setWriting(false);
+    fail(QString::fromStdString(started.error().text()));
+  }
+}
+
+void ExportDialog::writePicture(const QString& path) {
+  const QSize size = m_size->currentData().toSize();
+  QByteArray bytes;
+  if (form().kind == ExportKind::Svg) {
+    bytes = m_field->svgPicture(size);
+  } else {
+    QBuffer buffer(&bytes);
+    m_field->picture(size).save(&buffer, "PNG");
+  }
+  QFile file(path);
+  if (!file.open(QIODevice::WriteOnly | QIODevice::NewOnly) || file.write(bytes) != bytes.size() ||
+      !file.flush()) {
+    fail(tr("%1 cannot be written: %2.").arg(path, file.errorString()));
+    return;
+  }
+  file.close();
+  succeed(path);
+}
+
+void ExportDialog::cancel() {
+  m_cancelled = true;
+  if (!m_video) return;
+  m_video.reset();
+  setWriting(false);
+  fail(tr("Cancelled; nothing was written."));
+}
+
+void ExportDialog::succeed(const QString& path) {
+  tell(tr("Written: %1 (%2 MB)")
+           .arg(path)
+           .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
+       false);
+  emit written(path);
+}
+
+void ExportDialog::fail(const QString& sentence) {
+  tell(sentence, !m_cancelled);
+  emit failed(sentence);
+}
+
+void ExportDialog::setWriting(bool writing) {
+  m_writing = writing;
+  // What asks for it may be the video itself.
+  if (!writing && m_video) m_video.release()->deleteLater();
+  m_progress->setVisible(writing);
+  m_progress->setValue(0);
+  m_export->setText(writing ? tr("Cancel") : tr("Export…"));
+  for (QWidget* choice : {static_cast<QWidget*>(m_format), static_cast<QWidget*>(m_size)}) {
+    choice->setEnabled(!writing);
+  }
+  if (writing) tell({}, false);
+}
+
+void ExportDialog::tell(const QString& text, bool error) {
+  QPalette colours = palette();
+  if (error) colours.setColor(QPalette::PlaceholderText, theme().errorText);
+  m_message->setPalette(colours);
+  m_message->setText(text);
+}
+
+}  // namespace pitchboard::ui

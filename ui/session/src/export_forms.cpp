@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/session/export_forms.h>
+
+#include <QFileInfo>
+#include <QtGlobal>
+
+#include <robotlink/report/report.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::ExportFormat;
+
+const ExportForm forms[] = {
+    {QT_TRANSLATE_NOOP("ExportDialog", "Table, a row per time (CSV)"), ExportKind::Numbers, ".csv",
+     ExportFormat::CsvWide},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Table, a row per value (CSV)"), ExportKind::Numbers, ".csv",
+     ExportFormat::CsvLong},
+    {QT_TRANSLATE_NOOP("ExportDialog", "JSON lines"), ExportKind::Numbers, ".jsonl",
+     ExportFormat::JsonLines},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Shorter session (MCAP)"), ExportKind::Numbers, ".mcap",
+     ExportFormat::Mcap},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Report (HTML)"), ExportKind::Report, ".html"},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Field as it is shown (PNG)"), ExportKind::Png, ".png"},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Field as it is shown (SVG)"), ExportKind::Svg, ".svg"},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Video of the field (MP4)"), ExportKind::Video, ".mp4"},
+    {QT_TRANSLATE_NOOP("ExportDialog", "Video of the field (WebM)"), ExportKind::Video, ".webm"},
+};
+
+Result<std::uint64_t> writeReport(const telemetry::SessionReader& session,
+                                  const ExportRequest& request, const QByteArray& picture) {
+  const telemetry::SessionRange range = request.selection.range;
+  link::ReportContent content;
+  content.session = session.info();
+  content.title = content.session.title;
+  content.statistics = link::statisticsOf(session, {range.begin, range.end});
+  for (telemetry::SessionEvent& event : session.events()) {
+    if (event.time >= range.begin && event.time <= range.end) content.events.push_back(event);
+  }
+  content.picture = picture.toStdString();
+  content.notes = session.notes();
+  const auto done = link::writeReport(request.path.toStdString(), content);
+  if (!done) return tl::unexpected(done.error());
+  return static_cast<std::uint64_t>(QFileInfo(request.path).size());
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm& form,
+                                  const QByteArray& picture,
+                                  const telemetry::ExportProgress& progress) {
+  const auto session = telemetry::SessionReader::open(request.session.toStdString());
+  if (!session) return tl::unexpected(session.error());
+  if (form.kind == ExportKind::Report) return writeReport(*session, request, picture);
+  const auto report = telemetry::exportFile(*session, form.format, request.selection,
+                                            request.path.toStdString(), progress);
+  if (!report) return tl::unexpected(report.error());
+  return report->bytes;
+}
+
+std::span<const ExportForm> exportForms() {
+  return forms;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/session/session_files.h>
+
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMimeData>
+
+#include <telemetry/session/session_repair.h>
+#include <ui/base/notice_bar.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+namespace pitchboard::ui {
+namespace {
+
+const QString suffix = QStringLiteral("mcap");
+
+QString droppedSession(const QMimeData* data) {
+  for (const QUrl& url : data->urls()) {
+    if (url.isLocalFile() && QFileInfo(url.toLocalFile()).suffix().toLower() == suffix) {
+      return url.toLocalFile();
+    }
+  }
+  return {};
+}
+
+QString repairedName(const QString& path) {
+  const QFileInfo file(path);
+  const QString base = file.dir().filePath(file.completeBaseName() + QStringLiteral(" repaired"));
+  QString name = base + QStringLiteral(".mcap");
+  for (int n = 2; QFile::exists(name); ++n) name = QStringLiteral("%1 (%2).mcap").arg(base).arg(n);
+  return name;
+}
+
+}  // namespace
+
+SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller,
+                           SourceSwitch* source, Timeline* timeline, NoticeBar* notices,
+                           QWidget* window)
+    : QObject(window),
+      m_replay(replay),
+      m_controller(controller),
+      m_source(source),
+      m_timeline(timeline),
+      m_notices(notices),
+      m_window(window) {
+  m_worker.setMaxThreadCount(1);
+  window->setAcceptDrops(true);
+  window->installEventFilter(this);
+  connect(replay, &ReplayController::failed, this,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(replay, &ReplayController::opened, this, [this] {
+    m_source->choose(m_replay);
+    if (!m_replay->isBroken()) return;
+    m_notices->show(
+        tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
+           "be made beside it.")
+            .arg(QFileInfo(m_replay->path()).fileName()),
+        {{tr("Repair into a new file"), [this, path = m_replay->path()] { repair(path); }},
+         {tr("Not now"), {}}});
+  });
+  connect(replay, &ReplayController::noted, this, [this](const QStringList& sentences) {
+    constexpr int most = 3;
+    QString text = sentences.mid(0, most).join(QLatin1Char(' '));
+    if (sentences.size() > most) text += tr(" And %1 more.").arg(sentences.size() - most);
+    m_notices->show(text);
+  });
+}
+
+SessionFiles::~SessionFiles() {
+  m_cancelled = true;
+  m_worker.waitForDone();
+}
+
+void SessionFiles::open(const QString& path) {
+  m_replay->open(path);
+}
+
+void SessionFiles::askAndOpen() {
+  const QString path = askForFile(tr("Open session"));
+  if (!path.isEmpty()) open(path);
+}
+
+QString SessionFiles::askForFile(const QString& title) {
+  return QFileDialog::getOpenFileName(m_window, title, {}, tr("Sessions (*.mcap);;All files (*)"));
+}
+
+void SessionFiles::repair(const QString& path) {
+  const QString to = repairedName(path);
+  m_worker.start([this, path, to] {
+    const auto report = telemetry::repairSession(path.toStdString(), to.toStdString(),
+                                                 [this](double) { return !m_cancelled; });
+    QMetaObject::invokeMethod(
+        this,
+        [this, report, to] {
+          if (!report) {
+            m_notices->show(tr("The session was not repaired: %1")
+                                .arg(QString::fromStdString(report.error().text())));
+            return;
+          }
+          QString text = tr("Repaired into %1: %2 messages, %3 s.")
+                             .arg(to)
+                             .arg(report->messages)
+                             .arg(report->seconds, 0, 'f', 1);
+          if (!report->lost.empty()) {
+            text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
+          }
+          m_notices->show(text);
+          open(to);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::DragEnter) {
+    auto* drag = static_cast<QDragEnterEvent*>(event);
+    if (!droppedSession(drag->mimeData()).isEmpty()) {
+      drag->acceptProposedAction();
+      return true;
+    }
+  }
+  if (event->type() == QEvent::Drop) {
+    auto* drop = static_cast<QDropEvent*>(event);
+    const QString path = droppedSession(drop->mimeData());
+    if (!path.isEmpty()) {
+      drop->acceptProposedAction();
+      open(path);
+      return true;
+    }
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
+  const FramePtr frame = m_source->frame();
+  if (!frame || frame->snapshot.robots.empty()) {
+    m_notices->show(tr("There is no robot on the field to simulate from here."));
+    return;
+  }
+  link::MomentOptions options;
+  options.poses = poses;
+  options.ball = poses == link::MomentOptions::Poses::True ? link::MomentOptions::Ball::True
+                                                           : link::MomentOptions::Ball::Perceived;
+  std::optional<link::Scenario> base;
+  if (m_source->kind() == SourceKind::Simulate) {
+    base = m_controller->scenario();
+  } else if (m_source->kind() == SourceKind::Replay && !m_replay->attachedScenario().empty()) {
+    auto read = link::scenarioFromJson(m_replay->attachedScenario(), "the session's scenario");
+    if (read) base = std::move(*read);
+  }
+  if (base) options.base = &*base;
+  const link::MomentScenario moment = link::scenarioFromMoment(*frame, options);
+  m_timeline->goLive();
+  m_source->choose(m_controller);
+  m_controller->open(moment.scenario);
+  QStringList notes;
+  for (const std::string& note : moment.notes) notes << QString::fromStdString(note);
+  if (!notes.isEmpty()) m_notices->show(notes.join(QLatin1Char(' ')));
+}
+
+void SessionFiles::continueFromHere() {
+  if (m_source->kind() != SourceKind::Simulate || !m_timeline->isLookingBack()) return;
+  const double time = m_timeline->shownTime();
+  m_controller->continueFrom(time);
+  m_timeline->goLive();
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "video_export.h"
+
+#include <QPainter>
+#include <cmath>
+
+#include <robotlink/session/recorded_frame.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_picture.h>
+#include <ui/field/field_scene.h>
+#include <ui/window/scoreboard.h>
+
+namespace pitchboard::ui {
+namespace {
+
+/// Score and time stand in the corner: a picture of a video has no window round it that says them.
+void paintCaption(QImage& picture, const link::MatchFrame& frame) {
+  const ScoreboardState score = scoreboardOf(frame);
+  const int high = std::max(picture.height() / 36, 11);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  drawHaloText(&painter, {picture.width() / 2.0, high * 0.9},
+               QStringLiteral("%1  %2 : %3  %4    %5")
+                       .arg(score.leftName)
+                       .arg(score.left)
+                       .arg(score.right)
+                       .arg(score.rightName)
+                       .arg(frame.snapshot.time, 0, 'f', 1) +
+                   QStringLiteral(" s"),
+               fieldFont(high, true), theme().fieldLines, theme().fieldBorder.darker(150));
+}
+
+}  // namespace
+
+struct VideoExport::Reader {
+  QString path;
+  std::optional<telemetry::SessionReader> session;
+  std::optional<link::RecordedFrames> frames;
+  std::string problem;
+
+  FramePtr frameAt(double time) {
+    if (!session) {
+      auto opened = telemetry::SessionReader::open(path.toStdString());
+      if (!opened) {
+        problem = opened.error().text();
+        return nullptr;
+      }
+      session.emplace(std::move(*opened));
+      frames.emplace(link::backdropOf(*session));
+    }
+    return std::make_shared<link::MatchFrame>(frames->frameAt(*session, time));
+  }
+};
+
+VideoExport::VideoExport(const FieldStyle& style, QObject* parent)
+    : QObject(parent), m_scene(std::make_unique<FieldScene>()) {
+  m_worker.setMaxThreadCount(1);
+  m_scene->changeStyle([&style](FieldStyle& own) {
+    own.layers = style.layers;
+    own.flipped = style.flipped;
+    own.wedgeForAll = style.wedgeForAll;
+    own.eopraGranularity = style.eopraGranularity;
+    own.readOnly = true;
+  });
+  connect(&m_writer, &VideoWriter::wantsPicture, this, &VideoExport::next);
+  connect(&m_writer, &VideoWriter::finished, this, [this](const QString& path) {
+    m_reader.reset();
+    emit finished(path);
+  });
+  connect(&m_writer, &VideoWriter::failed, this, [this](const QString& sentence) {
+    m_reader.reset();
+    ++m_job;
+    emit failed(sentence);
+  });
+}
+
+VideoExport::~VideoExport() {
+  cancel();
+  m_worker.waitForDone();
+}
+
+Result<void> VideoExport::start(const QString& session, telemetry::TimeRange range,
+                                const VideoOptions& options) {
+  if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
+    return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
+  }
+  if (auto started = m_writer.start(options); !started) return started;
+  m_reader = std::make_shared<Reader>();
+  m_reader->path = session;
+  m_range = range;
+  m_rate = options.framesPerSecond;
+  m_pictures = static_cast<qint64>((range.end - range.begin) * m_rate) + 1;
+  m_drawn = 0;
+  m_reading = false;
+  m_frame.reset();
+  ++m_job;
+  read();
+  return {};
+}
+
+void VideoExport::cancel() {
+  ++m_job;
+  m_reader.reset();
+  m_frame.reset();
+  m_writer.cancel();
+}
+
+void VideoExport::read() {
+  if (m_reading || m_frame || !m_reader) return;
+  const qint64 number = m_drawn;
+  if (number >= m_pictures) return;
+  m_reading = true;
+  const double time = m_range.begin + static_cast<double>(number) / m_rate;
+  m_worker.start([this, reader = m_reader, time, job = m_job] {
+    FramePtr frame = reader->frameAt(time);
+    QMetaObject::invokeMethod(
+        this,
+        [this, frame, job, problem = reader->problem] {
+          if (job != m_job) return;
+          m_reading = false;
+          if (!frame) {
+            cancel();
+            emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
+            return;
+          }
+          m_frame = frame;
+          next();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void VideoExport::next() {
+  if (!m_reader || !m_frame || !m_writer.ready()) return;
+  const FramePtr frame = std::exchange(m_frame, nullptr);
+  ++m_drawn;
+  // The next moment is read while this one is drawn.
+  read();
+  draw(frame);
+  if (m_drawn >= m_pictures) m_writer.finish();
+}
+
+void VideoExport::draw(const FramePtr& frame) {
+  m_scene->showFrame(frame);
+  QImage picture = paintPicture(*m_scene, m_writer.size());
+  paintCaption(picture, *frame);
+  m_writer.add(picture);
+  emit progressed(static_cast<double>(m_drawn) / static_cast<double>(m_pictures));
+}
+
+}  // namespace pitchboard::ui

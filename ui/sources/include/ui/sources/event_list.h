@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Events of one source in order of time, for the timeline and for tables. Bounded: the oldest
+// leave first, bookmarks last of all. UI thread only.
+
+#include <QAbstractTableModel>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include <ui/sources/timeline_event.h>
+
+namespace pitchboard::ui {
+
+class EventList : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { Time, What, Note, columns };
+  static constexpr std::size_t maxEvents = 20'000;
+  static constexpr int maxNote = 200;  ///< characters
+
+  explicit EventList(QObject* parent = nullptr, std::size_t most = maxEvents);
+
+  /// In its place by time, behind those of the same time. Returns its row. A time that is not
+  /// finite is not taken: -1.
+  int add(TimelineEvent event);
+  /// The same for many, with one reset of the model when they are not simply later ones.
+  void add(std::vector<TimelineEvent> events);
+  /// The source was put back: what came after this time has not happened.
+  void rewind(double time);
+  void clear();
+  void removeEvent(int row);
+  /// Only a bookmark has a note of one's own; others are left alone.
+  void setNote(int row, const QString& note);
+
+  const std::deque<TimelineEvent>& events() const { return m_events; }
+  const TimelineEvent& event(int row) const { return m_events[static_cast<std::size_t>(row)]; }
+  /// Row of the first event after / last event before this time, whatever its kind.
+  std::optional<int> next(double time) const;
+  std::optional<int> previous(double time) const;
+  /// Events that had to leave.
+  std::size_t dropped() const { return m_dropped; }
+  /// Grows with every change, for whoever caches what it draws.
+  std::uint64_t revision() const { return m_revision; }
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ signals:
+  void changed();
+
+ private:
+  void makeRoom();
+  void touch();
+
+  std::deque<TimelineEvent> m_events;
+  std::size_t m_most;
+  std::size_t m_dropped = 0;
+  std::uint64_t m_revision = 0;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/compared_session.h>
+
+#include <QFileInfo>
+
+#include <ui/field/field_view.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/timeline.h>
+
+#include "event_collector.h"
+
+namespace pitchboard::ui {
+
+ComparedSession::ComparedSession(Timeline* timeline, FieldView* field, QObject* parent)
+    : QObject(parent), m_timeline(timeline), m_field(field), m_events(new EventCollector(&m_file)) {
+  connect(timeline, &Timeline::moved, this, &ComparedSession::showMoment);
+  connect(timeline, &Timeline::sourceChanged, this, [this] {
+    m_here.reset();
+    showMoment();
+  });
+  connect(timeline, &Timeline::lookingBackChanged, this, &ComparedSession::showMoment);
+  connect(&m_file, &ReplayController::frameReceived, this, [this](const FramePtr& frame) {
+    const double there = m_timeline->shownTime() - m_offset;
+    const auto range = m_file.playback()->range();
+    // A moment that comes late: what is shown has gone on beyond the session.
+    const bool inside = range && there >= range->begin - 1e-6 && there <= range->end + 1e-6;
+    m_field->showCompared(inside ? frame : nullptr);
+  });
+  connect(&m_file, &ReplayController::opened, this, [this] {
+    m_here.reset();
+    m_there.reset();
+    m_offset = 0.0;
+    showMoment();
+    emit changed();
+  });
+  connect(&m_file, &ReplayController::failed, this, &ComparedSession::failed);
+}
+
+void ComparedSession::open(const QString& path) {
+  m_file.open(path);
+}
+
+void ComparedSession::stop() {
+  m_file.close();
+  m_field->showCompared(nullptr);
+  emit changed();
+}
+
+const EventList* ComparedSession::events() const {
+  return isOn() ? m_events->list() : nullptr;
+}
+
+void ComparedSession::setOffset(double seconds) {
+  m_offset = seconds;
+  showMoment();
+  emit changed();
+}
+
+void ComparedSession::alignHere(double here) {
+  m_here = here;
+  align();
+}
+
+void ComparedSession::alignThere(double there) {
+  m_there = there;
+  align();
+}
+
+void ComparedSession::align() {
+  if (m_here && m_there)
+    setOffset(*m_here - *m_there);
+  else
+    emit changed();
+}
+
+void ComparedSession::alignByTime() {
+  m_here.reset();
+  m_there.reset();
+  setOffset(0.0);
+}
+
+QString ComparedSession::caption() const {
+  if (!isOn()) return {};
+  QString text = QFileInfo(m_file.path()).completeBaseName();
+  if (m_offset != 0.0) {
+    text += tr(" · %1%2 s")
+                .arg(m_offset < 0 ? QChar(0x2212) : QLatin1Char('+'))
+                .arg(std::abs(m_offset), 0, 'f', 2);
+  }
+  if (m_here && !m_there) text += tr(" · choose its event");
+  if (m_there && !m_here) text += tr(" · choose the event above");
+  return text;
+}
+
+void ComparedSession::showMoment() {
+  if (!isOn()) return;
+  const auto range = m_file.playback()->range();
+  const double there = m_timeline->shownTime() - m_offset;
+  if (!range || there < range->begin || there > range->end) {
+    m_field->showCompared(nullptr);
+    return;
+  }
+  if (there == m_file.playback()->position()) {
+    m_field->showCompared(m_file.frame());
+    return;
+  }
+  m_file.playback()->seek(there);
+}
+
+}  // namespace pitchboard::ui

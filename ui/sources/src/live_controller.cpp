@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/live_controller.h>
+
+#include <algorithm>
+
+#include <robotlink/live/live_rows.h>
+#include <telemetry/series/series_store.h>
+
+namespace pitchboard::ui {
+
+namespace {
+
+/// Every message as a row of the store. Lives in the watch's thread once it observes.
+class RowKeeper : public link::LiveObserver {
+ public:
+  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, telemetry::WallTime zero)
+      : m_rows(std::move(store), {zero, {}}) {}
+  void heard(RobotId, double, const telemetry::DatagramView& datagram,
+             const telemetry::TextDecoder& decoder,
+             const telemetry::DecodedText& decoded) override {
+    m_rows.take(datagram, decoded, decoder);
+  }
+  void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
+
+ private:
+  telemetry::LiveRows m_rows;
+};
+
+}  // namespace
+
+LiveController::LiveController(QObject* parent) : FrameSource(parent) {}
+
+LiveController::~LiveController() = default;
+
+void LiveController::start() {
+  if (m_watch) return;
+  m_watch = std::make_unique<link::LiveWatch>(m_options, [this] {
+    QMetaObject::invokeMethod(this, &LiveController::deliver, Qt::QueuedConnection);
+  });
+  keepRows();
+  for (const auto& observer : m_observers) m_watch->observe(observer);
+  emit restarted();
+}
+
+void LiveController::stop() {
+  if (!m_watch) return;
+  m_watch.reset();
+  m_frame.reset();
+  m_rows.reset();
+  m_series.reset();
+  m_past.clear();
+  m_pastRobots = 0;
+  emit restarted();
+}
+
+void LiveController::setOptions(const link::LiveOptions& options) {
+  if (const auto good = link::validate(options); !good) {
+    emit errorOccurred(
+        tr("Live keeps its settings: %1").arg(QString::fromStdString(good.error().text())));
+    return;
+  }
+  m_options = options;
+  if (m_watch) m_watch->setOptions(options);
+  emit optionsChanged();
+}
+
+void LiveController::setOurTeam(int number) {
+  if (number == m_options.ourTeam) return;
+  link::LiveOptions options = m_options;
+  options.ourTeam = number;
+  setOptions(options);
+}
+
+void LiveController::setMonitor(std::optional<telemetry::Address> referee) {
+  if (referee == m_options.monitor) return;
+  link::LiveOptions options = m_options;
+  options.monitor = referee;
+  setOptions(options);
+}
+
+void LiveController::clear() {
+  if (!m_watch) return;
+  m_watch->clear();
+  m_frame.reset();
+  m_past.clear();
+  m_pastRobots = 0;
+  keepRows();
+  emit restarted();
+}
+
+void LiveController::setMemoryBudget(std::size_t bytes) {
+  m_memoryBudget = bytes;
+  if (m_series) m_series->setMemoryBudget(bytes);
+}
+
+void LiveController::keepRows() {
+  if (m_rows) m_watch->stopObserving(m_rows);
+  m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
+  m_rows = std::make_shared<RowKeeper>(m_series, m_watch->began());
+  m_watch->observe(m_rows);
+}
+
+void LiveController::remember() {
+  constexpr double step = 0.2;                // s
+  constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
+  if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
+  m_past.push_back(m_frame);
+  m_pastRobots += m_frame->health.size() + 1;
+  while (m_pastRobots > mostRobots) {
+    m_pastRobots -= m_past.front()->health.size() + 1;
+    m_past.pop_front();
+  }
+}
+
+FramePtr LiveController::frameAt(double time) const {
+  const auto after =
+      std::upper_bound(m_past.begin(), m_past.end(), time,
+                       [](double t, const FramePtr& frame) { return t < frame->snapshot.time; });
+  return after == m_past.begin() ? nullptr : *std::prev(after);
+}
+
+std::optional<QDateTime> LiveController::clock() const {
+  if (!m_watch) return {};
+  const auto began =
+      std::chrono::duration_cast<std::chrono::milliseconds>(m_watch->began().time_since_epoch());
+  return QDateTime::fromMSecsSinceEpoch(began.count());
+}
+
+QString LiveController::portsText() const {
+  return tr("UDP %1–%2").arg(m_options.portBase + 1).arg(m_options.portBase + m_options.robots);
+}
+
+QString LiveController::emptyText() const {
+  const QString address = m_options.bind.value == 0 ? tr("every address of this computer")
+                                                    : QString::fromStdString(m_options.bind.text());
+  return tr("Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
+            "Robot 1 sends to port %4, robot 2 to %5. Check that this computer is in the robots' "
+            "network and that no firewall keeps UDP out. Nothing is sent to robots.")
+      .arg(address, portsText())
+      .arg(m_options.refereePort)
+      .arg(m_options.portBase + 1)
+      .arg(m_options.portBase + 2);
+}
+
+link::LiveDetails LiveController::details() const {
+  return m_watch ? m_watch->details() : link::LiveDetails{};
+}
+
+void LiveController::observe(std::shared_ptr<link::LiveObserver> observer) {
+  if (m_watch) m_watch->observe(observer);
+  m_observers.push_back(std::move(observer));
+}
+
+void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& observer) {
+  if (m_watch) m_watch->stopObserving(observer);
+  std::erase(m_observers, observer);
+}
+
+void LiveController::deliver() {
+  if (!m_watch) return;  // stopped while this was on its way
+  m_frame = m_watch->latest();
+  if (m_frame) {
+    remember();
+    emit frameReceived(m_frame);
+  }
+  // A receiver may have stopped it.
+  if (!m_watch) return;
+  if (const auto events = m_watch->takeEvents(); !events.empty()) emit eventsReceived(events);
+  if (!m_watch) return;
+  const auto lines = m_watch->takeLog();
+  if (lines.empty()) return;
+  emit logReceived(lines);
+  std::vector<const link::LogLine*> ports;
+  for (const link::LogLine& line : lines) {
+    if (line.warning && line.origin == "network") ports.push_back(&line);
+  }
+  if (ports.empty()) return;
+  const QString first = QString::fromStdString(ports.front()->text);
+  emit errorOccurred(
+      ports.size() == 1
+          ? first
+          : tr("%1 ports cannot be received; the first: %2").arg(ports.size()).arg(first));
+}
+
+}  // namespace pitchboard::ui

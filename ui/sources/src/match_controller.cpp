@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/match_controller.h>
+
+#include <QTimer>
+#include <QUndoStack>
+#include <algorithm>
+
+#include <robotlink/session/match_sampler.h>
+#include <ui/base/robot_words.h>
+
+#include "match_rows.h"
+
+namespace pitchboard::ui {
+namespace {
+
+using CatalogPtr = std::shared_ptr<const link::VariableCatalog>;
+
+// A match refers to its catalog until its thread has ended.
+struct RunnerWithCatalog {
+  CatalogPtr catalog;
+  std::unique_ptr<link::MatchRunner> runner;
+};
+
+std::shared_ptr<link::MatchRunner> holding(CatalogPtr catalog,
+                                           std::unique_ptr<link::MatchRunner> runner) {
+  const auto both =
+      std::make_shared<RunnerWithCatalog>(RunnerWithCatalog{std::move(catalog), std::move(runner)});
+  return {both, both->runner.get()};
+}
+
+}  // namespace
+
+MatchController::MatchController(link::MatchOptions options, QObject* parent)
+    : FrameSource(parent),
+      m_options(std::move(options)),
+      m_nextCatalog(&link::VariableCatalog::published(), [](const auto*) {}),
+      m_catalog(m_nextCatalog),
+      m_timer(new QTimer(this)),
+      m_undoStack(new QUndoStack(this)) {
+  constexpr int displayMilliseconds = 16;
+  constexpr int undoLimit = 1000;
+  m_undoStack->setUndoLimit(undoLimit);
+  m_timer->setTimerType(Qt::PreciseTimer);
+  m_timer->setInterval(displayMilliseconds);
+  m_worker.setMaxThreadCount(1);
+  connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
+}
+
+// Runners' commands and the worker post back to this object: they must be gone while it is whole.
+MatchController::~MatchController() {
+  ++m_generation;
+  m_runner.reset();
+  m_worker.waitForDone();
+}
+
+struct MatchController::Opening {
+  std::shared_ptr<link::MatchRunner> runner;
+  link::Cognition cognition = link::Cognition::Inline;
+  std::shared_ptr<link::TickObserver> sampler, archive;  // that the match was started with
+  QString error;  // of a match that plays otherwise than asked for, or not at all
+
+  void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
+             CatalogPtr catalog);
+};
+
+void MatchController::Opening::start(const link::Scenario& scenario,
+                                     const link::MatchOptions& options, bool paused,
+                                     CatalogPtr catalog) {
+  const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
+  cognition = options.cognition;
+  auto made = link::MatchRunner::start(scenario, options, paused, *catalog, {sampler, archive});
+  if (!made && options.cognition != link::Cognition::Inline) {
+    const Error reason = made.error();
+    link::MatchOptions inside = options;
+    inside.cognition = cognition = link::Cognition::Inline;
+    inside.systemV = false;
+    made = link::MatchRunner::start(scenario, inside, paused, *catalog, {sampler, archive});
+    if (made) {
+      error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
+                 "instead, and other programs cannot see their blackboards. Close the other "
+                 "program, then restart the match.")
+                  .arg(words(reason));
+    }
+  }
+  if (made)
+    runner = holding(std::move(catalog), std::move(*made));
+  else
+    error = tr("The match cannot be played: %1").arg(words(made.error()));
+}
+
+void MatchController::setMemoryBudget(std::size_t bytes) {
+  m_memoryBudget = bytes;
+  if (m_rows) m_rows->setMemoryBudget(bytes);
+}
+
+std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const {
+  return m_rows ? std::shared_ptr<const telemetry::SeriesStore>(m_rows, &m_rows->store()) : nullptr;
+}
+
+std::shared_ptr<telemetry::RowSink> MatchController::rowsBeside() const {
+  return m_rows ? MatchRows::beside(m_rows) : nullptr;
+}
+
+void MatchController::setSampling(int everyNth) {
+  if (everyNth == m_everyNth || everyNth < 1) return;
+  m_everyNth = everyNth;
+  if (!m_rows) return;
+  const auto old = std::exchange(
+      m_sampler, std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{everyNth}));
+  // While a match is being opened, take() exchanges them.
+  if (!m_runner) return;
+  m_runner->stopObserving(old);
+  m_runner->observe(m_sampler);
+}
+
+QString MatchController::emptyText() const {
+  return isOpening() ? tr("Opening…")
+         : isOpen()  ? tr("No robots on the field.\nPress A over the field to add one.")
+                     : tr("No match is open.\nChoose a scenario in the tool bar.");
+}
+
+std::shared_ptr<link::MatchRunner> MatchController::retire() {
+  if (m_runner) emit ending();
+  ++m_generation;
+  m_timer->stop();
+  m_opening = false;
+  m_whenOpen.clear();
+  m_runTo.reset();
+  m_frame.reset();
+  m_rows.reset();
+  m_sampler.reset();
+  m_archive.reset();
+  m_past.reset();
+  m_undoStack->clear();
+  return std::move(m_runner);
+}
+
+void MatchController::setCatalog(std::shared_ptr<const link::VariableCatalog> catalog) {
+  m_nextCatalog = std::move(catalog);
+}
+
+void MatchController::close() {
+  m_worker.start([old = retire()]() mutable { old.reset(); });
+  emit scenarioChanged();
+  emit restarted();
+  emit transportChanged();
+}
+
+void MatchController::open(const link::Scenario& scenario, bool paused) {
+  openAfter(scenario, paused, {});
+}
+
+void MatchController::restart() {
+  restartAfter({});
+}
+
+void MatchController::restartAfter(std::function<void()> between) {
+  const link::Scenario scenario = m_scenario;
+  openAfter(scenario, m_paused, std::move(between));
+}
+
+void MatchController::openAfter(const link::Scenario& scenario, bool paused,
+                                std::function<void()> between) {
+  auto old = retire();
+  m_robots.clear();
+  m_scenario = scenario;
+  m_paused = paused;
+  m_opening = true;
+  m_catalog = m_nextCatalog;
+  m_rows = std::make_shared<MatchRows>(m_memoryBudget);
+  m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
+  m_archive = std::make_shared<link::StateArchive>();
+  for (const link::ScenarioRobot& entry : scenario.robots) {
+    m_robots.emplace(entry.identity.id, entry);
+  }
+  m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
+                  options = m_options, catalog = m_catalog, sampler = m_sampler,
+                  archive = m_archive, generation = m_generation.load()]() mutable {
+    old.reset();
+    if (between) between();
+    if (generation != m_generation) return;
+    const auto opening = std::make_shared<Opening>();
+    opening->sampler = sampler;
+    opening->archive = archive;
+    opening->start(scenario, options, paused, catalog);
+    QMetaObject::invokeMethod(
+        this,
+        [this, opening, generation] {
+          if (generation == m_generation)
+            take(*opening);
+          else
+            m_worker.start([opening] { opening->runner.reset(); });
+        },
+        Qt::QueuedConnection);
+  });
+  emit scenarioChanged();
+  emit restarted();
+  emit transportChanged();
+}
+
+void MatchController::take(Opening& opening) {
+  m_opening = false;
+  m_cognition = opening.cognition;
+  m_runner = std::move(opening.runner);
+  if (m_runner) {
+    m_runner->setSpeed(m_speed);
+    m_runner->setPaused(m_paused);
+    if (opening.sampler != m_sampler) {
+      m_runner->stopObserving(opening.sampler);
+      m_runner->observe(m_sampler);
+    }
+    if (m_runTo) m_runner->runTo(*m_runTo);
+    for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
+    m_timer->start();
+  }
+  m_whenOpen.clear();
+  m_runTo.reset();
+  emit opened();
+  emit transportChanged();
+  if (!opening.error.isEmpty()) emit errorOccurred(opening.error);
+  poll();
+}
+
+void MatchController::poll() {
+  if (!m_runner) return;
+  if (FramePtr frame = m_runner->latest(m_frame ? m_frame->serial : 0)) {
+    m_frame = std::move(frame);
+    emit frameReceived(m_frame);
+  }
+  // A receiver may have opened another match.
+  if (!m_runner) return;
+  if (const auto events = m_runner->takeEvents(); !events.empty()) emit eventsReceived(events);
+  if (!m_runner) return;
+  if (const auto lines = m_runner->takeLog(); !lines.empty()) emit logReceived(lines);
+}
+
+void MatchController::setPaused(bool paused) {
+  if (!m_runner && !m_opening) return;
+  m_paused = paused;
+  m_runTo.reset();
+  if (m_runner) m_runner->setPaused(paused);
+  emit transportChanged();
+}
+
+void MatchController::stepOnce() {
+  if (!m_runner) return;
+  m_paused = true;
+  m_runner->stepOnce();
+  emit transportChanged();
+}
+
+void MatchController::runTo(std::uint64_t tick) {
+  if (!m_runner && !m_opening) return;
+  m_paused = true;
+  if (m_runner)
+    m_runner->runTo(tick);
+  else
+    m_runTo = tick;
+  emit transportChanged();
+}
+
+void MatchController::setSpeed(double timesRealTime) {
+  m_speed = timesRealTime;
+  if (m_runner) m_runner->setSpeed(timesRealTime);
+  emit transportChanged();
+}
+
+link::Scenario MatchController::currentMoment() {
+  link::Scenario moment = m_scenario;
+  if (m_runner) {
+    m_runner->execute([&moment](link::SimulatedMatch& match) { moment = match.toScenario(); });
+  }
+  return moment;
+}
+
+std::uint64_t MatchController::stateHash() {
+  std::uint64_t hash = 0;
+  if (m_runner) {
+    m_runner->execute([&hash](link::SimulatedMatch& match) { hash = match.simulation().hash(); });
+  }
+  return hash;
+}
+
+const link::ScenarioRobot* MatchController::robot(RobotId id) const {
+  const auto found = m_robots.find(id);
+  return found != m_robots.end() ? &found->second : nullptr;
+}
+
+void MatchController::postChecked(const QString& whatFailed,
+                                  std::function<Result<void>(link::SimulatedMatch&)> command,
+                                  std::function<void()> onFailure) {
+  post([this, whatFailed, command = std::move(command), onFailure = std::move(onFailure),
+        generation = m_generation.load()](link::SimulatedMatch& match) {
+    const Result<void> done = command(match);
+    if (done) return;
+    const QString sentence =
+        whatFailed + QStringLiteral(": ") + QString::fromStdString(done.error().text());
+    QMetaObject::invokeMethod(
+        this,
+        [this, sentence, onFailure, generation] {
+          if (generation != m_generation) return;
+          if (onFailure) onFailure();
+          emit errorOccurred(sentence);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void MatchController::post(link::MatchRunner::Command command) {
+  if (m_runner)
+    m_runner->post(std::move(command));
+  else if (m_opening)
+    m_whenOpen.push_back(std::move(command));
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The rows of one simulated match, written by two kinds of threads: the match's, which brings its
+// own time, and the samplers of attached blackboards, whose rows get the match's time at that
+// moment, so that both can be compared.
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include <telemetry/series/row_sink.h>
+#include <telemetry/series/series_store.h>
+
+namespace pitchboard::ui {
+
+class MatchRows : public telemetry::RowSink {
+ public:
+  explicit MatchRows(std::size_t memoryBudget) : m_store({memoryBudget}) {}  ///< bytes
+
+  // The match's thread.
+  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
+  void append(telemetry::GroupId group, const telemetry::RowView& row) override;
+
+  // Any thread.
+  const telemetry::SeriesStore& store() const { return m_store; }
+  void setMemoryBudget(std::size_t bytes) { m_store.setMemoryBudget(bytes); }
+
+  /// For what is sampled beside the match; keeps `rows`.
+  static std::shared_ptr<telemetry::RowSink> beside(std::shared_ptr<MatchRows> rows);
+
+ private:
+  class Beside;
+  using Clock = std::chrono::steady_clock;
+  double timeBeside();
+
+  std::mutex m_mutex;  // of the time
+  telemetry::SeriesStore m_store;
+  double m_time = 0.0;  // of the match's newest row, s
+  double m_step = 0.0;  // between its last two
+  Clock::time_point m_arrived = Clock::now();
+  bool m_matchBegan = false;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/replay_controller.h>
+
+#include <QFileInfo>
+
+#include <robotlink/session/match_recorder.h>
+#include <robotlink/session/recorded_frame.h>
+#include <ui/sources/playback.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QDateTime dateTimeOf(telemetry::WallTime time) {
+  return QDateTime::fromMSecsSinceEpoch(
+      std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
+}
+
+/// Rows on their way into memory; looks now and then whether anybody still wants them.
+bool readRows(const QString& path, telemetry::SeriesStore& store,
+              const std::function<bool(double)>& goOn) {
+  const auto session = telemetry::SessionReader::open(path.toStdString());
+  if (!session) return false;
+  const auto range = session->range();
+  if (!range) return true;
+  std::vector<telemetry::GroupId> ids;
+  for (const telemetry::SessionGroup& group : session->groups()) {
+    ids.push_back(store.addGroup(group.info));
+  }
+  constexpr std::uint64_t rowsBetweenLooks = 4096;
+  std::uint64_t rows = 0;
+  bool wanted = true;
+  const double length = std::max(range->end - range->begin, 1e-9);
+  session->rows(*range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
+    store.append(ids[group], row);
+    if (++rows % rowsBetweenLooks == 0) wanted = goOn((row.time - range->begin) / length);
+    return wanted;
+  });
+  return wanted;
+}
+
+}  // namespace
+
+// The reader is used by the seeking thread only, once the file is open; the rest does not change.
+struct ReplayController::File {
+  telemetry::SessionReader session;
+  telemetry::SessionInfo info;
+  telemetry::TimeRange range;
+  link::RecordedFrames frames;
+  link::RecordedFrames memoryFrames;  // UI thread
+  std::shared_ptr<telemetry::SeriesStore> rows;
+  std::vector<telemetry::SessionEvent> events;
+  std::vector<link::LogLine> log;
+  std::string scenario;
+  double tickRate = 60.0;
+  bool broken = false;
+  QStringList notes;
+  FramePtr first;
+
+  explicit File(telemetry::SessionReader reader)
+      : session(std::move(reader)),
+        info(session.info()),
+        frames(link::backdropOf(session)),
+        memoryFrames(link::backdropOf(session)),
+        tickRate(link::backdropOf(session).tickRate) {}
+};
+
+ReplayController::ReplayController(QObject* parent)
+    : FrameSource(parent), m_playback(new Playback(this)) {
+  m_seeker.setMaxThreadCount(1);
+  m_loader.setMaxThreadCount(1);
+  connect(m_playback, &Playback::positionChanged, this, &ReplayController::wantMoment);
+}
+
+ReplayController::~ReplayController() {
+  ++m_generation;
+  m_seeker.waitForDone();
+  m_loader.waitForDone();
+}
+
+telemetry::SessionInfo ReplayController::info() const {
+  return m_file ? m_file->info : telemetry::SessionInfo{};
+}
+
+bool ReplayController::isBroken() const {
+  return m_file && m_file->broken;
+}
+
+std::string ReplayController::attachedScenario() const {
+  return m_file ? m_file->scenario : std::string();
+}
+
+std::shared_ptr<const telemetry::SeriesStore> ReplayController::series() const {
+  return m_file ? m_file->rows : nullptr;
+}
+
+QString ReplayController::emptyText() const {
+  return isOpening() ? tr("Opening…")
+         : isOpen()  ? tr("The session has no robots at this moment.")
+                     : tr("No session is open.\nDrop a recorded session (.mcap) here, or choose "
+                           "File > Open session.");
+}
+
+std::optional<QDateTime> ReplayController::clock() const {
+  if (!m_file || m_file->info.source != "live" || m_file->info.start == telemetry::WallTime{}) {
+    return {};
+  }
+  return dateTimeOf(m_file->info.start);
+}
+
+void ReplayController::open(const QString& path) {
+  const std::uint64_t mine = ++m_generation;
+  m_opening = true;
+  m_seeker.start([this, path, mine] {
+    auto session = telemetry::SessionReader::open(path.toStdString());
+    QString problem;
+    std::shared_ptr<File> file;
+    if (!session) {
+      problem = QString::fromStdString(session.error().text());
+    } else if (const auto range = session->range(); !range) {
+      problem = tr("%1: the file holds no rows and no messages").arg(path);
+    } else {
+      file = std::make_shared<File>(std::move(*session));
+      file->range = {range->begin, range->end};
+      file->first =
+          std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, range->begin));
+      file->events = file->session.events();
+      constexpr std::size_t maxLines = 10'000;
+      file->session.messages(
+          telemetry::SessionStream::Log, *range, [&file](double time, std::string_view json) {
+            if (const auto line = telemetry::sessionLogLine(json)) {
+              file->log.push_back({time, line->source, line->text, line->level > 2});
+            }
+            return file->log.size() < maxLines;
+          });
+      if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
+        file->scenario = std::move(*scenario);
+      }
+      file->broken = !file->session.complete();
+      for (const std::string& note : file->session.notes()) {
+        file->notes << QString::fromStdString(note);
+      }
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, file, problem, path, mine] {
+          if (mine != m_generation) return;
+          m_opening = false;
+          if (!file) {
+            emit failed(tr("The session was not opened: %1").arg(problem));
+            return;
+          }
+          m_path = path;
+          take(file);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void ReplayController::close() {
+  ++m_generation;
+  m_file.reset();
+  m_frame.reset();
+  m_path.clear();
+  m_wanted.reset();
+  m_opening = false;
+  m_playback->setRange({});
+  emit restarted();
+}
+
+void ReplayController::take(std::shared_ptr<File> file) {
+  m_file = std::move(file);
+  m_file->rows = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_budget});
+  m_frame = m_file->first;
+  m_wanted.reset();
+  m_playback->setPaused(true);
+  m_playback->setLoop({});
+  m_playback->setRange({});
+  m_playback->setTickRate(m_file->tickRate);
+  m_playback->setRange(m_file->range);
+  m_playback->toStart();
+  emit restarted();
+  emit frameReceived(m_frame);
+  emit eventsRecorded(m_file->events);
+  if (!m_file->log.empty()) emit logReceived(m_file->log);
+  emit opened();
+  if (!m_file->notes.isEmpty()) emit noted(m_file->notes);
+  load();
+}
+
+FramePtr ReplayController::frameAt(double time) const {
+  if (!m_file) return nullptr;
+  const auto held = m_file->rows->range();
+  // Memory answers at once where it holds what came before this moment as well.
+  if (held && held->begin <= m_file->range.begin + 1e-9 && time <= held->end) {
+    return std::make_shared<link::MatchFrame>(m_file->memoryFrames.frameAt(*m_file->rows, time));
+  }
+  return nullptr;
+}
+
+void ReplayController::wantMoment(double time) {
+  if (!m_file) return;
+  m_wanted = time;
+  if (FramePtr held = frameAt(time)) {
+    m_wanted.reset();
+    m_frame = std::move(held);
+    emit frameReceived(m_frame);
+    return;
+  }
+  readMoment();
+}
+
+void ReplayController::readMoment() {
+  if (m_reading || !m_wanted || !m_file) return;
+  m_reading = true;
+  m_seeker.start(
+      [this, file = m_file, time = *std::exchange(m_wanted, {}), mine = m_generation.load()] {
+        auto frame = std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, time));
+        QMetaObject::invokeMethod(
+            this,
+            [this, frame, mine] {
+              m_reading = false;
+              if (mine == m_generation) {
+                m_frame = frame;
+                emit frameReceived(m_frame);
+              }
+              readMoment();
+            },
+            Qt::QueuedConnection);
+      });
+}
+
+void ReplayController::load() {
+  m_loaded = 0.0;
+  emit loadedChanged(m_loaded);
+  m_loader.start([this, path = m_path, rows = m_file->rows, mine = m_generation.load()] {
+    const auto tell = [this, mine](double part) {
+      QMetaObject::invokeMethod(
+          this,
+          [this, part, mine] {
+            if (mine != m_generation) return;
+            m_loaded = part;
+            emit loadedChanged(part);
+            if (part >= 1.0) noteWhatDoesNotFit();
+          },
+          Qt::QueuedConnection);
+    };
+    readRows(path, *rows, [this, mine, &tell](double part) {
+      tell(part);
+      return mine == m_generation;
+    });
+    tell(1.0);
+  });
+}
+
+void ReplayController::setMemoryBudget(std::size_t bytes) {
+  m_budget = bytes;
+  if (m_file) m_file->rows->setMemoryBudget(bytes);
+}
+
+void ReplayController::noteWhatDoesNotFit() {
+  constexpr double chunk = 1.0;  // s; groups do not begin all at once
+  const auto held = m_file ? m_file->rows->range() : std::nullopt;
+  if (!held || held->begin <= m_file->range.begin + chunk) return;
+  emit noted(
+      {tr("The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
+          "can still be shown. Timeline > Memory for the past… gives it more.")
+           .arg(m_budget >> 20)
+           .arg(held->end - held->begin, 0, 'f', 0)});
+}
+
+void ReplayController::stopLoading() {
+  // Another number for what goes on; moments are read as before.
+  ++m_generation;
+  m_reading = false;
+  m_loaded = 1.0;
+  emit loadedChanged(m_loaded);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/robot_menus.h>
+
+#include <QActionGroup>
+#include <QMenu>
+#include <algorithm>
+
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/scenario/scenario.h>
+#include <ui/base/robot_words.h>
+
+namespace pitchboard::ui {
+namespace {
+
+template <class Is>
+bool allOf(const MatchController& controller, const std::vector<RobotId>& ids, Is is) {
+  return std::all_of(ids.begin(), ids.end(), [&](RobotId id) {
+    const link::ScenarioRobot* robot = controller.robot(id);
+    return robot != nullptr && is(*robot);
+  });
+}
+
+QAction* addChoice(QActionGroup* group, QMenu* menu, const QString& text, bool chosen) {
+  QAction* action = menu->addAction(text);
+  action->setCheckable(true);
+  action->setActionGroup(group);
+  action->setChecked(chosen);
+  return action;
+}
+
+}  // namespace
+
+void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
+  if (!allOf(*controller, ids, [](const auto&) { return true; })) return;
+  QMenu* behaviour = menu->addMenu(QObject::tr("Behaviour"));
+  auto* group = new QActionGroup(behaviour);
+  const auto offer = [&](std::string_view name, const QString& text) {
+    const bool chosen =
+        allOf(*controller, ids, [&](const link::ScenarioRobot& r) { return r.behaviour == name; });
+    const QString key = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+    QObject::connect(addChoice(group, behaviour, text, chosen), &QAction::triggered, controller,
+                     [controller, ids, key] {
+                       for (const RobotId id : ids) controller->setBehaviour(id, key);
+                     });
+  };
+  for (const link::BehaviourInfo& known : link::behaviours())
+    offer(known.name, capitalised(known.name));
+  behaviour->addSeparator();
+  offer(link::noBehaviour, QObject::tr("None (your own process)"));
+}
+
+void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
+  if (!allOf(*controller, ids, [](const auto&) { return true; })) return;
+  QMenu* team = menu->addMenu(QObject::tr("Team"));
+  auto* group = new QActionGroup(team);
+  for (const TeamColorInfo& color : teamColors) {
+    const bool chosen = allOf(*controller, ids, [&](const link::ScenarioRobot& r) {
+      return r.identity.team == color.color;
+    });
+    QObject::connect(addChoice(group, team, capitalised(color.name), chosen), &QAction::triggered,
+                     controller,
+                     [controller, ids, to = color.color] { controller->setTeam(ids, to); });
+  }
+}
+
+}  // namespace pitchboard::ui

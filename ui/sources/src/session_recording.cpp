@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/session_recording.h>
+
+#include <QCoreApplication>
+#include <QFile>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QTimer>
+
+#include <robotlink/scenario/scenario.h>
+#include <robotlink/session/live_recorder.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+#include "session_events.h"
+
+namespace pitchboard::ui {
+namespace {
+
+const QString folderKey = QStringLiteral("session/folder");
+constexpr std::size_t maxLogLines = 10'000;
+
+QString words(const Error& error) {
+  return QString::fromStdString(error.text());
+}
+
+std::string programName() {
+  return ("pitchboard " + QCoreApplication::applicationVersion()).trimmed().toStdString();
+}
+
+}  // namespace
+
+QString sessionFileName(const QDir& folder, const QString& title, const QDateTime& when) {
+  QString name = title.simplified().left(60);
+  for (QChar& letter : name) {
+    if (!letter.isLetterOrNumber() && !QStringLiteral(" -_").contains(letter)) {
+      letter = QLatin1Char('-');
+    }
+  }
+  if (name.isEmpty()) name = QStringLiteral("session");
+  const QString base =
+      QStringLiteral("%1 %2").arg(name, when.toString(QStringLiteral("yyyy-MM-dd HH.mm.ss")));
+  QString path = folder.filePath(base + QStringLiteral(".mcap"));
+  for (int n = 2; QFile::exists(path); ++n) {
+    path = folder.filePath(QStringLiteral("%1 (%2).mcap").arg(base).arg(n));
+  }
+  return path;
+}
+
+SessionRecording::SessionRecording(MatchController* controller, LiveController* live,
+                                   SourceSwitch* source, Timeline* timeline, QSettings* settings,
+                                   QObject* parent)
+    : QObject(parent),
+      m_controller(controller),
+      m_live(live),
+      m_source(source),
+      m_timeline(timeline),
+      m_settings(settings),
+      m_timer(new QTimer(this)) {
+  constexpr int healthMilliseconds = 500;
+  m_worker.setMaxThreadCount(1);
+  m_timer->setInterval(healthMilliseconds);
+  connect(m_timer, &QTimer::timeout, this, &SessionRecording::checkHealth);
+  connect(controller, &MatchController::ending, this, [this] {
+    if (m_recorder && !m_recorder->live) finish(true);
+  });
+  connect(controller, &MatchController::opened, this, &SessionRecording::changed);
+  connect(controller, &MatchController::scenarioChanged, this, [this] {
+    m_log.clear();
+    emit changed();
+  });
+  connect(source, &SourceSwitch::changed, this, &SessionRecording::changed);
+  connect(controller, &MatchController::logReceived, this,
+          [this](const std::vector<link::LogLine>& lines) {
+            for (const link::LogLine& line : lines) {
+              m_log.push_back({line.time, line.warning ? 3 : 2, line.origin, line.text});
+              if (m_log.size() > maxLogLines) m_log.pop_front();
+            }
+          });
+  connect(timeline, &Timeline::bookmarked, this, [this](double time, const QString& note) {
+    if (!m_recorder || m_recorder->live != (m_source->kind() == SourceKind::Live)) return;
+    m_recorder->append({time, info(EventType::Bookmark).name, {}, note.toStdString()});
+  });
+}
+
+SessionRecording::~SessionRecording() {
+  finish(false);
+  m_worker.waitForDone();
+}
+
+QString SessionRecording::folder() const {
+  const QString chosen = m_settings->value(folderKey).toString();
+  if (!chosen.isEmpty()) return chosen;
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  return QDir(documents).filePath(QStringLiteral("Pitchboard"));
+}
+
+void SessionRecording::setFolder(const QString& folder) {
+  m_settings->setValue(folderKey, folder);
+}
+
+bool SessionRecording::isPossible() const {
+  if (m_source->kind() == SourceKind::Live) return m_live->isListening();
+  return m_source->kind() == SourceKind::Simulate && m_controller->isOpen();
+}
+
+QString SessionRecording::newPath(const QString& title) {
+  const QDir place(folder());
+  if (!place.mkpath(QStringLiteral("."))) {
+    emit failed(tr("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
+                   "Timeline > Folder for recordings…")
+                    .arg(place.path()));
+    return {};
+  }
+  return sessionFileName(place, title, QDateTime::currentDateTime());
+}
+
+Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& path) {
+  link::RecorderOptions options;
+  options.program = programName();
+  options.everyNth = m_controller->sampling();
+  auto made = link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
+                                          m_controller->catalog(), options);
+  if (!made) return tl::unexpected(made.error());
+  const std::shared_ptr<link::MatchRecorder> recorder = *made;
+  m_controller->observe(recorder);
+  return Recorder{false, [recorder] { return recorder->status(); },
+                  [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
+                  [this, recorder] { m_controller->stopObserving(recorder); },
+                  [recorder] { return recorder->finish(); }};
+}
+
+telemetry::WallTime SessionRecording::zeroOfLive() const {
+  const auto clock = m_live->clock().value_or(QDateTime::currentDateTime());
+  return telemetry::WallTime(std::chrono::milliseconds(clock.toMSecsSinceEpoch()));
+}
+
+Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {
+  link::RecorderOptions options;
+  options.program = programName();
+  auto made =
+      link::LiveRecorder::create(path.toStdString(), m_live->options(), zeroOfLive(), options);
+  if (!made) return tl::unexpected(made.error());
+  const std::shared_ptr<link::LiveRecorder> recorder = *made;
+  m_live->observe(recorder);
+  return Recorder{true, [recorder] { return recorder->status(); },
+                  [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
+                  [this, recorder] { m_live->stopObserving(recorder); },
+                  [recorder] { return recorder->finish(); }};
+}
+
+void SessionRecording::start() {
+  if (m_recorder || !isPossible()) return;
+  const bool live = m_source->kind() == SourceKind::Live;
+  const link::Scenario& scenario = m_controller->scenario();
+  const QString path = newPath(
+      live ? tr("live")
+           : QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title));
+  if (path.isEmpty()) return;
+  auto made = live ? recordLive(path) : recordMatch(path);
+  if (!made) {
+    emit failed(tr("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
+                   "recordings…")
+                    .arg(words(made.error())));
+    return;
+  }
+  m_recorder = std::move(*made);
+  m_path = path;
+  m_timer->start();
+  emit changed();
+}
+
+void SessionRecording::stop() {
+  finish(false);
+}
+
+void SessionRecording::finish(bool matchEnds) {
+  if (!m_recorder) return;
+  const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
+  m_timer->stop();
+  recorder.detach();
+  m_worker.start([this, recorder, path = m_path, matchEnds] {
+    const auto done = recorder.finish();
+    QMetaObject::invokeMethod(
+        this,
+        [this, done, path, matchEnds] {
+          if (!done) {
+            emit failed(
+                tr("The recording %1 is not complete: %2. What was written before can be opened.")
+                    .arg(path, words(done.error())));
+            return;
+          }
+          if (matchEnds) emit failed(tr("The recording ended with the match: %1").arg(path));
+          emit saved(path);
+        },
+        Qt::QueuedConnection);
+  });
+  emit changed();
+}
+
+telemetry::SessionStatus SessionRecording::status() const {
+  return m_recorder ? m_recorder->status() : telemetry::SessionStatus{};
+}
+
+void SessionRecording::checkHealth() {
+  if (!m_recorder) return;
+  QString problem = QString::fromStdString(m_recorder->status().problem);
+  // A file that was removed goes on being written, to nowhere.
+  if (problem.isEmpty() && !QFile::exists(m_path)) {
+    problem = tr("the file %1 was removed or its folder is gone").arg(m_path);
+  }
+  if (problem.isEmpty()) return;
+  const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
+  m_timer->stop();
+  recorder.detach();
+  m_worker.start([recorder] { static_cast<void>(recorder.finish()); });
+  emit failed(tr("Recording has stopped: %1. The match goes on, and what was written before can be "
+                 "opened.")
+                  .arg(problem));
+  emit changed();
+}
+
+SessionMaker SessionRecording::recentPast(double seconds) const {
+  const auto rows = m_source->series();
+  const bool live = m_source->kind() == SourceKind::Live;
+  if (!rows || !rows->range() || m_source->kind() == SourceKind::Replay) return {};
+  link::RecentPast past;
+  for (const TimelineEvent& event : m_timeline->events()->events()) {
+    past.events.push_back(sessionEventOf(event));
+  }
+  std::shared_ptr<const link::StateArchive> archive;
+  telemetry::SessionInfo about;
+  if (live) {
+    about = link::liveSessionInfo(m_live->options(), zeroOfLive(), programName());
+    past.profile = telemetry::profileText(m_live->options().profile);
+  } else {
+    link::RecorderOptions options;
+    options.program = programName();
+    about = link::sessionInfo(m_controller->scenario(), options);
+    past.log.assign(m_log.begin(), m_log.end());
+    past.scenario = link::scenarioToJson(m_controller->scenario());
+    past.catalog = m_controller->catalog().toJson();
+    archive = m_controller->archive();
+  }
+  return
+      [past = std::move(past), rows, archive, about, seconds](const QString& path) -> Result<void> {
+        link::RecentPast all = past;
+        all.rows = rows.get();
+        all.archive = archive.get();
+        const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
+        if (!done) return tl::unexpected(done.error());
+        return {};
+      };
+}
+
+void SessionRecording::saveLast(double seconds) {
+  SessionMaker make = recentPast(seconds);
+  if (!make) {
+    emit failed(tr("There is nothing in memory to save yet."));
+    return;
+  }
+  const QString title = m_source->kind() == SourceKind::Live
+                            ? tr("live")
+                            : QString::fromStdString(m_controller->scenario().title);
+  const QString path = newPath(title + tr(" last %1 s").arg(seconds));
+  if (path.isEmpty()) return;
+  m_worker.start([this, path, make = std::move(make)] {
+    const auto done = make(path);
+    QMetaObject::invokeMethod(
+        this,
+        [this, done, path] {
+          if (done)
+            emit saved(path);
+          else
+            emit failed(tr("Nothing was saved: %1").arg(words(done.error())));
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+}  // namespace pitchboard::ui

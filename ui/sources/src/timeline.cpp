@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/timeline.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <ui/sources/playback.h>
+#include <ui/sources/source_switch.h>
+
+#include "event_collector.h"
+
+namespace pitchboard::ui {
+
+Timeline::Timeline(SourceSwitch* source, QObject* parent)
+    : QObject(parent), m_source(source), m_past(new Playback(this)) {
+  connect(m_past, &Playback::positionChanged, this, &Timeline::lookAt);
+  // Whoever plays the past faster than it goes on has caught up with now.
+  connect(m_past, &Playback::reachedEnd, this, &Timeline::goLive);
+  connect(source, &SourceSwitch::changed, this, &Timeline::follow);
+  connect(source, &SourceSwitch::restarted, this, [this] {
+    goLive();
+    m_selection.reset();
+    m_looping = false;
+    emit selectionChanged();
+    emit sourceChanged();
+  });
+  connect(source, &SourceSwitch::frameReceived, this, &Timeline::refresh);
+  connect(source, &SourceSwitch::newestChanged, this, &Timeline::refresh);
+  follow();
+}
+
+Timeline::~Timeline() = default;
+
+void Timeline::watch(FrameSource* source) {
+  if (m_collectors.contains(source)) return;
+  m_collectors[source] = new EventCollector(source);
+  connect(source, &QObject::destroyed, this, [this, source] { m_collectors.erase(source); });
+}
+
+void Timeline::follow() {
+  watch(m_source->current());
+  if (Playback* recorded = m_source->current()->playback()) {
+    connect(recorded, &Playback::positionChanged, this, &Timeline::moved, Qt::UniqueConnection);
+  }
+  emit sourceChanged();
+}
+
+EventList* Timeline::events() const {
+  return m_collectors.at(m_source->current())->list();
+}
+
+bool Timeline::isRecording() const {
+  return m_source->current()->playback() != nullptr;
+}
+
+Playback* Timeline::playback() const {
+  Playback* recorded = m_source->current()->playback();
+  return recorded != nullptr ? recorded : m_past;
+}
+
+bool Timeline::isLookingBack() const {
+  return m_source->lookingBackAt().has_value();
+}
+
+std::optional<telemetry::TimeRange> Timeline::available() const {
+  if (const Playback* recorded = m_source->current()->playback()) return recorded->range();
+  const auto series = m_source->series();
+  return series ? series->range() : std::nullopt;
+}
+
+double Timeline::now() const {
+  if (isRecording()) {
+    const auto range = available();
+    return range ? range->end : 0.0;
+  }
+  const FramePtr newest = m_source->newest();
+  return newest ? newest->snapshot.time : 0.0;
+}
+
+double Timeline::shownTime() const {
+  if (const Playback* recorded = m_source->current()->playback()) return recorded->position();
+  return m_source->lookingBackAt().value_or(now());
+}
+
+std::optional<QDateTime> Timeline::clock() const {
+  return m_source->clock();
+}
+
+void Timeline::refresh() {
+  if (isLookingBack()) {
+    m_past->setRange(available());
+    const double oldest = m_past->range() ? m_past->range()->begin : now();
+    // What was being looked at has left memory: the oldest that is still there.
+    if (*m_source->lookingBackAt() < oldest) m_past->seek(oldest);
+  }
+  if (now() != m_lastNow) {
+    m_lastNow = now();
+    emit moved();
+  }
+}
+
+void Timeline::lookAt(double time) {
+  if (isRecording()) return;
+  const bool was = isLookingBack();
+  m_source->lookBack(time);
+  if (isLookingBack() != was) emit lookingBackChanged(!was);
+  emit moved();
+}
+
+void Timeline::seek(double time) {
+  if (!std::isfinite(time)) return;
+  if (isRecording()) {
+    playback()->seek(time);
+    return;
+  }
+  const auto range = available();
+  if (!range || time >= now()) {
+    goLive();
+    return;
+  }
+  if (const FramePtr newest = m_source->newest()) m_past->setTickRate(newest->tickRate);
+  m_past->setRange(range);
+  const double kept = std::clamp(time, range->begin, range->end);
+  m_past->seek(kept);
+  if (!isLookingBack()) lookAt(kept);
+}
+
+void Timeline::goLive() {
+  if (isRecording() || !isLookingBack()) return;
+  m_past->setPaused(true);
+  m_source->lookBack({});
+  emit lookingBackChanged(false);
+  emit moved();
+}
+
+void Timeline::step(int ticks) {
+  if (!isRecording() && !isLookingBack()) {
+    if (ticks > 0) return;
+    seek(now() - 1.0 / (m_source->newest() ? m_source->newest()->tickRate : 60.0));
+    return;
+  }
+  playback()->step(ticks);
+}
+
+void Timeline::togglePlay() {
+  if (isRecording() || isLookingBack()) playback()->setPaused(!playback()->isPaused());
+}
+
+namespace {
+// Of two events of one tick the second is a step of its own only by its time; half a tick tells
+// them from the moment shown.
+constexpr double sameMoment = 1e-6;
+}  // namespace
+
+bool Timeline::goToNextEvent() {
+  const auto row = events()->next(shownTime() + sameMoment);
+  if (!row) return false;
+  seek(events()->event(*row).time);
+  return true;
+}
+
+bool Timeline::goToPreviousEvent() {
+  const auto row = events()->previous(shownTime() - sameMoment);
+  if (!row) return false;
+  const auto range = available();
+  // What has left memory cannot be shown any more.
+  if (!range || events()->event(*row).time < range->begin - sameMoment) return false;
+  seek(events()->event(*row).time);
+  return true;
+}
+
+int Timeline::addBookmark(const QString& note) {
+  const double time = shownTime();
+  const int row = events()->add({time, EventType::Bookmark, {}, note});
+  emit bookmarked(time, note);
+  return row;
+}
+
+void Timeline::setNote(double time, const QString& note) {
+  EventList* list = events();
+  for (int row = list->previous(time).value_or(-1) + 1;
+       row < list->rowCount() && list->event(row).time == time; ++row) {
+    if (list->event(row).type != EventType::Bookmark || list->event(row).text == note) continue;
+    list->setNote(row, note);
+    emit bookmarked(time, list->event(row).text);
+    return;
+  }
+}
+
+void Timeline::setSelection(std::optional<telemetry::TimeRange> range) {
+  if (range && !(range->end - range->begin > 1e-3)) range.reset();
+  if (range == m_selection) return;
+  m_selection = range;
+  if (!range) m_looping = false;
+  playback()->setLoop(m_looping ? m_selection : std::nullopt);
+  emit selectionChanged();
+}
+
+void Timeline::setLooping(bool on) {
+  on = on && m_selection;
+  if (on == m_looping) return;
+  m_looping = on;
+  if (on && (shownTime() < m_selection->begin || shownTime() > m_selection->end)) {
+    seek(m_selection->begin);
+  }
+  playback()->setLoop(on ? m_selection : std::nullopt);
+  emit selectionChanged();
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ui/sources/studio_context.h>
+
+namespace pitchboard::ui {
+
+/// The timeline with the button that leads back to now.
+QWidget* makeTimelineDock(const StudioContext& context, QWidget* parent);
+
+}  // namespace pitchboard::ui

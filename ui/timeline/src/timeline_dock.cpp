@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/timeline/timeline_dock.h>
+
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QToolButton>
+
+#include <ui/base/theme.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/timeline.h>
+#include <ui/timeline/timeline_actions.h>
+
+#include "timeline_strip.h"
+
+namespace pitchboard::ui {
+namespace {
+
+class TimelineDock : public QWidget {
+ public:
+  TimelineDock(const StudioContext& context, QWidget* parent)
+      : QWidget(parent),
+        m_timeline(context.timeline),
+        m_strip(new TimelineStrip(context.timeline, context.time, this)),
+        m_live(new QToolButton(this)) {
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    m_live->setObjectName(QStringLiteral("live"));
+    m_live->setText(tr("Live"));
+    m_live->setCheckable(true);
+    m_live->setFocusPolicy(Qt::NoFocus);
+    m_live->setFixedWidth(scaled(this, 48));
+    m_live->setFixedHeight(scaled(this, 28));
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, scaled(this, 12), 0);
+    row->setSpacing(0);
+    row->addWidget(m_strip, 1);
+    row->addWidget(m_live);
+    connect(m_live, &QToolButton::clicked, this, [this] {
+      m_timeline->goLive();
+      showLive();
+    });
+    connect(m_timeline, &Timeline::lookingBackChanged, this, &TimelineDock::showLive);
+    connect(m_timeline, &Timeline::sourceChanged, this, &TimelineDock::showLive);
+    connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
+            &TimelineStrip::editNote);
+    connect(m_strip, &TimelineStrip::menuRequested, this,
+            [this, context](QPoint at, const TimelineEvent* event, bool compared) {
+              QMenu menu(this);
+              menu.setObjectName(QStringLiteral("timelineMenu"));
+              addAlignment(&menu, context.compared, event, compared);
+              context.timelineActions->fill(&menu);
+              menu.exec(at);
+            });
+    connect(context.compared, &ComparedSession::changed, this, [this, compared = context.compared] {
+      m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
+    });
+    showLive();
+  }
+
+ private:
+  static void addAlignment(QMenu* menu, ComparedSession* session, const TimelineEvent* event,
+                           bool compared) {
+    if (!session->isOn()) return;
+    if (event != nullptr) {
+      const double time = event->time;
+      QAction* align = menu->addAction(tr("&Align at this event: %1").arg(sentenceOf(*event)),
+                                       session, [session, time, compared] {
+                                         if (compared)
+                                           session->alignThere(time);
+                                         else
+                                           session->alignHere(time);
+                                       });
+      align->setObjectName(QStringLiteral("alignHere"));
+    }
+    QAction* byTime = menu->addAction(tr("Align by &time"), session, &ComparedSession::alignByTime);
+    byTime->setEnabled(session->offset() != 0.0 || session->here() || session->there());
+    menu->addAction(tr("St&op comparing"), session, &ComparedSession::stop);
+    menu->addSeparator();
+  }
+  void showLive() {
+    m_live->setVisible(!m_timeline->isRecording());
+    m_live->setChecked(!m_timeline->isLookingBack());
+    m_live->setToolTip(m_timeline->isLookingBack() ? tr("Back to now (Ctrl+End)")
+                                                   : tr("The window shows what happens now"));
+  }
+
+  Timeline* m_timeline;
+  TimelineStrip* m_strip;
+  QToolButton* m_live;
+};
+
+}  // namespace
+
+QWidget* makeTimelineDock(const StudioContext& context, QWidget* parent) {
+  return new TimelineDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

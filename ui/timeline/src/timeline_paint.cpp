@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the timeline looks.
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/timeline.h>
+
+#include "timeline_strip.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double markSize = 9.0;
+constexpr double tickSpacing = 56.0;  // px of the mock between labels
+
+void stem(QPainter& painter, double x, double top, double bottom, const QColor& color,
+          double wide) {
+  painter.setPen(QPen(color, wide));
+  painter.drawLine(QPointF(x, top), QPointF(x, bottom));
+}
+
+}  // namespace
+
+void TimelineStrip::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.fillRect(rect(), theme().window);
+  paintBand(painter);
+  paintRange(painter);
+  paintWindow(painter);
+  paintAxis(painter);
+  paintMarks(painter);
+  paintMoment(painter);
+  if (hasFocus()) {
+    painter.setPen(theme().accentLine);
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
+  }
+}
+
+void TimelineStrip::paintBand(QPainter& painter) const {
+  const QRectF band = bandRect();
+  painter.setPen(QPen(theme().innerLine, 1));
+  painter.setBrush(theme().view);
+  painter.drawRoundedRect(band.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
+  const auto held = m_timeline->available();
+  if (!held) return;
+  const double left = std::max(m_axis.pixel(held->begin), band.left());
+  const double right = std::min(m_axis.pixel(held->end), band.right());
+  if (right <= left) return;
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().innerLine);
+  painter.drawRoundedRect(QRectF(left, band.top() + 1, right - left, band.height() - 2), 2, 2);
+}
+
+void TimelineStrip::paintWindow(QPainter& painter) const {
+  const auto window = windowRect();
+  if (!window) return;
+  QColor ground = theme().accentFill;
+  ground.setAlphaF(isDarkTheme() ? 0.65F : 0.35F);
+  painter.setPen(QPen(theme().accentLine, 1));
+  painter.setBrush(ground);
+  painter.drawRoundedRect(window->adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
+}
+
+void TimelineStrip::paintRange(QPainter& painter) const {
+  const auto range = m_timeline->selection();
+  if (!range) return;
+  const QRectF band = bandRect();
+  const double left = std::clamp(m_axis.pixel(range->begin), band.left(), band.right());
+  const double right = std::clamp(m_axis.pixel(range->end), band.left(), band.right());
+  QColor ground = theme().accentLine;
+  ground.setAlphaF(0.14F);
+  painter.fillRect(QRectF(left, 0, right - left, band.bottom()), ground);
+  // A bracket, so that the range can be told without colour.
+  painter.setPen(QPen(theme().accentLine, m_timeline->isLooping() ? 2.0 : 1.0));
+  const double arm = scaled(this, 5);
+  for (const auto& [x, inwards] : {std::pair(left, arm), std::pair(right, -arm)}) {
+    painter.drawPolyline(
+        QPolygonF{{QPointF(x + inwards, 1.0), QPointF(x, 1.0), QPointF(x, band.bottom()),
+                   QPointF(x + inwards, band.bottom())}});
+  }
+}
+
+void TimelineStrip::paintAxis(QPainter& painter) const {
+  const QRect band = bandRect();
+  painter.setFont(themeFont(TypeRole::Small));
+  const QFontMetrics metrics(painter.font());
+  const int half = metrics.horizontalAdvance(QStringLiteral("00:00:00")) / 2 + 2;
+  painter.setPen(theme().secondaryText);
+  for (const AxisTick& tick :
+       axisTicks(m_axis, std::max(scaled(this, tickSpacing), 2 * half + scaled(this, 12)),
+                 m_timeline->clock())) {
+    const double x = m_axis.pixel(tick.time);
+    QRectF place(x - half, band.bottom() + 1, 2 * half, height() - band.bottom() - 1);
+    // The first and the last label stay on the widget.
+    if (place.left() < 0) place.moveLeft(0);
+    if (place.right() > width()) place.moveRight(width());
+    const bool atEdge = place.left() == 0 && x < half;
+    painter.drawText(place, (atEdge ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter,
+                     tick.label);
+  }
+}
+
+void TimelineStrip::paintMarks(QPainter& painter) {
+  const QFont small = themeFont(TypeRole::Small);
+  painter.setFont(small);
+  const double size = scaled(this, markSize);
+  const double gap = scaled(this, 9);
+  const auto row = [&](const std::vector<EventMark>& all, const std::deque<TimelineEvent>& events,
+                       double centre, double bottom, double strength) {
+    painter.setOpacity(strength);
+    for (const EventMark& mark : all) {
+      const TimelineEvent& e = events[static_cast<std::size_t>(mark.row)];
+      stem(painter, mark.x, centre + size * 0.5, bottom, markColor(e.type), 1.4);
+      drawMark(painter, e.type, {mark.x, centre}, size);
+      if (mark.label.isEmpty()) continue;
+      painter.setPen(theme().secondaryText);
+      painter.drawText(QRectF(mark.x + gap, centre - size, width(), 2 * size),
+                       Qt::AlignLeft | Qt::AlignVCenter, mark.label);
+    }
+    painter.setOpacity(1.0);
+  };
+  const QRect band = bandRect();
+  const double stemEnd = band.top() + 1;
+  row(marks(), m_timeline->events()->events(), scaled(this, 13),
+      m_compared != nullptr ? marksRect().bottom() : stemEnd, 1.0);
+  if (m_compared == nullptr) return;
+  const QRect place = comparedRect();
+  painter.setPen(QPen(theme().innerLine, 1));
+  painter.drawLine(place.topLeft(), place.topRight());
+  row(comparedMarks(), m_compared->events(), place.center().y(), stemEnd, 0.75);
+  const QFontMetrics metrics(small);
+  const QString caption = metrics.elidedText(m_comparedCaption, Qt::ElideMiddle, place.width() / 3);
+  QRect room(0, 0, metrics.horizontalAdvance(caption) + scaled(this, 12), place.height() - 2);
+  room.moveTopRight(place.topRight() + QPoint(0, 1));
+  painter.fillRect(room, theme().window);
+  painter.setPen(theme().secondaryText);
+  painter.drawText(room, Qt::AlignRight | Qt::AlignVCenter, caption);
+}
+
+void TimelineStrip::paintMoment(QPainter& painter) const {
+  const QRect band = bandRect();
+  const auto inside = [&band](double x) { return x >= band.left() - 1 && x <= band.right() + 2; };
+  const bool back = m_timeline->isLookingBack() || m_timeline->isRecording();
+  if (m_plots != nullptr && m_plots->cursor()) {
+    const double x = m_axis.pixel(*m_plots->cursor());
+    if (inside(x)) stem(painter, x, band.top() - 2, band.bottom() + 1, theme().secondaryText, 1.0);
+  }
+  if (!m_timeline->isRecording() && m_timeline->now() > 0.0) {
+    const double x = m_axis.pixel(m_timeline->now());
+    if (inside(x)) {
+      stem(painter, x, band.top() - scaled(this, 8), band.bottom() + scaled(this, 3),
+           back ? theme().secondaryText : theme().accentLine, 2.0);
+    }
+  }
+  if (!back) return;
+  // The moment shown: a handle, because it is what is dragged.
+  const double x = m_axis.pixel(m_timeline->shownTime());
+  if (!inside(x)) return;
+  stem(painter, x, scaled(this, 4), band.bottom() + scaled(this, 3), theme().accentLine, 2.0);
+  const double half = scaled(this, 5);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().accentLine);
+  painter.drawPolygon(
+      QPolygonF{{QPointF(x - half, 0), QPointF(x + half, 0), QPointF(x + half, half),
+                 QPointF(x, 2 * half), QPointF(x - half, half)}});
+}
+
+}  // namespace pitchboard::ui

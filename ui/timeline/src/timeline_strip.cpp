@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "timeline_strip.h"
+
+#include <QContextMenuEvent>
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+
+#include <ui/base/theme.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/timeline.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double narrowest = 0.05;  // s shown
+constexpr double widest = 7 * 86400.0;
+constexpr double edgeReach = 4.0;  // px of the mock: where a window's edge is taken
+constexpr double markReach = 7.0;
+
+}  // namespace
+
+TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* parent)
+    : QWidget(parent), m_timeline(timeline), m_plots(plots) {
+  setObjectName(QStringLiteral("timelineStrip"));
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setAccessibleName(tr("Timeline"));
+  const auto refresh = [this] {
+    fitAxis();
+    update();
+  };
+  connect(timeline, &Timeline::moved, this, refresh);
+  connect(timeline, &Timeline::sourceChanged, this, [this] {
+    finishNote(false);
+    m_marksOf = nullptr;
+    m_showsAll = true;
+    fitAxis();
+    update();
+  });
+  connect(timeline, &Timeline::selectionChanged, this, qOverload<>(&QWidget::update));
+  if (plots != nullptr) {
+    connect(plots, &LinkedTime::rangeChanged, this, qOverload<>(&QWidget::update));
+    connect(plots, &LinkedTime::cursorChanged, this, qOverload<>(&QWidget::update));
+  }
+  fitAxis();
+}
+
+TimelineStrip::~TimelineStrip() = default;
+
+void TimelineStrip::setCompared(const EventList* events, double offset, const QString& caption) {
+  if (m_compared != nullptr) m_compared->disconnect(this);
+  m_compared = events;
+  m_comparedOffset = offset;
+  m_comparedCaption = caption;
+  if (events != nullptr) {
+    connect(events, &EventList::changed, this, qOverload<>(&QWidget::update));
+    connect(events, &QObject::destroyed, this, [this] { setCompared(nullptr, 0.0, {}); });
+  }
+  updateGeometry();
+  update();
+}
+
+QSize TimelineStrip::sizeHint() const {
+  return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56)};
+}
+
+QSize TimelineStrip::minimumSizeHint() const {
+  return {scaled(this, 160), sizeHint().height()};
+}
+
+QRect TimelineStrip::bandRect() const {
+  const int left = scaled(this, 12);
+  const int high = scaled(this, 12);
+  return {left, height() - scaled(this, 17) - high, std::max(width() - 2 * left, 1), high};
+}
+
+QRect TimelineStrip::comparedRect() const {
+  if (m_compared == nullptr) return {};
+  const QRect band = bandRect();
+  const int high = scaled(this, 18);
+  return {band.left(), band.top() - high, band.width(), high};
+}
+
+QRect TimelineStrip::marksRect() const {
+  const QRect band = bandRect();
+  const int bottom = m_compared != nullptr ? comparedRect().top() : band.top();
+  return {band.left(), 0, band.width(), bottom};
+}
+
+std::optional<QRectF> TimelineStrip::windowRect() const {
+  if (m_plots == nullptr || !m_plots->data()) return {};
+  const QRect band = bandRect();
+  const double left = std::max(m_axis.pixel(m_plots->range().begin), double(band.left()));
+  const double right = std::min(m_axis.pixel(m_plots->range().end), double(band.right() + 1));
+  if (right <= band.left() || left > band.right()) return {};
+  return QRectF(left, band.top(), std::max(right - left, 2.0), band.height());
+}
+
+void TimelineStrip::clampShown(telemetry::TimeRange& range) const {
+  const double span = std::clamp(range.end - range.begin, narrowest, widest);
+  const double middle = (range.begin + range.end) / 2;
+  range = {middle - span / 2, middle + span / 2};
+}
+
+void TimelineStrip::fitAxis() {
+  const QRect band = bandRect();
+  m_axis.left = band.left();
+  m_axis.width = band.width();
+  const auto there = m_timeline->available();
+  const double now = std::max(m_timeline->now(), there ? there->end : 0.0);
+  if (m_showsAll) {
+    double begin = there ? there->begin : now;
+    const auto& events = m_timeline->events()->events();
+    if (!events.empty()) begin = std::min(begin, events.front().time);
+    if (m_timeline->isRecording()) {
+      m_axis.shown = {begin, std::max(now, begin + narrowest)};
+      return;
+    }
+    if (begin < 5.0) begin = std::min(begin, 0.0);
+    // Grows in round steps, so that marks do not creep while a person looks at them.
+    constexpr double room = 1.03, least = 30.0, pieces = 24.0;
+    const double wanted = std::max((now - begin) * room, least);
+    const double step = roundStep(wanted / pieces);
+    m_axis.shown = {begin, begin + std::ceil(wanted / step) * step};
+  } else if (!m_timeline->isRecording() && !m_timeline->isLookingBack() &&
+             m_grab == Grab::Nothing) {
+    // A narrow view in which now stood goes on with now.
+    const double span = m_axis.shown.end - m_axis.shown.begin;
+    constexpr double margin = 0.1;
+    if (now > m_axis.shown.end && now - span * margin < m_axis.shown.end) {
+      m_axis.shown = {now - span * (1 - margin), now + span * margin};
+    }
+  }
+}
+
+void TimelineStrip::setShown(telemetry::TimeRange range) {
+  if (!std::isfinite(range.begin) || !std::isfinite(range.end)) return;
+  clampShown(range);
+  m_showsAll = false;
+  m_axis.shown = range;
+  update();
+}
+
+void TimelineStrip::showAll() {
+  m_showsAll = true;
+  fitAxis();
+  update();
+}
+
+void TimelineStrip::zoom(double factor, double anchor) {
+  const telemetry::TimeRange shown = m_axis.shown;
+  setShown({anchor - (anchor - shown.begin) * factor, anchor + (shown.end - anchor) * factor});
+}
+
+const std::vector<EventMark>& TimelineStrip::marks() {
+  const EventList* list = m_timeline->events();
+  if (list != m_marksOf || list->revision() != m_marksRevision || !(m_marksAxis == m_axis)) {
+    m_marksOf = list;
+    m_marksRevision = list->revision();
+    m_marksAxis = m_axis;
+    m_marks =
+        layOutMarks(list->events(), m_axis, {double(scaled(this, 10)), double(scaled(this, 9))},
+                    QFontMetrics(themeFont(TypeRole::Small)));
+  }
+  return m_marks;
+}
+
+std::vector<EventMark> TimelineStrip::comparedMarks() const {
+  if (m_compared == nullptr) return {};
+  TimeAxis moved = m_axis;
+  moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
+  return layOutMarks(m_compared->events(), moved,
+                     {double(scaled(this, 10)), double(scaled(this, 9))},
+                     QFontMetrics(themeFont(TypeRole::Small)));
+}
+
+const EventMark* TimelineStrip::nearest(const std::vector<EventMark>& marks, double x) const {
+  const EventMark* found = nullptr;
+  double distance = scaled(this, markReach);
+  for (const EventMark& mark : marks) {
+    const double away = std::abs(mark.x - x);
+    if (away <= distance) {
+      distance = away;
+      found = &mark;
+    }
+  }
+  return found;
+}
+
+const EventMark* TimelineStrip::markAt(QPointF at) {
+  return marksRect().contains(at.toPoint()) ? nearest(marks(), at.x()) : nullptr;
+}
+
+TimelineStrip::Grab TimelineStrip::grabAt(QPointF at, Qt::KeyboardModifiers keys) const {
+  if (keys & Qt::ShiftModifier) return Grab::Range;
+  const auto window = windowRect();
+  const double reach = scaled(this, edgeReach);
+  if (window && at.y() >= window->top() && at.y() < window->bottom() + 1 &&
+      at.x() >= window->left() - reach && at.x() <= window->right() + reach) {
+    // The middle of a small window stays free for moving it.
+    const double edge = std::min(reach, window->width() / 4);
+    if (at.x() < window->left() + edge) return Grab::WindowBegin;
+    if (at.x() > window->right() - edge) return Grab::WindowEnd;
+    return Grab::Window;
+  }
+  return Grab::Moment;
+}
+
+void TimelineStrip::showCursorAt(QPointF at, Qt::KeyboardModifiers keys) {
+  switch (grabAt(at, keys)) {
+    case Grab::WindowBegin:
+    case Grab::WindowEnd:
+      setCursor(Qt::SizeHorCursor);
+      break;
+    case Grab::Window:
+      setCursor(Qt::OpenHandCursor);
+      break;
+    case Grab::Range:
+      setCursor(Qt::IBeamCursor);
+      break;
+    default:
+      setCursor(markAt(at) != nullptr ? Qt::PointingHandCursor : Qt::ArrowCursor);
+      break;
+  }
+}
+
+void TimelineStrip::mousePressEvent(QMouseEvent* event) {
+  m_pressedAt = event->position();
+  m_dragged = false;
+  m_grabTime = m_axis.time(m_pressedAt.x());
+  if (event->button() == Qt::MiddleButton) {
+    m_grab = Grab::View;
+    m_grabRange = m_axis.shown;
+    setCursor(Qt::ClosedHandCursor);
+    return;
+  }
+  if (event->button() != Qt::LeftButton) return;
+  m_grab = grabAt(m_pressedAt, event->modifiers());
+  if (m_grab == Grab::Moment) {
+    const EventMark* mark = markAt(m_pressedAt);
+    m_timeline->seek(mark != nullptr ? m_timeline->events()->event(mark->row).time : m_grabTime);
+  } else if (m_grab != Grab::Range) {
+    m_grabRange = m_plots->range();
+    setCursor(m_grab == Grab::Window ? Qt::ClosedHandCursor : Qt::SizeHorCursor);
+  }
+}
+
+void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF at = event->position();
+  if (m_grab == Grab::Nothing) {
+    showCursorAt(at, event->modifiers());
+    return;
+  }
+  constexpr double still = 3.0;  // a trembling hand is not a drag
+  if (!m_dragged && std::abs(at.x() - m_pressedAt.x()) < still) return;
+  m_dragged = true;
+  const double time = m_axis.time(at.x());
+  const double by = time - m_grabTime;
+  switch (m_grab) {
+    case Grab::Moment:
+      m_timeline->seek(time);
+      break;
+    case Grab::Range:
+      m_timeline->setSelection({{std::min(m_grabTime, time), std::max(m_grabTime, time)}});
+      break;
+    case Grab::Window:
+      m_plots->setRange({m_grabRange.begin + by, m_grabRange.end + by});
+      break;
+    case Grab::WindowBegin:
+      m_plots->setRange(
+          {std::min(m_grabRange.begin + by, m_grabRange.end - LinkedTime::minimumSpan),
+           m_grabRange.end});
+      break;
+    case Grab::WindowEnd:
+      m_plots->setRange({m_grabRange.begin, std::max(m_grabRange.end + by,
+                                                     m_grabRange.begin + LinkedTime::minimumSpan)});
+      break;
+    case Grab::View: {
+      const double pixels = at.x() - m_pressedAt.x();
+      const double seconds = pixels * m_axis.secondsPerPixel();
+      setShown({m_grabRange.begin - seconds, m_grabRange.end - seconds});
+      break;
+    }
+    case Grab::Nothing:
+      break;
+  }
+}
+
+void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
+  const Grab grabbed = m_grab;
+  m_grab = Grab::Nothing;
+  if (!m_dragged && event->button() == Qt::LeftButton) {
+    if (grabbed == Grab::Window || grabbed == Grab::WindowBegin || grabbed == Grab::WindowEnd) {
+      m_timeline->seek(m_grabTime);
+    }
+    if (grabbed == Grab::Range) m_timeline->setSelection({});
+  }
+  showCursorAt(event->position(), event->modifiers());
+}
+
+void TimelineStrip::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  if (const EventMark* mark = markAt(event->position())) {
+    if (m_timeline->events()->event(mark->row).type == EventType::Bookmark) editNote(mark->row);
+    return;
+  }
+  if (event->position().y() > bandRect().bottom()) showAll();
+}
+
+void TimelineStrip::wheelEvent(QWheelEvent* event) {
+  const QPoint angle = event->angleDelta();
+  const bool sideways = angle.x() != 0 || (event->modifiers() & Qt::ShiftModifier);
+  const double notches = (angle.y() != 0 ? angle.y() : angle.x()) / 120.0;
+  if (sideways) {
+    constexpr double part = 0.1;
+    const double by = -notches * part * (m_axis.shown.end - m_axis.shown.begin);
+    setShown({m_axis.shown.begin + by, m_axis.shown.end + by});
+  } else {
+    constexpr double perNotch = 1.2;
+    zoom(std::pow(perNotch, -notches), m_axis.time(event->position().x()));
+  }
+  event->accept();
+}
+
+void TimelineStrip::keyPressEvent(QKeyEvent* event) {
+  const bool coarse = event->modifiers() & Qt::ShiftModifier;
+  const double middle = m_timeline->shownTime();
+  constexpr double closer = 1 / 1.5, farther = 1.5, second = 1.0;
+  switch (event->key()) {
+    case Qt::Key_Left:
+      if (coarse)
+        m_timeline->seek(m_timeline->shownTime() - second);
+      else
+        m_timeline->step(-1);
+      break;
+    case Qt::Key_Right:
+      if (coarse)
+        m_timeline->seek(m_timeline->shownTime() + second);
+      else
+        m_timeline->step(1);
+      break;
+    case Qt::Key_Home:
+      if (const auto range = m_timeline->available()) m_timeline->seek(range->begin);
+      break;
+    case Qt::Key_End:
+      m_timeline->seek(m_timeline->now());
+      break;
+    case Qt::Key_Space:
+      m_timeline->togglePlay();
+      break;
+    case Qt::Key_L:
+      m_timeline->setLooping(!m_timeline->isLooping());
+      break;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      zoom(closer, middle);
+      break;
+    case Qt::Key_Minus:
+      zoom(farther, middle);
+      break;
+    case Qt::Key_0:
+      showAll();
+      break;
+    case Qt::Key_Escape:
+      if (m_timeline->selection())
+        m_timeline->setSelection({});
+      else
+        m_timeline->goLive();
+      break;
+    default:
+      QWidget::keyPressEvent(event);
+      return;
+  }
+  event->accept();
+}
+
+void TimelineStrip::contextMenuEvent(QContextMenuEvent* event) {
+  const QPointF at = event->pos();
+  if (const EventMark* mark = markAt(at)) {
+    emit menuRequested(event->globalPos(), &m_timeline->events()->event(mark->row), false);
+    return;
+  }
+  if (comparedRect().contains(event->pos())) {
+    const std::vector<EventMark> all = comparedMarks();
+    if (const EventMark* mark = nearest(all, at.x())) {
+      emit menuRequested(event->globalPos(), &m_compared->event(mark->row), true);
+      return;
+    }
+  }
+  emit menuRequested(event->globalPos(), nullptr, false);
+}
+
+QString TimelineStrip::tipAt(QPointF at) {
+  const EventMark* mark = markAt(at);
+  if (mark == nullptr) return momentText(m_axis.time(at.x()), 1);
+  QStringList lines;
+  constexpr int most = 8;
+  for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
+    const TimelineEvent& e = m_timeline->events()->event(row);
+    lines << momentText(e.time, 2) + QStringLiteral("  ") + sentenceOf(e).toHtmlEscaped();
+  }
+  if (mark->merged > most) lines << tr("and %1 more; zoom in to see them").arg(mark->merged - most);
+  return QStringLiteral("<p style='white-space:pre'>") + lines.join(QStringLiteral("<br>")) +
+         QStringLiteral("</p>");
+}
+
+bool TimelineStrip::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    auto* help = static_cast<QHelpEvent*>(event);
+    QToolTip::showText(help->globalPos(), tipAt(help->pos()), this);
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+void TimelineStrip::resizeEvent(QResizeEvent*) {
+  fitAxis();
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The timeline itself: axis, what memory holds, the window of the plots, marks of events, the
+// moment shown. Click or drag to look back; drag the plots' window in the band; Shift-drag chooses
+// a range; wheel zooms, middle-drag or a wheel with Shift moves. UI thread only.
+
+#include <QWidget>
+#include <optional>
+#include <vector>
+
+#include <ui/base/time_axis.h>
+
+#include "event_marks.h"
+
+class QLineEdit;
+
+namespace pitchboard::ui {
+
+class EventList;
+class LinkedTime;
+class Timeline;
+
+class TimelineStrip : public QWidget {
+  Q_OBJECT
+ public:
+  /// `plots` may be null: then there is no window of theirs.
+  TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* parent = nullptr);
+  ~TimelineStrip() override;
+
+  /// A second session's events in a row of their own, under this caption; its second 0 stands at
+  /// `offset`. Null: none.
+  void setCompared(const EventList* events, double offset, const QString& caption);
+
+  telemetry::TimeRange shown() const { return m_axis.shown; }
+  /// Shows this much; ends following.
+  void setShown(telemetry::TimeRange range);
+  /// Everything there is, and what comes.
+  void showAll();
+  bool showsAll() const { return m_showsAll; }
+  void zoom(double factor, double anchor);
+  /// Opens the note of a bookmark for writing, in its place.
+  void editNote(int row);
+
+  // Where things are, for tests and for the menu.
+  const TimeAxis& axis() const { return m_axis; }
+  const std::vector<EventMark>& marks();
+  std::vector<EventMark> comparedMarks() const;
+  QRect bandRect() const;
+  QRect comparedRect() const;  ///< empty while nothing is compared
+  std::optional<QRectF> windowRect() const;
+
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+
+ protected:
+  bool event(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+
+ signals:
+  /// On this event, of the compared session or not; null: on none.
+  void menuRequested(QPoint global, const pitchboard::ui::TimelineEvent* event, bool compared);
+
+ private:
+  enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View };
+  void fitAxis();
+  void clampShown(telemetry::TimeRange& range) const;
+  Grab grabAt(QPointF at, Qt::KeyboardModifiers keys) const;
+  const EventMark* markAt(QPointF at);
+  const EventMark* nearest(const std::vector<EventMark>& marks, double x) const;
+  void showCursorAt(QPointF at, Qt::KeyboardModifiers keys);
+  QString tipAt(QPointF at);
+  void finishNote(bool keep);
+  QRect marksRect() const;
+  void paintBand(QPainter& painter) const;
+  void paintWindow(QPainter& painter) const;
+  void paintRange(QPainter& painter) const;
+  void paintMarks(QPainter& painter);
+  void paintAxis(QPainter& painter) const;
+  void paintMoment(QPainter& painter) const;
+
+  Timeline* m_timeline;
+  LinkedTime* m_plots;
+  const EventList* m_compared = nullptr;
+  double m_comparedOffset = 0.0;
+  QString m_comparedCaption;
+  TimeAxis m_axis;
+  bool m_showsAll = true;
+  Grab m_grab = Grab::Nothing;
+  double m_grabTime = 0.0;             // under the mouse when it was pressed
+  telemetry::TimeRange m_grabRange{};  // window or view at that moment
+  QPointF m_pressedAt;
+  bool m_dragged = false;
+  std::vector<EventMark> m_marks;
+  TimeAxis m_marksAxis;  // what m_marks were laid out for
+  std::uint64_t m_marksRevision = ~std::uint64_t{0};
+  const EventList* m_marksOf = nullptr;
+  QLineEdit* m_note = nullptr;
+  double m_noteTime = 0.0;
+};
+
+}  // namespace pitchboard::ui

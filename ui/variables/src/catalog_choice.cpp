@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "catalog_choice.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSettings>
+
+#include <ui/base/in_place_message.h>
+#include <ui/sources/match_controller.h>
+
+namespace pitchboard::ui {
+namespace {
+
+const QString fileKey = QStringLiteral("variables/catalog");
+
+struct ReadCatalog {
+  std::shared_ptr<const link::VariableCatalog> catalog;
+  QString problem;
+};
+
+ReadCatalog read(const QString& file) {
+  auto made = link::VariableCatalog::fromFile(file.toStdString());
+  if (!made) return {nullptr, QString::fromStdString(made.error().text())};
+  return {std::make_shared<const link::VariableCatalog>(std::move(*made)), {}};
+}
+
+}  // namespace
+
+CatalogChoice::CatalogChoice(MatchController* controller, QSettings* settings,
+                             InPlaceMessage* message, QObject* parent)
+    : QObject(parent), m_controller(controller), m_settings(settings), m_message(message) {
+  const QString file = m_settings ? m_settings->value(fileKey).toString() : QString();
+  if (file.isEmpty()) return;
+  const ReadCatalog remembered = read(file);
+  if (remembered.catalog) {
+    m_file = file;
+    m_controller->setCatalog(remembered.catalog);
+  } else {
+    m_message->say(InPlaceMessage::Tone::Error,
+                   tr("The published catalog is used, because the imported one cannot be read: %1")
+                       .arg(remembered.problem));
+  }
+}
+
+QString CatalogChoice::name() const {
+  return m_file.isEmpty() ? tr("Published catalog")
+                          : tr("Catalog of %1").arg(QFileInfo(m_file).fileName());
+}
+
+void CatalogChoice::askAndImport(QWidget* parent) {
+  const QString file =
+      QFileDialog::getOpenFileName(parent, tr("Import a catalog of variables"), m_file,
+                                   tr("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
+  if (!file.isEmpty()) importFile(file);
+}
+
+void CatalogChoice::importFile(const QString& file) {
+  const ReadCatalog made = read(file);
+  if (!made.catalog) {
+    m_message->say(InPlaceMessage::Tone::Error, tr("Nothing was imported. %1").arg(made.problem));
+    return;
+  }
+  m_file = QFileInfo(file).absoluteFilePath();
+  if (m_settings) m_settings->setValue(fileKey, m_file);
+  m_controller->setCatalog(made.catalog);
+  offerRestart(tr("%1 variables read from %2.")
+                   .arg(made.catalog->variables().size())
+                   .arg(QFileInfo(file).fileName()));
+}
+
+void CatalogChoice::usePublished() {
+  m_file.clear();
+  if (m_settings) m_settings->remove(fileKey);
+  m_controller->setCatalog({&link::VariableCatalog::published(), [](const auto*) {}});
+  offerRestart(tr("The published catalog is used again."));
+}
+
+void CatalogChoice::offerRestart(const QString& sentence) {
+  const bool playing = m_controller->isOpen() || m_controller->isOpening();
+  if (!playing || m_controller->catalog() == m_controller->nextCatalog()) {
+    m_message->say(InPlaceMessage::Tone::Note, sentence);
+    return;
+  }
+  QString all =
+      sentence + QLatin1Char(' ') + tr("They name the blackboards from the next match on.");
+  if (!isPublished() && m_controller->cognition() == link::Cognition::External) {
+    all += QLatin1Char(' ') + tr("The studio's own robot processes know the published places only: "
+                                 "use your team's processes with it.");
+  }
+  m_message->say(InPlaceMessage::Tone::Note, all, tr("Restart the match"),
+                 [this] { m_controller->restart(); });
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "variable_text.h"
+
+#include <QLocale>
+#include <cmath>
+#include <limits>
+
+#include <ui/base/robot_words.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::ColumnInfo;
+using telemetry::ColumnKind;
+using telemetry::ColumnType;
+
+int decimalsOf(const ColumnInfo& column) {
+  if (column.type == ColumnType::Int32 || column.kind != ColumnKind::Number) return 0;
+  struct UnitDecimals {
+    const char* unit;
+    int decimals;
+  };
+  static constexpr UnitDecimals known[] = {{"cm", 1}, {"°", 1},  {"m", 3},   {"rad", 3}, {"m/s", 2},
+                                           {"V", 1},  {"s", 2},  {"ms", 2},  {"µs", 1},  {"%", 1},
+                                           {"/s", 1}, {"Hz", 1}, {"°/s", 1}, {"cm/s", 1}};
+  for (const UnitDecimals& entry : known) {
+    if (column.unit == entry.unit) return entry.decimals;
+  }
+  return 2;
+}
+
+QString numberOf(double value, int decimals) {
+  constexpr double largest = 1e7;
+  const double smallest = 0.5 * std::pow(10.0, -decimals);
+  const double size = std::abs(value);
+  if (decimals > 0 && size != 0.0 && (size >= largest || size < smallest)) {
+    QString text = QString::number(value, 'g', 3);
+    return text.replace(QLatin1Char('-'), QChar(0x2212));
+  }
+  return numberText(value, decimals);
+}
+
+QString name(const ColumnInfo& column) {
+  return QString::fromStdString(column.name);
+}
+
+auto refuse(const QString& sentence) {
+  return failure(ErrorCode::InvalidArgument, sentence.toStdString());
+}
+
+}  // namespace
+
+QString valueText(const ColumnInfo& column, double value) {
+  if (std::isnan(value)) return QStringLiteral("NaN");
+  if (std::isinf(value)) return value > 0 ? QStringLiteral("∞") : QStringLiteral("−∞");
+  return numberOf(value, decimalsOf(column));
+}
+
+QString exactText(const ColumnInfo& column, double value) {
+  switch (column.type) {
+    case ColumnType::Int32:
+      return QString::number(value, 'f', 0);
+    case ColumnType::Float32: {
+      // As few digits as give the same 32 bits back.
+      constexpr int longest = std::numeric_limits<float>::max_digits10;
+      const float single = static_cast<float>(value);
+      for (int digits = std::numeric_limits<float>::digits10; digits < longest; ++digits) {
+        const QString text = QString::number(value, 'g', digits);
+        if (text.toFloat() == single) return text;
+      }
+      return QString::number(value, 'g', longest);
+    }
+    case ColumnType::Float64:
+      break;
+  }
+  return QString::number(value, 'g', QLocale::FloatingPointShortest);
+}
+
+QString rateText(const ColumnInfo& column, double perSecond) {
+  if (!std::isfinite(perSecond)) return {};
+  const QString text = numberOf(perSecond, std::max(1, decimalsOf(column)));
+  return perSecond > 0 && text.toDouble() != 0.0 ? QLatin1Char('+') + text : text;
+}
+
+QString ageText(double seconds) {
+  if (!(seconds >= 0)) return {};
+  if (seconds < 1) return QStringLiteral("%1 ms").arg(std::lround(seconds * 1000));
+  if (seconds < 60) return QStringLiteral("%1 s").arg(seconds, 0, 'f', 1);
+  if (seconds < 3600) return QStringLiteral("%1 min").arg(std::floor(seconds / 60), 0, 'f', 0);
+  return QStringLiteral("%1 h").arg(std::floor(seconds / 3600), 0, 'f', 0);
+}
+
+QString wordsOf(const ColumnInfo& column, double value) {
+  if (column.kind != ColumnKind::Enumeration || !std::isfinite(value)) return {};
+  const auto found = column.labels.find(static_cast<std::int32_t>(value));
+  return found != column.labels.end() ? QString::fromStdString(found->second) : QString();
+}
+
+Result<double> parseValue(const ColumnInfo& column, const QString& text) {
+  QString typed = text.trimmed();
+  typed.replace(QChar(0x2212), QLatin1Char('-'));
+  if (typed.isEmpty()) return refuse(QStringLiteral("Type a value for %1.").arg(name(column)));
+  for (const auto& [code, words] : column.labels) {
+    if (typed.compare(QString::fromStdString(words), Qt::CaseInsensitive) == 0) return code;
+  }
+  bool isNumber = false;
+  const double value = QLocale::c().toDouble(typed, &isNumber);
+  if (typed.contains(QLatin1Char(','))) isNumber = false;
+  if (column.kind == ColumnKind::Flag) {
+    if (isNumber && (value == 0.0 || value == 1.0)) return value;
+    return refuse(QStringLiteral("%1 is a flag: 0 or 1, not “%2”.").arg(name(column), typed));
+  }
+  if (!isNumber || !std::isfinite(value)) {
+    return refuse(QStringLiteral("“%1” is not a number%2.")
+                      .arg(typed, column.labels.empty()
+                                      ? QString()
+                                      : QStringLiteral(", nor the words of a code")));
+  }
+  if (column.type == ColumnType::Int32) {
+    if (value != std::floor(value)) {
+      return refuse(QStringLiteral("%1 takes whole numbers, not “%2”.").arg(name(column), typed));
+    }
+    using Limits = std::numeric_limits<std::int32_t>;
+    if (value < Limits::min() || value > Limits::max()) {
+      return refuse(QStringLiteral("%1 takes −2147483648 to 2147483647 (32 bits), not “%2”.")
+                        .arg(name(column), typed));
+    }
+  } else if (std::abs(value) > std::numeric_limits<float>::max()) {
+    return refuse(QStringLiteral("“%2” does not fit %1, a 32-bit float (at most 3.4e38).")
+                      .arg(name(column), typed));
+  }
+  return column.type == ColumnType::Float32 ? double(static_cast<float>(value)) : value;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/variables/variables_dock.h>
+
+#include <QApplication>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QSettings>
+#include <QTimer>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <set>
+
+#include <ui/base/in_place_message.h>
+#include <ui/base/plot_target.h>
+#include <ui/base/theme.h>
+#include <ui/sources/attached_boards.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+#include "attach_form.h"
+#include "catalog_choice.h"
+#include "value_writer.h"
+#include "variables_filter.h"
+#include "variables_header.h"
+#include "variables_model.h"
+#include "variables_view.h"
+
+namespace pitchboard::ui {
+namespace {
+
+const QString favouritesKey = QStringLiteral("variables/favourites");
+const QString headerKey = QStringLiteral("variables/header");
+const QString samplingKey = QStringLiteral("variables/everyNthTick");
+const QString changedKey = QStringLiteral("variables/changedWithin");
+
+class VariablesDock : public QWidget {
+ public:
+  VariablesDock(const StudioContext& context, QWidget* parent)
+      : QWidget(parent),
+        m_context(context),
+        m_model(new VariablesModel(this)),
+        m_filter(new VariablesFilter(m_model, this)),
+        m_view(new VariablesView(m_model, m_filter, this)),
+        m_message(new InPlaceMessage(this)),
+        m_empty(new QLabel(this)),
+        m_timer(new QTimer(this)),
+        m_writer(new ValueWriter(context.controller, m_model, m_message, this)),
+        m_boards(new AttachedBoards(context.controller, this)),
+        m_attach(new AttachForm(this)) {
+    m_model->setObjectName(QStringLiteral("variablesModel"));
+    m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addLayout(makeTools());
+    column->addWidget(m_attach);
+    column->addWidget(m_message);
+    column->addWidget(m_view, 1);
+    column->addWidget(m_empty, 1);
+    prepareEmpty();
+    connect(m_view->header(), &QHeaderView::sortIndicatorChanged, this, [this] {
+      if (m_filter->sortsByNumbers()) m_filter->update();
+    });
+    connectView();
+    connectBoards();
+    adoptSettings();
+    connect(context.source, &FrameSource::restarted, this, [this] { adoptSource(); });
+    connect(context.source, &SourceSwitch::changed, this, [this] { adoptSource(); });
+    connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
+    constexpr int pollMilliseconds = 100;
+    m_timer->start(pollMilliseconds);
+    adoptSource();
+  }
+
+  ~VariablesDock() override {
+    if (m_context.settings) {
+      m_context.settings->setValue(headerKey, m_view->header()->saveState());
+    }
+  }
+
+ protected:
+  void showEvent(QShowEvent* event) override {
+    QWidget::showEvent(event);
+    poll();
+  }
+
+ private:
+  QToolButton* makeButton(const char* name, const char* icon, const QString& tip) {
+    auto* button = new QToolButton(this);
+    button->setObjectName(QLatin1String(name));
+    if (icon != nullptr) button->setIcon(themedIcon(QLatin1String(icon)));
+    button->setToolTip(tip);
+    button->setAccessibleName(tip);
+    return button;
+  }
+
+  QHBoxLayout* makeTools() {
+    m_words = new QLineEdit(this);
+    m_words->setObjectName(QStringLiteral("variablesFilter"));
+    m_words->setPlaceholderText(tr("Filter by words, e.g. ball dist B1"));
+    m_words->setToolTip(tr("Rows that have all the words, in robot, process, name or unit"));
+    m_words->setClearButtonEnabled(true);
+    m_words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
+    connect(m_words, &QLineEdit::textChanged, this, [this](const QString& text) {
+      m_filter->setWords(text);
+      filterChanged();
+    });
+    m_stars = makeButton("favouritesOnly", "starred-symbolic",
+                         tr("Favourites only. * on a variable makes it one."));
+    m_stars->setCheckable(true);
+    connect(m_stars, &QToolButton::toggled, this, [this](bool on) {
+      m_filter->setFavouritesOnly(on);
+      filterChanged();
+    });
+    m_changed = makeButton("changedOnly", nullptr, QString());
+    m_changed->setText(tr("Changed"));
+    m_changed->setCheckable(true);
+    connect(m_changed, &QToolButton::toggled, this, [this] { applyChanged(); });
+    m_lock = makeButton("editValues", "object-locked", QString());
+    m_lock->setCheckable(true);
+    connect(m_lock, &QToolButton::toggled, this, [this](bool on) { allowEditing(on); });
+    auto* more = makeButton("variablesMenu", "application-menu",
+                            tr("Columns, sampling, catalog, other blackboards"));
+    more->setMenu(makeMenu(more));
+    more->setPopupMode(QToolButton::InstantPopup);
+    auto* row = new QHBoxLayout;
+    const int gap = scaled(this, 4);
+    row->setContentsMargins(gap, gap, gap, gap);
+    row->setSpacing(gap);
+    row->addWidget(m_words, 1);
+    for (QToolButton* button : {m_stars, m_changed, m_lock, more}) row->addWidget(button);
+    return row;
+  }
+
+  void fillChanged(QMenu* menu) {
+    menu->clear();
+    for (const int seconds : {1, 5, 15, 60}) {
+      QAction* action = menu->addAction(seconds == 1 ? tr("Within the last second")
+                                                     : tr("Within the last %1 s").arg(seconds));
+      action->setCheckable(true);
+      action->setChecked(seconds == m_changedWithin);
+      connect(action, &QAction::triggered, this, [this, seconds] {
+        m_changedWithin = seconds;
+        if (m_context.settings) m_context.settings->setValue(changedKey, seconds);
+        if (m_changed->isChecked())
+          applyChanged();
+        else
+          m_changed->setChecked(true);
+      });
+    }
+  }
+
+  QMenu* makeMenu(QWidget* parent) {
+    auto* menu = new QMenu(parent);
+    QMenu* columns = menu->addMenu(tr("Columns"));
+    connect(columns, &QMenu::aboutToShow, this,
+            [this, columns] { m_view->columns()->fillColumns(columns); });
+    QMenu* changed = menu->addMenu(tr("Changed means"));
+    connect(changed, &QMenu::aboutToShow, this, [this, changed] { fillChanged(changed); });
+    QMenu* sampling = menu->addMenu(tr("Sampling"));
+    connect(sampling, &QMenu::aboutToShow, this, [this, sampling] { fillSampling(sampling); });
+    menu->addSeparator();
+    menu->addAction(tr("Import catalog…"), this, [this] { m_catalog->askAndImport(this); })
+        ->setObjectName(QStringLiteral("importCatalog"));
+    QAction* reset = menu->addAction(tr("Use the published catalog"), this,
+                                     [this] { m_catalog->usePublished(); });
+    reset->setObjectName(QStringLiteral("publishedCatalog"));
+    QAction* attach = menu->addAction(tr("Attach blackboard…"), this, [this] { m_attach->open(); });
+    attach->setObjectName(QStringLiteral("attachBlackboard"));
+    menu->addSeparator();
+    menu->addAction(tr("Open all"), this, [this] { m_view->openAll(); });
+    menu->addAction(tr("Close all"), this, [this] { m_view->closeAll(); });
+    connect(menu, &QMenu::aboutToShow, this, [this, reset, attach] {
+      const bool simulated = m_context.source->kind() == SourceKind::Simulate;
+      attach->setEnabled(simulated);
+      attach->setToolTip(simulated ? tr("Samples any System V key, read-only")
+                                   : tr("Blackboards of this computer are shown in Simulate"));
+      reset->setEnabled(!m_catalog->isPublished());
+      reset->setToolTip(m_catalog->name());
+    });
+    menu->setToolTipsVisible(true);
+    return menu;
+  }
+
+  void fillSampling(QMenu* menu) {
+    menu->clear();
+    for (const int ticks : {1, 2, 5, 10, 30, 60}) {
+      QAction* action =
+          menu->addAction(ticks == 1 ? tr("Each tick") : tr("Every %1 ticks").arg(ticks));
+      action->setCheckable(true);
+      action->setChecked(m_context.controller->sampling() == ticks);
+      connect(action, &QAction::triggered, this, [this, ticks] { setSampling(ticks); });
+    }
+  }
+
+  void setSampling(int ticks) {
+    m_context.controller->setSampling(ticks);
+    if (m_context.settings) m_context.settings->setValue(samplingKey, ticks);
+  }
+
+  void connectBoards() {
+    connect(m_attach, &AttachForm::attachRequested, this, [this](int key, double rate) {
+      if (const Result<void> done = m_boards->attach(key, rate); !done) {
+        m_message->say(InPlaceMessage::Tone::Error,
+                       tr("Not attached. %1").arg(QString::fromStdString(done.error().text())));
+        return;
+      }
+      m_attach->hide();
+      m_message->clear();
+    });
+    m_view->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(m_view, &QWidget::customContextMenuRequested, this,
+            [this](QPoint at) { showMenu(at); });
+  }
+
+  void showMenu(QPoint at) {
+    const QModelIndex index = m_filter->mapToSource(m_view->indexAt(at).siblingAtColumn(0));
+    if (!index.isValid()) return;
+    auto* menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const QStringList names = m_view->selectedVariables();
+    if (!names.isEmpty()) {
+      menu->addAction(tr("Plot"), this, [this, names] {
+        if (m_context.plots) m_context.plots->plotVariables(names);
+      });
+      menu->addAction(tr("Favourite"), m_view, &VariablesView::requestFavourites);
+      menu->addAction(tr("Copy"), m_view, &VariablesView::copySelection);
+      menu->addAction(tr("Edit value"), m_view, &VariablesView::editCurrent);
+    }
+    const auto group = m_model->groupOf(index);
+    const auto& attributes = group->info().attributes;
+    if (attributes.count("attached") != 0) {
+      const int key = QString::fromStdString(attributes.at("key")).toInt();
+      if (m_boards->contains(key)) {
+        menu->addAction(tr("Detach %1").arg(AttachedBoards::groupName(key)), this,
+                        [this, key] { detach(key); });
+      }
+    }
+    if (menu->isEmpty())
+      delete menu;
+    else
+      menu->popup(m_view->viewport()->mapToGlobal(at));
+  }
+
+  void detach(int key) {
+    m_boards->detach(key);
+    m_model->setNote(AttachedBoards::groupName(key), {tr("detached"), {}, 0.0});
+  }
+
+  void showBoards() {
+    for (const auto& [key, status] : m_boards->status()) {
+      const QString group = AttachedBoards::groupName(key);
+      m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
+                               status.missed == 0 ? QString()
+                                                  : tr("%1 samples were left out, because the "
+                                                       "computer was busy.")
+                                                        .arg(status.missed),
+                               status.attached ? status.rate : 0.0});
+      if (!status.attached && m_removed.insert(key).second) {
+        m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
+      } else if (status.attached) {
+        m_removed.erase(key);
+      }
+    }
+  }
+
+  void prepareEmpty() {
+    m_empty->setObjectName(QStringLiteral("emptyVariables"));
+    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setBackgroundRole(QPalette::Base);
+    m_empty->setAutoFillBackground(true);
+    m_empty->setMargin(scaled(this, 12));
+    m_empty->setWordWrap(true);
+  }
+
+  void connectView() {
+    connect(m_view, &VariablesView::plotRequested, this, [this](const QStringList& names) {
+      if (m_context.plots) m_context.plots->plotVariables(names);
+    });
+    connect(m_view, &VariablesView::favouriteRequested, m_model, &VariablesModel::toggleFavourites);
+    connect(m_view, &VariablesView::editRefused, this, [this](const QModelIndex& index) {
+      const QString why = m_model->whyNotEditable(index);
+      if (!why.isEmpty())
+        m_message->say(InPlaceMessage::Tone::Note, why);
+      else
+        m_message->say(InPlaceMessage::Tone::Note, tr("Values are locked against accidents."),
+                       tr("Edit values"), [this] { m_lock->setChecked(true); });
+    });
+    connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
+      if (m_context.settings) m_context.settings->setValue(favouritesKey, m_model->favourites());
+      m_view->viewport()->update();
+      filterChanged();
+    });
+  }
+
+  void adoptSettings() {
+    allowEditing(false);
+    if (const QSettings* settings = m_context.settings) {
+      m_model->setFavourites(settings->value(favouritesKey).toStringList());
+      m_changedWithin = qBound(1, settings->value(changedKey, m_changedWithin).toInt(), 3600);
+      m_context.controller->setSampling(qBound(1, settings->value(samplingKey, 1).toInt(), 60));
+      const QByteArray header = settings->value(headerKey).toByteArray();
+      if (!header.isEmpty()) m_view->header()->restoreState(header);
+      m_view->header()->setSortIndicator(-1, Qt::AscendingOrder);
+    }
+    applyChanged();
+  }
+
+  void adoptSource() {
+    m_writer->forget();
+    m_store = m_context.source->series();
+    m_model->setStore(m_store, m_context.source->kind());
+    const bool simulated = m_context.source->kind() == SourceKind::Simulate;
+    m_lock->setEnabled(simulated);
+    if (!simulated) m_lock->setChecked(false);
+    allowEditing(m_lock->isChecked());
+    poll();
+  }
+
+  void allowEditing(bool on) {
+    m_model->setEditingAllowed(on);
+    m_lock->setIcon(
+        themedIcon(on ? QStringLiteral("object-unlocked") : QStringLiteral("object-locked")));
+    const QString tip =
+        m_context.source->kind() == SourceKind::Live
+            ? tr("Values of live robots are only shown: nothing is ever sent to robots.")
+        : m_context.source->kind() == SourceKind::Replay
+            ? tr("Values of a recording are what they were.")
+            : tr("Edit values: double-click a value of a simulated robot to change it");
+    m_lock->setToolTip(tip);
+    m_lock->setAccessibleName(tr("Edit values"));
+  }
+
+  void applyChanged() {
+    const bool on = m_changed->isChecked();
+    m_changed->setToolTip(m_changedWithin == 1
+                              ? tr("Only what changed within the last second")
+                              : tr("Only what changed within the last %1 s").arg(m_changedWithin));
+    m_filter->setChangedWithin(on ? std::optional<double>(m_changedWithin) : std::nullopt);
+    filterChanged();
+  }
+
+  void filterChanged() {
+    m_view->followFilter();
+    refresh();
+  }
+
+  void poll() {
+    // The source's rows may begin without a restart.
+    if (m_context.source->series() != m_store) {
+      adoptSource();
+      return;
+    }
+    m_writer->check();
+    if (!isVisible()) return;
+    const Timeline* timeline = m_context.timeline;
+    const bool past = timeline && (timeline->isLookingBack() || timeline->isRecording());
+    m_model->setMoment(past ? std::optional(timeline->shownTime()) : std::nullopt);
+    showBoards();
+    m_model->updateGroups();
+    constexpr int slowly = 5;
+    const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
+    if (++m_polls % slowly == 0 && !busy) m_filter->update();
+    refresh();
+  }
+
+  void refresh() {
+    const bool any = m_filter->rowCount() > 0;
+    m_view->setVisible(any);
+    m_empty->setVisible(!any);
+    if (any)
+      m_model->refresh(m_view->rowsInSight(), m_view->sparkPixels());
+    else
+      m_empty->setText(emptyText());
+  }
+
+  QString emptyText() const {
+    if (m_model->rowCount() == 0) {
+      const QString why = m_context.source->frame() ? QString() : m_context.source->emptyText();
+      return why.isEmpty() ? tr("No variables yet. They appear with the first values of a robot.")
+                           : why;
+    }
+    if (!m_words->text().trimmed().isEmpty()) return tr("No variable has all of these words.");
+    if (m_stars->isChecked() && m_model->favourites().isEmpty()) {
+      return tr("No favourites yet. Select a variable and press * to make it one.");
+    }
+    if (m_changed->isChecked()) {
+      return tr("Nothing changed within the last %1 s.").arg(m_changedWithin);
+    }
+    return tr("None of the favourites is in this match.");
+  }
+
+  StudioContext m_context;
+  VariablesModel* m_model;
+  VariablesFilter* m_filter;
+  VariablesView* m_view;
+  InPlaceMessage* m_message;
+  QLabel* m_empty;
+  QTimer* m_timer;
+  ValueWriter* m_writer;
+  AttachedBoards* m_boards;
+  AttachForm* m_attach;
+  std::set<int> m_removed;  // keys whose removal was said
+  CatalogChoice* m_catalog = nullptr;
+  QLineEdit* m_words = nullptr;
+  QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
+  std::shared_ptr<const telemetry::SeriesStore> m_store;
+  int m_changedWithin = 5;
+  unsigned m_polls = 0;
+};
+
+}  // namespace
+
+QWidget* makeVariablesDock(const StudioContext& context, QWidget* parent) {
+  return new VariablesDock(context, parent);
+}
+
+}  // namespace pitchboard::ui

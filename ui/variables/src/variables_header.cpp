@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "variables_header.h"
+
+#include <QMenu>
+
+#include <ui/base/theme.h>
+
+#include "variables_model.h"
+
+namespace pitchboard::ui {
+
+VariablesHeader::VariablesHeader(QWidget* parent) : QHeaderView(Qt::Horizontal, parent) {
+  setFont(themeFont(TypeRole::Secondary));
+  setHighlightSections(false);
+  setSectionsClickable(true);
+  setSectionsMovable(true);
+  setFirstSectionMovable(false);
+  setStretchLastSection(false);
+  // In the order of the catalog at first, and again on a third click.
+  setSortIndicatorClearable(true);
+  setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(this, &QWidget::customContextMenuRequested, this, [this](QPoint at) {
+    auto* menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    fillColumns(menu);
+    menu->popup(mapToGlobal(at));
+  });
+  // A curve has no order.
+  connect(this, &QHeaderView::sortIndicatorChanged, this, [this](int column, Qt::SortOrder) {
+    if (column == VariablesModel::Spark) setSortIndicator(-1, Qt::AscendingOrder);
+  });
+}
+
+void VariablesHeader::reset() {
+  setMinimumSectionSize(scaled(this, 24));
+  setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
+  const std::pair<int, int> widths[] = {{VariablesModel::Value, 56},
+                                        {VariablesModel::Unit, 40},
+                                        {VariablesModel::Rate, 66},
+                                        {VariablesModel::Age, 56},
+                                        {VariablesModel::Spark, 68}};
+  for (const auto& [column, width] : widths) resizeSection(column, scaled(this, width));
+  setSectionHidden(VariablesModel::Rate, true);
+  setSectionHidden(VariablesModel::Age, true);
+  setSortIndicator(-1, Qt::AscendingOrder);
+}
+
+void VariablesHeader::fillColumns(QMenu* menu) {
+  menu->clear();
+  for (int c = 1; c < VariablesModel::columns; ++c) {
+    QAction* action =
+        menu->addAction(model()->headerData(c, Qt::Horizontal, Qt::DisplayRole).toString());
+    action->setCheckable(true);
+    action->setChecked(!isSectionHidden(c));
+    connect(action, &QAction::toggled, this,
+            [this, c](bool shown) { setSectionHidden(c, !shown); });
+  }
+}
+
+}  // namespace pitchboard::ui

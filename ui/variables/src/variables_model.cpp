@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "variables_model.h"
+
+#include <QMimeData>
+#include <algorithm>
+
+#include <ui/base/plot_target.h>
+
+#include "variable_node.h"
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::GroupId;
+using telemetry::GroupInfo;
+
+// Headings that people look for first; the others follow as they come.
+int headingRank(const std::string& heading) {
+  static constexpr const char* order[] = {"Vision", "Localization", "Decision",     "Planning",
+                                          "IMU",    "Control",      "Communication"};
+  int rank = 0;
+  for (const char* known : order) {
+    if (heading == known) return rank;
+    ++rank;
+  }
+  return rank;
+}
+
+int groupRank(const GroupInfo& info) {
+  if (info.name == "match") return 2;
+  return info.attributes.count("number") != 0 ? 0 : 1;
+}
+
+}  // namespace
+
+VariablesModel::VariablesModel(QObject* parent) : QAbstractItemModel(parent) {}
+VariablesModel::~VariablesModel() = default;
+
+VariableNode* VariablesModel::node(const QModelIndex& index) {
+  return static_cast<VariableNode*>(index.internalPointer());
+}
+
+void VariablesModel::setStore(std::shared_ptr<const telemetry::SeriesStore> store,
+                              SourceKind kind) {
+  beginResetModel();
+  m_groups.clear();
+  m_store = std::move(store);
+  m_kind = kind;
+  m_revision = 0;
+  m_now = 0.0;
+  endResetModel();
+  updateGroups();
+}
+
+std::unique_ptr<VariableNode> VariablesModel::makeGroup(
+    GroupId id, std::shared_ptr<const telemetry::GroupView> view) const {
+  auto group = std::make_unique<VariableNode>();
+  group->group = id;
+  group->view = std::move(view);
+  const GroupInfo& info = group->view->info();
+  group->name = group->path = QString::fromStdString(info.name);
+  group->rank = groupRank(info);
+  const auto headingOf = [&group](const std::string& text) {
+    const QString name = text.empty() ? tr("Other") : QString::fromStdString(text);
+    for (const auto& heading : group->children) {
+      if (heading->name == name) return heading.get();
+    }
+    auto heading = std::make_unique<VariableNode>();
+    heading->kind = Kind::Heading;
+    heading->parent = group.get();
+    heading->rank = headingRank(text);
+    heading->name = name;
+    heading->path = group->name + QLatin1Char('\n') + name;
+    group->children.push_back(std::move(heading));
+    return group->children.back().get();
+  };
+  std::uint32_t column = 0;
+  for (const telemetry::ColumnInfo& columnInfo : info.columns) {
+    VariableNode* heading = headingOf(columnInfo.heading);
+    auto variable = std::make_unique<VariableNode>();
+    variable->kind = Kind::Variable;
+    variable->parent = heading;
+    variable->row = static_cast<int>(heading->children.size());
+    variable->name = QString::fromStdString(columnInfo.name);
+    variable->path = group->name + QLatin1Char('/') + variable->name;
+    variable->column = column++;
+    variable->info = columnInfo;
+    variable->searchText =
+        (group->name + QLatin1Char('\n') + heading->name + QLatin1Char('\n') + variable->name +
+         QLatin1Char('\n') + QString::fromStdString(columnInfo.unit))
+            .toLower();
+    heading->children.push_back(std::move(variable));
+  }
+  std::stable_sort(group->children.begin(), group->children.end(),
+                   [](const auto& a, const auto& b) { return a->rank < b->rank; });
+  int row = 0;
+  for (const auto& heading : group->children) heading->row = row++;
+  return group;
+}
+
+void VariablesModel::renumber() {
+  int row = 0;
+  for (const auto& group : m_groups) group->row = row++;
+}
+
+void VariablesModel::updateGroups() {
+  if (!m_store) return;
+  const std::uint64_t revision = m_store->groupsRevision();
+  if (revision == m_revision && m_revision != 0) return;
+  m_revision = revision;
+  // A group whose columns changed goes on under a new id; the old one is history.
+  for (std::size_t i = m_groups.size(); i-- > 0;) {
+    if (m_store->findGroup(m_groups[i]->name.toStdString()) == m_groups[i]->group) continue;
+    beginRemoveRows({}, static_cast<int>(i), static_cast<int>(i));
+    m_groups.erase(m_groups.begin() + static_cast<std::ptrdiff_t>(i));
+    renumber();
+    endRemoveRows();
+  }
+  const auto count = static_cast<GroupId>(m_store->groups());
+  for (GroupId id = 0; id < count; ++id) {
+    const bool shown = std::any_of(m_groups.begin(), m_groups.end(),
+                                   [id](const auto& group) { return group->group == id; });
+    if (shown) continue;
+    auto view = m_store->view(id);
+    // One that was replaced stays in the store, without rows.
+    if (!view || m_store->findGroup(view->info().name) != id) continue;
+    auto group = makeGroup(id, std::move(view));
+    const auto place = std::find_if(m_groups.begin(), m_groups.end(), [&group](const auto& other) {
+      return std::pair(group->rank, group->group) < std::pair(other->rank, other->group);
+    });
+    const int row = static_cast<int>(place - m_groups.begin());
+    beginInsertRows({}, row, row);
+    m_groups.insert(place, std::move(group));
+    renumber();
+    endInsertRows();
+  }
+}
+
+void VariablesModel::setFavourites(const QStringList& names) {
+  m_favourites = QSet<QString>(names.begin(), names.end());
+  if (!m_groups.empty()) emit dataChanged(index(0, Name), index(rowCount() - 1, Name));
+  emit favouritesChanged();
+}
+
+QStringList VariablesModel::favourites() const {
+  QStringList names(m_favourites.begin(), m_favourites.end());
+  names.sort();
+  return names;
+}
+
+void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
+  QModelIndexList variables;
+  for (const QModelIndex& index : indexes) {
+    if (kindOf(index) == Kind::Variable && index.column() == Name) variables << index;
+  }
+  if (variables.isEmpty()) return;
+  // Several at once end up equal: all starred, unless all were.
+  const bool all = std::all_of(variables.begin(), variables.end(), [this](const auto& index) {
+    return m_favourites.contains(node(index)->path);
+  });
+  for (const QModelIndex& index : variables) {
+    if (all)
+      m_favourites.remove(node(index)->path);
+    else
+      m_favourites.insert(node(index)->path);
+    emit dataChanged(index, index);
+  }
+  emit favouritesChanged();
+}
+
+void VariablesModel::setNote(const QString& group, const GroupNote& note) {
+  if (m_notes.value(group) == note) return;
+  if (note == GroupNote{})
+    m_notes.remove(group);
+  else
+    m_notes.insert(group, note);
+  const QModelIndex row = find(group);
+  if (row.isValid()) emit dataChanged(row, row.siblingAtColumn(columns - 1));
+}
+
+VariablesModel::Kind VariablesModel::kindOf(const QModelIndex& index) const {
+  return index.isValid() ? node(index)->kind : Kind::Group;
+}
+
+const telemetry::ColumnInfo* VariablesModel::columnOf(const QModelIndex& index) const {
+  return index.isValid() && kindOf(index) == Kind::Variable ? &node(index)->info : nullptr;
+}
+
+std::shared_ptr<const telemetry::GroupView> VariablesModel::groupOf(
+    const QModelIndex& index) const {
+  return index.isValid() ? node(index)->owner()->view : nullptr;
+}
+
+const QString& VariablesModel::searchText(const QModelIndex& index) const {
+  return node(index)->searchText;
+}
+
+double VariablesModel::lastChange(const QModelIndex& index) const {
+  return node(index)->lastChange;
+}
+
+int VariablesModel::variableCount() const {
+  std::size_t count = 0;
+  for (const auto& group : m_groups) {
+    for (const auto& heading : group->children) count += heading->children.size();
+  }
+  return static_cast<int>(count);
+}
+
+QStringList VariablesModel::variableNames(const QModelIndexList& indexes) {
+  QStringList names;
+  for (const QModelIndex& index : indexes) {
+    if (index.column() != Name || index.data(PathRole).isNull()) continue;
+    const QString path = index.data(PathRole).toString();
+    if (path.contains(QLatin1Char('/')) && !path.contains(QLatin1Char('\n'))) names << path;
+  }
+  return names;
+}
+
+QModelIndex VariablesModel::find(const QString& path) const {
+  for (const auto& group : m_groups) {
+    if (path == group->path) return indexOf(group.get(), Name);
+    if (!path.startsWith(group->name)) continue;
+    for (const auto& heading : group->children) {
+      if (path == heading->path) return indexOf(heading.get(), Name);
+      for (const auto& variable : heading->children) {
+        if (path == variable->path) return indexOf(variable.get(), Name);
+      }
+    }
+  }
+  return {};
+}
+
+QModelIndex VariablesModel::indexOf(const VariableNode* wanted, int column) const {
+  return createIndex(wanted->row, column, wanted);
+}
+
+QModelIndex VariablesModel::index(int row, int column, const QModelIndex& parent) const {
+  if (!hasIndex(row, column, parent)) return {};
+  const auto& rows = parent.isValid() ? node(parent)->children : m_groups;
+  return createIndex(row, column, rows[static_cast<std::size_t>(row)].get());
+}
+
+QModelIndex VariablesModel::parent(const QModelIndex& child) const {
+  if (!child.isValid()) return {};
+  const VariableNode* above = node(child)->parent;
+  return above != nullptr ? indexOf(above, Name) : QModelIndex();
+}
+
+int VariablesModel::rowCount(const QModelIndex& parent) const {
+  if (!parent.isValid()) return static_cast<int>(m_groups.size());
+  return parent.column() == Name ? static_cast<int>(node(parent)->children.size()) : 0;
+}
+
+int VariablesModel::columnCount(const QModelIndex&) const {
+  return columns;
+}
+
+QStringList VariablesModel::mimeTypes() const {
+  return {variablesMimeType};
+}
+
+QMimeData* VariablesModel::mimeData(const QModelIndexList& indexes) const {
+  const QStringList names = variableNames(indexes);
+  if (names.isEmpty()) return nullptr;
+  auto* data = new QMimeData;
+  const QString text = names.join(QLatin1Char('\n'));
+  data->setData(variablesMimeType, text.toUtf8());
+  data->setText(text);
+  return data;
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The one list of docks. A dock is a pair of files with a make function, and a line in
+// dock_list.cpp; menus, saved layouts and "Reset layout" follow from it.
+
+#include <QString>
+#include <Qt>
+#include <span>
+
+class QWidget;
+
+namespace pitchboard::ui {
+
+struct StudioContext;
+
+struct DockInfo {
+  const char* id;  ///< in saved layouts: never change it
+  const char* title;
+  Qt::DockWidgetArea area;  ///< docks of the bottom are tabbed together
+  bool shownAtFirst;
+  int extent;  ///< width (left, right) or height (bottom) at first, mock pixels
+  QWidget* (*make)(const StudioContext& context, QWidget* parent);
+  bool ownRow = false;  ///< bottom: below the tabs, without a title while docked
+};
+
+std::span<const DockInfo> studioDocks();
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The studio's window: arranges tool bar, field, docks and menus, and keeps their layout. It owns
+// no logic: the match is the controller's, files are ScenarioFiles', docks look after themselves.
+// UI thread only.
+
+#include <QAction>
+#include <QMainWindow>
+#include <vector>
+
+#include <ui/base/theme.h>
+#include <ui/sources/frame_source.h>
+
+class QSettings;
+class QUndoGroup;
+
+namespace pitchboard::link {
+struct Scenario;
+}
+
+namespace pitchboard::ui {
+
+class ComparedSession;
+class FieldView;
+class LinkedTime;
+class LiveController;
+class LiveOverlay;
+class MatchController;
+class NoticeBar;
+class PlotTarget;
+class ReplayController;
+class RobotSelection;
+class ScenarioFiles;
+class SessionFiles;
+class SessionRecording;
+class SourceSwitch;
+class StudioStatusBar;
+struct StudioContext;
+class Timeline;
+class TimelineActions;
+class TransportBar;
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  /// Both must outlive the window. `settings` holds layout, theme and recent files.
+  MainWindow(MatchController* controller, QSettings* settings, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  FieldView* field() const { return m_field; }
+  Timeline* timeline() const { return m_timeline; }
+  NoticeBar* notices() const { return m_notices; }
+  ScenarioFiles* files() const { return m_files; }
+  SessionFiles* sessions() const { return m_sessions; }
+  ComparedSession* compared() const { return m_compared; }
+  SessionRecording* recording() const { return m_recording; }
+  ReplayController* replay() const { return m_replay; }
+  LiveController* live() const { return m_live; }
+  /// A recorded session, in Replay; what is wrong with it is a notice.
+  void openSession(const QString& path);
+  /// Offers to export from what is shown: the session, or what memory holds.
+  void showExport();
+  /// Megabytes that the rows of one source may take in memory, 1 to 65536; kept in the settings.
+  int memoryBudget() const;
+  void setMemoryBudget(int megabytes);
+  /// Shows this kind of source; Live begins to listen.
+  void showSource(SourceKind kind);
+  /// Simulated and heard robots side by side on the field.
+  void overlayLive(bool on) { m_overlayAction->setChecked(on); }
+
+  /// Docks where they were; the default layout when there is none or it cannot be restored.
+  void restoreLayout();
+  void resetLayout();
+  /// Offers to remove blackboards that an earlier run left at this key base.
+  void offerToRemoveOrphans();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  friend class StudioMenus;
+  StudioContext context() const;
+  void makeDocks();
+  void showTitles();
+  void connectField();
+
+  MatchController* m_controller;
+  LiveController* m_live;
+  QSettings* m_settings;
+  SourceSwitch* m_source;
+  QUndoGroup* m_undo;  // nothing to undo while another source is shown
+  RobotSelection* m_selection;
+  LinkedTime* m_time;
+  PlotTarget* m_plots;
+  Timeline* m_timeline;
+  ReplayController* m_replay;
+  SessionRecording* m_recording;
+  SessionFiles* m_sessions;
+  TimelineActions* m_timelineActions;
+  FieldView* m_field;
+  LiveOverlay* m_overlay;
+  ComparedSession* m_compared;
+  QAction* m_overlayAction = nullptr;  // of the View menu
+  NoticeBar* m_notices;
+  TransportBar* m_bar;
+  StudioStatusBar* m_status;
+  ScenarioFiles* m_files;
+  std::vector<QDockWidget*> m_docks;  // order of studioDocks()
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dock_title.h"
+
+#include <QDockWidget>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QToolButton* button(DockTitle* parent, const QString& icon, const QString& name) {
+  auto* made = new QToolButton(parent);
+  made->setIcon(themedIcon(icon));
+  made->setIconSize(QSize(scaled(parent, 12), scaled(parent, 12)));
+  made->setToolTip(name);
+  made->setAccessibleName(name);
+  made->setFocusPolicy(Qt::NoFocus);
+  made->setFixedSize(scaled(parent, 20), scaled(parent, 20));
+  made->setAutoRaise(true);
+  return made;
+}
+
+}  // namespace
+
+DockTitle::DockTitle(QDockWidget* dock) : QWidget(dock) {
+  auto* label = new QLabel(dock->windowTitle(), this);
+  label->setFont(themeFont(TypeRole::Secondary, true));
+  label->setForegroundRole(QPalette::PlaceholderText);
+  QToolButton* floating = button(this, QStringLiteral("window-restore"), tr("Float or dock"));
+  QToolButton* close = button(this, QStringLiteral("window-close"), tr("Close"));
+  connect(floating, &QToolButton::clicked, dock,
+          [dock] { dock->setFloating(!dock->isFloating()); });
+  connect(close, &QToolButton::clicked, dock, &QDockWidget::close);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(scaled(this, 8), 0, scaled(this, 4), 0);
+  row->setSpacing(0);
+  row->addWidget(label, 1);
+  row->addWidget(floating);
+  row->addWidget(close);
+}
+
+QSize DockTitle::sizeHint() const {
+  return {QWidget::sizeHint().width(), m_folded ? 0 : scaled(this, 24)};
+}
+
+void DockTitle::setFolded(bool folded) {
+  if (folded == m_folded) return;
+  m_folded = folded;
+  setVisible(!folded);
+  updateGeometry();
+  // A dock asks its title for its size only when the title is set.
+  if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) dock->setTitleBarWidget(this);
+}
+
+}  // namespace pitchboard::ui

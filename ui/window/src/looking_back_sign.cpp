@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "looking_back_sign.h"
+
+#include <QEvent>
+#include <QPainter>
+
+#include <ui/base/theme.h>
+#include <ui/base/time_axis.h>
+#include <ui/sources/timeline.h>
+
+namespace pitchboard::ui {
+
+LookingBackSign::LookingBackSign(Timeline* timeline, QWidget* canvas)
+    : QLabel(canvas), m_timeline(timeline) {
+  setObjectName(QStringLiteral("lookingBack"));
+  setAlignment(Qt::AlignCenter);
+  setFont(themeFont(TypeRole::Body, true));
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  canvas->installEventFilter(this);
+  connect(timeline, &Timeline::lookingBackChanged, this, &LookingBackSign::present);
+  connect(timeline, &Timeline::moved, this, &LookingBackSign::present);
+  connect(timeline, &Timeline::sourceChanged, this, &LookingBackSign::present);
+  hide();
+}
+
+bool LookingBackSign::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && isVisible()) present();
+  return QLabel::eventFilter(watched, event);
+}
+
+void LookingBackSign::present() {
+  if (!m_timeline->isLookingBack()) {
+    hide();
+    return;
+  }
+  const double at = m_timeline->shownTime();
+  const auto clock = m_timeline->clock();
+  const QString time =
+      clock ? clock->addMSecs(qRound64(at * 1000)).toString(QStringLiteral("HH:mm:ss"))
+            : longMomentText(at);
+  const QString text = tr("Looking back: %1 (live goes on)").arg(time);
+  if (text == this->text() && isVisible()) return;
+  setText(text);
+  QRect box(0, 0, sizeHint().width() + scaled(this, 24), scaled(this, 28));
+  box.moveTop(scaled(this, 8));
+  box.moveLeft((parentWidget()->width() - box.width()) / 2);
+  setGeometry(box);
+  show();
+  raise();
+}
+
+void LookingBackSign::paintEvent(QPaintEvent* event) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(theme().accentLine);
+  painter.setBrush(theme().window);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
+  painter.end();
+  QLabel::paintEvent(event);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/window/main_window.h>
+
+#include <QAbstractScrollArea>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QScreen>
+#include <QSettings>
+#include <QUndoGroup>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <limits>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/plot_target.h>
+#include <ui/field/field_view.h>
+#include <ui/live/live_overlay.h>
+#include <ui/processes/orphan_notice.h>
+#include <ui/session/export_dialog.h>
+#include <ui/session/session_files.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/live_settings.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/robot_selection.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/studio_context.h>
+#include <ui/sources/timeline.h>
+#include <ui/timeline/timeline_actions.h>
+#include <ui/window/dock_list.h>
+#include <ui/window/scenario_files.h>
+
+#include "dock_title.h"
+#include "looking_back_sign.h"
+#include "menus.h"
+#include "opening_label.h"
+#include "scenario_chooser.h"
+#include "status_bar.h"
+#include "transport_bar.h"
+
+namespace pitchboard::ui {
+namespace {
+// Raised when docks come or go in a way that older layouts cannot describe.
+constexpr int layoutVersion = 2;
+const QString geometryKey = QStringLiteral("window/geometry");
+const QString memoryKey = QStringLiteral("session/memoryMegabytes");
+constexpr int mostMemory = 65536;
+const QString layoutKey = QStringLiteral("window/layout");
+}  // namespace
+
+MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
+    : QMainWindow(parent),
+      m_controller(controller),
+      m_live(new LiveController(this)),
+      m_settings(settings),
+      m_source(new SourceSwitch(controller, this)),
+      m_undo(new QUndoGroup(this)),
+      m_selection(new RobotSelection(this)),
+      m_time(new LinkedTime(this)),
+      m_plots(new PlotTarget(this)),
+      m_timeline(new Timeline(m_source, this)),
+      m_replay(new ReplayController(this)),
+      m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
+      m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
+  m_source->add(m_live);
+  m_source->add(m_replay);
+  m_timeline->watch(controller);
+  m_timeline->watch(m_live);
+  m_timeline->watch(m_replay);
+  m_undo->addStack(controller->undoStack());
+  m_undo->setActiveStack(controller->undoStack());
+  setWindowTitle(QStringLiteral("Pitchboard"));
+  setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
+  setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
+  setContextMenuPolicy(Qt::PreventContextMenu);
+
+  auto* centre = new QWidget(this);
+  auto* column = new QVBoxLayout(centre);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  m_notices = new NoticeBar(centre);
+  m_field = new FieldView(m_source, controller, centre);
+  m_overlay = new LiveOverlay(controller, m_live, m_source, m_field, this);
+  m_compared = new ComparedSession(m_timeline, m_field, this);
+  connect(m_compared, &ComparedSession::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  column->addWidget(m_notices);
+  column->addWidget(m_field, 1);
+  setCentralWidget(centre);
+
+  m_sessions = new SessionFiles(m_replay, controller, m_source, m_timeline, m_notices, this);
+  connect(m_recording, &SessionRecording::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
+    m_notices->show(
+        tr("Saved: %1").arg(path),
+        {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }}, {tr("Close"), {}}});
+  });
+  connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
+  const StudioContext context = this->context();
+  m_bar = new TransportBar(context, settings, this);
+  addToolBar(m_bar);
+  m_status = new StudioStatusBar(context, this);
+  setStatusBar(m_status);
+  m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
+  makeDocks();
+  StudioMenus(*this).make();
+  connectField();
+  if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
+    new OpeningLabel(controller, canvas);
+    new LookingBackSign(m_timeline, canvas);
+  }
+  connect(controller, &MatchController::errorOccurred, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_live, &LiveController::errorOccurred, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_source, &SourceSwitch::changed, this, [this] {
+    const bool editable = m_source->kind() == SourceKind::Simulate;
+    m_undo->setActiveStack(editable ? m_controller->undoStack() : nullptr);
+    m_selection->set({});
+  });
+  connect(m_files, &ScenarioFiles::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
+  connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
+  connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
+  connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
+  const LiveSettings live = loadLiveSettings(*settings);
+  m_live->setOptions(live.options);
+  if (!live.problem.isEmpty()) m_notices->show(tr("Live: %1").arg(live.problem));
+  setMemoryBudget(memoryBudget());
+  restoreLayout();
+  m_field->setFocus();
+}
+
+MainWindow::~MainWindow() = default;
+
+StudioContext MainWindow::context() const {
+  return {m_controller, m_source, m_selection, m_field,           m_time,
+          m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
+          m_recording,  m_live,   m_overlay,   m_compared};
+}
+
+void MainWindow::openSession(const QString& path) {
+  m_sessions->open(path);
+}
+
+void MainWindow::showExport() {
+  const auto all = m_timeline->available();
+  if (!all) {
+    m_notices->show(tr("There is nothing to export yet."));
+    return;
+  }
+  ExportSource source;
+  if (m_source->kind() == SourceKind::Replay) {
+    const QFileInfo file(m_replay->path());
+    source.session = m_replay->path();
+    source.folder = file.path();
+    source.name = file.completeBaseName() + tr(" part");
+  } else {
+    source.make = [this] {
+      return m_recording->recentPast(std::numeric_limits<double>::infinity());
+    };
+    source.folder = m_recording->folder();
+    source.name = m_source->kind() == SourceKind::Live
+                      ? tr("live")
+                      : QString::fromStdString(m_controller->scenario().title);
+  }
+  auto* dialog =
+      new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->show();
+}
+
+int MainWindow::memoryBudget() const {
+  constexpr int usual = 1024;
+  bool good = false;
+  const int kept = m_settings->value(memoryKey, usual).toInt(&good);
+  return good && kept >= 1 && kept <= mostMemory ? kept : usual;
+}
+
+void MainWindow::setMemoryBudget(int megabytes) {
+  m_settings->setValue(memoryKey, std::clamp(megabytes, 1, mostMemory));
+  const std::size_t bytes = static_cast<std::size_t>(memoryBudget()) << 20;
+  m_controller->setMemoryBudget(bytes);
+  m_live->setMemoryBudget(bytes);
+  m_replay->setMemoryBudget(bytes);
+  m_compared->setMemoryBudget(bytes);
+}
+
+void MainWindow::showSource(SourceKind kind) {
+  FrameSource* source = m_source->find(kind);
+  if (source == nullptr) return;
+  if (kind == SourceKind::Live) m_live->start();
+  m_source->choose(source);
+}
+
+void MainWindow::makeDocks() {
+  const StudioContext context = this->context();
+  for (const DockInfo& info : studioDocks()) {
+    auto* dock = new QDockWidget(tr(info.title), this);
+    dock->setObjectName(QLatin1String(info.id));
+    dock->setWidget(info.make(context, dock));
+    dock->setTitleBarWidget(new DockTitle(dock));
+    m_docks.push_back(dock);
+    for (const auto changed : {&QDockWidget::visibilityChanged, &QDockWidget::topLevelChanged}) {
+      connect(dock, changed, this, &MainWindow::showTitles, Qt::QueuedConnection);
+    }
+    connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::showTitles,
+            Qt::QueuedConnection);
+  }
+}
+
+// A tab says the name already, and the timeline its times.
+void MainWindow::showTitles() {
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
+  }
+}
+
+void MainWindow::connectField() {
+  connect(m_field, &FieldView::selectionChanged, m_selection, &RobotSelection::set);
+  connect(m_selection, &RobotSelection::changed, m_field, &FieldView::select);
+  connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);
+  connect(m_field, &FieldView::saveScenarioRequested, m_files, &ScenarioFiles::askAndSave);
+  connect(m_field, &FieldView::loadMatchRequested, m_files,
+          [this] { m_files->open(QStringLiteral("match-3v3")); });
+  connect(m_field, &FieldView::resetRequested, m_controller, [this] {
+    m_controller->restart();
+    m_controller->resetScore();
+  });
+  connect(m_field, &FieldView::clearRequested, m_controller, [this] {
+    std::vector<RobotId> all;
+    if (const FramePtr frame = m_controller->frame()) {
+      for (const auto& robot : frame->snapshot.robots) all.push_back(robot.identity.id);
+    }
+    m_controller->removeRobots(all);
+  });
+}
+
+void MainWindow::restoreLayout() {
+  if (!restoreGeometry(m_settings->value(geometryKey).toByteArray())) {
+    const QSize room = screen()->availableSize();
+    resize(qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height()));
+  }
+  resetLayout();
+  const QByteArray saved = m_settings->value(layoutKey).toByteArray();
+  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) resetLayout();
+}
+
+void MainWindow::resetLayout() {
+  const auto infos = studioDocks();
+  const auto isBottom = [&infos](std::size_t i) {
+    return infos[i].area == Qt::BottomDockWidgetArea;
+  };
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
+  QDockWidget* firstBottom = nullptr;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    addDockWidget(infos[i].area, m_docks[i]);
+    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].ownRow && firstBottom != nullptr) {
+      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+    }
+  }
+  QDockWidget* bottom = firstBottom;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
+      tabifyDockWidget(bottom, dock);
+      bottom = dock;
+    }
+    dock->setVisible(infos[i].shownAtFirst);
+    resizeDocks({dock}, {scaled(this, infos[i].extent)},
+                isBottom(i) ? Qt::Vertical : Qt::Horizontal);
+  }
+  if (firstBottom != nullptr) firstBottom->raise();
+}
+
+void MainWindow::offerToRemoveOrphans() {
+  showOrphanNotice(m_notices, m_controller);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  m_settings->setValue(geometryKey, saveGeometry());
+  m_settings->setValue(layoutKey, saveState(layoutVersion));
+  QMainWindow::closeEvent(event);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "menus.h"
+
+#include <QActionGroup>
+#include <QApplication>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QMenuBar>
+#include <QSettings>
+#include <QUndoGroup>
+
+#include <ui/field/field_view.h>
+#include <ui/live/live_overlay.h>
+#include <ui/live/live_settings_dialog.h>
+#include <ui/plots/plot_menus.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/session/session_files.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/robot_selection.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+#include <ui/timeline/timeline_actions.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
+
+#include "help_windows.h"
+#include "scenario_chooser.h"
+#include "status_bar.h"
+#include "transport_bar.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = {}) {
+  if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
+  if (!keys.isEmpty()) action->setShortcut(keys);
+  return action;
+}
+
+}  // namespace
+
+void StudioMenus::make() {
+  makeFile();
+  makeEdit();
+  makeView();
+  makeSimulation();
+  makeTimeline();
+  makePlots();
+  makeHelp();
+}
+
+void StudioMenus::onlyWhenSimulating(QAction* action) {
+  SourceSwitch* source = m_window.m_source;
+  QObject::connect(source, &SourceSwitch::changed, action, [action, source] {
+    action->setEnabled(source->kind() == SourceKind::Simulate);
+  });
+}
+
+void StudioMenus::makeFile() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&File"));
+  ScenarioFiles* files = m_window.m_files;
+  withIcon(menu->addAction(QObject::tr("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
+           "document-open", QKeySequence::Open);
+  QMenu* recent = menu->addMenu(QObject::tr("Open &recent"));
+  QObject::connect(menu, &QMenu::aboutToShow, recent, [recent, files, bar = m_window.m_bar] {
+    recent->clear();
+    for (const QString& file : bar->scenarios()->recentFiles()) {
+      QAction* action = recent->addAction(QFileInfo(file).completeBaseName(), files,
+                                          [files, file] { files->open(file); });
+      action->setToolTip(file);
+    }
+    recent->setToolTipsVisible(true);
+    recent->setEnabled(!recent->isEmpty());
+  });
+  SessionFiles* sessions = m_window.m_sessions;
+  withIcon(menu->addAction(QObject::tr("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
+           "folder-open", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+  QAction* save = menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
+                                  &ScenarioFiles::askAndSave);
+  withIcon(save, "document-save", QKeySequence::Save);
+  onlyWhenSimulating(save);
+  withIcon(
+      menu->addAction(QObject::tr("Export &picture…"), files, &ScenarioFiles::askAndExportPicture),
+      "document-export");
+  menu->addSeparator();
+  withIcon(menu->addAction(QObject::tr("&Quit"), &m_window, &QWidget::close), "application-exit",
+           QKeySequence(Qt::CTRL | Qt::Key_Q));
+}
+
+void StudioMenus::makeEdit() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Edit"));
+  MatchController* controller = m_window.m_controller;
+  RobotSelection* selection = m_window.m_selection;
+  SourceSwitch* source = m_window.m_source;
+  QAction* undo = m_window.m_undo->createUndoAction(&m_window, QObject::tr("Undo"));
+  QAction* redo = m_window.m_undo->createRedoAction(&m_window, QObject::tr("Redo"));
+  menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
+  menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
+  menu->addSeparator();
+  withIcon(menu->addAction(QObject::tr("Select &all robots"), selection,
+                           [source, selection] {
+                             std::vector<RobotId> all;
+                             if (const FramePtr frame = source->frame()) {
+                               for (const auto& robot : frame->snapshot.robots) {
+                                 all.push_back(robot.identity.id);
+                               }
+                             }
+                             selection->set(all);
+                           }),
+           // Ctrl+A is a key of the field: it adds a red robot.
+           "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
+  // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
+  QAction* remove =
+      menu->addAction(QObject::tr("&Delete selected robots"), controller,
+                      [controller, selection] { controller->removeRobots(selection->ids()); });
+  withIcon(remove, "edit-delete");
+  remove->setEnabled(false);
+  QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
+    remove->setEnabled(!ids.empty() && source->kind() == SourceKind::Simulate);
+  });
+}
+
+void StudioMenus::makeThemes(QMenu* menu) {
+  auto* group = new QActionGroup(&m_window);
+  const std::pair<ThemeChoice, QString> choices[] = {
+      {ThemeChoice::FollowDesktop, QObject::tr("As the &desktop")},
+      {ThemeChoice::Light, QObject::tr("&Light")},
+      {ThemeChoice::Dark, QObject::tr("Da&rk")}};
+  for (const auto& [choice, name] : choices) {
+    QAction* action = menu->addAction(name);
+    action->setCheckable(true);
+    action->setChecked(themeChoice() == choice);
+    group->addAction(action);
+    QObject::connect(action, &QAction::triggered, &m_window,
+                     [settings = m_window.m_settings, chosen = choice] {
+                       setTheme(*qobject_cast<QApplication*>(QApplication::instance()), chosen);
+                       settings->setValue(QStringLiteral("window/theme"), static_cast<int>(chosen));
+                     });
+  }
+}
+
+void StudioMenus::makeView() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&View"));
+  for (QDockWidget* dock : m_window.m_docks) menu->addAction(dock->toggleViewAction());
+  menu->addSeparator();
+  QMenu* layers = menu->addMenu(QObject::tr("Field &layers"));
+  for (QAction* action : m_window.m_field->layerActions()) layers->addAction(action);
+  layers->addSeparator();
+  for (QAction* action : m_window.m_field->layerOptionActions()) layers->addAction(action);
+  for (QAction* action : m_window.m_field->viewActions()) menu->addAction(action);
+  QAction* overlay = menu->addAction(QObject::tr("Overlay what is &heard live"));
+  overlay->setObjectName(QStringLiteral("liveOverlay"));
+  overlay->setCheckable(true);
+  m_window.m_overlayAction = overlay;
+  overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
+  QObject::connect(overlay, &QAction::toggled, m_window.m_overlay, &LiveOverlay::setOn);
+  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [this_ = &m_window] {
+    showLiveSettings(this_->m_live, this_->m_settings, this_);
+  });
+  menu->addSeparator();
+  makeThemes(menu->addMenu(QObject::tr("&Theme")));
+  menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
+  QAction* full = menu->addAction(QObject::tr("&Full screen"));
+  full->setCheckable(true);
+  withIcon(full, "view-fullscreen", QKeySequence(Qt::Key_F11));
+  QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
+    this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
+  });
+}
+
+void StudioMenus::makeSimulation() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Simulation"));
+  MatchController* controller = m_window.m_controller;
+  for (QAction* action : m_window.m_bar->transportActions()) menu->addAction(action);
+  menu->addSeparator();
+  QAction* clock = menu->addAction(QObject::tr("Game &clock runs"));
+  clock->setCheckable(true);
+  QObject::connect(menu, &QMenu::aboutToShow, clock,
+                   [clock, controller, source = m_window.m_source] {
+                     const FramePtr frame = controller->frame();
+                     clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
+                     clock->setChecked(frame && frame->snapshot.clockRunning);
+                   });
+  QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
+  onlyWhenSimulating(
+      menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore));
+}
+
+void StudioMenus::makeTimeline() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Timeline"));
+  m_window.m_timelineActions->fill(menu);
+  menu->addSeparator();
+  SessionFiles* sessions = m_window.m_sessions;
+  using Poses = link::MomentOptions::Poses;
+  QAction* asBelieved =
+      menu->addAction(QObject::tr("Simulate from here, &as the robots believe"), sessions,
+                      [sessions] { sessions->simulateFromHere(Poses::Believed); });
+  QAction* asItWas = menu->addAction(QObject::tr("Simulate from here, as it &was"), sessions,
+                                     [sessions] { sessions->simulateFromHere(Poses::True); });
+  QAction* goOn = menu->addAction(QObject::tr("&Continue the match from this moment"), sessions,
+                                  &SessionFiles::continueFromHere);
+  asBelieved->setObjectName(QStringLiteral("simulateBelieved"));
+  asItWas->setObjectName(QStringLiteral("simulateTrue"));
+  goOn->setObjectName(QStringLiteral("continueFromHere"));
+  Timeline* timeline = m_window.m_timeline;
+  SourceSwitch* source = m_window.m_source;
+  const auto refresh = [asItWas, goOn, timeline, source] {
+    const FramePtr frame = source->frame();
+    asItWas->setEnabled(frame && frame->truthKnown);
+    goOn->setEnabled(timeline->isLookingBack() && source->kind() == SourceKind::Simulate);
+  };
+  QObject::connect(timeline, &Timeline::lookingBackChanged, goOn, refresh);
+  QObject::connect(timeline, &Timeline::sourceChanged, goOn, refresh);
+  QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
+  menu->addSeparator();
+  ComparedSession* compared = m_window.m_compared;
+  QAction* compare =
+      menu->addAction(QObject::tr("Co&mpare with session…"), sessions, [sessions, compared] {
+        const QString path = sessions->askForFile(QObject::tr("Compare with session"));
+        if (!path.isEmpty()) compared->open(path);
+      });
+  QAction* byTime = menu->addAction(QObject::tr("Align compared session by &time"), compared,
+                                    &ComparedSession::alignByTime);
+  QAction* stop = menu->addAction(QObject::tr("Stop c&omparing"), compared, &ComparedSession::stop);
+  compare->setObjectName(QStringLiteral("compareSession"));
+  stop->setObjectName(QStringLiteral("stopComparing"));
+  const auto showCompared = [byTime, stop, compared] {
+    stop->setEnabled(compared->isOn());
+    byTime->setEnabled(compared->isOn() && compared->offset() != 0.0);
+  };
+  QObject::connect(compared, &ComparedSession::changed, stop, showCompared);
+  showCompared();
+  menu->addSeparator();
+  SessionRecording* recording = m_window.m_recording;
+  QAction* exportAction = menu->addAction(QObject::tr("&Export…"), &m_window,
+                                          [this_ = &m_window] { this_->showExport(); });
+  exportAction->setObjectName(QStringLiteral("exportSession"));
+  QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, timeline] {
+    exportAction->setEnabled(timeline->available().has_value());
+  });
+  menu->addAction(QObject::tr("Memor&y for the past…"), &m_window, [this_ = &m_window] {
+    bool chosen = false;
+    const int megabytes = QInputDialog::getInt(
+        this_, QObject::tr("Memory for the past"),
+        QObject::tr("Rows of one match, of Live or of a session may take (MB):"),
+        this_->memoryBudget(), 16, 65536, 64, &chosen);
+    if (chosen) this_->setMemoryBudget(megabytes);
+  });
+  menu->addAction(QObject::tr("&Folder for recordings…"), recording,
+                  [this_ = &m_window, recording] {
+                    const QString chosen = QFileDialog::getExistingDirectory(
+                        this_, QObject::tr("Folder for recordings"), recording->folder());
+                    if (!chosen.isEmpty()) recording->setFolder(chosen);
+                  });
+}
+
+void StudioMenus::makePlots() {
+  if (auto* plots = m_window.findChild<PlotsDock*>()) {
+    m_window.menuBar()->addMenu(makePlotsMenu(plots));
+  }
+}
+
+void StudioMenus::makeHelp() {
+  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Help"));
+  menu->addAction(QObject::tr("&Keyboard shortcuts"), &m_window,
+                  [this_ = &m_window] { showShortcuts(this_); });
+  menu->addAction(QObject::tr("Copy state &hash"), m_window.m_status,
+                  &StudioStatusBar::copyStateHash);
+  menu->addSeparator();
+  menu->addAction(QObject::tr("&About Pitchboard"), &m_window,
+                  [this_ = &m_window] { showAbout(this_); });
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "opening_label.h"
+
+#include <QEvent>
+#include <QPainter>
+
+#include <ui/base/theme.h>
+#include <ui/sources/match_controller.h>
+
+namespace pitchboard::ui {
+
+OpeningLabel::OpeningLabel(MatchController* controller, QWidget* canvas)
+    : QLabel(canvas), m_controller(controller) {
+  setObjectName(QStringLiteral("openingLabel"));
+  setAlignment(Qt::AlignCenter);
+  setFont(themeFont(TypeRole::Body, true));
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  canvas->installEventFilter(this);
+  for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
+    connect(controller, changed, this, &OpeningLabel::present);
+  }
+  connect(controller, &MatchController::frameReceived, this, &OpeningLabel::hide);
+  hide();
+}
+
+bool OpeningLabel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && isVisible()) present();
+  return QLabel::eventFilter(watched, event);
+}
+
+void OpeningLabel::present() {
+  const bool wanted =
+      !m_controller->frame() && (m_controller->isOpening() || m_controller->isOpen());
+  if (!wanted) {
+    hide();
+    return;
+  }
+  setText(tr("Opening %1…").arg(QString::fromStdString(m_controller->scenario().title)));
+  const QRect area = parentWidget()->rect();
+  // Wide enough to cover the field's own sentence.
+  QRect box(0, 0, qMin(area.width(), scaled(this, 440)), scaled(this, 40));
+  box.moveCenter({area.center().x(), area.top() + qRound(area.height() * 0.36)});
+  setGeometry(box);
+  show();
+  raise();
+}
+
+void OpeningLabel::paintEvent(QPaintEvent* event) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(theme().innerLine);
+  painter.setBrush(theme().window);
+  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
+  painter.end();
+  QLabel::paintEvent(event);
+}
+
+}  // namespace pitchboard::ui

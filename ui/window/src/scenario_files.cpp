@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/window/scenario_files.h>
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSaveFile>
+
+#include <ui/field/field_view.h>
+#include <ui/sources/match_controller.h>
+
+#include "scenario_chooser.h"
+
+namespace pitchboard::ui {
+
+ScenarioFiles::ScenarioFiles(MatchController* controller, FieldView* field,
+                             ScenarioChooser* chooser, QWidget* window)
+    : QObject(window),
+      m_controller(controller),
+      m_field(field),
+      m_chooser(chooser),
+      m_window(window) {}
+
+void ScenarioFiles::open(const QString& nameOrPath) {
+  const auto scenario = link::loadScenario(nameOrPath.toStdString());
+  if (!scenario) {
+    emit failed(
+        tr("The scenario was not opened: %1").arg(QString::fromStdString(scenario.error().text())));
+    return;
+  }
+  m_controller->open(*scenario, m_controller->isPaused());
+  showCurrent(nameOrPath);
+}
+
+void ScenarioFiles::showCurrent(const QString& nameOrPath) {
+  const QFileInfo file(nameOrPath);
+  m_chooser->showCurrent(file.exists() ? file.absoluteFilePath() : nameOrPath,
+                         QString::fromStdString(m_controller->scenario().title));
+}
+
+void ScenarioFiles::save(const QString& path) {
+  link::Scenario moment = m_controller->currentMoment();
+  moment.name = QFileInfo(path).completeBaseName().toStdString();
+  moment.title = moment.name;
+  const std::string text = link::scenarioToJson(moment);
+  QSaveFile file(path);
+  const auto size = static_cast<qint64>(text.size());
+  if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size || !file.commit()) {
+    emit failed(tr("The scenario was not saved to %1: %2. Choose another folder.")
+                    .arg(path, file.errorString()));
+  }
+}
+
+void ScenarioFiles::exportPicture(const QString& path) {
+  const QSize size = m_field->size() * m_window->devicePixelRatioF();
+  bool written = false;
+  if (QFileInfo(path).suffix().toLower() == QStringLiteral("svg")) {
+    QSaveFile file(path);
+    written = file.open(QIODevice::WriteOnly) && file.write(m_field->svgPicture(size)) > 0 &&
+              file.commit();
+  } else {
+    written = m_field->picture(size).save(path);
+  }
+  if (!written) {
+    emit failed(tr("The picture was not written to %1. Choose another folder, and a name that "
+                   "ends in .png or .svg.")
+                    .arg(path));
+  }
+}
+
+void ScenarioFiles::askAndOpen() {
+  const QString path = QFileDialog::getOpenFileName(m_window, tr("Open scenario"), {},
+                                                    tr("Scenarios (*.json);;All files (*)"));
+  if (!path.isEmpty()) open(path);
+}
+
+void ScenarioFiles::askAndSave() {
+  QString path =
+      QFileDialog::getSaveFileName(m_window, tr("Save this moment as a scenario"),
+                                   QStringLiteral("moment.json"), tr("Scenarios (*.json)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
+  save(path);
+}
+
+void ScenarioFiles::askAndExportPicture() {
+  QString path =
+      QFileDialog::getSaveFileName(m_window, tr("Export a picture of the field"),
+                                   QStringLiteral("field.png"), tr("Pictures (*.png *.svg)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
+  exportPicture(path);
+}
+
+}  // namespace pitchboard::ui

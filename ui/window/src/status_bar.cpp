@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "status_bar.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenu>
+#include <QTimer>
+
+#include <base/angles.h>
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+#include <ui/base/time_axis.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/robot_selection.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+
+namespace pitchboard::ui {
+
+StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
+    : QStatusBar(parent), m_context(context) {
+  constexpr int refreshMilliseconds = 200;
+  m_clock.start();
+  setSizeGripEnabled(false);
+  m_pace = addLabel("statusPace", false);
+  m_world = addLabel("statusWorld", false);
+  m_processes = addLabel("statusProcesses", false);
+  m_recording = addLabel("statusRecording", false);
+  m_cursor = addLabel("statusCursor", true);
+  m_selected = addLabel("statusSelected", true);
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
+  timer->start(refreshMilliseconds);
+  connect(context.source, &SourceSwitch::changed, this, &StudioStatusBar::refresh);
+  connect(context.selection, &RobotSelection::changed, this, &StudioStatusBar::refresh);
+  setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+    QMenu menu(this);
+    menu.addAction(tr("Copy state hash"), this, &StudioStatusBar::copyStateHash);
+    menu.exec(mapToGlobal(at));
+  });
+  refresh();
+}
+
+QLabel* StudioStatusBar::addLabel(const char* name, bool atRight) {
+  auto* label = new QLabel(this);
+  label->setObjectName(QLatin1String(name));
+  label->setFont(themeFont(TypeRole::Secondary));
+  label->setForegroundRole(QPalette::PlaceholderText);
+  label->setContentsMargins(scaled(this, 8), 0, scaled(this, 8), 0);
+  if (atRight) {
+    addPermanentWidget(label);
+    return label;
+  }
+  auto* line = new QWidget(this);
+  line->setFixedSize(1, scaled(this, 14));
+  line->setBackgroundRole(QPalette::Mid);
+  line->setAutoFillBackground(true);
+  addWidget(line);
+  addWidget(label);
+  m_parts.push_back({line, label});
+  return label;
+}
+
+// No lines between nothings.
+void StudioStatusBar::hideEmpty() {
+  bool first = true;
+  for (const Part& part : m_parts) {
+    const bool shown = !part.label->text().isEmpty();
+    part.label->setVisible(shown);
+    part.line->setVisible(shown && !first);
+    first = first && !shown;
+  }
+}
+
+void StudioStatusBar::setCursor(QPointF metres, bool valid) {
+  m_cursor->setText(
+      valid ? tr("x %1 m  y %2 m").arg(numberText(metres.x(), 2), numberText(metres.y(), 2))
+            : QString());
+}
+
+void StudioStatusBar::copyStateHash() {
+  const FramePtr frame = m_context.controller->frame();
+  if (!frame) return;
+  const QString hash =
+      QStringLiteral("%1").arg(m_context.controller->stateHash(), 16, 16, QLatin1Char('0'));
+  QApplication::clipboard()->setText(hash);
+  showMessage(tr("State hash %1 copied").arg(hash), 4000);
+}
+
+void StudioStatusBar::refresh() {
+  showSource();
+  hideEmpty();
+}
+
+void StudioStatusBar::showSource() {
+  const FramePtr frame = m_context.source->frame();
+  showMemory();
+  if (m_context.source->kind() == SourceKind::Live) {
+    showLive(frame.get());
+    if (frame)
+      showSelected(*frame);
+    else
+      m_selected->clear();
+    return;
+  }
+  m_pace->setToolTip({});
+  m_processes->setPalette({});
+  m_processes->setToolTip({});
+  if (!frame) {
+    m_pace->setText(m_context.source->kind() == SourceKind::Replay ? tr("No session")
+                    : m_context.controller->isOpening()            ? tr("Opening…")
+                                                                   : tr("No match"));
+    for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
+    return;
+  }
+  if (m_context.source->kind() == SourceKind::Replay) {
+    m_pace->setText(tr("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
+    m_world->setText(tr("%1 of %2")
+                         .arg(momentText(m_context.timeline->shownTime(), 2),
+                              momentText(m_context.timeline->now(), 0)));
+    m_processes->clear();
+  } else {
+    showMatch(*frame);
+  }
+  showSelected(*frame);
+}
+
+void StudioStatusBar::showMemory() {
+  if (m_context.recording->isRecording()) {
+    const telemetry::SessionStatus status = m_context.recording->status();
+    m_recording->setText(tr("recording %1 %2 MB")
+                             .arg(longMomentText(status.seconds))
+                             .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1));
+    m_recording->setToolTip(m_context.recording->path());
+    return;
+  }
+  m_recording->setToolTip({});
+  if (m_context.source->kind() == SourceKind::Replay) {
+    const double part = m_context.replay->loaded();
+    m_recording->setText(part < 1 ? tr("Reading %1 %").arg(static_cast<int>(part * 100))
+                                  : QString());
+    return;
+  }
+  const auto rows = m_context.source->series();
+  const auto held = rows ? rows->range() : std::nullopt;
+  m_recording->setText(held ? tr("Memory holds the last %1 (%2 MB)")
+                                  .arg(momentText(held->end - held->begin, 0))
+                                  .arg(static_cast<double>(rows->memoryBytes()) / 1e6, 0, 'f', 0)
+                            : QString());
+}
+
+void StudioStatusBar::showLive(const link::MatchFrame* frame) {
+  const LiveStatusText text = m_live.update(m_context.live->details(), frame,
+                                            static_cast<double>(m_clock.elapsed()) / 1000);
+  m_pace->setText(text.network);
+  m_pace->setToolTip(text.tip);
+  m_world->setText(text.referee);
+  m_processes->setText(text.trouble);
+  QPalette red = palette();
+  red.setColor(QPalette::PlaceholderText, theme().errorText);
+  m_processes->setPalette(red);
+  m_processes->setToolTip(text.trouble.isEmpty() ? QString() : text.tip);
+}
+
+void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
+  m_pace->setText(frame.finished ? tr("Simulation finished")
+                  : frame.paused
+                      ? tr("Simulation paused")
+                      : tr("Simulation %1/s, ×%2")
+                            .arg(countText(static_cast<qulonglong>(frame.ticksPerSecond + 0.5)),
+                                 numberText(frame.speed, 2)));
+  const auto robots = frame.snapshot.robots.size();
+  m_world->setText(tr("%1, tick %2, seed %3")
+                       .arg(robots == 1 ? tr("1 robot") : tr("%1 robots").arg(robots),
+                            countText(frame.snapshot.tick))
+                       .arg(frame.seed));
+  switch (m_context.controller->cognition()) {
+    case link::Cognition::External:
+      m_processes->setText(tr("Robot processes separate"));
+      break;
+    case link::Cognition::Inline:
+      m_processes->setText(tr("Robots decide in the studio"));
+      break;
+    case link::Cognition::None:
+      m_processes->setText(tr("Waiting for your processes"));
+      break;
+  }
+}
+
+void StudioStatusBar::showSelected(const link::MatchFrame& frame) {
+  const auto& selected = m_context.selection->ids();
+  QString text;
+  if (selected.size() > 1) text = tr("%1 robots selected").arg(selected.size());
+  if (selected.size() == 1) {
+    for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+      if (robot.identity.id != selected.front()) continue;
+      text = tr("%1 selected: %2, %3 m, %4°")
+                 .arg(robotName(robot.identity), numberText(robot.pose.position.x, 2),
+                      numberText(robot.pose.position.y, 2),
+                      numberText(degreesFromRadians(wrapToPi(robot.pose.yaw)), 0));
+    }
+  }
+  m_selected->setText(text);
+}
+
+}  // namespace pitchboard::ui

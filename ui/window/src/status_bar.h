@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The line at the bottom: how the simulation runs or the network is heard, what is recorded, where
+// the cursor is, what is selected. Numbers change five times a second, so that they can be read.
+
+#include <QElapsedTimer>
+#include <QPointF>
+#include <QStatusBar>
+#include <vector>
+
+#include <ui/live/live_status.h>
+#include <ui/sources/studio_context.h>
+
+class QLabel;
+
+namespace pitchboard::ui {
+
+class StudioStatusBar : public QStatusBar {
+  Q_OBJECT
+ public:
+  explicit StudioStatusBar(const StudioContext& context, QWidget* parent = nullptr);
+  void setCursor(QPointF metres, bool valid);
+  void copyStateHash();
+
+ private:
+  /// A label at the left and the line before it.
+  struct Part {
+    QWidget* line;
+    QLabel* label;
+  };
+
+  void refresh();
+  void showSource();
+  void hideEmpty();
+  void showMatch(const link::MatchFrame& frame);
+  void showMemory();
+  void showLive(const link::MatchFrame* frame);
+  void showSelected(const link::MatchFrame& frame);
+  QLabel* addLabel(const char* name, bool atRight);
+
+  StudioContext m_context;
+  LiveStatus m_live;
+  QElapsedTimer m_clock;
+  std::vector<Part> m_parts;
+  QLabel* m_pace;
+  QLabel* m_world;
+  QLabel* m_processes;
+  QLabel* m_recording;
+  QLabel* m_cursor;
+  QLabel* m_selected;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transport_bar.h"
+
+#include <QActionGroup>
+#include <QComboBox>
+#include <QMenu>
+#include <QPainter>
+#include <QTimer>
+#include <QToolButton>
+#include <cmath>
+
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+#include <ui/live/live_bar.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
+#include <ui/window/scoreboard.h>
+
+#include "scenario_chooser.h"
+
+namespace pitchboard::ui {
+namespace {
+
+struct Mode {
+  SourceKind kind;
+  const char* name;
+  const char* tip;
+};
+// The kinds of source that the window can show; a further one is a line here.
+constexpr Mode modes[] = {
+    {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
+    {SourceKind::Live, "Live",
+     "Robots and referee as the network tells. Nothing is sent to robots"},
+    {SourceKind::Replay, "Replay", "A recorded session"},
+};
+
+constexpr double matchSpeeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 10, link::MatchRunner::unlimitedSpeed};
+
+QString speedText(double speed) {
+  if (speed == link::MatchRunner::unlimitedSpeed) return QStringLiteral("max");
+  return QStringLiteral("%1×").arg(speed, 0, 'f', speed == 0.25 ? 2 : speed < 4 ? 1 : 0);
+}
+
+}  // namespace
+
+TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QWidget* parent)
+    : QToolBar(tr("Tool bar"), parent),
+      m_context(context),
+      m_scenarios(new ScenarioChooser(settings, this)),
+      m_scoreboard(new Scoreboard(this)),
+      m_speed(new QComboBox(this)) {
+  setObjectName(QStringLiteral("transportBar"));
+  setMovable(false);
+  toggleViewAction()->setVisible(false);
+  setContextMenuPolicy(Qt::PreventContextMenu);
+  setIconSize(QSize(scaled(this, 20), scaled(this, 20)));
+  // A tool bar takes its padding at the top for its left, too.
+  auto* edge = new QWidget(this);
+  edge->setFixedWidth(0);
+  addWidget(edge);
+  addModes();
+  addSeparator();
+  addControl(SourceKind::Simulate, addWidget(m_scenarios));
+  addControl(SourceKind::Simulate, addSeparator());
+  addTransport();
+  m_recordSeparator = addSeparator();
+  addRecord();
+  addControl(SourceKind::Live, addWidget(new LiveBar(context, this)));
+  auto* stretch = new QWidget(this);
+  stretch->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  addWidget(stretch);
+  addWidget(m_scoreboard);
+
+  constexpr int scoreMilliseconds = 100;
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] {
+    if (const FramePtr frame = m_context.source->frame()) {
+      m_scoreboard->setState(scoreboardOf(*frame));
+    }
+    if (m_context.recording->isRecording()) showRecord();
+  });
+  connect(context.source, &SourceSwitch::changed, this, &TransportBar::showMode);
+  showMode();
+  timer->start(scoreMilliseconds);
+}
+
+void TransportBar::addModes() {
+  auto* group = new QActionGroup(this);
+  for (const Mode& mode : modes) {
+    auto* action = new QAction(tr(mode.name), group);
+    action->setCheckable(true);
+    action->setToolTip(tr(mode.tip));
+    action->setChecked(mode.kind == m_context.source->kind());
+    connect(action, &QAction::triggered, this, [this, kind = mode.kind] {
+      emit sourceRequested(kind);
+      showMode();  // the request may have been refused
+    });
+    m_modes.push_back({mode.kind, action});
+    auto* button = new QToolButton(this);
+    button->setObjectName(QStringLiteral("mode"));
+    button->setDefaultAction(action);
+    addWidget(button);
+  }
+}
+
+void TransportBar::addTransport() {
+  m_restart =
+      addAction(themedIcon(QStringLiteral("media-skip-backward")), tr("Restart"), this, [this] {
+        if (Playback* past = playback())
+          past->toStart();
+        else
+          m_context.controller->restart();
+      });
+  m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
+  m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), tr("Pause"), this, [this] {
+    if (Playback* past = playback())
+      past->setPaused(!past->isPaused());
+    else
+      m_context.controller->setPaused(!m_context.controller->isPaused());
+  });
+  m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
+  m_step =
+      addAction(themedIcon(QStringLiteral("media-skip-forward")), tr("One tick"), this, [this] {
+        if (Playback* past = playback())
+          past->step(1);
+        else
+          m_context.controller->stepOnce();
+      });
+  m_step->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Period));
+  m_restart->setObjectName(QStringLiteral("restart"));
+  m_play->setObjectName(QStringLiteral("play"));
+  m_step->setObjectName(QStringLiteral("step"));
+
+  m_speed->setObjectName(QStringLiteral("speed"));
+  m_speed->setMinimumWidth(scaled(this, 68));
+  connect(m_speed, &QComboBox::activated, this, [this] {
+    const double speed = m_speed->currentData().toDouble();
+    if (Playback* past = playback())
+      past->setSpeed(speed);
+    else
+      m_context.controller->setSpeed(speed);
+  });
+  m_speedAction = addWidget(m_speed);
+  connect(m_context.controller, &MatchController::transportChanged, this,
+          &TransportBar::showTransport);
+  connect(m_context.timeline, &Timeline::lookingBackChanged, this, &TransportBar::showTransport);
+  connect(m_context.timeline, &Timeline::sourceChanged, this, &TransportBar::showTransport);
+  for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
+    connect(past, &Playback::changed, this, &TransportBar::showTransport);
+  }
+}
+
+void TransportBar::addRecord() {
+  m_record = new QToolButton(this);
+  m_record->setObjectName(QStringLiteral("record"));
+  m_record->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  m_record->setPopupMode(QToolButton::MenuButtonPopup);
+  auto* menu = new QMenu(m_record);
+  for (const int seconds : {10, 30, 60, 300}) {
+    menu->addAction(tr("Save the last %1 seconds").arg(seconds), m_context.recording,
+                    [this, seconds] { m_context.recording->saveLast(seconds); });
+  }
+  m_record->setMenu(menu);
+  connect(m_record, &QToolButton::clicked, this, [this] {
+    if (m_context.recording->isRecording())
+      m_context.recording->stop();
+    else
+      m_context.recording->start();
+  });
+  m_recordAction = addWidget(m_record);
+  connect(m_context.recording, &SessionRecording::changed, this, &TransportBar::showRecord);
+  showRecord();
+}
+
+void TransportBar::showRecord() {
+  const bool on = m_context.recording->isRecording();
+  const int side = iconSize().height();
+  QPixmap dot(side * 2, side * 2);
+  dot.setDevicePixelRatio(2);
+  dot.fill(Qt::transparent);
+  QPainter painter(&dot);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QPointF centre(side / 2.0, side / 2.0);
+  const double radius = side * 0.22;
+  painter.setPen(on ? QPen(Qt::NoPen) : QPen(theme().secondaryText, 1.6));
+  painter.setBrush(on ? QBrush(theme().errorText) : QBrush(Qt::NoBrush));
+  painter.drawEllipse(centre, radius, radius);
+  painter.end();
+  m_record->setIcon(QIcon(dot));
+  m_record->setText(on ? tr("Recording %1").arg(clockText(m_context.recording->status().seconds))
+                       : tr("Record"));
+  m_record->setToolTip(
+      on ? tr("Stop recording into %1").arg(m_context.recording->path())
+         : tr("Record everything into a new file in %1").arg(m_context.recording->folder()));
+  m_record->setEnabled(on || m_context.recording->isPossible());
+  m_recordAction->setVisible(m_context.source->kind() != SourceKind::Replay || on);
+}
+
+Playback* TransportBar::playback() const {
+  const Timeline& timeline = *m_context.timeline;
+  return timeline.isRecording() || timeline.isLookingBack() ? timeline.playback() : nullptr;
+}
+
+void TransportBar::showMode() {
+  const SourceKind shown = m_context.source->kind();
+  for (const Control& mode : m_modes) mode.action->setChecked(mode.kind == shown);
+  for (const Control& control : m_controls) control.action->setVisible(control.kind == shown);
+  const FramePtr frame = m_context.source->frame();
+  m_scoreboard->setState(frame ? scoreboardOf(*frame) : ScoreboardState{});
+  showTransport();
+  showRecord();
+}
+
+void TransportBar::showTransport() {
+  const MatchController& controller = *m_context.controller;
+  const Playback* past = playback();
+  const bool paused = past != nullptr ? past->isPaused() : controller.isPaused();
+  const bool there =
+      past != nullptr ? past->isAvailable() : controller.isOpen() || controller.isOpening();
+  m_restart->setText(past != nullptr ? tr("To the start") : tr("Restart"));
+  m_restart->setToolTip(
+      QStringLiteral("%1 (%2)").arg(m_restart->text(), m_restart->shortcut().toString()));
+  m_play->setText(paused ? tr("Play") : tr("Pause"));
+  m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(), m_play->shortcut().toString()));
+  m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
+                                    : QStringLiteral("media-playback-pause")));
+  // Live goes on by itself; only its past can be played.
+  const bool shown = past != nullptr || m_context.source->kind() == SourceKind::Simulate;
+  for (QAction* action : transportActions()) {
+    action->setVisible(shown);
+    action->setEnabled(there && shown);
+  }
+  m_speedAction->setVisible(shown);
+  m_recordSeparator->setVisible(shown);
+  const std::span<const double> speeds =
+      past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
+  const double speed = past != nullptr ? past->speed() : controller.speed();
+  m_speed->clear();
+  for (const double offered : speeds) m_speed->addItem(speedText(offered), offered);
+  int at = m_speed->findData(speed);
+  if (at < 0) {
+    m_speed->addItem(QStringLiteral("%1×").arg(speed), speed);
+    at = m_speed->count() - 1;
+  }
+  m_speed->setCurrentIndex(at);
+  m_speed->setToolTip(past != nullptr ? tr("Speed: recorded seconds per second")
+                                      : tr("Speed: simulated seconds per second"));
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The tool bar: mode; scenario, transport and speed of a simulation, or ports and team of Live;
+// scoreboard.
+
+#include <QToolBar>
+#include <vector>
+
+#include <ui/sources/frame_source.h>
+#include <ui/sources/studio_context.h>
+
+class QComboBox;
+class QSettings;
+class QToolButton;
+
+namespace pitchboard::ui {
+
+class Playback;
+class ScenarioChooser;
+class Scoreboard;
+
+class TransportBar : public QToolBar {
+  Q_OBJECT
+ public:
+  TransportBar(const StudioContext& context, QSettings* settings, QWidget* parent);
+  ScenarioChooser* scenarios() const { return m_scenarios; }
+  /// Restart, play/pause, step: for the menu too.
+  QList<QAction*> transportActions() const { return {m_restart, m_play, m_step}; }
+
+ signals:
+  void sourceRequested(pitchboard::ui::SourceKind kind);
+
+ private:
+  void addModes();
+  /// Shown while a source of this kind is; hidden otherwise.
+  void addControl(SourceKind kind, QAction* action) { m_controls.push_back({kind, action}); }
+  void showMode();
+  void addTransport();
+  void addRecord();
+  void showRecord();
+  /// What the buttons move when not the match; null otherwise.
+  Playback* playback() const;
+  void showTransport();
+
+  struct Control {
+    SourceKind kind;
+    QAction* action;
+  };
+
+  StudioContext m_context;
+  std::vector<Control> m_modes;  // their buttons' actions
+  std::vector<Control> m_controls;
+  ScenarioChooser* m_scenarios;
+  Scoreboard* m_scoreboard;
+  QComboBox* m_speed;
+  QAction* m_speedAction = nullptr;
+  QToolButton* m_record = nullptr;
+  QAction* m_recordAction = nullptr;
+  QAction* m_recordSeparator = nullptr;
+  QAction* m_restart;
+  QAction* m_play;
+  QAction* m_step;
+};
+
+}  // namespace pitchboard::ui
