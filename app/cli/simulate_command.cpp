@@ -16,7 +16,6 @@
 
 #include "commands.h"
 #include "interrupt.h"
-#include "output_file.h"
 #include "simulate_report.h"
 #include "trace_writer.h"
 
@@ -265,10 +264,11 @@ Result<void> simulate(const Arguments& arguments) {
     if (auto entered = match->reenter(recorded->moment); !entered) return entered;
   }
 
+  const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
   std::optional<TraceWriter> trace;
   if (!arguments.trace.empty()) {
-    auto made =
-        TraceWriter::create(arguments.trace, arguments.force, match->simulation().snapshot());
+    auto made = TraceWriter::create(arguments.trace, ifExists, arguments.session,
+                                    match->simulation().snapshot());
     if (!made) return tl::unexpected(made.error());
     trace = std::move(*made);
   }
@@ -278,8 +278,8 @@ Result<void> simulate(const Arguments& arguments) {
     if (auto finished = trace->finish(); !finished) return finished;
   }
   if (!arguments.moment.empty()) {
-    auto saved = writeFile(arguments.moment, arguments.force,
-                           link::scenarioToJson(match->toScenario()), "the moment");
+    auto saved = writeFile(arguments.moment, link::scenarioToJson(match->toScenario()), ifExists,
+                           arguments.session);
     if (!saved) return saved;
   }
   arguments.json ? printJson(*match, *outcome) : printSummary(*match, *outcome);

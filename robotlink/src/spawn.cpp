@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include <base/system_reason.h>
+
 namespace pitchboard::link {
 namespace {
 
@@ -143,10 +145,6 @@ tl::unexpected<Error> cannotStart(const std::string& program, int error) {
 }
 
 }  // namespace
-
-std::string systemReason(int error) {
-  return std::generic_category().message(error);
-}
 
 Result<Spawned> spawn(const std::vector<std::string>& command) {
   if (command.empty() || command.front().empty()) {

@@ -20,7 +20,4 @@ struct Spawned {
 /// async-signal-safe calls are made between fork and exec.
 Result<Spawned> spawn(const std::vector<std::string>& command);
 
-/// The system's words for an errno value; any thread.
-std::string systemReason(int error);
-
 }  // namespace pitchboard::link

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "spawn.h"
+#include <base/system_reason.h>
 #include "udp_sender.h"
 
 namespace pitchboard::link {

@@ -8,9 +8,8 @@
 #include <cerrno>
 #include <utility>
 
+#include <base/system_reason.h>
 #include <robotlink/robot_config.h>
-
-#include "spawn.h"
 
 namespace pitchboard::link {
 
