@@ -142,6 +142,14 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
   return scenario;
 }
 
+/// An old file is refused with the option that allows it.
+tl::unexpected<Error> cannotWrite(Error error, const Arguments& arguments) {
+  if (error.code == ErrorCode::Conflict && !isSameFile(error.context, arguments.session)) {
+    error.message = "This file exists; choose another name or add --force.";
+  }
+  return tl::unexpected(std::move(error));
+}
+
 /// Plays the match to its end, tells children that died, writes the trace.
 class Player {
  public:
@@ -269,7 +277,7 @@ Result<void> simulate(const Arguments& arguments) {
   if (!arguments.trace.empty()) {
     auto made = TraceWriter::create(arguments.trace, ifExists, arguments.session,
                                     match->simulation().snapshot());
-    if (!made) return tl::unexpected(made.error());
+    if (!made) return cannotWrite(made.error(), arguments);
     trace = std::move(*made);
   }
   const auto outcome = Player(*match, *speed, trace ? &*trace : nullptr).play();
@@ -280,7 +288,7 @@ Result<void> simulate(const Arguments& arguments) {
   if (!arguments.moment.empty()) {
     auto saved = writeFile(arguments.moment, link::scenarioToJson(match->toScenario()), ifExists,
                            arguments.session);
-    if (!saved) return saved;
+    if (!saved) return cannotWrite(saved.error(), arguments);
   }
   arguments.json ? printJson(*match, *outcome) : printSummary(*match, *outcome);
   return {};
