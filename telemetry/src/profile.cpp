@@ -4,7 +4,6 @@
 #include <resources/resources.h>
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
