@@ -70,8 +70,7 @@ tl::unexpected<Error> NewFile::failed(int reason) const {
                      "The file has reached the largest size that is allowed here.", m_path);
     default:
       return failure(ErrorCode::SystemError,
-                     "The file cannot be written: " + systemReason(reason) + ".",
-                     m_path);
+                     "The file cannot be written: " + systemReason(reason) + ".", m_path);
   }
 }
 
