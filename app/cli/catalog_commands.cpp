@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
+#include <base/file_target.h>
 #include <robotlink/blackboard/variable_catalog.h>
 
 #include "commands.h"
@@ -41,12 +40,10 @@ int importCatalog(const ImportOptions& options) {
     std::cout << text << std::flush;
     return 0;
   }
-  errno = 0;
-  std::ofstream file(options.output, std::ios::binary);
-  file << text << std::flush;
-  if (!file)
-    return reportError({ErrorCode::SystemError,
-                        std::string("cannot be written: ") + std::strerror(errno), options.output});
+  if (const auto written = writeFile(options.output, text, IfExists::Replace, options.file);
+      !written) {
+    return reportError(written.error());
+  }
   return 0;
 }
 

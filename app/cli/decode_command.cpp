@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cerrno>
+#include <unistd.h>
 #include <charconv>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 #include <memory>
+
+#include <base/read_file.h>
 
 #include "commands.h"
 #include "live_json.h"
@@ -25,32 +23,8 @@ struct Options {
 };
 
 Result<std::string> readAll(const std::string& path) {
-  std::string text;
-  const auto readFrom = [&text](std::istream& in) {
-    char block[65536];
-    while (in.read(block, sizeof block) || in.gcount() > 0) {
-      text.append(block, static_cast<std::size_t>(in.gcount()));
-      if (text.size() > maxFileBytes) return false;
-    }
-    return true;
-  };
-  bool fits = true;
-  if (path == "-") {
-    fits = readFrom(std::cin);
-  } else {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-      return failure(errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
-                     std::string("The file cannot be read: ") + std::strerror(errno) + ".", path);
-    }
-    fits = readFrom(file);
-    if (file.bad()) return failure(ErrorCode::SystemError, "The file cannot be read.", path);
-  }
-  if (!fits) {
-    return failure(ErrorCode::Unsupported, "The file is larger than 256 MiB; split it.", path);
-  }
-  return text;
+  if (path == "-") return readDescriptor(STDIN_FILENO, maxFileBytes, "The input", "stdin");
+  return readFile(path, maxFileBytes);
 }
 
 /// `unix time <tab> sender <tab> datagram`, as in a capture.

@@ -19,7 +19,7 @@ using namespace telemetry;
 
 struct Options {
   std::string file;
-  bool json = false, events = false, check = false, progress = false;
+  bool json = false, events = false, progress = false;
 };
 
 constexpr std::array<std::string_view, sessionStreamCount> streamNames{
@@ -35,17 +35,15 @@ std::string wallText(WallTime time) {
   return text.data();
 }
 
-/// Every part is unpacked and its checksum compared; what is wrong is in the notes then.
-void readEverything(const SessionReader& session, Progress& progress) {
-  session.walk(
-      {-1e18, 1e18}, [](const SessionItem&) { return true; }, std::ref(progress));
-}
-
 Json toJson(const SessionReader& session, const Options& options) {
   const SessionInfo& info = session.info();
-  Json out{{"file", options.file},           {"bytes", session.file().fileBytes()},
-           {"complete", session.complete()}, {"program", info.program},
-           {"source", info.source},          {"title", info.title}};
+  Json out{{"file", options.file},
+           {"bytes", session.file().fileBytes()},
+           {"complete", session.complete()},
+           {"damaged", session.isDamaged()},
+           {"program", info.program},
+           {"source", info.source},
+           {"title", info.title}};
   if (info.seed) out["seed"] = *info.seed;
   out["start"] = unixSeconds(info.start);
   out["created"] = unixSeconds(info.created);
@@ -88,10 +86,11 @@ Json toJson(const SessionReader& session, const Options& options) {
 
 void printText(const SessionReader& session, const Options& options) {
   const SessionInfo& info = session.info();
-  std::printf(
-      "%s: %.3f MB%s\n", options.file.c_str(),
-      static_cast<double>(session.file().fileBytes()) / 1e6,
-      session.complete() ? "" : "; broken off or damaged: pitchboard-cli repair makes a whole one");
+  std::printf("%s: %.3f MB%s\n", options.file.c_str(),
+              static_cast<double>(session.file().fileBytes()) / 1e6,
+              session.complete() && !session.isDamaged()
+                  ? ""
+                  : "; broken off or damaged: pitchboard-cli repair makes a whole one");
   if (session.ours()) {
     std::printf("recorded %s by %s, %s \"%s\"", wallText(info.created).c_str(),
                 info.program.c_str(), info.source.c_str(), info.title.c_str());
@@ -132,7 +131,7 @@ int run(const Options& options) {
   reading.progress = std::ref(progress);
   const auto session = SessionReader::open(options.file, reading);
   if (!session) return reportError(session.error());
-  if (options.check) readEverything(*session, progress);
+  session->check(std::ref(progress));
   if (options.json) {
     std::printf("%s\n", dump(toJson(*session, options)).c_str());
   } else {
@@ -145,14 +144,15 @@ int run(const Options& options) {
 
 void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand("inspect",
-                                            "Say what is in a session. Ends with 1 when it broke "
-                                            "off or something in it is not understood.\n"
-                                            "Example: pitchboard-cli inspect match.mcap --events");
+  CLI::App* command =
+      parent.add_subcommand("inspect",
+                            "Say what is in a session, and whether all of it can be "
+                            "read. Ends with 1 when it broke off, is damaged or "
+                            "something in it is not understood.\n"
+                            "Example: pitchboard-cli inspect match.mcap --events");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object");
   command->add_flag("--events", options->events, "List the events");
-  command->add_flag("--check", options->check, "Read everything and compare all checksums");
   command->add_flag("--progress", options->progress,
                     "Say on stderr how far it is, also without a terminal");
   command->callback([options, &exitCode] { exitCode = run(*options); });

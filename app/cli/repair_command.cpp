@@ -26,8 +26,7 @@ int run(const Options& options) {
   }
   if (!report) return reportError(report.error());
   for (const std::string& sentence : report->lost) std::fprintf(stderr, "%s\n", sentence.c_str());
-  std::printf("%s: %llu messages over %.3f s, read back and the same\n", options.to.c_str(),
-              static_cast<unsigned long long>(report->messages), report->seconds);
+  std::printf("%s: %s\n", options.to.c_str(), report->summary().c_str());
   return 0;
 }
 

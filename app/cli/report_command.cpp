@@ -39,7 +39,7 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Se
         frame.truthKnown ? "; dashed: where the robots believe to be." : ", as the robots say.");
     content.pictureCaption = caption;
   }
-  return link::writeReport(output, content);
+  return link::writeReport(output, content, IfExists::Refuse, session.file().name());
 }
 
 }  // namespace pitchboard::cli

@@ -16,7 +16,6 @@
 
 #include "commands.h"
 #include "interrupt.h"
-#include "output_file.h"
 #include "simulate_report.h"
 #include "trace_writer.h"
 
@@ -143,6 +142,14 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
   return scenario;
 }
 
+/// An old file is refused with the option that allows it.
+tl::unexpected<Error> cannotWrite(Error error, const Arguments& arguments) {
+  if (error.code == ErrorCode::Conflict && !isSameFile(error.context, arguments.session)) {
+    error.message = "This file exists; choose another name or add --force.";
+  }
+  return tl::unexpected(std::move(error));
+}
+
 /// Plays the match to its end, tells children that died, writes the trace.
 class Player {
  public:
@@ -265,11 +272,12 @@ Result<void> simulate(const Arguments& arguments) {
     if (auto entered = match->reenter(recorded->moment); !entered) return entered;
   }
 
+  const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
   std::optional<TraceWriter> trace;
   if (!arguments.trace.empty()) {
-    auto made =
-        TraceWriter::create(arguments.trace, arguments.force, match->simulation().snapshot());
-    if (!made) return tl::unexpected(made.error());
+    auto made = TraceWriter::create(arguments.trace, ifExists, arguments.session,
+                                    match->simulation().snapshot());
+    if (!made) return cannotWrite(made.error(), arguments);
     trace = std::move(*made);
   }
   const auto outcome = Player(*match, *speed, trace ? &*trace : nullptr).play();
@@ -278,9 +286,9 @@ Result<void> simulate(const Arguments& arguments) {
     if (auto finished = trace->finish(); !finished) return finished;
   }
   if (!arguments.moment.empty()) {
-    auto saved = writeFile(arguments.moment, arguments.force,
-                           link::scenarioToJson(match->toScenario()), "the moment");
-    if (!saved) return saved;
+    auto saved = writeFile(arguments.moment, link::scenarioToJson(match->toScenario()), ifExists,
+                           arguments.session);
+    if (!saved) return cannotWrite(saved.error(), arguments);
   }
   arguments.json ? printJson(*match, *outcome) : printSummary(*match, *outcome);
   return {};

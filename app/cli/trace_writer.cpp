@@ -2,12 +2,9 @@
 #include "trace_writer.h"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 
 #include <base/angles.h>
-
-#include "output_file.h"
 
 namespace pitchboard::cli {
 namespace {
@@ -20,15 +17,17 @@ void append(std::string& line, T value) {
   line.append(text.data(), end.ptr);
 }
 
-constexpr const char* what = "the trace";
+constexpr std::size_t mostWaiting = 64 * 1024;  // bytes
 
 }  // namespace
 
-Result<TraceWriter> TraceWriter::create(const std::string& path, bool overwrite,
-                                        const sim::Snapshot& first) {
-  auto file = openForWriting(path, overwrite, what);
+Result<TraceWriter> TraceWriter::create(const std::string& path, IfExists ifExists,
+                                        const std::string& source, const sim::Snapshot& first) {
+  auto target = FileTarget::at(path, ifExists, source);
+  if (!target) return tl::unexpected(target.error());
+  auto file = target->open();
   if (!file) return tl::unexpected(file.error());
-  TraceWriter writer(*file, path);
+  TraceWriter writer(std::move(*target), std::move(*file));
   writer.m_line = "tick,time_s,ball_x,ball_y,ball_vx,ball_vy,score_left,score_right";
   for (const sim::RobotSnapshot& robot : first.robots) {
     const std::string name =
@@ -37,7 +36,7 @@ Result<TraceWriter> TraceWriter::create(const std::string& path, bool overwrite,
       writer.m_line += ',' + name + column;
     }
   }
-  if (auto written = writer.write(); !written) return tl::unexpected(written.error());
+  if (auto written = writer.endLine(); !written) return tl::unexpected(written.error());
   return writer;
 }
 
@@ -58,21 +57,25 @@ Result<void> TraceWriter::add(const sim::Snapshot& snapshot) {
     append(m_line, degreesFromRadians(robot.headYaw));
     append(m_line, robot.action);
   }
-  return write();
+  return endLine();
 }
 
-Result<void> TraceWriter::write() {
-  m_line += '\n';
-  if (std::fwrite(m_line.data(), 1, m_line.size(), m_file.get()) != m_line.size()) {
-    return cannotWrite(m_path, errno, what);
-  }
-  return {};
+Result<void> TraceWriter::endLine() {
+  m_text += m_line;
+  m_text += '\n';
+  return m_text.size() < mostWaiting ? Result<void>{} : flush();
+}
+
+Result<void> TraceWriter::flush() {
+  auto written = m_file.write(m_text);
+  m_text.clear();
+  return written;
 }
 
 Result<void> TraceWriter::finish() {
-  std::FILE* file = m_file.release();
-  if (std::fclose(file) != 0) return cannotWrite(m_path, errno, what);
-  return {};
+  if (auto written = flush(); !written) return written;
+  if (auto closed = m_file.close(); !closed) return closed;
+  return m_target.commit();
 }
 
 }  // namespace pitchboard::cli

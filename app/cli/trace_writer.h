@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Writes a simulated match as CSV: one row per tick, metres, metres per second and degrees.
+// Writes a simulated match as CSV: one row per tick, metres, metres per second and degrees. The
+// file appears when it is whole.
 
-#include <cstdio>
-#include <memory>
 #include <string>
 
+#include <base/file_target.h>
 #include <base/result.h>
 #include <simcore/world/snapshot.h>
 
@@ -14,24 +14,24 @@ namespace pitchboard::cli {
 
 class TraceWriter {
  public:
-  /// Writes the header for the robots of `first`. Refuses an existing file unless `overwrite`.
-  static Result<TraceWriter> create(const std::string& path, bool overwrite,
-                                    const sim::Snapshot& first);
+  /// Writes the header for the robots of `first`. Errors as FileTarget; `source` is what is read.
+  static Result<TraceWriter> create(const std::string& path, IfExists ifExists,
+                                    const std::string& source, const sim::Snapshot& first);
 
   /// Fails when the system cannot write (a full disk, ...).
   Result<void> add(const sim::Snapshot& snapshot);
-  /// Everything is on its way to the disk.
+  /// The file is whole, on the disk and has its name.
   Result<void> finish();
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  TraceWriter(std::FILE* file, std::string path) : m_file(file), m_path(std::move(path)) {}
-  Result<void> write();
+  TraceWriter(FileTarget target, NewFile file)
+      : m_target(std::move(target)), m_file(std::move(file)) {}
+  Result<void> endLine();
+  Result<void> flush();
 
-  std::unique_ptr<std::FILE, Close> m_file;
-  std::string m_path;
+  FileTarget m_target;
+  NewFile m_file;
+  std::string m_text;  ///< lines that wait
   std::string m_line;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QApplication>
 #include <QDir>
+#include <QFileInfo>
+#include <QSaveFile>
 #include <QSettings>
 #include <QTimer>
 #include <cmath>
@@ -48,7 +50,12 @@ link::MatchOptions matchOptions(const Arguments& arguments) {
 }
 
 bool save(const QPixmap& picture, const std::string& file) {
-  if (picture.save(QString::fromStdString(file))) return true;
+  const QString path = QString::fromStdString(file);
+  QSaveFile out(path);
+  if (out.open(QIODevice::WriteOnly) &&
+      picture.save(&out, QFileInfo(path).suffix().toLatin1().constData()) && out.commit()) {
+    return true;
+  }
   report({ErrorCode::SystemError,
           "the picture cannot be written; choose a folder that exists and a name ending in .png",
           file});

@@ -137,7 +137,7 @@ class TestCliSessions : public QObject {
   }
 
   void inspectSaysWhatIsInIt() {
-    const Run run = cli({"inspect", m_session, "--json", "--events", "--check"});
+    const Run run = cli({"inspect", m_session, "--json", "--events"});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     const QJsonObject json = QJsonDocument::fromJson(run.out).object();
     const auto session = SessionReader::open(m_session.toStdString());
@@ -232,7 +232,7 @@ class TestCliSessions : public QObject {
                          "--robots", "B2,match", "-o", path});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     compare(valuesOf(path, always), valuesOf(m_session, {3, 6}, {"B2", "match"}));
-    QCOMPARE(cli({"inspect", path, "--check"}).exitCode, 0);
+    QCOMPARE(cli({"inspect", path}).exitCode, 0);
   }
 
   void aCutFileIsRepaired() {
@@ -247,11 +247,38 @@ class TestCliSessions : public QObject {
     const Run run = cli({"repair", broken, whole});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     QCOMPARE(contents(broken).size(), bytes.size() * 7 / 10);
-    QCOMPARE(cli({"inspect", whole, "--check"}).exitCode, 0);
+    QCOMPARE(cli({"inspect", whole}).exitCode, 0);
     const Values kept = valuesOf(whole, always);
     QVERIFY(kept.size() > 1000);
     compare(kept, valuesOf(m_session, {-1, std::get<0>(kept.rbegin()->first)}));
     QCOMPARE(cli({"repair", broken, whole}).exitCode, 2);
+  }
+
+  void damageInsideIsFoundAndRepaired() {
+    const QString damaged = newPath(".mcap"), whole = newPath(".mcap");
+    QByteArray bytes = contents(m_session);
+    const auto session = SessionReader::open(m_session.toStdString());
+    const auto& chunk = session->file().chunks().front();
+    const auto at = static_cast<qsizetype>(chunk.offset + chunk.length) - 20;
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    QFile file(damaged);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+    file.close();
+    const Run look = cli({"inspect", damaged});
+    QCOMPARE(look.exitCode, 1);
+    QVERIFY2(look.out.contains(" lost, between "), look.out.constData());
+    QVERIFY2(look.out.contains("pitchboard-cli repair"), look.out.constData());
+    const Run run = cli({"repair", damaged, whole});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY2(run.out.contains(" were saved; ") && run.out.contains(" lost."), run.out.constData());
+    QVERIFY2(run.err.contains(" lost, between "), run.err.constData());
+    QCOMPARE(cli({"inspect", whole}).exitCode, 0);
+    // Itself is no target, whatever is to be written.
+    for (const QString format : {"csv-wide", "mcap", "report"}) {
+      const Run self = cli({"export", m_session, "--to", format, "-o", m_session});
+      QCOMPARE(self.exitCode, 2);
+      QVERIFY2(self.err.contains("being read"), self.err.constData());
+    }
   }
 
   void liveRobotsAreRecorded() {

@@ -77,11 +77,11 @@ class TestCliSimulate : public QObject {
     QVERIFY(!(moment->robots[0].pose == link::loadScenario("one-robot")->robots[0].pose));
     const Run again = simulate(save);
     QCOMPARE(again.exitCode, 2);
-    QVERIFY(again.err.contains("this file exists"));
+    QVERIFY(again.err.contains("This file exists"));
     QCOMPARE(simulate(save + QStringList("--force")).exitCode, 0);
     const Run nowhere = simulate({"--duration", "1", "--save-moment", "/nowhere/moment.json"});
     QCOMPARE(nowhere.exitCode, 2);
-    QVERIFY(nowhere.err.contains("the moment cannot be written: No such file"));
+    QVERIFY(nowhere.err.contains("The folder does not exist"));
   }
 
   void traceHasARowPerTick() {
@@ -109,9 +109,9 @@ class TestCliSimulate : public QObject {
     QTest::newRow("noise") << QStringList{"--noise", "papr"}
                            << QByteArray("did you mean \"paper\"");
     QTest::newRow("folder") << QStringList{"--trace", "/nonexistent/a.csv"}
-                            << QByteArray("cannot be written");
+                            << QByteArray("The folder does not exist");
     QTest::newRow("full disk") << QStringList{"--trace", "/dev/full", "--force"}
-                               << QByteArray("No space left");
+                               << QByteArray("The disk is full");
   }
   void wrongArgumentsAreExplained() {
     QFETCH(QStringList, arguments);

@@ -125,7 +125,8 @@ class TestReport : public QObject {
     const std::string path = folder.filePath("report.html").toStdString();
     QVERIFY(writeReport(path, content));
     QCOMPARE(writeReport(path, content).error().code, ErrorCode::Conflict);
-    QVERIFY(writeReport(path, content, true));
+    QVERIFY(writeReport(path, content, IfExists::Replace));
+    QVERIFY(!writeReport(path, content, IfExists::Replace, path));
     QCOMPARE(writeReport("/nonexistent/r.html", content).error().code, ErrorCode::SystemError);
     QFile file(QString::fromStdString(path));
     QVERIFY(file.open(QIODevice::ReadOnly));

@@ -7,6 +7,7 @@
 
 #include <telemetry/mcap/mcap_reader.h>
 #include <telemetry/mcap/mcap_writer.h>
+#include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
 
@@ -150,19 +151,85 @@ class TestMcap : public QObject {
     QVERIFY(told > m_bytes.size() / 2);
   }
 
-  void damageInTheMiddleCostsOneChunk() {
-    std::string bytes = m_bytes;
-    bytes[m_chunkEnds[1] - 20] ^= 0x10;
-    const Contents found = contentsOf(bytes);
-    QCOMPARE(found.rows.size(), m_rows.size() - (m_rowsUntil[1] - m_rowsUntil[0]));
-    QVERIFY(found.notes > 0);
-    // The same without the summary, and with a length that leads nowhere: the walk finds the next.
-    bytes.resize(m_chunkEnds.back());
-    QCOMPARE(contentsOf(bytes).rows.size(), found.rows.size());
+  void anyDamagedChunkCostsThatChunk_data() {
+    QTest::addColumn<bool>("brokenOff");
+    QTest::addColumn<bool>("lengthToo");
+    QTest::newRow("indexed") << false << false;
+    QTest::newRow("indexed, and its length leads nowhere") << false << true;
+    QTest::newRow("broken off") << true << false;
+    QTest::newRow("broken off, and its length leads nowhere") << true << true;
+  }
+  void anyDamagedChunkCostsThatChunk() {
+    QFETCH(bool, brokenOff);
+    QFETCH(bool, lengthToo);
     const auto whole = McapReader::openBytes(m_bytes);
-    const std::uint64_t second = whole->chunks()[1].offset;
-    bytes.replace(second + 1, 8, number64(0x7fffffffffffffffULL));
-    QCOMPARE(contentsOf(bytes).rows.size(), found.rows.size());
+    for (std::size_t i = 0; i < m_chunkEnds.size(); ++i) {
+      const std::uint64_t offset = whole->chunks()[i].offset;
+      std::string bytes = m_bytes;
+      bytes[m_chunkEnds[i] - 20] ^= 0x10;
+      if (lengthToo) bytes.replace(offset + 1, 8, number64(0x7fffffffffffffffULL));
+      // The indexes of the last chunk's messages stay.
+      if (brokenOff) bytes.resize(bytes.rfind("\x0f" + number64(4)));
+      const std::size_t before = i == 0 ? 0 : m_rowsUntil[i - 1];
+      std::vector<Row> rest = m_rows;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(before),
+                 rest.begin() + static_cast<std::ptrdiff_t>(m_rowsUntil[i]));
+      const auto where = QStringLiteral("chunk %1 of %2").arg(i).arg(m_chunkEnds.size());
+      QVERIFY2(contentsOf(bytes).rows == rest, qPrintable(where));
+
+      const auto reader = SessionReader::openBytes(bytes);
+      QVERIFY(reader->check());
+      QVERIFY2(!reader->notes().empty(), qPrintable(where));
+      // Behind the last chunk nothing tells damage from the end of the recording.
+      const bool lastLost = brokenOff && lengthToo && i + 1 == m_chunkEnds.size();
+      QVERIFY2(reader->isDamaged() || lastLost, qPrintable(where));
+
+      const std::string broken = m_folder.filePath("broken.mcap").toStdString();
+      const std::string repaired = m_folder.filePath("repaired.mcap").toStdString();
+      std::ofstream(broken, std::ios::binary | std::ios::trunc) << bytes;
+      QFile::remove(QString::fromStdString(repaired));
+      const auto report = repairSession(broken, repaired);
+      QVERIFY2(report, report ? "" : report.error().text().c_str());
+      QVERIFY2(rowsOf(*SessionReader::open(repaired), everything) == rest, qPrintable(where));
+      QVERIFY(!report->lost.empty());
+      const std::uint64_t lost = whole->statistics().messages - report->messages;
+      if (!brokenOff || !lengthToo) {
+        QCOMPARE(report->lostMessages, lost);
+        QVERIFY(!report->lostMore);
+      } else if (lost > 0 && !lastLost) {
+        QVERIFY2(report->lostMore, qPrintable(where));
+      }
+      if (report->lostMessages > 0) {
+        QVERIFY(report->summary().find("; " + std::to_string(lost)) != std::string::npos);
+        QVERIFY2(report->lost.back().find(" lost, between ") != std::string::npos,
+                 report->lost.back().c_str());
+      }
+    }
+  }
+
+  void definitionsAreRepeated() {
+    McapReaderOptions walk;
+    walk.ignoreSummary = true;
+    const auto reader = McapReader::openBytes(m_bytes, walk);
+    std::map<std::uint16_t, int> times;
+    std::string body;
+    for (const McapChunkInfo& chunk : reader->chunks()) {
+      QVERIFY(reader->readChunk(chunk, body));
+      McapCursor cursor(body);
+      for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+        if (kind == McapCursor::Kind::Channel) ++times[cursor.channel().id];
+      }
+    }
+    QCOMPARE(times.size(), reader->channels().size());
+    for (const auto& [id, count] : times) QVERIFY2(count >= 2, qPrintable(QString::number(id)));
+  }
+
+  void repairIsNoTargetForItself() {
+    const std::string path = m_folder.filePath("precious.mcap").toStdString();
+    std::ofstream(path, std::ios::binary) << m_bytes;
+    const auto refused = repairSession(path, m_folder.filePath("./precious.mcap").toStdString());
+    QVERIFY(!refused && refused.error().message.find("being read") != std::string::npos);
+    QVERIFY(bytesOf(path) == m_bytes);
   }
 
   void lengthsThatLie_data() {

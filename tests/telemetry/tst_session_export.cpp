@@ -198,6 +198,32 @@ class TestSessionExport : public QObject {
       QVERIFY(!exportFile(session(), format, {}, stopped, [](double part) { return part < 0.5; }));
       QVERIFY(!std::filesystem::exists(stopped));
     }
+    // What is to be replaced stays until the new one is whole, whatever goes wrong.
+    ExportSelection unknown;
+    unknown.robots = {"nobody"};
+    for (const ExportFormat format : {ExportFormat::CsvLong, ExportFormat::Mcap}) {
+      QVERIFY(!exportFile(session(), format, unknown, path, {}, IfExists::Replace));
+      QVERIFY(!exportFile(
+          session(), format, {}, path, [](double part) { return part < 0.5; }, IfExists::Replace));
+      QCOMPARE(bytesOf(path), std::string("precious"));
+    }
+    const std::string original = bytesOf(m_path);
+    const std::string symbolic = newPath(), hard = newPath();
+    std::filesystem::create_symlink(m_path, symbolic);
+    std::filesystem::create_hard_link(m_path, hard);
+    for (const std::string& self : {m_path, symbolic, hard}) {
+      for (const ExportFormat format : {ExportFormat::CsvLong, ExportFormat::Mcap}) {
+        const auto refused = exportFile(session(), format, {}, self, {}, IfExists::Replace);
+        QVERIFY(!refused && refused.error().message.find("being read") != std::string::npos);
+        QVERIFY(bytesOf(m_path) == original);
+      }
+    }
+    QVERIFY(exportFile(session(), ExportFormat::Mcap, {}, path, {}, IfExists::Replace));
+    QVERIFY(SessionReader::open(path)->complete());
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(m_path).parent_path())) {
+      QVERIFY2(entry.path().extension() != ".part", entry.path().c_str());
+    }
     const auto full = exportFile(session(), ExportFormat::CsvWide, {}, "/dev/full");
     QVERIFY(!full);
     const auto sink =

@@ -110,11 +110,27 @@ class TestSessionExportDialog : public QObject {
     } else {
       QCOMPARE(bytes.mid(4, 4), QByteArray("ftyp"));
     }
-    // The same name again is refused.
-    QSignalSpy failed(dialog, &ExportDialog::failed);
+    // The same name again replaces it, and a link to what is replayed does not.
+    QFile old(path);
+    QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
+    old.close();
     dialog->exportTo(path);
-    QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, 20'000);
-    QCOMPARE(contents(path), bytes);
+    QTRY_VERIFY2_WITH_TIMEOUT(written.size() == 2, qPrintable(message(dialog)), 60'000);
+    QVERIFY(contents(path).size() > 3);
+    if (!fromMemory) {
+      const QString session = s.window.replay()->path();
+      const QByteArray precious = contents(session);
+      const QString link = s.folder.filePath(QStringLiteral("link") + suffix);
+      QVERIFY(QFile::link(session, link));
+      QSignalSpy failed(dialog, &ExportDialog::failed);
+      dialog->exportTo(link);
+      QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, 20'000);
+      QVERIFY2(message(dialog).contains(QStringLiteral("being read")), qPrintable(message(dialog)));
+      QVERIFY(contents(session) == precious);
+    }
+    QVERIFY(QDir(s.folder.path())
+                .entryList({QStringLiteral("*.part")}, QDir::Files | QDir::Hidden)
+                .isEmpty());
   }
 
   void aVideoIsCancelledWithTheButton() {
@@ -136,7 +152,10 @@ class TestSessionExportDialog : public QObject {
     QCOMPARE(failed.size(), 1);
     QVERIFY(!dialog->isWriting());
     QVERIFY2(message(dialog).contains(QStringLiteral("Cancelled")), qPrintable(message(dialog)));
-    QVERIFY(!QFile::exists(path) && !QFile::exists(path + QStringLiteral(".part")));
+    QVERIFY(!QFile::exists(path));
+    QVERIFY(QDir(s.folder.path())
+                .entryList({QStringLiteral("*.part")}, QDir::Files | QDir::Hidden)
+                .isEmpty());
   }
 
   void withoutFfmpegTheDialogSaysWhatToInstall() {

@@ -269,6 +269,44 @@ class TestSessions : public QObject {
     QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
   }
 
+  void damageInsideIsANotice() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(600);
+    QVERIFY(!path.isEmpty());
+    {
+      const auto session = telemetry::SessionReader::open(path.toStdString());
+      QVERIFY(session && session->complete() && session->file().chunks().size() > 2);
+      QFile file(path);
+      QVERIFY(file.open(QIODevice::ReadWrite));
+      const telemetry::McapChunkInfo& chunk = session->file().chunks().back();
+      QVERIFY(file.seek(static_cast<qint64>(chunk.offset + chunk.length) - 20));
+      QVERIFY(file.write("damage") == 6);
+    }
+    QSignalSpy found(s.window.replay(), &ReplayController::damageFound);
+    s.window.openSession(path);
+    QTRY_COMPARE_WITH_TIMEOUT(found.size(), 1, 20'000);
+    QVERIFY(!s.window.replay()->isBroken());
+    const QString told = found[0][0].toStringList().join(QLatin1Char(' '));
+    QVERIFY2(told.contains(QStringLiteral(" lost, between ")), qPrintable(told));
+    QPushButton* repair = nullptr;
+    const auto looked = [&] {
+      for (auto* button : s.window.notices()->findChildren<QPushButton*>()) {
+        if (button->text().contains(QStringLiteral("Repair")) && button->isVisible()) {
+          repair = button;
+        }
+      }
+      return repair != nullptr;
+    };
+    for (int i = 0; i < 5 && !looked(); ++i) closeNotice(s.window);
+    QVERIFY2(repair != nullptr, qPrintable(s.notice()));
+    QVERIFY2(s.notice().contains(QStringLiteral("damaged inside")), qPrintable(s.notice()));
+    QSignalSpy opened(s.window.replay(), &ReplayController::opened);
+    QTest::mouseClick(repair, Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(opened.size(), 1, 20'000);
+    QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
+  }
+
   void aNewerFileSaysSoAndIsShown() {
     Studio s(0);
     const QString path = s.folder.filePath(QStringLiteral("newer.mcap"));

@@ -50,6 +50,11 @@ class TestVideoWriter : public QObject {
   Q_OBJECT
   QTemporaryDir m_folder;
 
+  /// What a video that is not whole would leave.
+  QStringList parts() const {
+    return QDir(m_folder.path()).entryList({"*.part"}, QDir::Files | QDir::Hidden);
+  }
+
   QString script(const QString& name, const QByteArray& text) {
     const QString path = m_folder.filePath(name);
     QFile file(path);
@@ -93,7 +98,7 @@ class TestVideoWriter : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(finished.count() + failed.count() == 1, 60000);
     QVERIFY2(failed.isEmpty(), failed.isEmpty() ? "" : qPrintable(failed[0][0].toString()));
     QCOMPARE(finished[0][0].toString(), options.path);
-    QVERIFY(!QFile::exists(options.path + ".part"));
+    QVERIFY(parts().isEmpty());
     const QJsonObject seen = probe(options.path);
     const QJsonObject stream = seen["streams"].toArray().at(0).toObject();
     QCOMPARE(stream["codec_name"].toString(), codec);
@@ -114,7 +119,7 @@ class TestVideoWriter : public QObject {
     for (int i = 0; i < 10; ++i) writer.add(pictureOf(i, {320, 200}));
     writer.cancel();
     QVERIFY(!writer.isWriting());
-    QVERIFY(!QFile::exists(options.path) && !QFile::exists(options.path + ".part"));
+    QVERIFY(!QFile::exists(options.path) && parts().isEmpty());
     QVERIFY(finished.isEmpty() && failed.isEmpty());
     // And another one can be made.
     QVERIFY(writer.start(options));
@@ -140,7 +145,7 @@ class TestVideoWriter : public QObject {
     QTest::newRow("not installed") << path << QSize(320, 200) << 30.0 << "no-such-ffmpeg"
                                    << "Install";
     QTest::newRow("folder") << "/nonexistent/b.mp4" << QSize(320, 200) << 30.0 << "ffmpeg"
-                            << "cannot be written";
+                            << "The folder does not exist";
   }
   void badOptionsAreRefused() {
     QFETCH(QString, path);
@@ -153,7 +158,7 @@ class TestVideoWriter : public QObject {
     QVERIFY(!started);
     QVERIFY2(QString::fromStdString(started.error().message).contains(words),
              started.error().message.c_str());
-    QVERIFY(!QFile::exists(path) && !QFile::exists(path + ".part"));
+    QVERIFY(!QFile::exists(path) && parts().isEmpty());
   }
 
   void errorsComeInWords_data() {
@@ -182,7 +187,27 @@ class TestVideoWriter : public QObject {
     if (!words.contains("no reason")) writer.finish();
     QTRY_COMPARE_WITH_TIMEOUT(failed.count(), 1, 20000);
     QVERIFY2(failed[0][0].toString().contains(words), qPrintable(failed[0][0].toString()));
-    QVERIFY(!QFile::exists(path) && !QFile::exists(path + ".part"));
+    QVERIFY(!QFile::exists(path) && parts().isEmpty());
+  }
+
+  void anOldVideoStaysWhenTheNewOneFails() {
+    const QString path = m_folder.filePath("old.mp4");
+    QFile old(path);
+    QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
+    old.close();
+    VideoWriter writer;
+    QSignalSpy failed(&writer, &VideoWriter::failed);
+    VideoOptions options{
+        path, {320, 200}, 30.0, true, script("fails", "cat > /dev/null; exit 1\n")};
+    QVERIFY(writer.start(options));
+    writer.add(pictureOf(0, {320, 200}));
+    writer.finish();
+    QTRY_COMPARE_WITH_TIMEOUT(failed.count(), 1, 20000);
+    QVERIFY(old.open(QIODevice::ReadOnly));
+    QCOMPARE(old.readAll(), QByteArray("old"));
+    QVERIFY(parts().isEmpty());
+    options.source = path;
+    QVERIFY(!writer.start(options));
   }
 
   void noPictureIsNoVideo() {
@@ -191,7 +216,7 @@ class TestVideoWriter : public QObject {
     QVERIFY(writer.start({m_folder.filePath("none.webm"), {320, 200}, 30.0, false, "ffmpeg"}));
     writer.finish();
     QCOMPARE(failed.count(), 1);
-    QVERIFY(!QFile::exists(m_folder.filePath("none.webm.part")));
+    QVERIFY(parts().isEmpty());
   }
 };
 

@@ -8,9 +8,10 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <utility>
+
+#include <base/system_reason.h>
 
 namespace pitchboard::link {
 namespace {
@@ -61,7 +62,7 @@ std::string describeHolder(pid_t holder) {
 }
 
 Error systemError(int key, const char* call) {
-  return {ErrorCode::SystemError, std::string(call) + " failed: " + std::strerror(errno),
+  return {ErrorCode::SystemError, std::string(call) + " failed: " + systemReason(errno),
           "blackboard " + std::to_string(key)};
 }
 

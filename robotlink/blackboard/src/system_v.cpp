@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <memory>
 #include <optional>
+
+#include <base/system_reason.h>
 
 #include "blackboard_memory.h"
 
@@ -36,7 +37,7 @@ std::string removeHint(int key) {
 
 Error systemError(int key, const char* call, int number) {
   return {ErrorCode::SystemError,
-          std::string(call) + " failed: " + std::strerror(number) +
+          std::string(call) + " failed: " + systemReason(number) +
               (number == ENOSPC ? "; remove unused segments (`pitchboard-cli blackboard remove "
                                   "--orphans`) or raise kernel.shmmni"
                                 : ""),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <base/system_reason.h>
+#include <robotlink/processes/robot_config.h>
 #include <telemetry/wire/datagram.h>
 
 namespace pitchboard::link {

@@ -7,11 +7,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include <base/read_file.h>
 
 namespace pitchboard::link {
 namespace {
@@ -21,6 +22,7 @@ using Json = nlohmann::json;
 constexpr int mostFrames = 10'000'000;
 constexpr std::size_t mostRobots = 64;
 constexpr std::size_t mostBytes = 1ULL << 30;
+constexpr std::size_t mostTextBytes = std::size_t{64} << 20;
 
 /// Thrown and caught inside this file only; the text says which key is wrong.
 struct Malformed : std::runtime_error {
@@ -255,11 +257,11 @@ Result<Trace> readTrace(const std::string& jsonPath) {
   if (!jsonPath.ends_with(extension)) {
     return failure(ErrorCode::InvalidArgument, "A trace is named by its .json file.", jsonPath);
   }
-  std::ifstream file(jsonPath, std::ios::binary);
-  if (!file) return failure(ErrorCode::NotFound, "The trace cannot be opened.", jsonPath);
+  const auto text = readFile(jsonPath, mostTextBytes, "The trace");
+  if (!text) return tl::unexpected(text.error());
   Trace trace;
   try {
-    trace = traceFrom(Json::parse(file));
+    trace = traceFrom(Json::parse(*text));
   } catch (const std::exception& error) {
     return failure(ErrorCode::ParseError, std::string("Not a trace: ") + error.what() + ".",
                    jsonPath);

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
-#include <fstream>
 
+#include <base/read_file.h>
 #include <base/system_reason.h>
 
 namespace pitchboard::link {
@@ -95,19 +94,9 @@ Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
 }
 
 Result<IniFile> readIniFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const int reason = errno;
-  if (!file) return failure(ErrorCode::NotFound, "cannot be read: " + systemReason(reason), path);
-  std::string text;
-  // Not by iterator: that throws when the path is a folder.
-  for (char buffer[4096]; file.read(buffer, sizeof buffer) || file.gcount() > 0;) {
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
-    if (text.size() > mostBytes) break;
-  }
-  if (file.bad() || text.size() > mostBytes) {
-    return failure(ErrorCode::SystemError, "cannot be read; is it a text file?", path);
-  }
-  return iniFromText(text, path);
+  const auto text = readFile(path, mostBytes);
+  if (!text) return tl::unexpected(text.error());
+  return iniFromText(*text, path);
 }
 
 Result<RobotId> robotFromIni(const IniFile& file) {

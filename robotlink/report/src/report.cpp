@@ -2,11 +2,9 @@
 #include <robotlink/report/report.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 
 #include <telemetry/wire/base64.h>
@@ -247,24 +245,9 @@ std::string reportHtml(const ReportContent& c) {
   return out;
 }
 
-Result<void> writeReport(const std::string& path, const ReportContent& content, bool overwrite) {
-  const auto cannot = [&path](int reason) {
-    return failure(ErrorCode::SystemError,
-                   std::string("the report cannot be written: ") + std::strerror(reason), path);
-  };
-  std::FILE* file = std::fopen(path.c_str(), overwrite ? "we" : "wxe");
-  if (!file) {
-    if (errno != EEXIST) return cannot(errno);
-    return failure(ErrorCode::Conflict, "this file exists; choose another name", path);
-  }
-  const std::string html = reportHtml(content);
-  const bool written = std::fwrite(html.data(), 1, html.size(), file) == html.size();
-  const int reason = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (written && closed) return {};
-  const auto error = cannot(written ? errno : reason);
-  std::remove(path.c_str());
-  return error;
+Result<void> writeReport(const std::string& path, const ReportContent& content, IfExists ifExists,
+                         const std::string& source) {
+  return writeFile(path, reportHtml(content), ifExists, source);
 }
 
 }  // namespace pitchboard::link

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
 
 #include <base/angles.h>
+#include <base/read_file.h>
 #include <resources/resources.h>
 #include <robotlink/cognition/process_registry.h>
 
@@ -21,6 +19,7 @@ constexpr int mostGoals = 1'000'000;
 constexpr double fastestBall = 50.0;  // m/s
 constexpr int highestShirtNumber = 99;
 constexpr std::size_t mostWrites = 100000;
+constexpr std::size_t mostFileBytes = 1024 * 1024;
 
 // The default first, as in choosers; each is resources/scenarios/<name>.json.
 constexpr std::array<std::string_view, 7> builtInNames{
@@ -323,22 +322,6 @@ class Reader {
   Scenario m_scenario;
 };
 
-Result<std::string> readFile(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  // One byte more than the parser accepts: it says so when the file is too large.
-  constexpr std::streamsize most = 1024 * 1024 + 1;
-  std::string buffer(static_cast<std::size_t>(most), '\0');
-  if (!file || (file.read(buffer.data(), most), file.bad())) {
-    return failure(errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
-                   "the scenario cannot be read: " +
-                       std::string(errno != 0 ? std::strerror(errno) : "input/output error"),
-                   path);
-  }
-  buffer.resize(static_cast<std::size_t>(file.gcount()));
-  return buffer;
-}
-
 }  // namespace
 
 std::vector<ScenarioName> builtInScenarios() {
@@ -354,7 +337,7 @@ Result<Scenario> loadScenario(const std::string& nameOrPath, const VariableCatal
   if (std::find(builtInNames.begin(), builtInNames.end(), nameOrPath) != builtInNames.end()) {
     return scenarioFromJson(resourceText(resourcePath(nameOrPath)), nameOrPath, catalog);
   }
-  auto text = readFile(nameOrPath);
+  auto text = readFile(nameOrPath, mostFileBytes, "the scenario");
   if (!text && text.error().code == ErrorCode::NotFound &&
       nameOrPath.find_first_of("/.") == std::string::npos) {
     return failure(ErrorCode::NotFound,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include <base/file_target.h>
 #include <robotlink/session/row_walk.h>
 #include <telemetry/wire/action_words.h>
 
@@ -170,7 +171,9 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
   }
   // Nothing may be left out here; the disk is waited for.
   options.waitWhenFull = true;
-  auto writer = telemetry::SessionWriter::create(path, info, options);
+  auto target = FileTarget::at(path, IfExists::Refuse);
+  if (!target) return tl::unexpected(target.error());
+  auto writer = telemetry::SessionWriter::create(target->partPath(), info, options);
   if (!writer) return tl::unexpected(writer.error());
   for (const auto& [name, text] :
        {std::pair{scenarioAttachment, &past.scenario}, std::pair{catalogAttachment, &past.catalog},
@@ -201,6 +204,7 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
     if (line.time >= begin) (*writer)->append(line);
   }
   if (auto finished = (*writer)->finish(); !finished) return tl::unexpected(finished.error());
+  if (auto named = target->commit(); !named) return tl::unexpected(named.error());
   return (*writer)->status();
 }
 

@@ -40,8 +40,17 @@ bool McapReader::indexed() const {
 const std::vector<std::string>& McapReader::problems() const {
   return m_impl->problems;
 }
+const std::vector<McapLoss>& McapReader::losses() const {
+  return m_impl->losses;
+}
+McapLoss McapReader::lossOf(const McapChunkInfo& chunk) const {
+  return m_impl->lossOf(chunk);
+}
 std::uint64_t McapReader::fileBytes() const {
   return m_impl->source.size();
+}
+const std::string& McapReader::name() const {
+  return m_impl->source.name();
 }
 const std::string& McapReader::profile() const {
   return m_impl->profile;

@@ -20,6 +20,7 @@ struct McapReader::Impl {
   bool indexed = false;
   std::vector<std::string> problems;
   std::size_t moreProblems = 0;
+  std::vector<McapLoss> losses;
 
   std::string profile, library;
   std::uint64_t dataBegin = 0;  ///< behind the header
@@ -43,6 +44,7 @@ struct McapReader::Impl {
   /// False: options.progress said stop.
   bool scan();
   Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
+  McapLoss lossOf(const McapChunkInfo& chunk) const;
   Result<void> unpack(std::string_view bytes, std::uint64_t size, std::string& body) const;
 
  private:

@@ -39,6 +39,7 @@ class McapScan {
       step();
     }
     closeRun();
+    boundLosses();
     if (!m_done && !m_told) {
       m_reader.problem(m_source.size(),
                        "the file ends without its end mark: the recording broke off.");
@@ -47,6 +48,18 @@ class McapScan {
   }
 
  private:
+  /// What was lost lies before the next message that was found.
+  void boundLosses() {
+    for (McapLoss& loss : m_reader.losses) {
+      if (loss.end != 0) continue;
+      const auto next = std::find_if(m_reader.chunks.begin(), m_reader.chunks.end(),
+                                     [&loss](const McapChunkInfo& chunk) {
+                                       return chunk.offset > loss.offset && chunk.end != 0;
+                                     });
+      if (next != m_reader.chunks.end() && !loss.messages) loss.end = next->start;
+    }
+  }
+
   void step() {
     const std::uint64_t left = m_source.size() - m_at;
     ByteReader in(m_source.look(m_at, recordHead));
@@ -118,14 +131,20 @@ class McapScan {
                       static_cast<std::size_t>(std::min<std::uint64_t>(length, 256))),
         length);
     if (!head) {
-      if (tell) m_reader.problem(offset, "this part is damaged: its head is not of its form.");
+      if (tell) {
+        m_reader.problem(offset, "this part is damaged: its head is not of its form.");
+        m_reader.losses.push_back({offset, m_reader.statistics.end, 0, {}});
+      }
       return false;
     }
     McapChunkInfo chunk = head->info;
     chunk.offset = offset;
     chunk.length = recordHead + length;
     if (auto read = m_reader.readChunk(chunk, m_body); !read) {
-      if (tell) m_reader.problem(offset, read.error().message);
+      if (tell) {
+        m_reader.problem(offset, read.error().message);
+        m_reader.losses.push_back(m_reader.lossOf(chunk));
+      }
       return false;
     }
     m_unpacked += m_body.size();
@@ -241,12 +260,14 @@ class McapScan {
         continue;
       }
       ++m_searches;
+      const std::uint64_t lastTime = m_reader.statistics.end;
       if (!takeChunk(offset, length, false)) {
         if (m_done) return;
         continue;
       }
       m_reader.problem(from, "the next " + std::to_string(offset - from) +
                                  " bytes are damaged; they are left out.");
+      m_reader.losses.push_back({from, lastTime, 0, {}});
       m_at = offset + recordHead + length;
       return;
     }
@@ -266,6 +287,26 @@ class McapScan {
   bool m_done = false;
   bool m_told = false;
 };
+
+McapLoss McapReader::Impl::lossOf(const McapChunkInfo& chunk) const {
+  McapLoss loss{chunk.offset, chunk.start, chunk.end, {}};
+  if (chunk.end == 0) loss.messages = 0;  // definitions only
+  // Behind a chunk stand the indexes of its messages, outside of its checksum and compression.
+  std::uint64_t at = chunk.offset + chunk.length;
+  for (;;) {
+    ByteReader in(source.look(at, recordHead + 2 + 4));
+    const auto op = in.number<std::uint8_t>();
+    const auto length = in.number<std::uint64_t>();
+    in.number<std::uint16_t>();
+    const auto bytes = in.number<std::uint32_t>();
+    if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::MessageIndex) ||
+        length > source.size() - at - recordHead || length != 2 + 4 + std::uint64_t{bytes}) {
+      return loss;
+    }
+    loss.messages = loss.messages.value_or(0) + bytes / 16;
+    at += recordHead + length;
+  }
+}
 
 bool McapReader::Impl::scan() {
   return McapScan(*this).run();

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include <base/system_reason.h>
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -23,7 +25,7 @@ Result<McapSource> McapSource::file(const std::string& path) {
   if (source.m_descriptor < 0) {
     if (errno == ENOENT) return failure(ErrorCode::NotFound, "There is no such file.", path);
     return failure(ErrorCode::SystemError,
-                   std::string("The file cannot be opened: ") + std::strerror(errno) + ".", path);
+                   "The file cannot be opened: " + systemReason(errno) + ".", path);
   }
   struct stat status {};
   if (::fstat(source.m_descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {

@@ -4,9 +4,10 @@
 #include <zlib.h>
 #include <zstd.h>
 #include <algorithm>
+#include <bit>
 #include <optional>
 
-#include <telemetry/mcap/new_file.h>
+#include <base/new_file.h>
 
 #include "mcap_bytes.h"
 
@@ -16,9 +17,23 @@ namespace {
 /// Room that is kept behind the file for the summary, beyond what the summary needs so far.
 constexpr std::uint64_t spareRoom = 64 * 1024;
 
+/// Chunks after which all definitions are repeated; in the beginning of a file more often.
+constexpr std::uint64_t chunksBetweenRepeats = 64;
+
 std::uint32_t extendCrc(std::uint32_t crc, std::string_view bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+/// Adds what is not known by its number yet; true when there was something.
+template <class Definition>
+bool addNew(std::vector<Definition>& known, const std::vector<Definition>& definitions) {
+  const std::size_t before = known.size();
+  for (const Definition& definition : definitions) {
+    const auto same = [&](const Definition& one) { return one.id == definition.id; };
+    if (std::none_of(known.begin(), known.end(), same)) known.push_back(definition);
+  }
+  return known.size() > before;
 }
 
 void putSchema(std::string& out, const McapSchema& schema) {
@@ -94,6 +109,8 @@ struct McapWriter::Impl {
   std::vector<McapChannel> channels;
   std::string chunkIndexes, attachmentIndexes, metadataIndexes;  ///< records, ready
   std::uint32_t chunks = 0, attachments = 0, metadatas = 0;
+  std::uint64_t chunksGiven = 0;  ///< without those of repeated definitions
+  bool defined = false;           ///< the last chunk brought definitions that stand only there
   McapStatistics statistics;
 
   explicit Impl(NewFile f) : file(std::move(f)) {}
@@ -113,6 +130,18 @@ struct McapWriter::Impl {
       for (const auto& [key, value] : channel.metadata) size += key.size() + value.size() + 8;
     }
     return size;
+  }
+
+  bool repeatIsDue() const {
+    if (schemas.empty() && channels.empty()) return false;
+    return defined || std::has_single_bit(chunksGiven) || chunksGiven % chunksBetweenRepeats == 0;
+  }
+
+  McapChunk definitions() const {
+    McapChunk chunk;
+    for (const McapSchema& schema : schemas) chunk.add(schema);
+    for (const McapChannel& channel : channels) chunk.add(channel);
+    return chunk;
   }
 
   /// Whole records of the data section.
@@ -149,7 +178,11 @@ McapWriter::~McapWriter() = default;
 Result<McapWriter> McapWriter::create(const std::string& path, const McapWriterOptions& options) {
   auto file = NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
-  auto impl = std::make_unique<Impl>(std::move(*file));
+  return create(std::move(*file), options);
+}
+
+Result<McapWriter> McapWriter::create(NewFile file, const McapWriterOptions& options) {
+  auto impl = std::make_unique<Impl>(std::move(file));
   impl->options = options;
   impl->compressor = ZSTD_createCCtx();
   ZSTD_CCtx_setParameter(impl->compressor, ZSTD_c_compressionLevel, options.level);
@@ -186,6 +219,16 @@ Result<void> McapWriter::writeChunk(const McapChunk& chunk) {
   Impl& impl = *m_impl;
   if (impl.failed) return tl::unexpected(*impl.failed);
   if (chunk.empty()) return {};
+  if (impl.repeatIsDue()) {
+    if (auto repeated = writeOne(impl.definitions()); !repeated) return repeated;
+    impl.defined = false;
+  }
+  ++impl.chunksGiven;
+  return writeOne(chunk);
+}
+
+Result<void> McapWriter::writeOne(const McapChunk& chunk) {
+  Impl& impl = *m_impl;
   std::uint64_t start = 0, end = 0;
   if (!chunk.m_index.empty()) {
     start = end = chunk.m_index.front().logTime;
@@ -246,8 +289,9 @@ Result<void> McapWriter::writeChunk(const McapChunk& chunk) {
   putNumber(index, static_cast<std::uint64_t>(chunk.m_body.size()));
   endRecord(index, indexRecord);
 
-  impl.schemas.insert(impl.schemas.end(), chunk.m_schemas.begin(), chunk.m_schemas.end());
-  impl.channels.insert(impl.channels.end(), chunk.m_channels.begin(), chunk.m_channels.end());
+  const bool newSchemas = addNew(impl.schemas, chunk.m_schemas);
+  const bool newChannels = addNew(impl.channels, chunk.m_channels);
+  impl.defined = impl.defined || newSchemas || newChannels;
   McapStatistics& statistics = impl.statistics;
   if (!chunk.m_index.empty()) {
     statistics.start = statistics.messages == 0 ? start : std::min(statistics.start, start);

@@ -2,11 +2,10 @@
 #include <telemetry/session/session_export.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include <telemetry/mcap/new_file.h>
+#include <base/new_file.h>
 
 #include "export_clip.h"
 #include "export_text.h"
@@ -265,29 +264,32 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
 
 Result<ExportReport> exportFile(const SessionReader& session, ExportFormat format,
                                 const ExportSelection& selection, const std::string& path,
-                                const ExportProgress& progress) {
+                                const ExportProgress& progress, IfExists ifExists) {
   const auto selected = resolveSelection(session, selection);
   if (!selected) return tl::unexpected(selected.error());
+  auto target = FileTarget::at(path, ifExists, session.file().name());
+  if (!target) return tl::unexpected(target.error());
+  auto file = target->open();
+  if (!file) return tl::unexpected(file.error());
   Result<ExportReport> report;
   if (format == ExportFormat::Mcap) {
-    auto out = McapWriter::create(path, {"", session.file().library(), 3, false});
+    auto out = McapWriter::create(std::move(*file), {"", session.file().library(), 3, false});
     if (!out) return tl::unexpected(out.error());
     report = writeClip(session, selection, *selected, *out, progress);
   } else {
-    auto out = NewFile::create(path);
-    if (!out) return tl::unexpected(out.error());
     Result<void> written;
     report = exportText(
         session, format, selection,
         [&](std::string_view text) {
-          written = out->write(text);
+          written = file->write(text);
           return written.has_value();
         },
         progress);
     if (!written) report = tl::unexpected(written.error());
-    if (auto closed = out->close(); report && !closed) report = tl::unexpected(closed.error());
+    if (auto closed = file->close(); report && !closed) report = tl::unexpected(closed.error());
   }
-  if (!report) std::remove(path.c_str());
+  if (!report) return report;
+  if (auto named = target->commit(); !named) return tl::unexpected(named.error());
   return report;
 }
 

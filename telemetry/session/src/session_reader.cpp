@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "session_loss.h"
 #include "session_reader_impl.h"
 
 namespace pitchboard::telemetry {
@@ -25,6 +26,7 @@ Result<SessionReader> SessionReader::open(const std::string& path,
   impl->takeChannels();
   impl->takeChunks();
   impl->findStart();
+  impl->noteLosses();
   return SessionReader(std::move(impl));
 }
 
@@ -37,11 +39,13 @@ Result<SessionReader> SessionReader::openBytes(std::string bytes,
   impl->takeChannels();
   impl->takeChunks();
   impl->findStart();
+  impl->noteLosses();
   return SessionReader(std::move(impl));
 }
 
 void SessionReader::Impl::takeMetadata() {
   notes = file.problems();
+  seen.assign(file.chunks().size(), false);
   int format = 0;
   for (const McapMetadataInfo& entry : file.metadata()) {
     if (entry.name != session::metadataName || described) continue;
@@ -89,6 +93,11 @@ void SessionReader::Impl::findStart() {
       return;
     }
   }
+}
+
+/// Behind findStart(), which says what second of the session a moment is.
+void SessionReader::Impl::noteLosses() {
+  for (const McapLoss& loss : file.losses()) note(lossText(loss, info.start));
 }
 
 void SessionReader::Impl::takeChannels() {
@@ -146,6 +155,7 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
     return kept.front().body;
   }
   if (damaged.contains(chunk)) return {};
+  seen[chunk] = true;
   if (kept.size() < keptChunks) {
     kept.emplace_front();
   } else {
@@ -153,12 +163,32 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
   }
   kept.front().chunk = chunk;
   if (auto read = file.readChunk(file.chunks()[chunk], kept.front().body); !read) {
-    note(read.error().text());
+    note(read.error().text() + ' ' + lossText(file.lossOf(file.chunks()[chunk]), info.start));
     damaged.insert(chunk);
     kept.pop_front();
     return {};
   }
   return kept.front().body;
+}
+
+bool SessionReader::check(const std::function<bool(double)>& progress) const {
+  const std::size_t chunks = m_impl->seen.size();
+  for (std::size_t i = 0; i < chunks; ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks))) return false;
+    // Without an index every chunk was checked when the file was opened.
+    if (!m_impl->seen[i] && m_impl->file.indexed()) (void)m_impl->body(i);
+  }
+  for (const McapAttachmentInfo& one : m_impl->file.attachments()) {
+    if (const auto data = m_impl->file.readAttachment(one); !data) {
+      m_impl->note(data.error().text());
+      m_impl->damagedAttachment = true;
+    }
+  }
+  return true;
+}
+
+bool SessionReader::isDamaged() const {
+  return !m_impl->damaged.empty() || m_impl->damagedAttachment || !m_impl->file.losses().empty();
 }
 
 const SessionInfo& SessionReader::info() const {

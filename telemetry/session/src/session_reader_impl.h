@@ -34,6 +34,8 @@ struct SessionReader::Impl {
 
   mutable std::vector<std::string> notes;
   mutable std::set<std::size_t> damaged;
+  mutable bool damagedAttachment = false;
+  mutable std::vector<bool> seen;  ///< of the chunks: their body was asked for
   struct Kept {
     std::size_t chunk;
     std::string body;
@@ -49,6 +51,7 @@ struct SessionReader::Impl {
   void takeChannels();
   void takeChunks();
   void findStart();
+  void noteLosses();
   std::string_view body(std::size_t chunk) const;
   /// `wanted` in order. False: the visitor or the progress said so.
   template <class Visit>

@@ -3,10 +3,13 @@
 
 #include <zlib.h>
 #include <cstdio>
-#include <optional>
 
+#include <base/file_target.h>
 #include <telemetry/mcap/mcap_reader.h>
 #include <telemetry/mcap/mcap_writer.h>
+#include <telemetry/session/session_reader.h>
+
+#include "session_loss.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -44,31 +47,43 @@ class Repair {
       : m_from(from), m_to(to), m_progress(progress) {}
 
   Result<RepairReport> run() {
+    auto target = FileTarget::at(m_to, IfExists::Refuse, m_from);
+    if (!target) return tl::unexpected(target.error());
     McapReaderOptions options;
-    options.ignoreSummary = true;
     if (m_progress) options.progress = [this](double part) { return m_progress(part * 0.4); };
-    auto broken = McapReader::open(m_from, options);
-    if (!broken) return tl::unexpected(broken.error());
-    m_report.lost = broken->problems();
-    if (broken->chunks().empty() && broken->metadata().empty() && broken->attachments().empty()) {
+    const auto session = SessionReader::open(m_from, options);
+    if (!session) return tl::unexpected(session.error());
+    const McapReader& broken = session->file();
+    m_report.lost = broken.problems();
+    for (const McapLoss& loss : broken.losses()) note(loss, *session);
+    if (broken.chunks().empty() && broken.metadata().empty() && broken.attachments().empty()) {
       return failure(ErrorCode::ParseError,
                      "Nothing in this file can be read; there is nothing to repair.", m_from);
     }
-    auto created = McapWriter::create(m_to, {broken->profile(), broken->library(), 3, true});
+    auto file = target->open();
+    if (!file) return tl::unexpected(file.error());
+    auto created =
+        McapWriter::create(std::move(*file), {broken.profile(), broken.library(), 3, true});
     if (!created) return tl::unexpected(created.error());
-    auto done = fill(*broken, *created);
+    auto done = fill(*session, *created);
     if (done) done = created->finish();
-    if (done) done = verify();
-    if (!done) {
-      std::remove(m_to.c_str());
-      return tl::unexpected(done.error());
-    }
+    if (done) done = verify(target->partPath());
+    if (done) done = target->commit();
+    if (!done) return tl::unexpected(done.error());
     m_report.bytes = created->bytes();
     return m_report;
   }
 
  private:
-  Result<void> fill(const McapReader& broken, McapWriter& out) {
+  void note(const McapLoss& loss, const SessionReader& session) {
+    m_report.lost.push_back("At byte " + std::to_string(loss.offset) + ": " +
+                            lossText(loss, session.info().start));
+    m_report.lostMessages += loss.messages.value_or(0);
+    m_report.lostMore = m_report.lostMore || (!loss.messages && loss.end != 0);
+  }
+
+  Result<void> fill(const SessionReader& session, McapWriter& out) {
+    const McapReader& broken = session.file();
     for (const McapMetadataInfo& entry : broken.metadata()) {
       const auto values = broken.readMetadata(entry);
       if (!values) {
@@ -99,6 +114,7 @@ class Repair {
       }
       if (auto read = broken.readChunk(broken.chunks()[i], body); !read) {
         m_report.lost.push_back(read.error().text());
+        note(broken.lossOf(broken.chunks()[i]), session);
         continue;
       }
       McapCursor cursor(body);
@@ -117,18 +133,19 @@ class Repair {
     if (strangers > 0) {
       m_report.lost.push_back(std::to_string(strangers) +
                               " messages belong to channels whose description is lost.");
+      m_report.lostMessages += strangers;
     }
     return out.writeChunk(chunk);
   }
 
-  Result<void> verify() {
+  Result<void> verify(const std::string& path) {
     const auto wrong = [&](const std::string& why) {
       return failure(ErrorCode::SystemError,
                      "The new file does not hold what was written (" + why +
                          "); check the disk and try again.",
                      m_to);
     };
-    auto made = McapReader::open(m_to);
+    auto made = McapReader::open(path);
     if (!made) return wrong(made.error().message);
     if (!made->indexed()) return wrong("its index is missing");
     MessageDigest found;
@@ -164,6 +181,19 @@ class Repair {
 };
 
 }  // namespace
+
+std::string RepairReport::summary() const {
+  char length[48];
+  std::snprintf(length, sizeof length, "%.3f s", seconds);
+  std::string text = std::to_string(messages) + " messages over " + length + " were saved";
+  if (lostMessages > 0) {
+    text += "; " + std::to_string(lostMessages) + (lostMessages == 1 ? " is lost" : " are lost");
+    if (lostMore) text += ", and others that cannot be counted";
+  } else if (lostMore) {
+    text += "; others are lost that cannot be counted";
+  }
+  return text + ".";
+}
 
 Result<RepairReport> repairSession(const std::string& from, const std::string& to,
                                    const std::function<bool(double)>& progress) {

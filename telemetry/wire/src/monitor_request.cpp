@@ -6,7 +6,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 #include <cerrno>
-#include <cstring>
+
+#include <base/system_reason.h>
 
 namespace pitchboard::telemetry {
 
@@ -15,7 +16,7 @@ Result<void> sendMonitorRequest(Address referee, std::uint16_t port) {
   const auto refused = [&](int error) {
     return failure(ErrorCode::SystemError,
                    "The referee at " + referee.text() + ":" + std::to_string(port) +
-                       " cannot be asked for monitor mode: " + std::strerror(error) + ".");
+                       " cannot be asked for monitor mode: " + systemReason(error) + ".");
   };
   const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return refused(errno);

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include <base/read_file.h>
 #include <resources/resources.h>
 
 namespace pitchboard::telemetry {
@@ -252,19 +250,9 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
 }
 
 Result<Profile> loadProfile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return failure(errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
-                   std::string("The profile cannot be read: ") + std::strerror(errno) + ".", path);
-  }
-  std::string text(maxFileBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) return failure(ErrorCode::SystemError, "The profile cannot be read.", path);
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > maxFileBytes) {
-    return failure(ErrorCode::ParseError, "A profile is not larger than 1 MiB.", path);
-  }
-  return parseProfile(text, path);
+  const auto text = readFile(path, maxFileBytes, "The profile");
+  if (!text) return tl::unexpected(text.error());
+  return parseProfile(*text, path);
 }
 
 std::string profileText(const Profile& profile) {

@@ -6,10 +6,11 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <mutex>
 #include <optional>
 #include <thread>
+
+#include <base/system_reason.h>
 
 #include "datagram_queue.h"
 #include "udp_socket.h"
@@ -67,7 +68,7 @@ struct UdpReceiver::Impl {
         port.problem.clear();
         sockets[i] = std::move(*socket);
       } else {
-        port.problem = socket ? std::string(std::strerror(errno)) : socket.error().text();
+        port.problem = socket ? systemReason(errno) : socket.error().text();
         all = false;
       }
     }
@@ -173,7 +174,7 @@ Result<std::unique_ptr<UdpReceiver>> UdpReceiver::start(ReceiverOptions options,
   auto impl = std::make_unique<Impl>(std::move(options), std::move(onReady));
   if (impl->poll.value < 0 || impl->wake.value < 0 || !impl->watch(impl->wake.value, stopEvent)) {
     return failure(ErrorCode::SystemError,
-                   std::string("The network cannot be watched: ") + std::strerror(errno) + ".");
+                   "The network cannot be watched: " + systemReason(errno) + ".");
   }
   // Bound before the thread starts, so that whoever started it may send at once.
   impl->bindMissing();

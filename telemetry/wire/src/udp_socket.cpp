@@ -7,6 +7,8 @@
 #include <ctime>
 #include <utility>
 
+#include <base/system_reason.h>
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -36,7 +38,7 @@ std::string reason(int error) {
     case EACCES:
       return "ports below 1024 need administrator rights";
     default:
-      return std::strerror(error);
+      return systemReason(error);
   }
 }
 

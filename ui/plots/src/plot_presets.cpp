@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plot_presets.h"
 
-#include <QFile>
 #include <QJsonDocument>
 #include <QSaveFile>
 #include <QSettings>
 
+#include <base/read_file.h>
+
 namespace pitchboard::ui {
 namespace {
 const QString presetsKey = QStringLiteral("plots/presets");
-constexpr qint64 largestFile = 4 << 20;  // bytes; a layout has some kilobytes
+constexpr std::size_t largestFile = 4 << 20;  // bytes; a layout has some kilobytes
 }  // namespace
 
 QJsonObject PlotPresets::all() const {
@@ -55,18 +56,10 @@ Result<void> PlotPresets::writeFile(const QString& path, const PlotLayout& layou
 }
 
 Result<PlotLayout> PlotPresets::readFile(const QString& path) {
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) {
-    return failure(ErrorCode::NotFound,
-                   "The layout could not be read: " + file.errorString().toStdString() + ".",
-                   path.toStdString());
-  }
-  if (file.size() > largestFile) {
-    return failure(ErrorCode::ParseError, "The file is too large to be a layout of plots.",
-                   path.toStdString());
-  }
+  const auto text = pitchboard::readFile(path.toStdString(), largestFile, "The layout");
+  if (!text) return tl::unexpected(text.error());
   QJsonParseError error;
-  const QJsonDocument document = QJsonDocument::fromJson(file.readAll(), &error);
+  const QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(*text), &error);
   if (!document.isObject()) {
     return failure(ErrorCode::ParseError,
                    "The file is not a layout of plots: " + error.errorString().toStdString() +

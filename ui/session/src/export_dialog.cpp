@@ -17,6 +17,7 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 
+#include <base/file_target.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_style.h>
 #include <ui/field/field_view.h>
@@ -141,8 +142,6 @@ void ExportDialog::ask() {
       QFileDialog::getSaveFileName(this, tr("Export"), folder.filePath(m_source.name + suffix()));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += suffix();
-  // The file dialog has asked whether the old one is to go.
-  QFile::remove(path);
   exportTo(path);
 }
 
@@ -251,6 +250,7 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
   options.size = m_size->currentData().toSize();
   options.framesPerSecond = m_rate->value();
   options.program = m_program;
+  options.overwrite = true;
   const auto range = request.selection.range;
   if (const auto started = m_video->start(request.session, {range.begin, range.end}, options);
       !started) {
@@ -268,13 +268,13 @@ void ExportDialog::writePicture(const QString& path) {
     QBuffer buffer(&bytes);
     m_field->picture(size).save(&buffer, "PNG");
   }
-  QFile file(path);
-  if (!file.open(QIODevice::WriteOnly | QIODevice::NewOnly) || file.write(bytes) != bytes.size() ||
-      !file.flush()) {
-    fail(tr("%1 cannot be written: %2.").arg(path, file.errorString()));
+  const auto written =
+      writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
+                IfExists::Replace, m_source.session.toStdString());
+  if (!written) {
+    fail(tr("Nothing was written: %1").arg(QString::fromStdString(written.error().text())));
     return;
   }
-  file.close();
   succeed(path);
 }
 

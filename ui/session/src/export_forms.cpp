@@ -39,7 +39,8 @@ Result<std::uint64_t> writeReport(const telemetry::SessionReader& session,
   }
   content.picture = picture.toStdString();
   content.notes = session.notes();
-  const auto done = link::writeReport(request.path.toStdString(), content);
+  const auto done = link::writeReport(request.path.toStdString(), content, IfExists::Replace,
+                                      request.session.toStdString());
   if (!done) return tl::unexpected(done.error());
   return static_cast<std::uint64_t>(QFileInfo(request.path).size());
 }
@@ -52,8 +53,9 @@ Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm
   const auto session = telemetry::SessionReader::open(request.session.toStdString());
   if (!session) return tl::unexpected(session.error());
   if (form.kind == ExportKind::Report) return writeReport(*session, request, picture);
-  const auto report = telemetry::exportFile(*session, form.format, request.selection,
-                                            request.path.toStdString(), progress);
+  const auto report =
+      telemetry::exportFile(*session, form.format, request.selection, request.path.toStdString(),
+                            progress, IfExists::Replace);
   if (!report) return tl::unexpected(report.error());
   return report->bytes;
 }

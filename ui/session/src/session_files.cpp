@@ -55,24 +55,34 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
   connect(replay, &ReplayController::opened, this, [this] {
     m_source->choose(m_replay);
     if (!m_replay->isBroken()) return;
-    m_notices->show(
-        tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
-           "be made beside it.")
-            .arg(QFileInfo(m_replay->path()).fileName()),
-        {{tr("Repair into a new file"), [this, path = m_replay->path()] { repair(path); }},
-         {tr("Not now"), {}}});
+    offerRepair(tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
+                   "be made beside it.")
+                    .arg(QFileInfo(m_replay->path()).fileName()));
   });
-  connect(replay, &ReplayController::noted, this, [this](const QStringList& sentences) {
-    constexpr int most = 3;
-    QString text = sentences.mid(0, most).join(QLatin1Char(' '));
-    if (sentences.size() > most) text += tr(" And %1 more.").arg(sentences.size() - most);
-    m_notices->show(text);
+  connect(replay, &ReplayController::damageFound, this, [this](const QStringList& sentences) {
+    offerRepair(tr("%1 is damaged inside; the rest is shown. %2")
+                    .arg(QFileInfo(m_replay->path()).fileName(), shortened(sentences)));
   });
+  connect(replay, &ReplayController::noted, this,
+          [this](const QStringList& sentences) { m_notices->show(shortened(sentences)); });
 }
 
 SessionFiles::~SessionFiles() {
   m_cancelled = true;
   m_worker.waitForDone();
+}
+
+QString SessionFiles::shortened(const QStringList& sentences) {
+  constexpr int most = 3;
+  QString text = sentences.mid(0, most).join(QLatin1Char(' '));
+  if (sentences.size() > most) text += tr(" And %1 more.").arg(sentences.size() - most);
+  return text;
+}
+
+void SessionFiles::offerRepair(const QString& sentence) {
+  m_notices->show(
+      sentence, {{tr("Repair into a new file"), [this, path = m_replay->path()] { repair(path); }},
+                 {tr("Not now"), {}}});
 }
 
 void SessionFiles::open(const QString& path) {
@@ -101,10 +111,8 @@ void SessionFiles::repair(const QString& path) {
                                 .arg(QString::fromStdString(report.error().text())));
             return;
           }
-          QString text = tr("Repaired into %1: %2 messages, %3 s.")
-                             .arg(to)
-                             .arg(report->messages)
-                             .arg(report->seconds, 0, 'f', 1);
+          QString text =
+              tr("Repaired into %1: %2").arg(to, QString::fromStdString(report->summary()));
           if (!report->lost.empty()) {
             text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
           }

@@ -84,7 +84,9 @@ Result<void> VideoExport::start(const QString& session, telemetry::TimeRange ran
   if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
     return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
   }
-  if (auto started = m_writer.start(options); !started) return started;
+  VideoOptions own = options;
+  own.source = session;
+  if (auto started = m_writer.start(own); !started) return started;
   m_reader = std::make_shared<Reader>();
   m_reader->path = session;
   m_range = range;

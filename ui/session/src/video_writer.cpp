@@ -2,7 +2,6 @@
 #include "video_writer.h"
 
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
 #include <QStandardPaths>
 
@@ -106,10 +105,10 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
     return failure(ErrorCode::InvalidArgument,
                    QStringLiteral("A video must have 1 to 240 pictures a second."));
   }
-  if (!options.overwrite && QFile::exists(options.path)) {
-    return failure(ErrorCode::Conflict,
-                   QStringLiteral("%1 exists; choose another name.").arg(options.path));
-  }
+  auto target = FileTarget::at(options.path.toStdString(),
+                               options.overwrite ? IfExists::Replace : IfExists::Refuse,
+                               options.source.toStdString());
+  if (!target) return tl::unexpected(target.error());
   const QString program = QStandardPaths::findExecutable(options.program);
   if (program.isEmpty()) {
     return failure(
@@ -121,13 +120,10 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
   m_size = size;
   {
     // Here the reason is known; ffmpeg would only say "Invalid argument".
-    QFile part(partPath());
-    if (!part.open(QIODevice::WriteOnly | QIODevice::Truncate)) {
-      return failure(
-          ErrorCode::SystemError,
-          QStringLiteral("%1 cannot be written: %2.").arg(options.path, part.errorString()));
-    }
+    auto part = target->open();
+    if (!part) return tl::unexpected(part.error());
   }
+  m_target = std::move(*target);
   m_output.clear();
   m_pictures = 0;
   m_ending = false;
@@ -142,7 +138,7 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
       "-i",           "pipe:0",
       "-an"};
   arguments += format->arguments;
-  arguments += QStringLiteral("file:") + partPath();
+  arguments += QStringLiteral("file:") + QString::fromStdString(m_target->partPath());
   m_process.setStandardOutputFile(QProcess::nullDevice());
   m_process.start(program, arguments);
   return {};
@@ -180,7 +176,7 @@ void VideoWriter::cancel() {
   m_active = false;
   m_process.kill();
   m_process.waitForFinished(3000);
-  QFile::remove(partPath());
+  m_target.reset();
 }
 
 void VideoWriter::fail(const QString& sentence) {
@@ -207,14 +203,12 @@ void VideoWriter::onFinished(int exitCode, QProcess::ExitStatus status) {
     fail(sentenceOf(m_output, m_options.path));
     return;
   }
-  if (m_options.overwrite) QFile::remove(m_options.path);
-  if (!QFile::rename(partPath(), m_options.path)) {
-    fail(
-        QStringLiteral("The video could not be given its name %1: a file of that name has appeared "
-                       "meanwhile.")
-            .arg(m_options.path));
+  if (const auto named = m_target->commit(); !named) {
+    fail(QStringLiteral("The video could not be given its name: %1")
+             .arg(QString::fromStdString(named.error().text())));
     return;
   }
+  m_target.reset();
   m_active = false;
   emit finished(m_options.path);
 }

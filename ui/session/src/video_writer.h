@@ -12,6 +12,9 @@
 #include <QSize>
 #include <QString>
 
+#include <optional>
+
+#include <base/file_target.h>
 #include <base/result.h>
 
 namespace pitchboard::ui {
@@ -22,6 +25,7 @@ struct VideoOptions {
   double framesPerSecond = 30.0;  ///< of the video, 1 to 240
   bool overwrite = false;         ///< an existing file is replaced, once the new one is whole
   QString program = QStringLiteral("ffmpeg");
+  QString source = {};  ///< the file that is read meanwhile; it is never overwritten
 };
 
 class VideoWriter : public QObject {
@@ -33,9 +37,9 @@ class VideoWriter : public QObject {
   explicit VideoWriter(QObject* parent = nullptr);
   ~VideoWriter() override;  ///< as cancel()
 
-  /// Error InvalidArgument (name, size, rate), Conflict (the file exists, or a video is being
-  /// written), NotFound (there is no ffmpeg) or SystemError (it cannot be started, the folder
-  /// cannot be written), in a sentence for the screen.
+  /// Error InvalidArgument (name, size, rate), Conflict (the file exists or is the source, or a
+  /// video is being written), NotFound (there is no ffmpeg) or SystemError (it cannot be started,
+  /// the folder cannot be written), in a sentence for the screen.
   Result<void> start(const VideoOptions& options);
   bool isWriting() const { return m_process.state() != QProcess::NotRunning; }
   /// A picture is welcome now: little waits to be encoded.
@@ -62,9 +66,9 @@ class VideoWriter : public QObject {
   void onFinished(int exitCode, QProcess::ExitStatus status);
   void onError(QProcess::ProcessError error);
   void fail(const QString& sentence);
-  QString partPath() const { return m_options.path + QStringLiteral(".part"); }
 
   VideoOptions m_options;
+  std::optional<FileTarget> m_target;  // while a video is being made
   QSize m_size;
   QProcess m_process;
   QByteArray m_output;  // of ffmpeg, for errors

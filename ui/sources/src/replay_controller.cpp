@@ -15,13 +15,14 @@ QDateTime dateTimeOf(telemetry::WallTime time) {
       std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
 }
 
-/// Rows on their way into memory; looks now and then whether anybody still wants them.
-bool readRows(const QString& path, telemetry::SeriesStore& store,
-              const std::function<bool(double)>& goOn) {
+/// Rows on their way into memory; looks now and then whether anybody still wants them. What is
+/// damaged anywhere in the file, in sentences.
+QStringList readRows(const QString& path, telemetry::SeriesStore& store,
+                     const std::function<bool(double)>& goOn) {
   const auto session = telemetry::SessionReader::open(path.toStdString());
-  if (!session) return false;
+  if (!session) return {};
   const auto range = session->range();
-  if (!range) return true;
+  if (!range) return {};
   std::vector<telemetry::GroupId> ids;
   for (const telemetry::SessionGroup& group : session->groups()) {
     ids.push_back(store.addGroup(group.info));
@@ -35,7 +36,11 @@ bool readRows(const QString& path, telemetry::SeriesStore& store,
     if (++rows % rowsBetweenLooks == 0) wanted = goOn((row.time - range->begin) / length);
     return wanted;
   });
-  return wanted;
+  if (!wanted || !session->check([&goOn](double) { return goOn(1.0); })) return {};
+  QStringList damage;
+  if (!session->isDamaged()) return damage;
+  for (const std::string& note : session->notes()) damage << QString::fromStdString(note);
+  return damage;
 }
 
 }  // namespace
@@ -121,6 +126,10 @@ void ReplayController::open(const QString& path) {
     } else {
       file = std::make_shared<File>(std::move(*session));
       file->range = {range->begin, range->end};
+      // Damage that is met from here on is told by damageFound().
+      for (const std::string& note : file->session.notes()) {
+        file->notes << QString::fromStdString(note);
+      }
       file->first =
           std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, range->begin));
       file->events = file->session.events();
@@ -136,9 +145,6 @@ void ReplayController::open(const QString& path) {
         file->scenario = std::move(*scenario);
       }
       file->broken = !file->session.complete();
-      for (const std::string& note : file->session.notes()) {
-        file->notes << QString::fromStdString(note);
-      }
     }
     QMetaObject::invokeMethod(
         this,
@@ -244,11 +250,18 @@ void ReplayController::load() {
           },
           Qt::QueuedConnection);
     };
-    readRows(path, *rows, [this, mine, &tell](double part) {
-      tell(part);
+    const QStringList damage = readRows(path, *rows, [this, mine, &tell](double part) {
+      if (part < 1.0) tell(part);
       return mine == m_generation;
     });
     tell(1.0);
+    if (damage.isEmpty()) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this, damage, mine] {
+          if (mine == m_generation && !m_file->broken) emit damageFound(damage);
+        },
+        Qt::QueuedConnection);
   });
 }
 

@@ -52,15 +52,13 @@ void ScenarioFiles::save(const QString& path) {
 
 void ScenarioFiles::exportPicture(const QString& path) {
   const QSize size = m_field->size() * m_window->devicePixelRatioF();
-  bool written = false;
-  if (QFileInfo(path).suffix().toLower() == QStringLiteral("svg")) {
-    QSaveFile file(path);
-    written = file.open(QIODevice::WriteOnly) && file.write(m_field->svgPicture(size)) > 0 &&
-              file.commit();
-  } else {
-    written = m_field->picture(size).save(path);
-  }
-  if (!written) {
+  const QString suffix = QFileInfo(path).suffix().toLower();
+  QSaveFile file(path);
+  const bool drawn = file.open(QIODevice::WriteOnly) &&
+                     (suffix == QStringLiteral("svg")
+                          ? file.write(m_field->svgPicture(size)) > 0
+                          : m_field->picture(size).save(&file, suffix.toLatin1().constData()));
+  if (!drawn || !file.commit()) {
     emit failed(tr("The picture was not written to %1. Choose another folder, and a name that "
                    "ends in .png or .svg.")
                     .arg(path));

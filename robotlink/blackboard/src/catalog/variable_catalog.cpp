@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <tuple>
 
+#include <base/read_file.h>
 #include <resources/resources.h>
 
 #include "catalog/catalog_reading.h"
+#include "catalog_reading.h"
 
 namespace pitchboard::link {
 namespace {
@@ -118,22 +118,9 @@ Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path) {
     return failure(ErrorCode::Unsupported,
                    "a variable map is a .json, .h, .hpp or .py file; this name ends otherwise",
                    path);
-  std::error_code unused;
-  if (std::filesystem::is_directory(path, unused))
-    return failure(ErrorCode::InvalidArgument, "this is a folder, not a file", path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    return failure(
-        errno == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
-        std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "unknown reason"),
-        path);
-  // One byte more than allowed tells a file that is too long, however long (or endless) it is.
-  std::string text(maxCatalogBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) return failure(ErrorCode::SystemError, "cannot be read", path);
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return reader(text, path);
+  const auto text = readFile(path, maxCatalogBytes, "The variable map");
+  if (!text) return tl::unexpected(text.error());
+  return reader(*text, path);
 }
 
 Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& entries,

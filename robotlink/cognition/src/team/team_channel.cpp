@@ -10,8 +10,9 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <string>
+
+#include <base/system_reason.h>
 
 namespace pitchboard::link {
 namespace {
@@ -70,7 +71,7 @@ class UdpTeamChannel final : public TeamChannel {
 };
 
 Error systemError(const std::string& what) {
-  return {ErrorCode::SystemError, what + ": " + std::strerror(errno), "team messages"};
+  return {ErrorCode::SystemError, what + ": " + systemReason(errno), "team messages"};
 }
 
 }  // namespace

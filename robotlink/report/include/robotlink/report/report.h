@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <base/file_target.h>
 #include <robotlink/report/session_statistics.h>
 #include <telemetry/session/session_types.h>
 
@@ -27,9 +28,9 @@ struct ReportContent {
 /// an image, so that nothing in it can run.
 std::string reportHtml(const ReportContent& content);
 
-/// Writes it. Error Conflict when the file exists and `overwrite` is false, SystemError when it
-/// cannot be written (nothing is left behind then).
+/// Writes it. `source`: the session, which is never the target. Errors as FileTarget; the old file
+/// stays then.
 Result<void> writeReport(const std::string& path, const ReportContent& content,
-                         bool overwrite = false);
+                         IfExists ifExists = IfExists::Refuse, const std::string& source = {});
 
 }  // namespace pitchboard::link

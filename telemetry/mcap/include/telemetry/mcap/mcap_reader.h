@@ -41,7 +41,12 @@ class McapReader {
   bool indexed() const;
   /// What is wrong and where, in sentences; at most 100.
   const std::vector<std::string>& problems() const;
+  /// The parts that were left out when the file was walked through.
+  const std::vector<McapLoss>& losses() const;
+  /// What is lost with one of chunks() that readChunk() finds damaged.
+  McapLoss lossOf(const McapChunkInfo& chunk) const;
   std::uint64_t fileBytes() const;
+  const std::string& name() const;  ///< path of the file
 
   const std::string& profile() const;
   const std::string& library() const;

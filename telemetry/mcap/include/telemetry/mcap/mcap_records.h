@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,6 +72,13 @@ struct McapChunkInfo {
   std::vector<std::uint16_t> channels;  ///< with a message in the chunk; empty: not known
   /// Not a chunk: messages that stand in the file one after another, without a checksum.
   bool loose = false;
+};
+
+/// A part of a file that cannot be read.
+struct McapLoss {
+  std::uint64_t offset = 0;
+  std::uint64_t start = 0, end = 0;       ///< log times between which it lies; both 0: not known
+  std::optional<std::uint64_t> messages;  ///< in it, as far as the file says so elsewhere
 };
 
 struct McapAttachmentInfo {

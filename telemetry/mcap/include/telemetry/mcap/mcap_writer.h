@@ -3,7 +3,9 @@
 
 // Writes an MCAP file: chunks compressed by zstd with checksums, message indexes, attachments,
 // metadata, and at the end the summary that lets readers find everything. After every writeChunk()
-// the file holds whole records only, so that what was written before a crash can be read.
+// the file holds whole records only, so that what was written before a crash can be read. Schemas
+// and channels are repeated in chunks of their own now and then, so that damage of one chunk costs
+// that chunk and not the meaning of the others.
 // A McapChunk may be filled in another thread than the one that owns the McapWriter.
 
 #include <cstdint>
@@ -12,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include <base/new_file.h>
 #include <base/result.h>
 #include <telemetry/mcap/mcap_records.h>
 
@@ -58,6 +61,8 @@ class McapWriter {
  public:
   /// Error Conflict when the file exists (it is left alone), SystemError when it cannot be made.
   static Result<McapWriter> create(const std::string& path, const McapWriterOptions& options = {});
+  /// Into a file that was begun already, e.g. by FileTarget.
+  static Result<McapWriter> create(NewFile file, const McapWriterOptions& options = {});
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
   ~McapWriter();  ///< closes the file as it is
@@ -79,6 +84,7 @@ class McapWriter {
 
  private:
   struct Impl;
+  Result<void> writeOne(const McapChunk& chunk);
   explicit McapWriter(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> m_impl;
 };

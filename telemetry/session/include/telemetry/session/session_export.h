@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <base/file_target.h>
 #include <base/result.h>
 #include <telemetry/session/session_reader.h>
 
@@ -54,10 +55,11 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
                                 const std::function<bool(std::string_view)>& sink,
                                 const ExportProgress& progress = {});
 
-/// Any format into a new file. Error Conflict when it exists; after other errors and when stopped
-/// it is removed.
+/// Any format into a file, which appears when it is whole. Errors also as FileTarget; the session
+/// itself is never the target. After an error, and when stopped, what was there before is there.
 Result<ExportReport> exportFile(const SessionReader& session, ExportFormat format,
                                 const ExportSelection& selection, const std::string& path,
-                                const ExportProgress& progress = {});
+                                const ExportProgress& progress = {},
+                                IfExists ifExists = IfExists::Refuse);
 
 }  // namespace pitchboard::telemetry

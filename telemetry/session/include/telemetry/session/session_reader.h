@@ -63,6 +63,11 @@ class SessionReader {
   bool complete() const;
   /// What is wrong or was left out, in sentences; grows when damage is met while reading.
   const std::vector<std::string>& notes() const;
+  /// Reads every part that nobody has read yet and compares its checksum: afterwards notes() and
+  /// isDamaged() know all damage. `progress` as in walk().
+  bool check(const std::function<bool(double)>& progress = {}) const;
+  /// A part was met that cannot be read.
+  bool isDamaged() const;
 
   /// Index = GroupId.
   std::span<const SessionGroup> groups() const;

@@ -14,15 +14,19 @@
 namespace pitchboard::telemetry {
 
 struct RepairReport {
-  std::uint64_t messages = 0;     ///< rows and others, all verified in the new file
-  std::uint64_t bytes = 0;        ///< of the new file
-  double seconds = 0.0;           ///< from the first message to the last
-  std::vector<std::string> lost;  ///< what could not be read and where, in sentences
+  std::uint64_t messages = 0;      ///< rows and others, all verified in the new file
+  std::uint64_t bytes = 0;         ///< of the new file
+  double seconds = 0.0;            ///< from the first message to the last
+  std::uint64_t lostMessages = 0;  ///< as far as the broken file says how many there were
+  bool lostMore = false;           ///< and others, of which nobody knows how many
+  std::vector<std::string> lost;   ///< what could not be read, where and of when, in sentences
+  /// One line for the screen: what is in the new file and what is not.
+  std::string summary() const;
 };
 
 /// `progress` gets 0 to 1; false stops and removes the new file. Error Conflict when `to` exists
-/// (it is left alone), ParseError when nothing in `from` can be read, and those of reading and
-/// writing.
+/// (it is left alone) or is `from` itself, ParseError when nothing in `from` can be read, and those
+/// of reading and writing.
 Result<RepairReport> repairSession(const std::string& from, const std::string& to,
                                    const std::function<bool(double)>& progress = {});
 

@@ -28,7 +28,8 @@ struct ExportRequest {
   telemetry::ExportSelection selection;
 };
 
-/// Numbers or a report; the bytes of the file. `picture` stands in a report. Never overwrites.
+/// Numbers or a report; the bytes of the file. `picture` stands in a report. An old file goes when
+/// the new one is whole.
 Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm& form,
                                   const QByteArray& picture,
                                   const telemetry::ExportProgress& progress);

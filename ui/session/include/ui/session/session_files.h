@@ -44,6 +44,9 @@ class SessionFiles : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  static QString shortened(const QStringList& sentences);
+  void offerRepair(const QString& sentence);
+
   ReplayController* m_replay;
   MatchController* m_controller;
   SourceSwitch* m_source;

@@ -53,6 +53,8 @@ class ReplayController : public FrameSource {
   void failed(const QString& sentence);
   /// What the file has that could not be understood or is damaged, in sentences.
   void noted(const QStringList& sentences);
+  /// Reading the rest of the file has met damage: what and where, in sentences.
+  void damageFound(const QStringList& sentences);
   void loadedChanged(double part);
 
  private:

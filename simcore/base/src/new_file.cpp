@@ -1,36 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/mcap/new_file.h>
+#include <base/new_file.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
-namespace pitchboard::telemetry {
+#include <base/system_reason.h>
 
-Result<NewFile> NewFile::create(const std::string& path) {
+namespace pitchboard {
+
+Result<NewFile> NewFile::create(const std::string& path, const std::string& shownAs) {
+  return open(path, O_CREAT | O_EXCL, shownAs.empty() ? path : shownAs);
+}
+
+Result<NewFile> NewFile::openDevice(const std::string& path) {
+  return open(path, 0, path);
+}
+
+Result<NewFile> NewFile::open(const std::string& path, int flags, const std::string& shownAs) {
   int descriptor = -1;
   do {
-    descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644);
   } while (descriptor < 0 && errno == EINTR);
-  if (descriptor >= 0) return NewFile(path, descriptor);
+  if (descriptor >= 0) return NewFile(shownAs, descriptor);
   switch (errno) {
     case EEXIST:
-      return failure(ErrorCode::Conflict, "This file exists; choose another name.", path);
+      return failure(ErrorCode::Conflict, "This file exists; choose another name.", shownAs);
     case ENOENT:
       return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.",
-                     path);
+                     shownAs);
     case EACCES:
     case EROFS:
     case EPERM:
       return failure(ErrorCode::SystemError,
-                     "This folder does not allow new files; choose another one.", path);
+                     "This folder does not allow new files; choose another one.", shownAs);
     default:
       return failure(ErrorCode::SystemError,
-                     std::string("The file cannot be made: ") + std::strerror(errno) + ".", path);
+                     "The file cannot be made: " + systemReason(errno) + ".", shownAs);
   }
 }
 
@@ -61,8 +70,7 @@ tl::unexpected<Error> NewFile::failed(int reason) const {
                      "The file has reached the largest size that is allowed here.", m_path);
     default:
       return failure(ErrorCode::SystemError,
-                     std::string("The file cannot be written: ") + std::strerror(reason) + ".",
-                     m_path);
+                     "The file cannot be written: " + systemReason(reason) + ".", m_path);
   }
 }
 
@@ -107,4 +115,4 @@ Result<void> NewFile::close() {
   return failed(errno);
 }
 
-}  // namespace pitchboard::telemetry
+}  // namespace pitchboard

@@ -2,7 +2,7 @@
 #pragma once
 
 // A file that did not exist before, written front to back. Every failure is a sentence that says
-// what to do. One thread.
+// what to do. One thread. A file that may be read only when it is whole is begun by FileTarget.
 
 #include <cstdint>
 #include <string>
@@ -10,12 +10,15 @@
 
 #include <base/result.h>
 
-namespace pitchboard::telemetry {
+namespace pitchboard {
 
 class NewFile {
  public:
   /// Error Conflict when the file exists, SystemError when it cannot be made.
-  static Result<NewFile> create(const std::string& path);
+  /// `shownAs`: the name that errors say, when it is to be another one later.
+  static Result<NewFile> create(const std::string& path, const std::string& shownAs = {});
+  /// A device or a pipe, which exists already.
+  static Result<NewFile> openDevice(const std::string& path);
   NewFile(NewFile&& other) noexcept;
   NewFile& operator=(NewFile&& other) noexcept;
   ~NewFile();
@@ -38,6 +41,7 @@ class NewFile {
 
  private:
   NewFile(std::string path, int descriptor) : m_path(std::move(path)), m_descriptor(descriptor) {}
+  static Result<NewFile> open(const std::string& path, int flags, const std::string& shownAs);
   tl::unexpected<Error> failed(int reason) const;
 
   std::string m_path;
@@ -45,4 +49,4 @@ class NewFile {
   std::uint64_t m_size = 0;
 };
 
-}  // namespace pitchboard::telemetry
+}  // namespace pitchboard

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/read_file.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+
+#include <base/system_reason.h>
+
+namespace pitchboard {
+namespace {
+
+constexpr std::size_t step = 256 * 1024;
+
+std::string sizeText(std::size_t bytes) {
+  constexpr std::size_t mebi = std::size_t{1} << 20;
+  if (bytes >= mebi && bytes % mebi == 0) return std::to_string(bytes / mebi) + " MiB";
+  return std::to_string(bytes) + " bytes";
+}
+
+tl::unexpected<Error> cannotRead(const std::string& what, const std::string& context, int error) {
+  return failure(error == ENOENT ? ErrorCode::NotFound : ErrorCode::SystemError,
+                 what + " cannot be read: " + systemReason(error) + ".", context);
+}
+
+}  // namespace
+
+Result<std::string> readDescriptor(int descriptor, std::size_t mostBytes, const std::string& what,
+                                   const std::string& context) {
+  std::string bytes;
+  // One byte more than allowed tells a file that is too long, however long (or endless) it is.
+  while (bytes.size() <= mostBytes) {
+    const std::size_t at = bytes.size();
+    bytes.resize(at + std::min(step, mostBytes + 1 - at));
+    const ssize_t got = ::read(descriptor, bytes.data() + at, bytes.size() - at);
+    const int error = got < 0 ? errno : 0;
+    bytes.resize(at + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (error == EINTR) continue;
+    if (error != 0) return cannotRead(what, context, error);
+    if (got == 0) return bytes;
+  }
+  return failure(ErrorCode::Unsupported,
+                 what + " is larger than " + sizeText(mostBytes) + "; that is not read.", context);
+}
+
+Result<std::string> readFile(const std::string& path, std::size_t mostBytes,
+                             const std::string& what) {
+  int descriptor = -1;
+  do {
+    descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  } while (descriptor < 0 && errno == EINTR);
+  if (descriptor < 0) return cannotRead(what, path, errno);
+  auto bytes = readDescriptor(descriptor, mostBytes, what, path);
+  ::close(descriptor);
+  return bytes;
+}
+
+}  // namespace pitchboard

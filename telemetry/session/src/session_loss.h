@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What is lost with a damaged part of a session, for people: seconds of the session and messages.
+
+#include <string>
+
+#include <telemetry/mcap/mcap_records.h>
+#include <telemetry/session/session_types.h>
+
+namespace pitchboard::telemetry {
+
+/// `start`: when second 0 of the session was.
+std::string lossText(const McapLoss& loss, WallTime start);
+
+}  // namespace pitchboard::telemetry
