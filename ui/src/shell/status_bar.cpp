@@ -143,7 +143,7 @@ void StudioStatusBar::showMemory() {
     const telemetry::SessionStatus status = m_context.recording->status();
     const QString trouble = QString::fromStdString(telemetry::troubleText(status));
     const QString room = QString::fromStdString(telemetry::roomText(status));
-    QString text = tr("recording %1 %2 MB")
+    QString text = tr("recording %1, %2 MB")
                        .arg(longMomentText(status.seconds))
                        .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1);
     if (!room.isEmpty()) text += QStringLiteral(", ") + room;
