@@ -147,7 +147,7 @@ MainWindow::~MainWindow() {
 
 // The order in which everything ends: what is being written, while all it is made of is there; then
 // what is seen; then what that shows. Left to themselves, children go by age, the oldest first, and
-// that are the sources everything else uses. The match itself outlives the window.
+// those are the sources that everything else uses. The match itself outlives the window.
 void MainWindow::shutDown() {
   m_recording->end();
   qDeleteAll(findChildren<QDialog*>(Qt::FindDirectChildrenOnly));
