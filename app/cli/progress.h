@@ -20,6 +20,8 @@ class Progress {
   bool operator()(double part);
   /// Any words instead of a percentage.
   void say(const std::string& words);
+  /// What to print before another line on stderr, so that it does not follow this one's words.
+  std::string fresh() const { return m_open && m_terminal ? "\r\033[K" : ""; }
 
  private:
   std::string m_what;

@@ -5,7 +5,10 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <thread>
+
+#include <telemetry/session/recording_health.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -46,12 +49,29 @@ int ended(const std::string& path, const SessionStatus& status, const Result<voi
   return 0;
 }
 
-std::string statusText(const SessionStatus& status) {
-  char text[80];
-  std::snprintf(text, sizeof text, "%.1f s, %.1f MB", status.seconds,
-                static_cast<double>(status.bytes) / 1e6);
-  return text;
-}
+/// How the recording goes, on stderr: with the progress, and what threatens it in any case.
+class Health {
+ public:
+  explicit Health(bool progress) : m_progress("recording", progress) {}
+
+  void say(const SessionStatus& status) {
+    const RecordingTrouble trouble = troubleOf(status);
+    if (trouble != RecordingTrouble::None && m_told.insert(trouble).second) {
+      std::fprintf(stderr, "%swarning: %s\n", m_progress.fresh().c_str(),
+                   troubleText(status).c_str());
+    }
+    char text[80];
+    std::snprintf(text, sizeof text, "%.1f s, %.1f MB", status.seconds,
+                  static_cast<double>(status.bytes) / 1e6);
+    const std::string room = roomText(status);
+    m_progress.say(text + (room.empty() ? room : ", " + room) +
+                   (trouble == RecordingTrouble::DiskBehind ? ", disk does not keep up" : ""));
+  }
+
+ private:
+  Progress m_progress;
+  std::set<RecordingTrouble> m_told;
+};
 
 /// Sees its match from outside the runner, as fast as it can be played.
 int recordMatch(const Options& options) {
@@ -78,7 +98,7 @@ int recordMatch(const Options& options) {
   link::MatchRecorder recorder(writer);
   Result<void> finished;
   {
-    Progress progress("recording", options.progress);
+    Health health(options.progress);
     recorder.ticked(*match, {});
     while (!interrupted && !match->finished() && writer->status().recording) {
       const auto begin = Clock::now();
@@ -86,7 +106,7 @@ int recordMatch(const Options& options) {
       const auto spent = Clock::now() - begin;
       if (!match->simulation().events().empty()) recorder.happened(match->simulation().events());
       recorder.ticked(*match, spent);
-      progress.say(statusText(writer->status()));
+      health.say(writer->status());
     }
     finished = recorder.finish();
   }
@@ -122,7 +142,7 @@ int recordLive(const Options& options) {
   watch.observe(*recorder);
   sayListening(options.network);
   {
-    Progress progress("recording", options.progress);
+    Health health(options.progress);
     std::map<std::size_t, std::string> told;
     const auto begin = Clock::now();
     const auto isOver = [&] {
@@ -131,7 +151,7 @@ int recordLive(const Options& options) {
     };
     while (!interrupted && !isOver() && (*recorder)->status().recording) {
       reportPorts(watch.details().network, told);
-      progress.say(statusText((*recorder)->status()));
+      health.say((*recorder)->status());
       std::this_thread::sleep_for(pollInterval);
     }
   }

@@ -49,6 +49,11 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   app.add_option("--session,session", a.session, "Open this recorded session in Replay")
       ->type_name("FILE.mcap");
+  app.add_option(
+         "--record", a.record,
+         "Record from the first moment into this new file, in a match or live; when there is "
+         "such a file already, it is kept and the new one gets a number")
+      ->type_name("FILE.mcap");
   app.add_flag(
       "--live", a.live,
       "Start with what robots and referee send; no match is simulated unless --scenario is given");
@@ -91,7 +96,7 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
       "Pitchboard: simulate humanoid soccer robots and watch what they believe.\n"
       "Examples: pitchboard --scenario match-3v3 --noise realistic --speed 2\n"
-      "          pitchboard --live --our-team 12"};
+      "          pitchboard --live --our-team 12 --record semifinal.mcap"};
   app.name("pitchboard");
   app.set_version_flag("--version", PITCHBOARD_VERSION);
   addOptions(app, arguments);
@@ -107,6 +112,18 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
     return report(
         {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});
+  }
+  if (!arguments.record.empty() && !arguments.session.empty()) {
+    return report({ErrorCode::InvalidArgument,
+                   "--record records a match or live robots, and " + arguments.session +
+                       " is a recording already; leave out one of the two",
+                   {}});
+  }
+  if (!arguments.record.empty() && !arguments.renderScenario.empty()) {
+    return report({ErrorCode::InvalidArgument,
+                   "--record needs a match that is played, and --render-scenario only draws one; "
+                   "leave out one of the two",
+                   {}});
   }
   return {};
 }

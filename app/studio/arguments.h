@@ -34,6 +34,7 @@ struct Arguments {
   std::string picture;
   std::string settings;
   std::string session;  ///< a recorded session to open in Replay
+  std::string record;   ///< session file to record into from the first moment; empty: none
   bool live = false;
   bool overlay = false;
   bool scenarioGiven = false;  ///< else Live starts without a simulated match

@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QTimer>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include <ui/base/theme.h>
@@ -62,6 +63,17 @@ bool save(const QPixmap& picture, const std::string& file) {
   return false;
 }
 
+/// Whether a recording can be made there; said before a window opens.
+Result<void> checkRecordFolder(const Arguments& arguments) {
+  if (arguments.record.empty()) return {};
+  const QDir folder = QFileInfo(QString::fromStdString(arguments.record)).dir();
+  if (folder.mkpath(QStringLiteral(".")) && QFileInfo(folder.path()).isWritable()) return {};
+  return failure(
+      ErrorCode::SystemError,
+      "no file can be made in the folder " + folder.path().toStdString() + "; choose another one",
+      "--record");
+}
+
 int renderScenario(const Arguments& arguments, const link::Scenario& scenario, WindowSize size) {
   link::MatchOptions options;
   options.cognition = link::Cognition::Inline;
@@ -90,9 +102,13 @@ int renderScenario(const Arguments& arguments, const link::Scenario& scenario, W
 int showWindow(QApplication& application, const Arguments& arguments,
                const link::Scenario& scenario, double speed, std::optional<WindowSize> size,
                QSettings& settings) {
-  ui::MatchController controller(matchOptions(arguments));
-  ui::MainWindow window(&controller, &settings);
+  // They end in the opposite order: the window completes its files while the match is there, and a
+  // second signal does not break that off.
+  int exitCode = 0;
   EndSignals signals_;
+  ui::MatchController controller(matchOptions(arguments));
+  std::optional<ui::MainWindow> made(std::in_place, &controller, &settings);
+  ui::MainWindow& window = *made;
   QObject::connect(&signals_, &EndSignals::received, &window, &QWidget::close);
   if (size) window.resize(size->width, size->height);
   window.offerToRemoveOrphans();
@@ -101,15 +117,40 @@ int showWindow(QApplication& application, const Arguments& arguments,
   if (!live) return report(live.error());
   window.live()->setOptions(*live);
   if (!arguments.session.empty()) window.openSession(QString::fromStdString(arguments.session));
+  const bool recordsMatch = !arguments.record.empty() && !arguments.live;
   if ((!arguments.live && arguments.session.empty()) || arguments.scenarioGiven) {
-    controller.open(scenario, arguments.paused);
+    // A match that is to be recorded waits until somebody writes along.
+    controller.open(scenario, arguments.paused || recordsMatch);
     window.files()->showCurrent(QString::fromStdString(arguments.scenario));
   }
   if (arguments.live) window.showSource(ui::SourceKind::Live);
   if (arguments.overlay) window.overlayLive(true);
-  if (arguments.playTo) controller.runTo(*arguments.playTo);
+  const auto play = [&arguments, &controller] {
+    if (arguments.playTo) controller.runTo(*arguments.playTo);
+  };
+  const auto record = [&arguments, &application, &exitCode, &window] {
+    if (arguments.record.empty()) return;
+    QObject::connect(&window, &ui::MainWindow::recordingFailed, &application,
+                     [&exitCode](const QString& sentence) {
+                       exitCode = 2;
+                       std::fprintf(stderr, "error: %s\n", qPrintable(sentence));
+                     });
+    window.recordInto(QString::fromStdString(arguments.record));
+  };
+  if (recordsMatch) {
+    QObject::connect(
+        &controller, &ui::MatchController::opened, &window,
+        [&arguments, &controller, record, play] {
+          record();
+          controller.setPaused(arguments.paused);
+          play();
+        },
+        Qt::SingleShotConnection);
+  } else {
+    record();
+    play();
+  }
   window.show();
-  int exitCode = 0;
   if (!arguments.screenshotFile.empty()) {
     const int wait = static_cast<int>(std::lround(arguments.after * 1000));
     QTimer::singleShot(wait, &window, [&] {
@@ -118,6 +159,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
     });
   }
   const int ended = application.exec();
+  made.reset();
   return ended != 0 ? ended : exitCode;
 }
 
@@ -142,11 +184,13 @@ int run(int argc, char** argv) {
     }
     qputenv("QT_QPA_PLATFORM", "offscreen");
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end
   QApplication::setOrganizationName(QStringLiteral("Pitchboard"));
   QApplication::setApplicationName(QStringLiteral("Pitchboard"));
   QApplication::setApplicationVersion(QStringLiteral(PITCHBOARD_VERSION));
   int applicationArguments = 1;
   QApplication application(applicationArguments, argv);
+  if (const auto good = checkRecordFolder(arguments); !good) return report(good.error());
   const auto settings = makeSettings(arguments);
   ui::setTheme(application, themeOf(arguments, *settings));
   if (render) return renderScenario(arguments, *scenario, size->value_or(WindowSize{1040, 740}));

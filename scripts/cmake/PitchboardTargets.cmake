@@ -56,12 +56,10 @@ function(pitchboard_room library room)
   # One precompiled header for everything without Qt, one with <QtWidgets> for the window. They only
   # save time: every file includes what it needs, as a build with
   # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
-  if(NOT room STREQUAL base)
-    if(library STREQUAL ui)
-      target_precompile_headers(${target} REUSE_FROM ui_base)
-    else()
-      target_precompile_headers(${target} REUSE_FROM simcore_base)
-    endif()
+  if(library STREQUAL ui)
+    target_precompile_headers(${target} REUSE_FROM ui_precompiled)
+  elseif(NOT target STREQUAL simcore_base)
+    target_precompile_headers(${target} REUSE_FROM simcore_base)
   endif()
 endfunction()
 

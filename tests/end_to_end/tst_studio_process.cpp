@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studio as a program: pictures, bad arguments, and that nothing outlives it.
 #include <QImage>
-#include <QProcess>
 #include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -9,72 +8,41 @@
 
 #include <robotlink/blackboard/system_v.h>
 
-using namespace pitchboard;
+#include "studio_program.h"
+
+using studio_program::Studio;
 
 class TestStudioProcess : public QObject {
   Q_OBJECT
 
   QTemporaryDir m_folder;
   QImage m_timeOfSession;  // the timeline of a window with a session
-  int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
-
-  QStringList withSettings(const QStringList& arguments) const {
-    return arguments + QStringList{QStringLiteral("--settings"),
-                                   m_folder.filePath(QStringLiteral("s.ini")),
-                                   QStringLiteral("--key-base"), QString::number(m_keyBase)};
-  }
-  void launch(QProcess& studio, const QStringList& arguments) const {
-    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-    environment.insert(QStringLiteral("QT_QPA_PLATFORM"), QStringLiteral("offscreen"));
-    studio.setProcessEnvironment(environment);
-    studio.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard"), withSettings(arguments));
-    QVERIFY(studio.waitForStarted());
-  }
-  // Processes whose command line names one of our keys.
-  int robotProcesses() const {
-    int found = 0;
-    for (const QString& pid : QDir(QStringLiteral("/proc")).entryList(QDir::Dirs)) {
-      QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
-      if (!file.open(QIODevice::ReadOnly)) continue;
-      const QByteArray line = file.readAll();
-      if (line.contains("pitchboard-robot") && line.contains(QByteArray::number(m_keyBase + 100))) {
-        ++found;
-      }
-    }
-    return found;
-  }
-  std::size_t segments() const { return link::SystemVSegments::list(m_keyBase).size(); }
 
  private slots:
-  void cleanup() {
-    for (const auto& segment : link::SystemVSegments::list(m_keyBase)) {
-      (void)link::SystemVSegments::remove(segment.key);
-    }
-  }
-
   void aScreenshotHasTheSizeAskedFor() {
     const QString file = m_folder.filePath(QStringLiteral("shot.png"));
-    QProcess studio;
-    launch(studio, {QStringLiteral("--screenshot-to"), file, QStringLiteral("--after"),
-                    QStringLiteral("0.5"), QStringLiteral("--size"), QStringLiteral("1280x800"),
-                    QStringLiteral("--theme"), QStringLiteral("dark")});
+    Studio studio(m_folder);
+    QVERIFY(
+        studio.launch({QStringLiteral("--screenshot-to"), file, QStringLiteral("--after"),
+                       QStringLiteral("0.5"), QStringLiteral("--size"), QStringLiteral("1280x800"),
+                       QStringLiteral("--theme"), QStringLiteral("dark")}));
     QVERIFY(studio.waitForFinished(30000));
     QCOMPARE(studio.exitCode(), 0);
     QCOMPARE(QImage(file).size(), QSize(1280, 800));
-    QTRY_COMPARE(robotProcesses(), 0);
-    QCOMPARE(segments(), std::size_t(0));
+    QTRY_COMPARE(Studio::robotProcesses(), 0);
+    QCOMPARE(Studio::segments(), std::size_t(0));
   }
 
   void aScenarioIsDrawnWithoutAWindow() {
     const QString file = m_folder.filePath(QStringLiteral("field.png"));
-    QProcess studio;
-    launch(studio, {QStringLiteral("--render-scenario"), QStringLiteral("match-3v3"),
-                    QStringLiteral("--picture"), file, QStringLiteral("--size"),
-                    QStringLiteral("800x600")});
+    Studio studio(m_folder);
+    QVERIFY(studio.launch({QStringLiteral("--render-scenario"), QStringLiteral("match-3v3"),
+                           QStringLiteral("--picture"), file, QStringLiteral("--size"),
+                           QStringLiteral("800x600")}));
     QVERIFY(studio.waitForFinished(30000));
     QCOMPARE(studio.exitCode(), 0);
     QCOMPARE(QImage(file).size(), QSize(800, 600));
-    QCOMPARE(segments(), std::size_t(0));
+    QCOMPARE(Studio::segments(), std::size_t(0));
   }
 
   void aSessionFromAShellIsShownInReplay_data() {
@@ -86,10 +54,11 @@ class TestStudioProcess : public QObject {
   void aSessionFromAShellIsShownInReplay() {
     QFETCH(QString, file);
     const QString shot = m_folder.filePath(QStringLiteral("replay.png"));
-    QProcess studio;
-    launch(studio, {QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/") + file,
-                    QStringLiteral("--screenshot-to"), shot, QStringLiteral("--after"),
-                    QStringLiteral("1"), QStringLiteral("--size"), QStringLiteral("1280x800")});
+    Studio studio(m_folder);
+    QVERIFY(
+        studio.launch({QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/") + file,
+                       QStringLiteral("--screenshot-to"), shot, QStringLiteral("--after"),
+                       QStringLiteral("1"), QStringLiteral("--size"), QStringLiteral("1280x800")}));
     QVERIFY(studio.waitForFinished(30000));
     QCOMPARE(studio.exitStatus(), QProcess::NormalExit);
     QCOMPARE(studio.exitCode(), 0);
@@ -102,8 +71,8 @@ class TestStudioProcess : public QObject {
     else
       m_timeOfSession = time;
     // A session starts no robots.
-    QCOMPARE(robotProcesses(), 0);
-    QCOMPARE(segments(), std::size_t(0));
+    QCOMPARE(Studio::robotProcesses(), 0);
+    QCOMPARE(Studio::segments(), std::size_t(0));
   }
 
   void nothingIsLeftAfter_data() {
@@ -116,17 +85,17 @@ class TestStudioProcess : public QObject {
   void nothingIsLeftAfter() {
     QFETCH(int, signal);
     QFETCH(bool, clean);
-    QProcess studio;
-    launch(studio, {});
-    QTRY_VERIFY_WITH_TIMEOUT(robotProcesses() > 0, 20000);
-    QTRY_COMPARE_WITH_TIMEOUT(segments(), std::size_t(6), 20000);
+    Studio studio(m_folder);
+    QVERIFY(studio.launch({}));
+    QTRY_VERIFY_WITH_TIMEOUT(Studio::robotProcesses() > 0, 20000);
+    QTRY_COMPARE_WITH_TIMEOUT(Studio::segments(), std::size_t(6), 20000);
     ::kill(static_cast<pid_t>(studio.processId()), signal);
     QVERIFY(studio.waitForFinished(10000));
-    QTRY_COMPARE(robotProcesses(), 0);
+    QTRY_COMPARE(Studio::robotProcesses(), 0);
     if (!clean) return;
     QCOMPARE(studio.exitStatus(), QProcess::NormalExit);
     QCOMPARE(studio.exitCode(), 0);
-    QCOMPARE(segments(), std::size_t(0));
+    QCOMPARE(Studio::segments(), std::size_t(0));
   }
 
   void badArgumentsEndWithASentence_data() {
@@ -149,8 +118,8 @@ class TestStudioProcess : public QObject {
   void badArgumentsEndWithASentence() {
     QFETCH(QStringList, arguments);
     QFETCH(QString, says);
-    QProcess studio;
-    launch(studio, arguments);
+    Studio studio(m_folder);
+    QVERIFY(studio.launch(arguments));
     QVERIFY(studio.waitForFinished(10000));
     QCOMPARE(studio.exitCode(), 2);
     const QString error = QString::fromUtf8(studio.readAllStandardError());
@@ -159,8 +128,8 @@ class TestStudioProcess : public QObject {
   }
 
   void helpShowsAnExample() {
-    QProcess studio;
-    launch(studio, {QStringLiteral("--help")});
+    Studio studio(m_folder);
+    QVERIFY(studio.launch({QStringLiteral("--help")}));
     QVERIFY(studio.waitForFinished(10000));
     QCOMPARE(studio.exitCode(), 0);
     QVERIFY(studio.readAllStandardOutput().contains("Examples: pitchboard "));

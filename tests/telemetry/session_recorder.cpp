@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Records rows until it is killed: session_recorder FILE SHARED. SHARED is a file of 16 bytes,
-// mapped: number and time (s) of the last row that was handed to the recording.
+// Records rows until it is killed: session_recorder FILE SHARED SECONDS. SHARED is a file of 16
+// bytes, mapped: number and time (s) of the last row that was handed to the recording. SECONDS: how
+// long the disk takes to keep what it is given; 0: as it is.
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -8,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <thread>
 
 #include <telemetry/session/session_writer.h>
@@ -19,8 +21,22 @@ struct Shared {
   std::atomic<double> time;
 };
 
+namespace {
+
+unsigned stall = 0;
+
+}  // namespace
+
+// Instead of the C library's.
+extern "C" int fdatasync(int descriptor) {
+  if (stall == 0) return fsync(descriptor);
+  sleep(stall);
+  return 0;
+}
+
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 4) return 2;
+  stall = static_cast<unsigned>(std::atoi(argv[3]));
   const int descriptor = open(argv[2], O_RDWR | O_CLOEXEC);
   void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   if (memory == MAP_FAILED) return 2;

@@ -45,9 +45,10 @@ class TestSessionKilled : public QObject {
 
   QTemporaryDir m_folder;
 
-  Child start(int number) {
+  Child start(int number, int stall) {
     Child child;
-    const std::string base = m_folder.filePath(QString::number(number)).toStdString();
+    const std::string base =
+        m_folder.filePath(QStringLiteral("%1-%2").arg(stall).arg(number)).toStdString();
     child.file = base + ".mcap";
     child.repaired = base + "-repaired.mcap";
     const std::string sharedPath = base + ".shared";
@@ -56,14 +57,21 @@ class TestSessionKilled : public QObject {
     void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     close(descriptor);
     child.shared = static_cast<Shared*>(memory);
-    std::string program = SESSION_RECORDER, file = child.file, shared = sharedPath;
-    char* arguments[] = {program.data(), file.data(), shared.data(), nullptr};
+    std::string program = SESSION_RECORDER, file = child.file, shared = sharedPath,
+                stalls = std::to_string(stall);
+    char* arguments[] = {program.data(), file.data(), shared.data(), stalls.data(), nullptr};
     posix_spawn(&child.process, SESSION_RECORDER, nullptr, nullptr, arguments, environ);
     return child;
   }
 
  private slots:
+  void losesAtMostASecond_data() {
+    QTest::addColumn<int>("stall");
+    QTest::newRow("a disk as it is") << 0;
+    QTest::newRow("a disk that stalls for 10 s") << 10;
+  }
   void losesAtMostASecond() {
+    QFETCH(int, stall);
     std::mt19937 random(static_cast<unsigned>(QDateTime::currentMSecsSinceEpoch()));
     std::vector<Child> done;
     QElapsedTimer clock;
@@ -72,7 +80,7 @@ class TestSessionKilled : public QObject {
     std::vector<Child> running;
     while (started < killed || !running.empty()) {
       while (static_cast<int>(running.size()) < atOnce && started < killed) {
-        running.push_back(start(started++));
+        running.push_back(start(started++, stall));
         QVERIFY(running.back().process > 0);
         running.back().end = clock.elapsed() + 50 + static_cast<qint64>(random() % 3000);
       }

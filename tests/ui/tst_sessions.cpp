@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recording, looking back and replay in the window: real files of a real match.
+#include <QLabel>
 #include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
@@ -9,12 +10,21 @@
 #include <QToolButton>
 #include <QtTest>
 
+#include <session/compared_session.h>
+#include <session/session_files.h>
+#include <session/session_recording.h>
+#include <shell/notice_bar.h>
+#include <timeline/event_list.h>
+#include <timeline/playback.h>
+#include <timeline/timeline.h>
+
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/event_list.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
@@ -23,6 +33,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "live_rig.h"
 #include "session_rig.h"
 
 using namespace pitchboard;
@@ -204,13 +215,55 @@ class TestSessions : public QObject {
     QVERIFY2(s.notice().contains(QStringLiteral("/proc/nowhere")), qPrintable(s.notice()));
   }
 
+  void theRoomOnTheDiskIsShownAndItsEndIsSaidInTime() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    std::atomic<std::uint64_t> free = 52'300'000'000;
+    telemetry::SessionWriterOptions writing;
+    writing.freeSpace = [&free] { return std::optional<std::uint64_t>(free.load()); };
+    s.window.recording()->setWriting(writing);
+    s.window.recording()->start();
+    const auto* label = s.window.findChild<QLabel*>(QStringLiteral("statusRecording"));
+    QTRY_VERIFY2(label->text().contains(QStringLiteral("52.3 GB free")), qPrintable(label->text()));
+    QTRY_VERIFY(s.record()->toolTip().contains(s.window.recording()->path()));
+    QVERIFY2(s.notice().isEmpty(), qPrintable(s.notice()));
+    free = 20'000'000;
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("The disk is nearly full (20 MB free)")),
+                 qPrintable(s.notice()));
+    QTRY_VERIFY(label->toolTip().contains(QStringLiteral("nearly full")));
+    QVERIFY(s.window.recording()->isRecording());
+    s.window.recording()->end();
+  }
+
+  void theWindowGoesWithEverythingOpen() {
+    QTemporaryDir files;
+    const QString path = files.filePath(QStringLiteral("all.mcap"));
+    {
+      Studio s;
+      QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+      const QString earlier = s.recorded(60);
+      s.window.compared()->open(earlier);
+      QTRY_VERIFY(s.window.compared()->isOn());
+      s.window.recordInto(path);
+      QVERIFY(s.window.recording()->isRecording());
+      s.window.live()->setOptions(live_rig::options());
+      s.window.overlayLive(true);
+      s.window.showExport();
+      s.window.openSession(earlier);
+      QTRY_VERIFY(s.window.timeline()->isRecording());
+      s.controller.setPaused(false);
+    }
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    QVERIFY(session && session->complete() && session->range());
+  }
+
   void aRemovedFileStopsTheRecordingAndNotTheMatch() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     s.window.recording()->start();
     QVERIFY(QFile::remove(s.window.recording()->path()));
     QTRY_VERIFY(!s.window.recording()->isRecording());
-    QVERIFY(s.notice().contains(QStringLiteral("Recording has stopped")));
+    QVERIFY(s.notice().contains(QStringLiteral("Recording stopped")));
     QVERIFY(s.controller.isOpen());
   }
 

@@ -6,6 +6,8 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <base/system_reason.h>
@@ -85,10 +87,22 @@ Result<void> NewFile::write(std::string_view bytes) {
   return {};
 }
 
-Result<void> NewFile::sync() {
+Result<void> NewFile::sync() const {
   // Pipes and some network file systems do not know the call: nothing more can be done there.
   if (::fdatasync(m_descriptor) == 0 || errno == EINVAL || errno == ENOSYS) return {};
   return failed(errno);
+}
+
+Result<void> NewFile::syncFolder() const {
+  const std::string folder = std::filesystem::path(m_path).parent_path().string();
+  const int opened =
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // A folder that may be written but not read cannot be asked.
+  if (opened < 0) return {};
+  const int reason = ::fsync(opened) == 0 ? 0 : errno;
+  ::close(opened);
+  if (reason == 0 || reason == EINVAL || reason == ENOSYS) return {};
+  return failed(reason);
 }
 
 void NewFile::cutAt(std::uint64_t size) {

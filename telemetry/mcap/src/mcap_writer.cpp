@@ -9,6 +9,7 @@
 
 #include <base/new_file.h>
 
+#include "disk_sync.h"
 #include "mcap_bytes.h"
 
 namespace pitchboard::telemetry {
@@ -112,6 +113,7 @@ struct McapWriter::Impl {
   std::uint64_t chunksGiven = 0;  ///< without those of repeated definitions
   bool defined = false;           ///< the last chunk brought definitions that stand only there
   McapStatistics statistics;
+  std::optional<DiskSync> disk;  ///< with options.sync; last: it ends before the file is closed
 
   explicit Impl(NewFile f) : file(std::move(f)) {}
   ~Impl() { ZSTD_freeCCtx(compressor); }
@@ -158,8 +160,8 @@ struct McapWriter::Impl {
   }
 
   Result<void> settle() {
-    if (options.sync) {
-      if (auto synced = file.sync(); !synced) return fail(synced.error());
+    if (disk) {
+      if (auto asked = disk->request(); !asked) return fail(asked.error());
     }
     if (auto there = file.stillThere(); !there) return fail(there.error());
     return {};
@@ -184,6 +186,14 @@ Result<McapWriter> McapWriter::create(const std::string& path, const McapWriterO
 Result<McapWriter> McapWriter::create(NewFile file, const McapWriterOptions& options) {
   auto impl = std::make_unique<Impl>(std::move(file));
   impl->options = options;
+  if (options.sync) {
+    impl->disk.emplace([&kept = impl->file, named = false]() mutable -> Result<void> {
+      if (!std::exchange(named, true)) {
+        if (auto synced = kept.syncFolder(); !synced) return synced;
+      }
+      return kept.sync();
+    });
+  }
   impl->compressor = ZSTD_createCCtx();
   ZSTD_CCtx_setParameter(impl->compressor, ZSTD_c_compressionLevel, options.level);
   std::string begin(mcapMagic.data(), mcapMagic.size());
@@ -428,8 +438,9 @@ Result<void> McapWriter::finish() {
     impl.file.cutAt(impl.whole);
   } else {
     impl.file.cutAt(impl.file.size());  // gives back the room that was kept
-    if (impl.options.sync) written = impl.file.sync();
+    if (impl.disk) written = impl.disk->finish();
   }
+  impl.disk.reset();
   auto closed = impl.file.close();
   if (!written) return written;
   return closed;
@@ -437,6 +448,9 @@ Result<void> McapWriter::finish() {
 
 std::uint64_t McapWriter::bytes() const {
   return m_impl->file.size();
+}
+double McapWriter::owedSeconds() const {
+  return m_impl->disk ? m_impl->disk->owedSeconds() : 0.0;
 }
 const McapStatistics& McapWriter::statistics() const {
   return m_impl->statistics;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -12,6 +13,7 @@
 #include <telemetry/mcap/mcap_writer.h>
 
 #include "session_format.h"
+#include "write_rate.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -23,6 +25,13 @@ constexpr std::uint64_t smallStepBack = 50'000'000;    // ns
 constexpr std::uint64_t gapBetweenPasses = 1'000'000;  // ns
 constexpr std::size_t mostSpareChunks = 4;
 constexpr std::uint16_t mostChannels = 60'000;
+
+std::optional<std::uint64_t> freeSpaceBeside(const std::string& path) {
+  std::error_code problem;
+  const auto folder = std::filesystem::absolute(path, problem).parent_path();
+  const auto space = std::filesystem::space(folder, problem);
+  return problem ? std::nullopt : std::optional<std::uint64_t>(space.available);
+}
 
 struct Attachment {
   std::uint64_t time;
@@ -65,6 +74,8 @@ struct SessionWriter::Impl {
   std::optional<std::uint64_t> firstLog;
   std::uint64_t lastLog = 0;
   SessionStatus state;
+  std::optional<Clock::time_point> writingSince;  ///< the writing thread has not come back since
+  bool ended = false;                             ///< `file` is not to be asked any more
   std::optional<Error> error;
 
   void run();
@@ -98,7 +109,9 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::string& 
   impl->path = path;
   impl->info = info;
   impl->options = options;
+  if (!options.freeSpace) impl->options.freeSpace = [path] { return freeSpaceBeside(path); };
   impl->state.bytes = file->bytes();
+  impl->state.freeBytes = impl->options.freeSpace();
   impl->file = std::move(*file);
   std::unique_ptr<SessionWriter> writer(new SessionWriter(std::move(impl)));
   Impl& shared = *writer->m_impl;
@@ -108,6 +121,7 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::string& 
 
 void SessionWriter::Impl::run() {
   auto next = Clock::now() + options.chunkInterval;
+  WriteRate rate;
   std::unique_lock lock(mutex);
   for (;;) {
     wake.wait_until(lock, next, [this] { return stop || !full.empty() || !attachments.empty(); });
@@ -118,9 +132,13 @@ void SessionWriter::Impl::run() {
     chunks.swap(full);
     files.swap(attachments);
     if (current.empty() || Clock::now() >= next) next = Clock::now() + options.chunkInterval;
+    writingSince = Clock::now();
     lock.unlock();
     if (!error) write(chunks, files);
+    const auto room_ = options.freeSpace();
     lock.lock();
+    writingSince.reset();
+    state.freeBytes = room_;
     waiting = 0;
     for (const McapChunk& chunk : full) waiting += chunk.bytes();
     for (const Attachment& file_ : attachments) waiting += file_.data.size();
@@ -130,9 +148,12 @@ void SessionWriter::Impl::run() {
       spare.push_back(std::move(chunk));
     }
     state.bytes = file->bytes();
+    rate.note(std::chrono::duration<double>(Clock::now().time_since_epoch()).count(), state.bytes);
+    state.bytesPerSecond = rate.bytesPerSecond();
     room.notify_all();
     if (last || error) break;
   }
+  ended = true;
   lock.unlock();
   auto finished = file->finish();
   lock.lock();
@@ -306,7 +327,14 @@ void SessionWriter::attach(std::string_view name, std::string_view mediaType,
 
 SessionStatus SessionWriter::status() const {
   const std::lock_guard lock(m_impl->mutex);
-  return m_impl->state;
+  SessionStatus status = m_impl->state;
+  if (m_impl->ended) return status;
+  status.owedSeconds = m_impl->file->owedSeconds();
+  if (m_impl->writingSince) {
+    const std::chrono::duration<double> writing = Clock::now() - *m_impl->writingSince;
+    status.owedSeconds = std::max(status.owedSeconds, writing.count());
+  }
+  return status;
 }
 
 const std::string& SessionWriter::path() const {

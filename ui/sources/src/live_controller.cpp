@@ -30,7 +30,10 @@ class RowKeeper : public link::LiveObserver {
 
 LiveController::LiveController(QObject* parent) : FrameSource(parent) {}
 
-LiveController::~LiveController() = default;
+// The watch's thread posts to this object: it ends while this is whole.
+LiveController::~LiveController() {
+  m_watch.reset();
+}
 
 void LiveController::start() {
   if (m_watch) return;

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <QFile>
+#include <QFileInfo>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTimer>
@@ -32,6 +33,17 @@ std::string programName() {
 
 }  // namespace
 
+QString freePath(const QString& path) {
+  const QFileInfo wanted(path);
+  const QString suffix = wanted.suffix().isEmpty() ? QString() : QLatin1Char('.') + wanted.suffix();
+  QString found = path;
+  for (int n = 2; QFile::exists(found); ++n) {
+    found = wanted.dir().filePath(
+        QStringLiteral("%1 (%2)%3").arg(wanted.completeBaseName()).arg(n).arg(suffix));
+  }
+  return found;
+}
+
 QString sessionFileName(const QDir& folder, const QString& title, const QDateTime& when) {
   QString name = title.simplified().left(60);
   for (QChar& letter : name) {
@@ -40,13 +52,9 @@ QString sessionFileName(const QDir& folder, const QString& title, const QDateTim
     }
   }
   if (name.isEmpty()) name = QStringLiteral("session");
-  const QString base =
-      QStringLiteral("%1 %2").arg(name, when.toString(QStringLiteral("yyyy-MM-dd HH.mm.ss")));
-  QString path = folder.filePath(base + QStringLiteral(".mcap"));
-  for (int n = 2; QFile::exists(path); ++n) {
-    path = folder.filePath(QStringLiteral("%1 (%2).mcap").arg(base).arg(n));
-  }
-  return path;
+  return freePath(
+      folder.filePath(QStringLiteral("%1 %2.mcap")
+                          .arg(name, when.toString(QStringLiteral("yyyy-MM-dd HH.mm.ss")))));
 }
 
 SessionRecording::SessionRecording(MatchController* controller, LiveController* live,
@@ -86,8 +94,15 @@ SessionRecording::SessionRecording(MatchController* controller, LiveController* 
 }
 
 SessionRecording::~SessionRecording() {
+  const QSignalBlocker nobodyIsLeftToHear(this);
+  end();
+}
+
+void SessionRecording::end() {
   finish(false);
   m_worker.waitForDone();
+  // What the worker says of its files waits for an event loop that may have ended.
+  QCoreApplication::sendPostedEvents(this, QEvent::MetaCall);
 }
 
 QString SessionRecording::folder() const {
@@ -108,18 +123,28 @@ bool SessionRecording::isPossible() const {
 
 QString SessionRecording::newPath(const QString& title) {
   const QDir place(folder());
-  if (!place.mkpath(QStringLiteral("."))) {
-    emit failed(tr("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
-                   "Timeline > Folder for recordings…")
-                    .arg(place.path()));
-    return {};
-  }
-  return sessionFileName(place, title, QDateTime::currentDateTime());
+  return makeFolder(place) ? sessionFileName(place, title, QDateTime::currentDateTime())
+                           : QString();
+}
+
+bool SessionRecording::makeFolder(const QDir& folder) {
+  if (folder.mkpath(QStringLiteral("."))) return true;
+  emit failed(tr("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
+                 "Timeline > Folder for recordings…")
+                  .arg(folder.path()));
+  return false;
+}
+
+QString SessionRecording::title() const {
+  if (m_source->kind() == SourceKind::Live) return tr("live");
+  const link::Scenario& scenario = m_controller->scenario();
+  return QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title);
 }
 
 Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& path) {
   link::RecorderOptions options;
   options.program = programName();
+  options.writer = m_writing;
   options.everyNth = m_controller->sampling();
   auto made = link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
                                           m_controller->catalog(), options);
@@ -128,7 +153,9 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
   m_controller->observe(recorder);
   return Recorder{false, [recorder] { return recorder->status(); },
                   [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
-                  [this, recorder] { m_controller->stopObserving(recorder); },
+                  [controller = m_controller, recorder] {
+                    if (controller) controller->stopObserving(recorder);
+                  },
                   [recorder] { return recorder->finish(); }};
 }
 
@@ -140,6 +167,7 @@ telemetry::WallTime SessionRecording::zeroOfLive() const {
 Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {
   link::RecorderOptions options;
   options.program = programName();
+  options.writer = m_writing;
   auto made =
       link::LiveRecorder::create(path.toStdString(), m_live->options(), zeroOfLive(), options);
   if (!made) return tl::unexpected(made.error());
@@ -147,19 +175,34 @@ Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& p
   m_live->observe(recorder);
   return Recorder{true, [recorder] { return recorder->status(); },
                   [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
-                  [this, recorder] { m_live->stopObserving(recorder); },
+                  [live = m_live, recorder] {
+                    if (live) live->stopObserving(recorder);
+                  },
                   [recorder] { return recorder->finish(); }};
 }
 
 void SessionRecording::start() {
   if (m_recorder || !isPossible()) return;
-  const bool live = m_source->kind() == SourceKind::Live;
-  const link::Scenario& scenario = m_controller->scenario();
-  const QString path = newPath(
-      live ? tr("live")
-           : QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title));
-  if (path.isEmpty()) return;
-  auto made = live ? recordLive(path) : recordMatch(path);
+  const QString path = newPath(title());
+  if (!path.isEmpty()) begin(path);
+}
+
+void SessionRecording::startInto(const QString& path) {
+  if (m_recorder) return;
+  if (!isPossible()) {
+    emit failed(tr("Nothing is recorded: there is no match to record."));
+    return;
+  }
+  if (!makeFolder(QFileInfo(path).dir())) return;
+  const QString unused = freePath(path);
+  begin(unused);
+  if (m_recorder && unused != path) {
+    emit noted(tr("%1 exists and is left alone: recording into %2.").arg(path, unused));
+  }
+}
+
+void SessionRecording::begin(const QString& path) {
+  auto made = m_source->kind() == SourceKind::Live ? recordLive(path) : recordMatch(path);
   if (!made) {
     emit failed(tr("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
                    "recordings…")
@@ -168,6 +211,7 @@ void SessionRecording::start() {
   }
   m_recorder = std::move(*made);
   m_path = path;
+  m_told.clear();
   m_timer->start();
   emit changed();
 }
@@ -192,7 +236,7 @@ void SessionRecording::finish(bool matchEnds) {
                     .arg(path, words(done.error())));
             return;
           }
-          if (matchEnds) emit failed(tr("The recording ended with the match: %1").arg(path));
+          if (matchEnds) emit noted(tr("The recording ended with the match: %1").arg(path));
           emit saved(path);
         },
         Qt::QueuedConnection);
@@ -206,20 +250,29 @@ telemetry::SessionStatus SessionRecording::status() const {
 
 void SessionRecording::checkHealth() {
   if (!m_recorder) return;
-  QString problem = QString::fromStdString(m_recorder->status().problem);
+  const telemetry::SessionStatus status = m_recorder->status();
+  QString problem = QString::fromStdString(status.problem);
   // A file that was removed goes on being written, to nowhere.
   if (problem.isEmpty() && !QFile::exists(m_path)) {
-    problem = tr("the file %1 was removed or its folder is gone").arg(m_path);
+    problem = tr("Recording stopped. The file %1 was removed or its folder is gone.").arg(m_path);
   }
-  if (problem.isEmpty()) return;
+  if (problem.isEmpty()) {
+    warnOf(status);
+    return;
+  }
   const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
   m_timer->stop();
   recorder.detach();
   m_worker.start([recorder] { static_cast<void>(recorder.finish()); });
-  emit failed(tr("Recording has stopped: %1. The match goes on, and what was written before can be "
-                 "opened.")
-                  .arg(problem));
+  emit failed(problem);
   emit changed();
+}
+
+// Once for each kind; the status bar says it all the time.
+void SessionRecording::warnOf(const telemetry::SessionStatus& status) {
+  const telemetry::RecordingTrouble trouble = telemetry::troubleOf(status);
+  if (trouble == telemetry::RecordingTrouble::None || !m_told.insert(trouble).second) return;
+  emit noted(QString::fromStdString(telemetry::troubleText(status)));
 }
 
 SessionMaker SessionRecording::recentPast(double seconds) const {
@@ -261,10 +314,7 @@ void SessionRecording::saveLast(double seconds) {
     emit failed(tr("There is nothing in memory to save yet."));
     return;
   }
-  const QString title = m_source->kind() == SourceKind::Live
-                            ? tr("live")
-                            : QString::fromStdString(m_controller->scenario().title);
-  const QString path = newPath(title + tr(" last %1 s").arg(seconds));
+  const QString path = newPath(title() + tr(" last %1 s").arg(seconds));
   if (path.isEmpty()) return;
   m_worker.start([this, path, make = std::move(make)] {
     const auto done = make(path);

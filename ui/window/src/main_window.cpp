@@ -3,6 +3,7 @@
 
 #include <QAbstractScrollArea>
 #include <QCloseEvent>
+#include <QDialog>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QScreen>
@@ -11,6 +12,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
@@ -94,8 +96,11 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   setCentralWidget(centre);
 
   m_sessions = new SessionFiles(m_replay, controller, m_source, m_timeline, m_notices, this);
-  connect(m_recording, &SessionRecording::failed, m_notices,
-          [this](const QString& sentence) { m_notices->show(sentence); });
+  for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
+    connect(m_recording, said, m_notices,
+            [this](const QString& sentence) { m_notices->show(sentence); });
+  }
+  connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
     m_notices->show(
         tr("Saved: %1").arg(path),
@@ -137,7 +142,33 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_field->setFocus();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  shutDown();
+}
+
+// The order in which everything ends: what is being written, while all it is made of is there; then
+// what is seen; then what that shows. Left to themselves, children go by age, the oldest first, and
+// those are the sources that everything else uses. The match itself outlives the window.
+void MainWindow::shutDown() {
+  m_recording->end();
+  qDeleteAll(findChildren<QDialog*>(Qt::FindDirectChildrenOnly));
+  delete m_sessions;
+
+  delete m_overlay;
+  delete m_compared;
+  delete m_files;
+  qDeleteAll(std::exchange(m_docks, {}));
+  delete m_bar;
+  delete m_status;
+  delete takeCentralWidget();
+
+  delete m_recording;
+  delete m_timelineActions;
+  delete m_timeline;
+  delete m_source;
+  delete m_replay;
+  delete m_live;
+}
 
 StudioContext MainWindow::context() const {
   return {m_controller, m_source, m_selection, m_field,           m_time,
@@ -147,6 +178,10 @@ StudioContext MainWindow::context() const {
 
 void MainWindow::openSession(const QString& path) {
   m_sessions->open(path);
+}
+
+void MainWindow::recordInto(const QString& path) {
+  m_recording->startInto(path);
 }
 
 void MainWindow::showExport() {

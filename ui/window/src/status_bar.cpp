@@ -131,15 +131,31 @@ void StudioStatusBar::showSource() {
   showSelected(*frame);
 }
 
+QPalette StudioStatusBar::alarmPalette() const {
+  QPalette red = palette();
+  red.setColor(QPalette::PlaceholderText, theme().errorText);
+  return red;
+}
+
 void StudioStatusBar::showMemory() {
   if (m_context.recording->isRecording()) {
     const telemetry::SessionStatus status = m_context.recording->status();
-    m_recording->setText(tr("recording %1 %2 MB")
-                             .arg(longMomentText(status.seconds))
-                             .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1));
-    m_recording->setToolTip(m_context.recording->path());
+    const QString trouble = QString::fromStdString(telemetry::troubleText(status));
+    const QString room = QString::fromStdString(telemetry::roomText(status));
+    QString text = tr("recording %1, %2 MB")
+                       .arg(longMomentText(status.seconds))
+                       .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1);
+    if (!room.isEmpty()) text += QStringLiteral(", ") + room;
+    const auto kind = telemetry::troubleOf(status);
+    if (kind == telemetry::RecordingTrouble::DiskBehind) text += tr(", disk does not keep up");
+    if (status.dropped > 0) text += tr(", %1 rows lost").arg(countText(status.dropped));
+    m_recording->setText(text);
+    m_recording->setToolTip((trouble.isEmpty() ? QString() : trouble + QLatin1Char('\n')) +
+                            m_context.recording->path());
+    m_recording->setPalette(trouble.isEmpty() ? QPalette() : alarmPalette());
     return;
   }
+  m_recording->setPalette({});
   m_recording->setToolTip({});
   if (m_context.source->kind() == SourceKind::Replay) {
     const double part = m_context.replay->loaded();
@@ -162,9 +178,7 @@ void StudioStatusBar::showLive(const link::MatchFrame* frame) {
   m_pace->setToolTip(text.tip);
   m_world->setText(text.referee);
   m_processes->setText(text.trouble);
-  QPalette red = palette();
-  red.setColor(QPalette::PlaceholderText, theme().errorText);
-  m_processes->setPalette(red);
+  m_processes->setPalette(alarmPalette());
   m_processes->setToolTip(text.trouble.isEmpty() ? QString() : text.tip);
 }
 

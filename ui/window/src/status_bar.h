@@ -33,6 +33,7 @@ class StudioStatusBar : public QStatusBar {
   void refresh();
   void showSource();
   void hideEmpty();
+  QPalette alarmPalette() const;
   void showMatch(const link::MatchFrame& frame);
   void showMemory();
   void showLive(const link::MatchFrame* frame);

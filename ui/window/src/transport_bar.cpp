@@ -194,7 +194,9 @@ void TransportBar::showRecord() {
   m_record->setText(on ? tr("Recording %1").arg(clockText(m_context.recording->status().seconds))
                        : tr("Record"));
   m_record->setToolTip(
-      on ? tr("Stop recording into %1").arg(m_context.recording->path())
+      on ? tr("Stop recording into %1\n%2")
+               .arg(m_context.recording->path(),
+                    QString::fromStdString(telemetry::roomText(m_context.recording->status())))
          : tr("Record everything into a new file in %1").arg(m_context.recording->folder()));
   m_record->setEnabled(on || m_context.recording->isPossible());
   m_recordAction->setVisible(m_context.source->kind() != SourceKind::Replay || on);

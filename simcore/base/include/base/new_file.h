@@ -2,7 +2,8 @@
 #pragma once
 
 // A file that did not exist before, written front to back. Every failure is a sentence that says
-// what to do. One thread. A file that may be read only when it is whole is begun by FileTarget.
+// what to do. One thread; sync() and syncFolder() may be called in another one meanwhile. A file
+// that may be read only when it is whole is begun by FileTarget.
 
 #include <cstdint>
 #include <string>
@@ -26,7 +27,10 @@ class NewFile {
   /// All or an error; after an error part of the bytes may be in the file.
   Result<void> write(std::string_view bytes);
   /// Waits until the disk has everything.
-  Result<void> sync();
+  Result<void> sync() const;
+  /// The same for the file's name in its folder: without it a new file can be gone after a power
+  /// cut.
+  Result<void> syncFolder() const;
   /// Cuts what was written behind `size`, and gives room that was kept back.
   void cutAt(std::uint64_t size);
   /// Asks for room behind the end, so that the last words fit on a disk that becomes full. False:

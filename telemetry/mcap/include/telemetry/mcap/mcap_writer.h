@@ -52,7 +52,7 @@ struct McapWriterOptions {
   std::string profile;
   std::string library = "pitchboard";
   int level = 3;     ///< of zstd
-  bool sync = true;  ///< every chunk is on the disk before writeChunk() returns
+  bool sync = true;  ///< the disk is asked to keep every chunk, and finish() waits until it does
 };
 
 /// One thread. Every function that writes fails with what the system said; nothing is written after
@@ -73,13 +73,16 @@ class McapWriter {
   Result<void> attach(std::uint64_t logTime, std::uint64_t createTime, std::string_view name,
                       std::string_view mediaType, std::string_view data);
   Result<void> metadata(std::string_view name, const McapMap& values);
-  /// Writes what waits to the disk (with options.sync).
+  /// Asks the disk to keep what was written (with options.sync), and does not wait for it; the
+  /// error is that of an earlier time.
   Result<void> sync();
   /// Writes the summary and closes. Possible after an error too: room for it is kept on the disk
   /// where the file system can; without it the file needs repair.
   Result<void> finish();
 
   std::uint64_t bytes() const;  ///< of the file so far
+  /// How long the disk has been owing an answer, s. Any thread, until finish().
+  double owedSeconds() const;
   const McapStatistics& statistics() const;
 
  private:

@@ -2,13 +2,16 @@
 #pragma once
 
 // Records a session into a file in a thread of its own (docs/SESSIONS.md has the format). Rows and
-// messages go through a bounded queue that counts what it had to drop. What was appended is on the
-// disk after a second at the latest; a process that is killed loses no more. Never overwrites.
+// messages go through a bounded queue that counts what it had to drop. What was appended is in
+// the file after a second at the latest, also while the disk stalls; a process that is killed loses
+// no more. Never overwrites.
 // Times are seconds of the source. When the source is put back (an earlier moment is re-entered),
 // nothing in the file is lost: what comes after it follows behind what stands there already.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,6 +29,8 @@ struct SessionWriterOptions {
   bool waitWhenFull =
       false;         ///< append() waits for the disk instead: for runs faster than real time
   bool sync = true;  ///< the disk must have each chunk, not only the kernel
+  /// Bytes that the disk has left; empty: the file system is asked. Called on the writing thread.
+  std::function<std::optional<std::uint64_t>()> freeSpace;
 };
 
 struct SessionStatus {
@@ -37,6 +42,11 @@ struct SessionStatus {
   std::uint64_t rows = 0;
   std::uint64_t messages = 0;  ///< events, log lines, datagrams, ...
   std::uint64_t dropped = 0;   ///< rows and messages for which the queue had no room
+  /// For so long the disk has not answered; the file goes on growing, but not safe from a power
+  /// cut.
+  double owedSeconds = 0.0;
+  std::optional<std::uint64_t> freeBytes;  ///< of the disk, where the system says so
+  double bytesPerSecond = 0.0;             ///< of the file lately; 0: not known yet
 };
 
 /// Every function may be called from any thread. After a failure append does nothing, and the file

@@ -8,13 +8,16 @@
 
 #include <QDir>
 #include <QObject>
+#include <QPointer>
 #include <QThreadPool>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <robotlink/session/match_recorder.h>
+#include <telemetry/session/recording_health.h>
 
 class QSettings;
 class QTimer;
@@ -34,17 +37,26 @@ class SessionRecording : public QObject {
  public:
   SessionRecording(MatchController* controller, LiveController* live, SourceSwitch* source,
                    Timeline* timeline, QSettings* settings, QObject* parent);
-  ~SessionRecording() override;  ///< ends a recording that goes on
+  ~SessionRecording() override;  ///< as end(), without a word
 
   /// Where files go: Documents/Pitchboard unless another one was chosen. Made when needed.
   QString folder() const;
   void setFolder(const QString& folder);
 
+  /// How recordings are written from the next one on; tests give it a disk of their own.
+  void setWriting(const telemetry::SessionWriterOptions& options) { m_writing = options; }
+
   bool isRecording() const { return m_recorder.has_value(); }
   /// What is shown can be recorded.
   bool isPossible() const;
   void start();
+  /// As start(), into this file; its folder is made when needed. A file that is there already is
+  /// left alone: the new one gets a number behind its name, and `noted` says so.
+  void startInto(const QString& path);
   void stop();
+  /// stop(), and waits until every file is complete; what there is to say of them has been said
+  /// then.
+  void end();
   /// Of the recording that goes on.
   telemetry::SessionStatus status() const;
   QString path() const { return m_path; }
@@ -59,10 +71,15 @@ class SessionRecording : public QObject {
   void changed();                   ///< started or stopped
   void saved(const QString& path);  ///< a file is complete
   void failed(const QString& sentence);
+  void noted(const QString& sentence);  ///< good to know: nothing failed
 
  private:
   QString newPath(const QString& title);
+  QString title() const;
+  bool makeFolder(const QDir& folder);
+  void begin(const QString& path);
   void checkHealth();
+  void warnOf(const telemetry::SessionStatus& status);
   void finish(bool matchEnds);
   telemetry::WallTime zeroOfLive() const;
 
@@ -77,17 +94,23 @@ class SessionRecording : public QObject {
   Result<Recorder> recordMatch(const QString& path);
   Result<Recorder> recordLive(const QString& path);
 
-  MatchController* m_controller;
-  LiveController* m_live;
+  // A recording outlives what it records if need be.
+  QPointer<MatchController> m_controller;
+  QPointer<LiveController> m_live;
   SourceSwitch* m_source;
   Timeline* m_timeline;
   QSettings* m_settings;
   QTimer* m_timer;
+  telemetry::SessionWriterOptions m_writing;
   std::optional<Recorder> m_recorder;
   QString m_path;
-  std::deque<telemetry::SessionLogLine> m_log;  // of the present match, for saveLast()
+  std::set<telemetry::RecordingTrouble> m_told;  // of this recording
+  std::deque<telemetry::SessionLogLine> m_log;   // of the present match, for saveLast()
   QThreadPool m_worker;
 };
+
+/// This path, with a number before its suffix when there is such a file already.
+QString freePath(const QString& path);
 
 /// "match-3v3 2026-07-01 14.23.05.mcap" in this folder, with a number behind it when it is there
 /// already. `title` may hold anything.

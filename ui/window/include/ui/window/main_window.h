@@ -3,7 +3,7 @@
 
 // The studio's window: arranges tool bar, field, docks and menus, and keeps their layout. It owns
 // no logic: the match is the controller's, files are ScenarioFiles', docks look after themselves.
-// UI thread only.
+// How the studio ends stands in one place, shutDown(). UI thread only.
 
 #include <QAction>
 #include <QMainWindow>
@@ -59,6 +59,9 @@ class MainWindow : public QMainWindow {
   LiveController* live() const { return m_live; }
   /// A recorded session, in Replay; what is wrong with it is a notice.
   void openSession(const QString& path);
+  /// Records what is shown into this file, as the button does into one of its own choice. What goes
+  /// wrong, now or later, is a notice and `recordingFailed`.
+  void recordInto(const QString& path);
   /// Offers to export from what is shown: the session, or what memory holds.
   void showExport();
   /// Megabytes that the rows of one source may take in memory, 1 to 65536; kept in the settings.
@@ -75,6 +78,9 @@ class MainWindow : public QMainWindow {
   /// Offers to remove blackboards that an earlier run left at this key base.
   void offerToRemoveOrphans();
 
+ signals:
+  void recordingFailed(const QString& sentence);
+
  protected:
   void closeEvent(QCloseEvent* event) override;
 
@@ -84,6 +90,7 @@ class MainWindow : public QMainWindow {
   void makeDocks();
   void showTitles();
   void connectField();
+  void shutDown();
 
   MatchController* m_controller;
   LiveController* m_live;

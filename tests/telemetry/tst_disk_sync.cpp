@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A disk that stalls or fails: whoever writes does not wait, and is told.
+#include <QtTest>
+#include <semaphore>
+
+#include "disk_sync.h"
+
+using namespace pitchboard;
+using pitchboard::telemetry::DiskSync;
+
+class TestDiskSync : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void nobodyWaitsForAStalledDisk() {
+    std::counting_semaphore<> begun{0}, answer{0};
+    std::atomic<int> calls = 0;
+    DiskSync disk([&]() -> Result<void> {
+      ++calls;
+      begun.release();
+      answer.acquire();
+      return {};
+    });
+    QCOMPARE(disk.owedSeconds(), 0.0);
+    QVERIFY(disk.request());
+    begun.acquire();
+    // However much is written meanwhile, the disk is asked once more.
+    for (int i = 0; i < 1000; ++i) QVERIFY(disk.request());
+    QCOMPARE(calls, 1);
+    const double owed = disk.owedSeconds();
+    QVERIFY(owed > 0.0);
+    QTRY_VERIFY(disk.owedSeconds() > owed);
+    answer.release();
+    begun.acquire();
+    answer.release();
+    QTRY_COMPARE(disk.owedSeconds(), 0.0);
+    QCOMPARE(calls, 2);
+  }
+
+  void finishWaitsForWhatWasWritten() {
+    std::atomic<int> written = 0, kept = 0;
+    DiskSync disk([&]() -> Result<void> {
+      kept = written.load();
+      return {};
+    });
+    for (int i = 1; i <= 200; ++i) {
+      written = i;
+      QVERIFY(disk.finish());
+      QCOMPARE(kept, i);
+    }
+  }
+
+  void anErrorIsToldAndStays() {
+    DiskSync disk(
+        []() -> Result<void> { return failure(ErrorCode::SystemError, "The disk is gone."); });
+    const auto finished = disk.finish();
+    QVERIFY(!finished);
+    QCOMPARE(finished.error().message, std::string("The disk is gone."));
+    const auto asked = disk.request();
+    QVERIFY(!asked);
+    QCOMPARE(asked.error().message, std::string("The disk is gone."));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestDiskSync)
+#include "tst_disk_sync.moc"

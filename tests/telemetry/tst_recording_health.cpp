@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long the disk has room, and what is said of it in time.
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <telemetry/session/recording_health.h>
+
+#include "write_rate.h"
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+
+namespace {
+
+SessionStatus status(double gigabytesFree, double bytesPerSecond) {
+  SessionStatus made;
+  made.freeBytes = static_cast<std::uint64_t>(gigabytesFree * 1e9);
+  made.bytesPerSecond = bytesPerSecond;
+  return made;
+}
+
+bool says(const SessionStatus& of, const char* words) {
+  return troubleText(of).find(words) != std::string::npos;
+}
+
+}  // namespace
+
+class TestRecordingHealth : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theRateIsThatOfTheLastMinute() {
+    WriteRate rate;
+    QCOMPARE(rate.bytesPerSecond(), 0.0);
+    rate.note(100.0, 1000);
+    rate.note(101.0, 5000);
+    QCOMPARE(rate.bytesPerSecond(), 0.0);  // too short to judge by
+    for (int second = 2; second <= 200; ++second) {
+      rate.note(100.0 + second, 5000 + static_cast<std::uint64_t>(second) * 100);
+    }
+    QVERIFY(std::abs(rate.bytesPerSecond() - 100.0) < 1e-9);
+    for (int second = 201; second <= 300; ++second) {
+      rate.note(100.0 + second, 25'000 + static_cast<std::uint64_t>(second - 200) * 2000);
+    }
+    QVERIFY(std::abs(rate.bytesPerSecond() - 2000.0) < 1e-9);
+  }
+
+  void theDiskIsFullInMinutes() {
+    const SessionStatus soon = status(1.2, 1.2e9 / 600);
+    QCOMPARE(secondsLeft(soon).value(), 600.0);
+    QCOMPARE(troubleOf(soon), RecordingTrouble::LittleRoom);
+    QVERIFY(says(soon, "The disk will be full in 10 min (1.2 GB free): make room"));
+    QCOMPARE(troubleOf(status(1.2, 1.2e9 / 3600)), RecordingTrouble::None);
+    QCOMPARE(troubleText(status(1.2, 1.2e9 / 3600)), std::string());
+    // Little room is enough for a recording that hardly grows, and alarming while that is not
+    // known.
+    QCOMPARE(troubleOf(status(0.01, 10.0)), RecordingTrouble::None);
+    QVERIFY(says(status(0.01, 0.0), "The disk is nearly full (10 MB free)"));
+    QCOMPARE(troubleOf(SessionStatus()), RecordingTrouble::None);  // the system does not say
+  }
+
+  void roomIsSaidInPlainWords() {
+    QCOMPARE(roomText(SessionStatus()), std::string());
+    QCOMPARE(roomText(status(52.34, 0.0)), std::string("52.3 GB free"));
+    QCOMPARE(roomText(status(0.4, 0.0)), std::string("400 MB free"));
+    QCOMPARE(roomText(status(12.0, 1e6)), std::string("room for 3 h 20 min"));
+    QCOMPARE(roomText(status(0.06, 1e6)), std::string("room for 1 min"));
+    QCOMPARE(roomText(status(0.05, 1e6)), std::string("room for less than a minute"));
+    QCOMPARE(roomText(status(500.0, 1e6)), std::string("room for more than 2 days"));
+  }
+
+  void whatTheDiskOwesAndWhatIsMissingIsSaid() {
+    SessionStatus of = status(100.0, 1e3);
+    of.owedSeconds = 1.0;
+    QCOMPARE(troubleOf(of), RecordingTrouble::None);
+    of.owedSeconds = 9.6;
+    QCOMPARE(troubleOf(of), RecordingTrouble::DiskBehind);
+    QVERIFY(says(of, "does not keep up: it has not answered for 10 s"));
+    of.dropped = 7;
+    QVERIFY(says(of, "7 rows and messages are missing"));
+    of.owedSeconds = 0.0;
+    QCOMPARE(troubleOf(of), RecordingTrouble::Dropped);
+    QVERIFY(says(of, "The disk did not keep up: 7 rows"));
+  }
+
+  void aRecordingKnowsItsDisk() {
+    const QTemporaryDir folder;
+    std::atomic<std::uint64_t> free = 5'000'000'000;
+    SessionWriterOptions options;
+    options.chunkInterval = std::chrono::milliseconds(10);
+    options.freeSpace = [&free] { return std::optional<std::uint64_t>(free.load()); };
+    const auto writer =
+        SessionWriter::create(folder.filePath(QStringLiteral("a.mcap")).toStdString(), {}, options);
+    QVERIFY(writer);
+    QCOMPARE((*writer)->status().freeBytes.value(), std::uint64_t(5'000'000'000));
+    QCOMPARE(troubleOf((*writer)->status()), RecordingTrouble::None);
+    free = 9'000'000;
+    QTRY_COMPARE(troubleOf((*writer)->status()), RecordingTrouble::LittleRoom);
+    QVERIFY((*writer)->finish());
+    // Without a source of one's own the file system is asked.
+    const auto real =
+        SessionWriter::create(folder.filePath(QStringLiteral("b.mcap")).toStdString(), {});
+    QVERIFY(real && (*real)->status().freeBytes.value_or(0) > 0);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRecordingHealth)
+#include "tst_recording_health.moc"
