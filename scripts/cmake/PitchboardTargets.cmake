@@ -57,7 +57,6 @@ function(pitchboard_room library room)
   # save time: every file includes what it needs, as a build with
   # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
   if(library STREQUAL ui)
-    set_target_properties(${target} PROPERTIES LINK_INTERFACE_MULTIPLICITY 4)
     target_precompile_headers(${target} REUSE_FROM ui_precompiled)
   elseif(NOT target STREQUAL simcore_base)
     target_precompile_headers(${target} REUSE_FROM simcore_base)

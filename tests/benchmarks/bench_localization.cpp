@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include <robotlink/cognition/monte_carlo_localization.h>
+#include "localization/monte_carlo_localization.h"
 
 namespace pitchboard::link {
 namespace {

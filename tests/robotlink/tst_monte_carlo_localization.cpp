@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The filter alone, on perfect and on noisy walks made here; no simulator.
-#include <robotlink/cognition/monte_carlo_localization.h>
+#include "localization/monte_carlo_localization.h"
 
 #include <QtTest>
 

@@ -5,7 +5,7 @@
 
 #include <QGraphicsItem>
 
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 

@@ -8,7 +8,7 @@
 #include <QGraphicsItem>
 #include <vector>
 
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 

@@ -7,7 +7,7 @@
 #include <QPixmap>
 #include <QTransform>
 
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 

@@ -7,7 +7,7 @@
 #include <QGraphicsView>
 #include <functional>
 
-#include <ui/field/field_scene.h>
+#include "field_scene.h"
 
 #include "field_background.h"
 

@@ -6,7 +6,7 @@
 #include <QPointF>
 #include <functional>
 
-#include <ui/field/field_scene.h>
+#include "field_scene.h"
 
 class QMenu;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/field/field_picture.h>
+#include "field_picture.h"
 
 #include <QBuffer>
 #include <QPainter>

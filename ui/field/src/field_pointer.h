@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include <ui/field/field_scene.h>
+#include "field_scene.h"
 
 namespace pitchboard::ui {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/field/field_scene.h>
+#include "field_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -211,7 +211,10 @@ void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
   }
   if (std::erase_if(m_robots, [&](const auto& entry) { return !present.contains(entry.first); })) {
     select(m_selection);
-    if (m_followed && !present.contains(*m_followed)) m_followed.reset();
+    if (m_followed && !present.contains(*m_followed)) {
+      m_followed.reset();
+      emit followedChanged(m_followed);
+    }
   }
 }
 
@@ -380,8 +383,11 @@ void FieldScene::setTrailShown(RobotId id, bool shown) {
 }
 
 void FieldScene::setFollowed(std::optional<RobotId> id) {
-  m_followed = id && m_robots.contains(*id) ? id : std::nullopt;
+  if (id && !m_robots.contains(*id)) id.reset();
+  if (id == m_followed) return;
+  m_followed = id;
   if (m_frame) showFrame(m_frame);
+  emit followedChanged(id);
 }
 
 }  // namespace pitchboard::ui

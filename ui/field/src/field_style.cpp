@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 #include <QFontMetricsF>
 #include <QGuiApplication>

@@ -13,13 +13,14 @@
 #include <numbers>
 
 #include <ui/base/theme.h>
-#include <ui/field/field_picture.h>
-#include <ui/field/field_scene.h>
+#include "field_picture.h"
+#include "field_scene.h"
 
 #include "field_canvas.h"
 #include "field_keys.h"
 #include "field_menu.h"
 #include "field_pointer.h"
+#include "film_painter.h"
 #include "help_overlay.h"
 #include "pose_editor.h"
 
@@ -361,6 +362,7 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
           [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
   connect(d->canvas, &FieldCanvas::spaceTapped, this, [this] { d->flip->toggle(); });
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
+  connect(d->scene, &FieldScene::followedChanged, this, &FieldView::followedChanged);
   connect(d->pointer, &FieldPointer::poseRequested, this,
           [this](RobotId id) { d->openPoseEditor(id); });
   if (!source) return;
@@ -447,8 +449,8 @@ QImage FieldView::picture(QSize size) const {
 QByteArray FieldView::svgPicture(QSize size) const {
   return ui::svgPicture(*d->scene, size);
 }
-const FieldStyle& FieldView::style() const {
-  return d->scene->style();
+std::unique_ptr<FramePainter> FieldView::framePainter() const {
+  return std::make_unique<FilmPainter>(d->scene->style());
 }
 
 }  // namespace pitchboard::ui

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <ui/base/theme.h>
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 #include "field_keys.h"
 

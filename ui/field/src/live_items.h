@@ -7,7 +7,7 @@
 #include <QGraphicsItem>
 
 #include <robotlink/frame/live_values.h>
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 

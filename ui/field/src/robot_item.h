@@ -6,7 +6,7 @@
 #include <QGraphicsItem>
 #include <QString>
 
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 

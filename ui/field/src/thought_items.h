@@ -9,7 +9,7 @@
 
 #include <base/ids.h>
 #include <robotlink/cognition/robot_thoughts.h>
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 

@@ -12,8 +12,7 @@
 #include <base/angles.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
-#include <ui/field/field_view.h>
-#include <ui/live/live_overlay.h>
+#include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/pose_difference.h>
 #include <ui/sources/robot_selection.h>

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include <ui/base/theme.h>
-#include <ui/field/field_view.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/robot_menus.h>
+#include <ui/sources/robot_selection.h>
 #include <ui/sources/source_switch.h>
 
 #include "blackboard_window.h"
@@ -104,10 +104,11 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   if (m_context.source->kind() == SourceKind::Simulate) addMatchActions(menu, card);
   QAction* follow = menu.addAction(tr("Follow"));
   follow->setCheckable(true);
-  follow->setChecked(m_context.field->followed() == id);
-  connect(follow, &QAction::toggled, m_context.field, [field = m_context.field, id](bool on) {
-    field->follow(on ? std::optional(id) : std::nullopt);
-  });
+  follow->setChecked(m_context.selection->followed() == id);
+  connect(follow, &QAction::toggled, m_context.selection,
+          [selection = m_context.selection, id](bool on) {
+            selection->follow(on ? std::optional(id) : std::nullopt);
+          });
   if (m_floating.count(id) == 0) {
     menu.addAction(tr("In a window of its own"), this, [this, id] { floatCard(id); });
   } else {

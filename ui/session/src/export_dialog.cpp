@@ -19,8 +19,7 @@
 
 #include <base/file_target.h>
 #include <ui/base/theme.h>
-#include <ui/field/field_style.h>
-#include <ui/field/field_view.h>
+#include <ui/sources/field_pictures.h>
 
 #include "video_export.h"
 
@@ -38,11 +37,11 @@ std::vector<std::string> namesOf(const QString& text) {
 
 }  // namespace
 
-ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range, FieldView* field,
-                           QWidget* parent)
+ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
+                           const FieldPictures* pictures, QWidget* parent)
     : QDialog(parent),
       m_source(std::move(source)),
-      m_field(field),
+      m_pictures(pictures),
       m_format(new QComboBox(this)),
       m_begin(new QDoubleSpinBox(this)),
       m_end(new QDoubleSpinBox(this)),
@@ -208,7 +207,7 @@ void ExportDialog::write(const ExportRequest& request) {
   QByteArray picture;
   if (form().kind == ExportKind::Report) {
     QBuffer buffer(&picture);
-    m_field->picture({1040, 740}).save(&buffer, "PNG");
+    m_pictures->picture({1040, 740}).save(&buffer, "PNG");
   }
   m_worker.start([this, request, chosen = form(), picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
@@ -234,7 +233,7 @@ void ExportDialog::write(const ExportRequest& request) {
 }
 
 void ExportDialog::writeVideo(const ExportRequest& request) {
-  m_video = std::make_unique<VideoExport>(m_field->style(), nullptr);
+  m_video = std::make_unique<VideoExport>(m_pictures->framePainter(), nullptr);
   connect(m_video.get(), &VideoExport::progressed, this,
           [this](double part) { m_progress->setValue(static_cast<int>(part * 1000)); });
   connect(m_video.get(), &VideoExport::finished, this, [this](const QString& path) {
@@ -263,10 +262,10 @@ void ExportDialog::writePicture(const QString& path) {
   const QSize size = m_size->currentData().toSize();
   QByteArray bytes;
   if (form().kind == ExportKind::Svg) {
-    bytes = m_field->svgPicture(size);
+    bytes = m_pictures->svgPicture(size);
   } else {
     QBuffer buffer(&bytes);
-    m_field->picture(size).save(&buffer, "PNG");
+    m_pictures->picture(size).save(&buffer, "PNG");
   }
   const auto written =
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},

@@ -1,37 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "video_export.h"
 
-#include <QPainter>
 #include <cmath>
 
 #include <robotlink/session/recorded_frame.h>
-#include <ui/base/theme.h>
-#include <ui/field/field_picture.h>
-#include <ui/field/field_scene.h>
-#include <ui/window/scoreboard.h>
 
 namespace pitchboard::ui {
-namespace {
-
-/// Score and time stand in the corner: a picture of a video has no window round it that says them.
-void paintCaption(QImage& picture, const link::MatchFrame& frame) {
-  const ScoreboardState score = scoreboardOf(frame);
-  const int high = std::max(picture.height() / 36, 11);
-  QPainter painter(&picture);
-  painter.setRenderHint(QPainter::Antialiasing);
-  drawHaloText(&painter, {picture.width() / 2.0, high * 0.9},
-               QStringLiteral("%1  %2 : %3  %4    %5")
-                       .arg(score.leftName)
-                       .arg(score.left)
-                       .arg(score.right)
-                       .arg(score.rightName)
-                       .arg(frame.snapshot.time, 0, 'f', 1) +
-                   QStringLiteral(" s"),
-               fieldFont(high, true), theme().fieldLines, theme().fieldBorder.darker(150));
-}
-
-}  // namespace
-
 struct VideoExport::Reader {
   QString path;
   std::optional<telemetry::SessionReader> session;
@@ -52,16 +26,9 @@ struct VideoExport::Reader {
   }
 };
 
-VideoExport::VideoExport(const FieldStyle& style, QObject* parent)
-    : QObject(parent), m_scene(std::make_unique<FieldScene>()) {
+VideoExport::VideoExport(std::unique_ptr<FramePainter> painter, QObject* parent)
+    : QObject(parent), m_painter(std::move(painter)) {
   m_worker.setMaxThreadCount(1);
-  m_scene->changeStyle([&style](FieldStyle& own) {
-    own.layers = style.layers;
-    own.flipped = style.flipped;
-    own.wedgeForAll = style.wedgeForAll;
-    own.eopraGranularity = style.eopraGranularity;
-    own.readOnly = true;
-  });
   connect(&m_writer, &VideoWriter::wantsPicture, this, &VideoExport::next);
   connect(&m_writer, &VideoWriter::finished, this, [this](const QString& path) {
     m_reader.reset();
@@ -143,10 +110,7 @@ void VideoExport::next() {
 }
 
 void VideoExport::draw(const FramePtr& frame) {
-  m_scene->showFrame(frame);
-  QImage picture = paintPicture(*m_scene, m_writer.size());
-  paintCaption(picture, *frame);
-  m_writer.add(picture);
+  m_writer.add(m_painter->paint(frame, m_writer.size()));
   emit progressed(static_cast<double>(m_drawn) / static_cast<double>(m_pictures));
 }
 

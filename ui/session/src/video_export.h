@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A video of the field from part of a session file: moments are rebuilt on a thread of their own,
-// are drawn as the field shows them, and go to ffmpeg. UI thread; nothing waits.
+// A video from part of a session file: moments are rebuilt on a thread of their own, painted, and
+// go to ffmpeg. UI thread; nothing waits.
 
 #include <QObject>
 #include <QThreadPool>
@@ -10,19 +10,16 @@
 #include <memory>
 
 #include <telemetry/series/series_store.h>
-#include <ui/field/field_style.h>
+#include <ui/sources/field_pictures.h>
 
 #include "video_writer.h"
 
 namespace pitchboard::ui {
 
-class FieldScene;
-
 class VideoExport : public QObject {
   Q_OBJECT
  public:
-  /// `style`: side and layers.
-  VideoExport(const FieldStyle& style, QObject* parent);
+  VideoExport(std::unique_ptr<FramePainter> painter, QObject* parent);
   ~VideoExport() override;  ///< as cancel()
 
   /// One second of the session is one second of the video. Errors as VideoWriter::start(), and
@@ -43,7 +40,7 @@ class VideoExport : public QObject {
   void read();
   void draw(const FramePtr& frame);
 
-  std::unique_ptr<FieldScene> m_scene;
+  std::unique_ptr<FramePainter> m_painter;
   VideoWriter m_writer;
   std::shared_ptr<Reader> m_reader;  // of the reading thread, while a video is made
   telemetry::TimeRange m_range;

@@ -3,7 +3,6 @@
 
 #include <QFileInfo>
 
-#include <ui/field/field_view.h>
 #include <ui/sources/playback.h>
 #include <ui/sources/timeline.h>
 
@@ -11,8 +10,8 @@
 
 namespace pitchboard::ui {
 
-ComparedSession::ComparedSession(Timeline* timeline, FieldView* field, QObject* parent)
-    : QObject(parent), m_timeline(timeline), m_field(field), m_events(new EventCollector(&m_file)) {
+ComparedSession::ComparedSession(Timeline* timeline, QObject* parent)
+    : QObject(parent), m_timeline(timeline), m_events(new EventCollector(&m_file)) {
   connect(timeline, &Timeline::moved, this, &ComparedSession::showMoment);
   connect(timeline, &Timeline::sourceChanged, this, [this] {
     m_here.reset();
@@ -24,7 +23,7 @@ ComparedSession::ComparedSession(Timeline* timeline, FieldView* field, QObject* 
     const auto range = m_file.playback()->range();
     // A moment that comes late: what is shown has gone on beyond the session.
     const bool inside = range && there >= range->begin - 1e-6 && there <= range->end + 1e-6;
-    m_field->showCompared(inside ? frame : nullptr);
+    emit momentReached(inside ? frame : nullptr);
   });
   connect(&m_file, &ReplayController::opened, this, [this] {
     m_here.reset();
@@ -42,7 +41,7 @@ void ComparedSession::open(const QString& path) {
 
 void ComparedSession::stop() {
   m_file.close();
-  m_field->showCompared(nullptr);
+  emit momentReached(nullptr);
   emit changed();
 }
 
@@ -97,11 +96,11 @@ void ComparedSession::showMoment() {
   const auto range = m_file.playback()->range();
   const double there = m_timeline->shownTime() - m_offset;
   if (!range || there < range->begin || there > range->end) {
-    m_field->showCompared(nullptr);
+    emit momentReached(nullptr);
     return;
   }
   if (there == m_file.playback()->position()) {
-    m_field->showCompared(m_file.frame());
+    emit momentReached(m_file.frame());
     return;
   }
   m_file.playback()->seek(there);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <ui/base/robot_words.h>
-#include <ui/window/scoreboard.h>
+#include <ui/base/scoreboard_state.h>
 
 #include "session_events.h"
 

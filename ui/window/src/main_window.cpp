@@ -17,13 +17,13 @@
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
 #include <ui/field/field_view.h>
-#include <ui/live/live_overlay.h>
 #include <ui/processes/orphan_notice.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
+#include <ui/sources/live_overlay.h>
 #include <ui/sources/live_settings.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/playback.h>
@@ -87,8 +87,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->setSpacing(0);
   m_notices = new NoticeBar(centre);
   m_field = new FieldView(m_source, controller, centre);
-  m_overlay = new LiveOverlay(controller, m_live, m_source, m_field, this);
-  m_compared = new ComparedSession(m_timeline, m_field, this);
+  m_overlay = new LiveOverlay(controller, m_live, m_source, this);
+  m_compared = new ComparedSession(m_timeline, this);
   connect(m_compared, &ComparedSession::failed, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
   column->addWidget(m_notices);
@@ -262,6 +262,10 @@ void MainWindow::showTitles() {
 void MainWindow::connectField() {
   connect(m_field, &FieldView::selectionChanged, m_selection, &RobotSelection::set);
   connect(m_selection, &RobotSelection::changed, m_field, &FieldView::select);
+  connect(m_field, &FieldView::followedChanged, m_selection, &RobotSelection::follow);
+  connect(m_selection, &RobotSelection::followedChanged, m_field, &FieldView::follow);
+  connect(m_overlay, &LiveOverlay::otherReceived, m_field, &FieldView::showOther);
+  connect(m_compared, &ComparedSession::momentReached, m_field, &FieldView::showCompared);
   connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);
   connect(m_field, &FieldView::saveScenarioRequested, m_files, &ScenarioFiles::askAndSave);
   connect(m_field, &FieldView::loadMatchRequested, m_files,

@@ -12,12 +12,12 @@
 #include <QUndoGroup>
 
 #include <ui/field/field_view.h>
-#include <ui/live/live_overlay.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/plots/plot_menus.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>

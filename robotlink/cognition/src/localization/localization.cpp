@@ -6,8 +6,8 @@
 
 #include <base/angles.h>
 #include <robotlink/blackboard/robot_variables.h>
-#include <robotlink/cognition/monte_carlo_localization.h>
 #include <simcore/world/published_frame.h>
+#include "localization/monte_carlo_localization.h"
 
 #include "odometry.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/cognition/monte_carlo_localization.h>
+#include "localization/monte_carlo_localization.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include <base/random.h>
-#include <robotlink/cognition/monte_carlo_localization.h>
+#include "localization/monte_carlo_localization.h"
 
 #include "localization/monte_carlo_imu.h"
 

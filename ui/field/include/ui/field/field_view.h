@@ -7,16 +7,16 @@
 #include <QImage>
 #include <QWidget>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <base/ids.h>
+#include <ui/sources/field_pictures.h>
 #include <ui/sources/match_controller.h>
 
 class QAction;
 
 namespace pitchboard::ui {
-
-struct FieldStyle;
 
 /// What can be shown or hidden on the field, in the order of the layers menu.
 enum class FieldLayer {
@@ -35,7 +35,7 @@ enum class FieldLayer {
 };
 inline constexpr int fieldLayerCount = 12;
 
-class FieldView : public QWidget {
+class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
  public:
   /// Shows the source's frames; what is done by hand goes to the controller. Without a source
@@ -64,15 +64,13 @@ class FieldView : public QWidget {
   void fitField();
   void setFlipped(bool flipped);
   bool isFlipped() const;
-  /// The field as a picture without window, for files and documents.
-  QImage picture(QSize size) const;
-  /// The same as an SVG document.
-  QByteArray svgPicture(QSize size) const;
-  /// Side and layers as they are shown, for pictures that are drawn elsewhere.
-  const FieldStyle& style() const;
+  QImage picture(QSize size) const override;
+  QByteArray svgPicture(QSize size) const override;
+  std::unique_ptr<FramePainter> framePainter() const override;
 
  signals:
   void selectionChanged(const std::vector<pitchboard::RobotId>& ids);
+  void followedChanged(std::optional<pitchboard::RobotId> id);
   /// Cursor in metres on the field; not valid when the cursor left it.
   void cursorMoved(QPointF metres, bool valid);
   void saveScenarioRequested();

@@ -29,7 +29,7 @@ class QTemporaryDir;
 
 namespace pitchboard::ui {
 
-class FieldView;
+class FieldPictures;
 class VideoExport;
 
 /// What is exported from: a file, or memory.
@@ -42,9 +42,9 @@ struct ExportSource {
 class ExportDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `range` is what is chosen at first. The field (it outlives the dialog) is what pictures show
-  /// and whose layers and side videos have.
-  ExportDialog(ExportSource source, telemetry::TimeRange range, FieldView* field, QWidget* parent);
+  /// `range` is what is chosen at first; `pictures` outlives the dialog.
+  ExportDialog(ExportSource source, telemetry::TimeRange range, const FieldPictures* pictures,
+               QWidget* parent);
   ~ExportDialog() override;  ///< cancels what is being written
 
   /// Writes in the chosen form; finished() or failed() follows. Never overwrites.
@@ -73,7 +73,7 @@ class ExportDialog : public QDialog {
   void setWriting(bool writing);
 
   ExportSource m_source;
-  FieldView* m_field;
+  const FieldPictures* m_pictures;
   QComboBox* m_format;
   QDoubleSpinBox* m_begin;
   QDoubleSpinBox* m_end;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A second session beside the one that is shown, whatever that is: its robots are drawn over the
-// field, its events stand in the timeline's second row. Both are aligned by their times, or by an
-// event chosen in each. UI thread only; the file is read on threads of its own.
+// A second session beside the one that is shown, whatever that is: its moments are for drawing over
+// the field, its events stand in the timeline's second row. Both are aligned by their times, or by
+// an event chosen in each. UI thread only; the file is read on threads of its own.
 
 #include <QObject>
 #include <optional>
@@ -14,13 +14,12 @@ namespace pitchboard::ui {
 
 class EventCollector;
 class EventList;
-class FieldView;
 class Timeline;
 
 class ComparedSession : public QObject {
   Q_OBJECT
  public:
-  ComparedSession(Timeline* timeline, FieldView* field, QObject* parent);
+  ComparedSession(Timeline* timeline, QObject* parent);
 
   /// Returns at once; changed() or failed() follows. On failure what was compared stays.
   void open(const QString& path);
@@ -49,13 +48,14 @@ class ComparedSession : public QObject {
   /// On, off, or aligned in another way.
   void changed();
   void failed(const QString& sentence);
+  /// Its moment that belongs to what is shown; null: none.
+  void momentReached(const pitchboard::ui::FramePtr& frame);
 
  private:
   void align();
   void showMoment();
 
   Timeline* m_timeline;
-  FieldView* m_field;
   ReplayController m_file;
   EventCollector* m_events;
   double m_offset = 0.0;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which robots are selected: the same everywhere in the window. UI thread only.
+// Which robots are selected, and which one the view follows: the same everywhere in the window. UI
+// thread only.
 
 #include <QObject>
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <base/ids.h>
@@ -35,11 +37,20 @@ class RobotSelection : public QObject {
     set(ids);
   }
 
+  std::optional<RobotId> followed() const { return m_followed; }
+  void follow(std::optional<RobotId> id) {
+    if (id == m_followed) return;
+    m_followed = id;
+    emit followedChanged(id);
+  }
+
  signals:
   void changed(const std::vector<pitchboard::RobotId>& ids);
+  void followedChanged(std::optional<pitchboard::RobotId> id);
 
  private:
   std::vector<RobotId> m_ids;
+  std::optional<RobotId> m_followed;
 };
 
 }  // namespace pitchboard::ui

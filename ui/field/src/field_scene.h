@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include <ui/field/field_style.h>
+#include "field_style.h"
 
 namespace pitchboard::ui {
 
@@ -76,6 +76,7 @@ class FieldScene : public QGraphicsScene {
 
  signals:
   void selectionChangedTo(const std::vector<pitchboard::RobotId>& ids);
+  void followedChanged(std::optional<pitchboard::RobotId> id);
 
  private:
   struct Robot;

@@ -6,7 +6,7 @@
 #include <QByteArray>
 #include <QImage>
 
-#include <ui/field/field_scene.h>
+#include "field_scene.h"
 
 namespace pitchboard::ui {
 

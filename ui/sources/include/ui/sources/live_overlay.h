@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The simulated and the live match side by side: while it is on, the field also shows where the
-// other of the two sees each robot. UI thread only.
+// The simulated and the live match side by side: while it is on, it also tells where the other of
+// the two sees each robot. UI thread only.
 
 #include <QObject>
 
@@ -10,7 +10,6 @@
 
 namespace pitchboard::ui {
 
-class FieldView;
 class LiveController;
 class MatchController;
 class SourceSwitch;
@@ -19,12 +18,16 @@ class LiveOverlay : public QObject {
   Q_OBJECT
  public:
   LiveOverlay(MatchController* controller, LiveController* live, SourceSwitch* shown,
-              FieldView* field, QObject* parent);
+              QObject* parent);
   bool isOn() const { return m_on; }
   /// Live begins to listen.
   void setOn(bool on);
   /// The other source's newest frame; null while it is off or there is no other.
   FramePtr other() const;
+
+ signals:
+  /// other(), whenever that may be another one.
+  void otherReceived(const pitchboard::ui::FramePtr& frame);
 
  private:
   void show();
@@ -32,7 +35,6 @@ class LiveOverlay : public QObject {
   MatchController* m_controller;
   LiveController* m_live;
   SourceSwitch* m_shown;
-  FieldView* m_field;
   bool m_on = false;
 };
 

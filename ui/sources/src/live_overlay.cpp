@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/live/live_overlay.h>
+#include <ui/sources/live_overlay.h>
 
-#include <ui/field/field_view.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/source_switch.h>
@@ -9,8 +8,8 @@
 namespace pitchboard::ui {
 
 LiveOverlay::LiveOverlay(MatchController* controller, LiveController* live, SourceSwitch* shown,
-                         FieldView* field, QObject* parent)
-    : QObject(parent), m_controller(controller), m_live(live), m_shown(shown), m_field(field) {
+                         QObject* parent)
+    : QObject(parent), m_controller(controller), m_live(live), m_shown(shown) {
   // Each source's frames are drawn when the shown one has a new one; the other's in between.
   for (FrameSource* source :
        {static_cast<FrameSource*>(controller), static_cast<FrameSource*>(live)}) {
@@ -42,7 +41,7 @@ FramePtr LiveOverlay::other() const {
 }
 
 void LiveOverlay::show() {
-  m_field->showOther(other());
+  emit otherReceived(other());
 }
 
 }  // namespace pitchboard::ui

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a scoreboard says of a moment, in the words and colours of the screen: those of the
+// simulated match, or what the referee says. Values; UI thread, for the colours of the theme.
+
+#include <QColor>
+#include <QString>
+
+#include <robotlink/frame/match_frame.h>
+
+namespace pitchboard::ui {
+
+struct ScoreboardState {
+  QString leftName, rightName;     ///< BLUE; TEAM 12 where the colour is not known
+  QColor leftColour, rightColour;  ///< not valid: no square
+  int left = 0, right = 0;
+  QString clock = QStringLiteral("00:00");
+  QString state;  ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
+  QString tip;    ///< more of what the referee says
+  bool operator==(const ScoreboardState&) const = default;
+};
+
+/// Of a live frame: what the referee says. Else: the team that defends the left goal is the first
+/// whose robots face right.
+ScoreboardState scoreboardOf(const link::MatchFrame& frame);
+
+}  // namespace pitchboard::ui

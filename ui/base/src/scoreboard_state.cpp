@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/scoreboard_state.h>
+
+#include <QObject>
+#include <cmath>
+
+#include <ui/base/robot_words.h>
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+QString teamName(TeamColor team) {
+  const std::string_view name = info(team).name;
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
+}
+
+QColor refereeColour(const std::string& words) {
+  for (const TeamColorInfo& team : teamColors) {
+    if (team.name == words) return theme().team(team.color);
+  }
+  // What referees know besides the colours that robots are drawn in.
+  static const std::pair<const char*, QColor> others[] = {{"white", QColor(245, 245, 245)},
+                                                          {"green", QColor(58, 150, 80)},
+                                                          {"purple", QColor(130, 70, 170)},
+                                                          {"brown", QColor(125, 85, 50)},
+                                                          {"gray", QColor(128, 128, 128)}};
+  for (const auto& [name, colour] : others) {
+    if (words == name) return colour;
+  }
+  return {};
+}
+
+QString refereeTeam(const link::RefereeTeamView& team) {
+  if (team.colour == "unknown") return QObject::tr("TEAM %1").arg(team.number);
+  return QString::fromStdString(team.colour).toUpper();
+}
+
+QString refereeTip(const link::RefereeView& view) {
+  QStringList tip;
+  for (const link::RefereeTeamView& team : view.teams) {
+    tip << QObject::tr("Team %1 (%2): %3 goals, %4 players on the field%5")
+               .arg(team.number)
+               .arg(QString::fromStdString(team.colour))
+               .arg(team.score)
+               .arg(team.playersLeft)
+               .arg(team.number == view.ourTeam && view.ourTeam != 0 ? QObject::tr(", ours")
+                                                                     : QString());
+  }
+  tip << (view.firstHalf ? QObject::tr("First half") : QObject::tr("Second half"));
+  if (!view.phase.empty()) tip.back() += QStringLiteral(", ") + QString::fromStdString(view.phase);
+  if (!view.setPlay.empty()) {
+    tip.back() += QStringLiteral(", ") + QString::fromStdString(view.setPlay);
+  }
+  if (view.secondaryTime && *view.secondaryTime != 0) {
+    tip << QObject::tr("Secondary time: %1 s").arg(*view.secondaryTime);
+  }
+  tip << (view.kickOffTeam ? QObject::tr("Kick-off: team %1").arg(*view.kickOffTeam)
+                           : QObject::tr("Kick-off: nobody (drop ball)"));
+  tip << QObject::tr("Referee at %1, version %2, heard %3 s ago")
+             .arg(QString::fromStdString(view.sender))
+             .arg(view.version)
+             .arg(numberText(view.age, 1));
+  if (view.conflict) tip << QObject::tr("A second referee program is heard.");
+  if (view.trueData) tip << QObject::tr("Monitor mode: true data arrive.");
+  return tip.join(QLatin1Char('\n'));
+}
+
+ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
+  ScoreboardState state;
+  if (!frame.referee) {
+    state.clock = QStringLiteral("--:--");
+    state.state = QObject::tr("NO REFEREE");
+    state.tip = QObject::tr("No referee's packet has been heard yet.");
+    return state;
+  }
+  const link::RefereeView& view = *frame.referee;
+  state.leftName = refereeTeam(view.teams[0]);
+  state.rightName = refereeTeam(view.teams[1]);
+  state.leftColour = refereeColour(view.teams[0].colour);
+  state.rightColour = refereeColour(view.teams[1].colour);
+  state.left = view.teams[0].score;
+  state.right = view.teams[1].score;
+  state.clock = (view.secondsLeft < 0 ? QStringLiteral("−") : QString()) +
+                clockText(std::abs(view.secondsLeft));
+  state.state = QString::fromStdString(view.state);
+  const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
+  if (view.timedOut) {
+    state.state = QObject::tr("REFEREE SILENT");
+  } else if (view.stopped) {
+    state.state += QStringLiteral(" · ") + QObject::tr("stopped");
+  } else if (!more.empty()) {
+    state.state += QStringLiteral(" · ") + QString::fromStdString(more);
+  }
+  state.tip = refereeTip(view);
+  return state;
+}
+
+}  // namespace
+
+ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
+  if (frame.origin == link::FrameOrigin::Live || frame.referee) return refereeScoreboard(frame);
+  ScoreboardState state;
+  TeamColor leftTeam = TeamColor::Blue, rightTeam = TeamColor::Red;
+  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+    if (!info(robot.identity.team).facesLeft) {
+      leftTeam = robot.identity.team;
+      break;
+    }
+  }
+  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+    if (info(robot.identity.team).facesLeft) {
+      rightTeam = robot.identity.team;
+      break;
+    }
+  }
+  state.leftName = teamName(leftTeam);
+  state.rightName = teamName(rightTeam);
+  state.leftColour = theme().team(leftTeam);
+  state.rightColour = theme().team(rightTeam);
+  state.left = frame.snapshot.score.left;
+  state.right = frame.snapshot.score.right;
+  state.clock = clockText(frame.snapshot.clock);
+  state.state = frame.finished                ? QStringLiteral("FINISHED")
+                : frame.paused                ? QStringLiteral("PAUSED")
+                : frame.snapshot.clockRunning ? QStringLiteral("PLAYING")
+                                              : QStringLiteral("CLOCK STOPPED");
+  return state;
+}
+
+}  // namespace pitchboard::ui
