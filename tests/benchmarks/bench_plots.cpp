@@ -68,7 +68,7 @@ struct Bench {
   std::unique_ptr<PlotsDock> dock;
 
   explicit Bench(StoredSource* source, QSize size) : sources(source) {
-    StudioContext context;
+    PlotsContext context;
     context.source = &sources;
     context.time = &time;
     context.plots = &target;

@@ -11,9 +11,9 @@
 
 #include <telemetry/series/series_store.h>
 #include <ui/base/plot_target.h>
+#include <ui/plots/plots_dock.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/source_switch.h>
-#include <ui/sources/studio_context.h>
 
 namespace pitchboard::ui {
 
@@ -78,8 +78,8 @@ struct PlotBench {
   QTemporaryDir folder;
   QSettings settings{folder.filePath(QStringLiteral("settings.ini")), QSettings::IniFormat};
 
-  StudioContext context() {
-    StudioContext context;
+  PlotsContext context() {
+    PlotsContext context;
     context.source = &sources;
     context.time = &time;
     context.settings = &settings;

@@ -19,6 +19,7 @@
 #include <robotlink/scenario/scenario.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -55,10 +56,10 @@ class TestFieldView : public QObject {
     const QPointF target = metres(to) - metres(from);
     QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x - target.x()) < 0.03);
     QVERIFY(std::abs(pose(1).position.y - before.position.y - target.y()) < 0.03);
-    QCOMPARE(m_controller->undoStack()->count(), 1);
-    m_controller->undoStack()->undo();
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
+    m_controller->edits()->undoStack()->undo();
     QTRY_VERIFY(near(pose(1), before));
-    m_controller->undoStack()->redo();
+    m_controller->edits()->undoStack()->redo();
     QTRY_VERIFY(std::abs(pose(1).position.x - before.position.x - target.x()) < 0.03);
   }
 
@@ -67,7 +68,7 @@ class TestFieldView : public QObject {
     const QPoint from = at(before);
     drag(from, from + QPoint(60, 60));
     QTRY_VERIFY(m_controller->frame()->snapshot.ball.y < before.y - 0.3);
-    m_controller->undoStack()->undo();
+    m_controller->edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
   }
 
@@ -81,7 +82,7 @@ class TestFieldView : public QObject {
     QTest::keyClick(m_canvas, Qt::Key_Escape);
     QTest::mouseRelease(m_canvas->viewport(), Qt::LeftButton, {}, from + QPoint(70, 70));
     QTRY_VERIFY(near(pose(1), before));
-    QCOMPARE(m_controller->undoStack()->count(), 0);
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 0);
   }
 
   void shiftDragTurns() {
@@ -143,7 +144,7 @@ class TestFieldView : public QObject {
     drag(at(one.position), at(one.position) + QPoint(30, 0));
     QTRY_VERIFY(pose(1).position.x > one.position.x + 0.2);
     QTRY_VERIFY(pose(2).position.x > two.position.x + 0.2);
-    QCOMPARE(m_controller->undoStack()->count(), 1);
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
   }
 
   void aClickOnOneOfSeveralSelectsThatOne() {
@@ -187,7 +188,7 @@ class TestFieldView : public QObject {
     QTest::keyClick(m_canvas, Qt::Key_Delete);
     QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(5));
     QVERIFY(m_view->selection().empty());
-    m_controller->undoStack()->undo();
+    m_controller->edits()->undoStack()->undo();
     QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(6));
   }
 
@@ -246,7 +247,7 @@ class TestFieldView : public QObject {
   void pictureHasTheAskedSizeAndShowsRobots() {
     const QImage with = m_view->picture(QSize(640, 455));
     QCOMPARE(with.size(), QSize(640, 455));
-    m_controller->removeRobots({RobotId{1}, RobotId{2}});
+    m_controller->edits()->removeRobots({RobotId{1}, RobotId{2}});
     QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(4));
     QVERIFY(with != m_view->picture(QSize(640, 455)));
   }
@@ -302,13 +303,13 @@ class TestFieldView : public QObject {
     QVERIFY(trigger({-1.0, -2.0}, "Red"));
     QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
     QCOMPARE(int(m_controller->frame()->snapshot.robots.back().identity.team), int(TeamColor::Red));
-    QCOMPARE(m_controller->undoStack()->count(), 2);
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 2);
   }
 
   void menuOfARobotChangesItsBehaviour() {
     QVERIFY(trigger(pose(3).position, "Keeper"));
     QTRY_COMPARE(m_controller->frame()->boards[2].behaviour, std::string("keeper"));
-    QCOMPARE(m_controller->robot(RobotId{3})->behaviour, std::string("keeper"));
+    QCOMPARE(m_controller->edits()->robot(RobotId{3})->behaviour, std::string("keeper"));
     QVERIFY(isChecked(pose(3).position, "Keeper"));
     QVERIFY(!isChecked(pose(3).position, "Striker"));
     QVERIFY(trigger(pose(3).position, "None (your own process)"));
@@ -329,14 +330,14 @@ class TestFieldView : public QObject {
     QCOMPARE(identity(1).number, 4);      // 1 to 3 are worn
     QVERIFY(identity(1).imuStartsAt180);  // it attacks to the left now
     QVERIFY(near(pose(1), before));
-    QCOMPARE(m_controller->undoStack()->undoText(), QString("Put B1 in team red"));
+    QCOMPARE(m_controller->edits()->undoStack()->undoText(), QString("Put B1 in team red"));
     QVERIFY(trigger(before.position, "Red"));  // is there already
-    QCOMPARE(m_controller->undoStack()->count(), 1);
-    m_controller->undoStack()->undo();
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
+    m_controller->edits()->undoStack()->undo();
     QTRY_COMPARE(int(identity(1).team), int(TeamColor::Blue));
     QCOMPARE(identity(1).number, 1);
     QVERIFY(!identity(1).imuStartsAt180);
-    m_controller->undoStack()->redo();
+    m_controller->edits()->undoStack()->redo();
     QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
     QCOMPARE(int(m_controller->currentMoment().robots[0].identity.team), int(TeamColor::Red));
   }
@@ -352,7 +353,7 @@ class TestFieldView : public QObject {
       return count;
     };
     QTRY_COMPARE(inOrange(), 3);
-    m_controller->undoStack()->undo();
+    m_controller->edits()->undoStack()->undo();
     QTRY_COMPARE(inOrange(), 0);
   }
 
@@ -380,12 +381,12 @@ class TestFieldView : public QObject {
     heading->setValue(90.0);
     QTRY_VERIFY(std::abs(pose(1).position.x - 0.75) < 1e-6);  // shown while typing
     QTest::keyClick(x, Qt::Key(key));
-    QCOMPARE(m_controller->undoStack()->count(), commands);
+    QCOMPARE(m_controller->edits()->undoStack()->count(), commands);
     const Pose after = commands ? Pose{{0.75, before.position.y}, radiansFromDegrees(90)} : before;
     QTRY_VERIFY(near(pose(1), after) && std::abs(wrapToPi(pose(1).yaw - after.yaw)) < 1e-6);
     QTRY_VERIFY(!m_view->findChild<QDoubleSpinBox*>("x"));
     if (!commands) return;
-    m_controller->undoStack()->undo();
+    m_controller->edits()->undoStack()->undo();
     QTRY_VERIFY(near(pose(1), before));
   }
 
@@ -398,8 +399,8 @@ class TestFieldView : public QObject {
     y->setValue(-1.25);
     QTest::keyClick(y, Qt::Key_Return);
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y + 1.25) < 1e-6);
-    QCOMPARE(m_controller->undoStack()->count(), 1);
-    m_controller->undoStack()->undo();
+    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
+    m_controller->edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
   }
 
@@ -457,7 +458,8 @@ class TestFieldView : public QObject {
     for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
     for (QAction* option : m_view->layerOptionActions()) option->setChecked(true);
     m_view->layerActions()[std::size_t(FieldLayer::Grid)]->setChecked(false);
-    m_controller->moveRobots({{RobotId{1}, pose(1), {{-4.9, 0.0}, radiansFromDegrees(180)}}});
+    m_controller->edits()->moveRobots(
+        {{RobotId{1}, pose(1), {{-4.9, 0.0}, radiansFromDegrees(180)}}});
     m_view->select({RobotId{1}});
     QTRY_VERIFY(pose(1).position.x < -4.8);
     const QImage image = m_view->picture(QSize(1400, 455));

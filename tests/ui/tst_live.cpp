@@ -15,13 +15,14 @@
 
 #include <simcore/world/published_frame.h>
 #include <ui/base/notice_bar.h>
+#include <ui/base/scoreboard_state.h>
 #include <ui/field/field_view.h>
 #include <ui/robots/robot_card.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
-#include <ui/window/scoreboard.h>
 
 #include "live_rig.h"
 
@@ -205,7 +206,7 @@ class TestLive : public QObject {
     QVERIFY(s.controller.isPaused());
     s.window.showSource(SourceKind::Simulate);
     QCOMPARE(s.controller.frame()->snapshot, before);
-    QVERIFY(s.controller.undoStack() != nullptr);
+    QVERIFY(s.controller.edits()->undoStack() != nullptr);
     QTest::keyClick(canvas, Qt::Key_Space);
     QVERIFY(s.window.field()->isFlipped());
   }

@@ -15,6 +15,7 @@
 #include <ui/field/field_view.h>
 #include <ui/robots/robot_card.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -124,7 +125,7 @@ class TestMainWindow : public QObject {
   void theMenuUndoes() {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
-    s.controller.removeRobots({RobotId{1}});
+    s.controller.edits()->removeRobots({RobotId{1}});
     QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(5));
     s.menuAction(QStringLiteral("Undo"))->trigger();
     QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(6));
@@ -140,7 +141,7 @@ class TestMainWindow : public QObject {
     QVERIFY(cards()[2]->isSelected());
     QTest::mouseClick(cards()[3], Qt::LeftButton, Qt::ControlModifier, QPoint(60, 60));
     QVERIFY(cards()[2]->isSelected() && cards()[3]->isSelected());
-    s.controller.removeRobots({RobotId{1}});
+    s.controller.edits()->removeRobots({RobotId{1}});
     QTRY_COMPARE(cards().size(), qsizetype(5));
   }
 
@@ -150,7 +151,7 @@ class TestMainWindow : public QObject {
     QTRY_COMPARE(cards().size(), qsizetype(6));
     cards()[2]->setCollapsed(true);
     const RobotId id = cards()[2]->state().id;
-    s.controller.removeRobots({cards()[0]->state().id});
+    s.controller.edits()->removeRobots({cards()[0]->state().id});
     QTRY_COMPARE(cards().size(), qsizetype(5));
     QCOMPARE(cards()[1]->state().id, id);
     QVERIFY(cards()[1]->isCollapsed());

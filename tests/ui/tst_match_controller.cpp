@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -51,11 +52,11 @@ class TestMatchController : public QObject {
     QTRY_VERIFY(c.frame());
     const Pose from = c.frame()->snapshot.robots[0].pose;
     const RobotId id = c.frame()->snapshot.robots[0].identity.id;
-    c.moveRobots({{id, from, {{1.5, 1.5}, 0.0}}});
+    c.edits()->moveRobots({{id, from, {{1.5, 1.5}, 0.0}}});
     QTRY_COMPARE(xOf(c, id.value), 1.5);
-    c.undoStack()->undo();
+    c.edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(xOf(c, id.value) - from.position.x) < 1e-9);
-    c.undoStack()->redo();
+    c.edits()->undoStack()->redo();
     QTRY_COMPARE(xOf(c, id.value), 1.5);
   }
 
@@ -66,10 +67,10 @@ class TestMatchController : public QObject {
     const Pose from = c.frame()->snapshot.robots[0].pose;
     const RobotId id = c.frame()->snapshot.robots[0].identity.id;
     const Pose middle{{1.0, 1.5}, 0.0}, end{{1.5, 1.5}, 0.0};
-    c.moveRobots({{id, from, middle}});
-    c.moveRobots({{id, middle, end}});
-    QCOMPARE(c.undoStack()->count(), 1);
-    c.undoStack()->undo();
+    c.edits()->moveRobots({{id, from, middle}});
+    c.edits()->moveRobots({{id, middle, end}});
+    QCOMPARE(c.edits()->undoStack()->count(), 1);
+    c.edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(xOf(c, id.value) - from.position.x) < 1e-9);
   }
 
@@ -77,14 +78,14 @@ class TestMatchController : public QObject {
     MatchController c(inside());
     c.open(match(), true);
     QTRY_COMPARE(count(c), std::size_t(6));
-    c.addRobot(TeamColor::Blue, {{0, 2.5}, 0});
+    c.edits()->addRobot(TeamColor::Blue, {{0, 2.5}, 0});
     QTRY_COMPARE(count(c), std::size_t(7));
     QCOMPARE(c.frame()->snapshot.robots.back().identity.number, 4);
-    c.removeRobots({RobotId{1}, RobotId{2}});
+    c.edits()->removeRobots({RobotId{1}, RobotId{2}});
     QTRY_COMPARE(count(c), std::size_t(5));
-    c.undoStack()->undo();
+    c.edits()->undoStack()->undo();
     QTRY_COMPARE(count(c), std::size_t(7));
-    c.undoStack()->undo();
+    c.edits()->undoStack()->undo();
     QTRY_COMPARE(count(c), std::size_t(6));
   }
 
@@ -93,9 +94,9 @@ class TestMatchController : public QObject {
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);
     QTRY_VERIFY(c.isOpen());
-    c.addRobot(TeamColor::Blue, {{0, 2.5}, 0}, 1);
+    c.edits()->addRobot(TeamColor::Blue, {{0, 2.5}, 0}, 1);
     QCOMPARE(errors.count(), 1);
-    QVERIFY(!c.undoStack()->canUndo());
+    QVERIFY(!c.edits()->undoStack()->canUndo());
   }
 
   void badNoiseIsRefusedInWords() {
@@ -104,10 +105,10 @@ class TestMatchController : public QObject {
     c.open(match(), true);
     sim::NoiseParameters noise;
     noise.forward = NAN;
-    c.setNoise(noise);
+    c.edits()->setNoise(noise);
     QTRY_COMPARE(errors.count(), 1);
     noise.forward = 0.25;
-    c.setNoise(noise);
+    c.edits()->setNoise(noise);
     QTRY_COMPARE(c.frame() ? c.frame()->noise.forward : 0.0, 0.25);
   }
 

@@ -26,6 +26,7 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
 using namespace pitchboard;
@@ -119,7 +120,7 @@ class TestStudioWork : public QObject {
                 .startsWith(QStringLiteral("Opening")));
     sim::NoiseParameters noise;
     noise.forward = 0.25;
-    s.controller.setNoise(noise);  // reaches the match once it is there
+    s.controller.edits()->setNoise(noise);  // reaches the match once it is there
     gate.release();
     QTRY_VERIFY(s.controller.frame());
     QTRY_COMPARE(s.controller.frame()->noise.forward, 0.25);

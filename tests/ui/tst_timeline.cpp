@@ -69,8 +69,7 @@ struct Bench {
   TimelineStrip* strip = nullptr;
   QToolButton* live = nullptr;
   Bench() {
-    StudioContext context;
-    context.source = &shown;
+    TimelineContext context;
     context.time = &plots;
     context.timeline = &timeline;
     context.timelineActions = &actions;

@@ -20,6 +20,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/source_switch.h>
 #include <ui/variables/variables_dock.h>
 
@@ -117,7 +118,7 @@ struct Bench {
         plots(nullptr),
         settings(settingsFile.isEmpty() ? folder.filePath(QStringLiteral("s.ini")) : settingsFile,
                  QSettings::IniFormat) {
-    StudioContext context;
+    VariablesContext context;
     context.controller = &controller;
     context.source = &source;
     context.plots = &plots;
@@ -546,7 +547,7 @@ class TestVariablesDock : public QObject {
 
   void everyNthTick() {
     Bench bench;
-    bench.controller.setSampling(10);
+    bench.controller.memory()->setSampling(10);
     bench.controller.open(link::loadScenario("match-3v3").value(), true);
     QTRY_VERIFY(bench.controller.frame());
     bench.controller.runTo(60);
@@ -561,7 +562,7 @@ class TestVariablesDock : public QObject {
       return ticks.size();
     };
     QTRY_COMPARE(ticksSeen(0.001, 1.0), std::size_t(6));
-    bench.controller.setSampling(1);
+    bench.controller.memory()->setSampling(1);
     bench.controller.runTo(120);
     QTRY_COMPARE(bench.controller.frame()->snapshot.tick, std::uint64_t(120));
     QTRY_COMPARE(ticksSeen(1.001, 2.0), std::size_t(60));

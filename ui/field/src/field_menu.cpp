@@ -8,6 +8,7 @@
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
 
 namespace pitchboard::ui {
@@ -17,11 +18,12 @@ void addPlaces(QMenu* menu, FieldScene* scene, MatchController* controller, cons
   QMenu* add = menu->addMenu(themedIcon(QStringLiteral("list-add")), QObject::tr("Add robot here"));
   for (const TeamColorInfo& team : teamColors) {
     const Pose pose{fromScene(metres), team.facesLeft ? std::numbers::pi : 0.0};
-    add->addAction(capitalised(team.name), controller,
-                   [controller, color = team.color, pose] { controller->addRobot(color, pose); });
+    add->addAction(capitalised(team.name), controller, [controller, color = team.color, pose] {
+      controller->edits()->addRobot(color, pose);
+    });
   }
   menu->addAction(QObject::tr("Place ball here"), controller, [controller, scene, metres] {
-    controller->moveBall(scene->ball(), fromScene(metres));
+    controller->edits()->moveBall(scene->ball(), fromScene(metres));
   });
 }
 
@@ -38,7 +40,7 @@ void addRobotActions(QMenu* menu, MatchController* controller, const std::vector
                                           {"Stop", 0}}};
   for (const Entry& entry : entries) {
     menu->addAction(QObject::tr(entry.text), controller, [controller, ids, action = entry.action] {
-      for (const RobotId id : ids) controller->commandAction(id, action);
+      for (const RobotId id : ids) controller->edits()->commandAction(id, action);
     });
   }
   addBehaviourMenu(menu, controller, ids);
@@ -78,12 +80,12 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
       menu->addAction(themedIcon(QStringLiteral("edit-delete")),
                       ids.size() == 1 ? QObject::tr("Remove robot")
                                       : QObject::tr("Remove %1 robots").arg(ids.size()),
-                      controller, [controller, ids] { controller->removeRobots(ids); });
+                      controller, [controller, ids] { controller->edits()->removeRobots(ids); });
     }
   } else if (editable && hit.kind == FieldHit::Kind::Ball) {
     menu->addAction(QObject::tr("Ball position…"), menu, [actions] { actions.editBall(); });
     menu->addAction(QObject::tr("Ball to the centre mark"), controller, [controller, scene] {
-      controller->moveBall(scene->ball(), {0.0, 0.0});
+      controller->edits()->moveBall(scene->ball(), {0.0, 0.0});
     });
   } else if (editable) {
     addPlaces(menu, scene, controller, metres);

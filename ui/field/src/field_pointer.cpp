@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <base/angles.h>
+#include <ui/sources/match_edits.h>
 
 #include "overlay_items.h"
 
@@ -70,7 +71,7 @@ void FieldPointer::place(const std::vector<RobotPlacement>& placements) {
     std::erase_if(m_onTheWay, [&](const auto& moved) { return moved.id == placement.id; });
     m_onTheWay.push_back(placement);
   }
-  m_controller->moveRobots(placements);
+  m_controller->edits()->moveRobots(placements);
 }
 
 void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
@@ -88,7 +89,7 @@ void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (m_tool == FieldTool::Add) {
     if (canEdit()) {
       const double yaw = info(m_team).facesLeft ? std::numbers::pi : 0.0;
-      m_controller->addRobot(m_team, {fromScene(at), yaw});
+      m_controller->edits()->addRobot(m_team, {fromScene(at), yaw});
     }
     return;
   }
@@ -194,8 +195,9 @@ void FieldPointer::dragTurn() {
 
 void FieldPointer::preview() {
   if (!canEdit()) return;
-  if (m_drag == Drag::Robots || m_drag == Drag::Turn) m_controller->previewRobots(m_placements);
-  if (m_drag == Drag::Ball) m_controller->previewBall(fromScene(m_at));
+  if (m_drag == Drag::Robots || m_drag == Drag::Turn)
+    m_controller->edits()->previewRobots(m_placements);
+  if (m_drag == Drag::Ball) m_controller->edits()->previewBall(fromScene(m_at));
 }
 
 void FieldPointer::hold() {
@@ -212,8 +214,9 @@ void FieldPointer::release(const QPointF& at, Qt::KeyboardModifiers modifiers) {
 }
 
 void FieldPointer::finish() {
-  if (m_drag == Drag::Robots || m_drag == Drag::Turn) m_controller->moveRobots(m_placements);
-  if (m_drag == Drag::Ball) m_controller->moveBall(m_ballFrom, fromScene(m_at));
+  if (m_drag == Drag::Robots || m_drag == Drag::Turn)
+    m_controller->edits()->moveRobots(m_placements);
+  if (m_drag == Drag::Ball) m_controller->edits()->moveBall(m_ballFrom, fromScene(m_at));
 }
 
 void FieldPointer::doubleClick(const QPointF& at) {

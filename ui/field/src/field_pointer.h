@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include <ui/sources/match_edits.h>
+
 #include "field_scene.h"
 
 namespace pitchboard::ui {

@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include <ui/base/theme.h>
+#include <ui/sources/match_edits.h>
 #include "field_picture.h"
 #include "field_scene.h"
 
@@ -96,23 +97,24 @@ struct FieldView::Private : FieldKeyTarget {
     addAtCursor(rightShift ? TeamColor::Orange : TeamColor::Yellow);
   }
   void placeBallAtCursor() override {
-    if (editor()) controller->moveBall(scene->ball(), fromScene(canvas->cursor()));
+    if (editor()) controller->edits()->moveBall(scene->ball(), fromScene(canvas->cursor()));
   }
   void selectRobot(int number) override { scene->select({RobotId{number}}); }
   void selectAll() override { scene->selectAll(); }
   void moveSelectedToCursor() override;
   void removeSelected() override {
-    if (editor()) controller->removeRobots(scene->selection());
+    if (editor()) controller->edits()->removeRobots(scene->selection());
   }
   void commandSelected(int action, int actionB) override {
     if (!editor()) return;
     for (const RobotId id : scene->selection()) {
-      controller->commandAction(id, action, actionB < 0 ? std::nullopt : std::optional(actionB));
+      controller->edits()->commandAction(id, action,
+                                         actionB < 0 ? std::nullopt : std::optional(actionB));
     }
   }
   void searchSelected(bool on) override {
     if (!editor()) return;
-    for (const RobotId id : scene->selection()) controller->commandSearch(id, on);
+    for (const RobotId id : scene->selection()) controller->edits()->commandSearch(id, on);
   }
   void nudgeSelected(int right, int up, bool coarse) override {
     const double step = (coarse ? coarseNudge_m : nudge_m) * (scene->style().flipped ? -1 : 1);
@@ -272,7 +274,7 @@ void FieldView::Private::setReadOnly(bool readOnly) {
 
 void FieldView::Private::addAtCursor(TeamColor color) {
   if (!editor()) return;
-  controller->addRobot(
+  controller->edits()->addRobot(
       color, {fromScene(canvas->cursor()), info(color).facesLeft ? std::numbers::pi : 0.0});
 }
 
@@ -293,10 +295,10 @@ void FieldView::Private::openPoseEditor(RobotId id) {
   }
   openEditor({tr("Pose of %1").arg(name), *pose, true,
               [this, id, from = *pose](const Pose& to) {
-                controller->previewRobots({{id, from, to}});
+                controller->edits()->previewRobots({{id, from, to}});
               },
               [this, id, from = *pose](const Pose& to) {
-                controller->moveRobots({{id, from, to}});
+                controller->edits()->moveRobots({{id, from, to}});
               }});
 }
 
@@ -306,8 +308,8 @@ void FieldView::Private::openBallEditor() {
   openEditor({tr("Position of the ball"),
               {ball, 0.0},
               false,
-              [this](const Pose& to) { controller->previewBall(to.position); },
-              [this, ball](const Pose& to) { controller->moveBall(ball, to.position); }});
+              [this](const Pose& to) { controller->edits()->previewBall(to.position); },
+              [this, ball](const Pose& to) { controller->edits()->moveBall(ball, to.position); }});
 }
 
 void FieldView::Private::openEditor(PoseEdit edit) {

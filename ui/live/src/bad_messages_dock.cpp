@@ -16,12 +16,12 @@ namespace {
 
 class BadMessagesDock : public QStackedWidget {
  public:
-  BadMessagesDock(const StudioContext& context, QWidget* parent)
+  BadMessagesDock(LiveController* live, QWidget* parent)
       : QStackedWidget(parent),
-        m_live(context.live),
+        m_live(live),
         m_model(new BadMessagesModel(this)),
         m_table(new QTableView(this)),
-        m_empty(new QLabel(this)) {
+        m_empty(makeEmptyLabel(this, QStringLiteral("noBadMessages"))) {
     constexpr int refreshMilliseconds = 500;
     m_model->setObjectName(QStringLiteral("badMessages"));
     m_table->setModel(m_model);
@@ -30,12 +30,6 @@ class BadMessagesDock : public QStackedWidget {
     for (int column = 0; column < 3; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }
-    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    m_empty->setForegroundRole(QPalette::PlaceholderText);
-    m_empty->setBackgroundRole(QPalette::Base);
-    m_empty->setAutoFillBackground(true);
-    m_empty->setMargin(scaled(this, 12));
-    m_empty->setWordWrap(true);
     addWidget(m_empty);
     addWidget(m_table);
     auto* timer = new QTimer(this);
@@ -71,8 +65,8 @@ class BadMessagesDock : public QStackedWidget {
 
 }  // namespace
 
-QWidget* makeBadMessagesDock(const StudioContext& context, QWidget* parent) {
-  return new BadMessagesDock(context, parent);
+QWidget* makeBadMessagesDock(LiveController* live, QWidget* parent) {
+  return new BadMessagesDock(live, parent);
 }
 
 }  // namespace pitchboard::ui

@@ -14,9 +14,10 @@
 
 namespace pitchboard::ui {
 
-LiveBar::LiveBar(const StudioContext& context, QWidget* parent)
+LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
     : QWidget(parent),
-      m_context(context),
+      m_live(live),
+      m_settings(settings),
       m_ports(new QToolButton(this)),
       m_team(new QComboBox(this)),
       m_monitor(new QToolButton(this)) {
@@ -25,12 +26,12 @@ LiveBar::LiveBar(const StudioContext& context, QWidget* parent)
   m_ports->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   m_ports->setIcon(themedIcon(QStringLiteral("configure")));
   connect(m_ports, &QToolButton::clicked, this,
-          [this] { showLiveSettings(m_context.live, m_context.settings, window()); });
+          [this] { showLiveSettings(m_live, m_settings, window()); });
   m_team->setObjectName(QStringLiteral("ourTeam"));
   m_team->setMinimumWidth(scaled(this, 150));
   connect(m_team, &QComboBox::activated, this, [this](int at) {
-    m_context.live->setOurTeam(m_team->itemData(at).toInt());
-    m_context.settings->setValue(QStringLiteral("live/ourTeam"), m_team->itemData(at));
+    m_live->setOurTeam(m_team->itemData(at).toInt());
+    m_settings->setValue(QStringLiteral("live/ourTeam"), m_team->itemData(at));
   });
   m_monitor->setObjectName(QStringLiteral("monitorMode"));
   m_monitor->setCheckable(true);
@@ -47,18 +48,18 @@ LiveBar::LiveBar(const StudioContext& context, QWidget* parent)
     if (isVisible()) refresh();
   });
   timer->start(refreshMilliseconds);
-  connect(context.live, &LiveController::optionsChanged, this, &LiveBar::refresh);
+  connect(live, &LiveController::optionsChanged, this, &LiveBar::refresh);
   refresh();
 }
 
 void LiveBar::refresh() {
-  const link::LiveOptions& options = m_context.live->options();
-  m_ports->setText(m_context.live->portsText());
+  const link::LiveOptions& options = m_live->options();
+  m_ports->setText(m_live->portsText());
   QStringList tip{tr("Click for all settings of Live."),
                   options.bind.value == 0
                       ? tr("Listening at every address of this computer.")
                       : tr("Listening at %1.").arg(QString::fromStdString(options.bind.text()))};
-  const link::LiveDetails details = m_context.live->details();
+  const link::LiveDetails details = m_live->details();
   for (const telemetry::PortStatus& port : details.network.ports) {
     if (!port.problem.empty()) tip << QString::fromStdString(port.problem);
   }
@@ -86,8 +87,8 @@ void LiveBar::showTeams() {
     bool operator==(const Entry&) const = default;
   };
   QList<Entry> wanted{{tr("Our team: choose"), 0}};
-  const int ours = m_context.live->options().ourTeam;
-  const FramePtr frame = m_context.live->frame();
+  const int ours = m_live->options().ourTeam;
+  const FramePtr frame = m_live->frame();
   if (frame && frame->referee) {
     for (const link::RefereeTeamView& team : frame->referee->teams) {
       wanted.append({tr("Team %1 (%2)").arg(team.number).arg(QString::fromStdString(team.colour)),
@@ -114,16 +115,16 @@ void LiveBar::showTeams() {
 
 void LiveBar::switchMonitor(bool on) {
   if (!on) {
-    m_context.live->setMonitor({});
+    m_live->setMonitor({});
     return;
   }
-  const QString saved = m_context.settings->value(QStringLiteral("live/monitorAddress")).toString();
+  const QString saved = m_settings->value(QStringLiteral("live/monitorAddress")).toString();
   if (const auto address = telemetry::parseAddress(saved.toStdString())) {
-    m_context.live->setMonitor(*address);
+    m_live->setMonitor(*address);
   } else {
     // Whom to ask is not known yet.
     m_monitor->setChecked(false);
-    showLiveSettings(m_context.live, m_context.settings, window());
+    showLiveSettings(m_live, m_settings, window());
   }
 }
 

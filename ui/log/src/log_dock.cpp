@@ -14,6 +14,7 @@
 #include <ui/base/table_style.h>
 #include <ui/base/words_filter.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/source_switch.h>
 
 #include "log_model.h"
@@ -23,13 +24,13 @@ namespace {
 
 class LogDock : public QWidget {
  public:
-  LogDock(const StudioContext& context, QWidget* parent)
+  LogDock(MatchController* controller, const SourceSwitch* shown, QWidget* parent)
       : QWidget(parent),
-        m_controller(context.controller),
+        m_controller(controller),
         m_model(new LogModel(this)),
         m_filter(new WordsFilter(this)),
         m_table(new QTableView(this)),
-        m_empty(new QLabel(this)) {
+        m_empty(makeEmptyLabel(this, QStringLiteral("emptyLog"))) {
     m_model->setObjectName(QStringLiteral("logModel"));
     m_filter->setSourceModel(m_model);
     m_table->setModel(m_filter);
@@ -61,13 +62,6 @@ class LogDock : public QWidget {
     column->addLayout(row);
     column->addWidget(m_table, 1);
     column->addWidget(m_empty, 1);
-    m_empty->setObjectName(QStringLiteral("emptyLog"));
-    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    m_empty->setForegroundRole(QPalette::PlaceholderText);
-    m_empty->setBackgroundRole(QPalette::Base);
-    m_empty->setAutoFillBackground(true);
-    m_empty->setMargin(scaled(this, 12));
-    m_empty->setWordWrap(true);
     for (const auto changed :
          {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
       connect(m_filter, changed, this, &LogDock::showEmpty);
@@ -83,7 +77,7 @@ class LogDock : public QWidget {
     m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
 
     // Simulated and live lines stand in one log: both go on while the other is looked at.
-    for (FrameSource* source : context.source->sources()) {
+    for (FrameSource* source : shown->sources()) {
       connect(source, &FrameSource::logReceived, this,
               [this](const std::vector<link::LogLine>& lines) { append(lines); });
     }
@@ -118,7 +112,7 @@ class LogDock : public QWidget {
     const FramePtr frame = m_controller->frame();
     std::vector<link::LogLine> lines;
     for (const sim::Event& event : events) {
-      const link::ScenarioRobot* robot = m_controller->robot(event.robot);
+      const link::ScenarioRobot* robot = m_controller->edits()->robot(event.robot);
       lines.push_back(eventLine(event, robot ? robotName(robot->identity) : QString(),
                                 frame ? frame->tickRate : 60.0));
     }
@@ -146,8 +140,8 @@ class LogDock : public QWidget {
 
 }  // namespace
 
-QWidget* makeLogDock(const StudioContext& context, QWidget* parent) {
-  return new LogDock(context, parent);
+QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, QWidget* parent) {
+  return new LogDock(controller, source, parent);
 }
 
 }  // namespace pitchboard::ui

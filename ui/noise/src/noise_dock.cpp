@@ -9,6 +9,7 @@
 
 #include <ui/base/parameter_rows.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -72,8 +73,8 @@ QLabel* remark(const QString& text, QWidget* parent) {
 
 class NoiseDock : public QScrollArea {
  public:
-  NoiseDock(const StudioContext& context, QWidget* parent)
-      : QScrollArea(parent), m_controller(context.controller) {
+  NoiseDock(MatchController* controller, QWidget* parent)
+      : QScrollArea(parent), m_controller(controller) {
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -130,7 +131,7 @@ class NoiseDock : public QScrollArea {
           [this, &p](double shown) {
             m_noise.*p.member = shown / p.factor;
             showPreset();
-            m_controller->setNoise(m_noise);
+            m_controller->edits()->setNoise(m_noise);
           },
           form));
     }
@@ -150,7 +151,7 @@ class NoiseDock : public QScrollArea {
           Qt::ToolTipRole);
     }
     connect(m_model, &QComboBox::activated, this,
-            [this] { m_controller->setPhysics(m_model->currentData().toString()); });
+            [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
     column->addWidget(remark(tr("Changing the model goes on from this moment with everything at "
                                 "rest and forgets what can be undone."),
@@ -171,14 +172,14 @@ class NoiseDock : public QScrollArea {
           p.decimals,
           [this, &p](double shown) {
             m_constants.*p.member = shown / p.factor;
-            m_controller->setRigidBody(m_constants);
+            m_controller->edits()->setRigidBody(m_constants);
           },
           m_body));
     }
     m_falls = new QCheckBox(tr("Robots fall when hit hard"), m_body);
     connect(m_falls, &QCheckBox::toggled, this, [this](bool on) {
       m_constants.falls = on;
-      m_controller->setRigidBody(m_constants);
+      m_controller->edits()->setRigidBody(m_constants);
     });
     grid->addWidget(m_falls, row, 0, 1, 3);
     column->addWidget(m_body);
@@ -188,7 +189,7 @@ class NoiseDock : public QScrollArea {
     const auto preset = link::noisePreset(m_preset->currentText().toStdString());
     if (preset) {
       m_noise = *preset;
-      m_controller->setNoise(m_noise);
+      m_controller->edits()->setNoise(m_noise);
     }
     showNoise();
   }
@@ -250,8 +251,8 @@ class NoiseDock : public QScrollArea {
 
 }  // namespace
 
-QWidget* makeNoiseDock(const StudioContext& context, QWidget* parent) {
-  return new NoiseDock(context, parent);
+QWidget* makeNoiseDock(MatchController* controller, QWidget* parent) {
+  return new NoiseDock(controller, parent);
 }
 
 }  // namespace pitchboard::ui

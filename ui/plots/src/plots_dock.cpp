@@ -50,7 +50,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
 
 }  // namespace
 
-PlotsDock::PlotsDock(const StudioContext& context, QWidget* parent)
+PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
     : QWidget(parent),
       m_context(context),
       m_time(context.time),
@@ -316,7 +316,7 @@ void PlotsDock::drawNow() {
   if (PlotPage* page = currentPage(); page != nullptr && isVisible()) page->refresh();
 }
 
-QWidget* makePlotsDock(const StudioContext& context, QWidget* parent) {
+QWidget* makePlotsDock(const PlotsContext& context, QWidget* parent) {
   return new PlotsDock(context, parent);
 }
 

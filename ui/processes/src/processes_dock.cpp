@@ -8,6 +8,7 @@
 
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/source_switch.h>
 
 #include "processes_model.h"
@@ -42,13 +43,13 @@ QString emptyText(const MatchController& controller) {
 
 class ProcessesDock : public QStackedWidget {
  public:
-  ProcessesDock(const StudioContext& context, QWidget* parent)
+  ProcessesDock(MatchController* controller, SourceSwitch* source, QWidget* parent)
       : QStackedWidget(parent),
-        m_controller(context.controller),
-        m_source(context.source),
+        m_controller(controller),
+        m_source(source),
         m_model(new ProcessesModel(this)),
         m_table(new QTableView(this)),
-        m_empty(new QLabel(this)) {
+        m_empty(makeEmptyLabel(this, QStringLiteral("noProcesses"))) {
     constexpr int refreshMilliseconds = 250;
     m_table->setObjectName(QStringLiteral("processesTable"));
     m_table->setModel(m_model);
@@ -57,13 +58,6 @@ class ProcessesDock : public QStackedWidget {
     for (int column = 0; column < 4; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }
-    m_empty->setObjectName(QStringLiteral("noProcesses"));
-    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    m_empty->setForegroundRole(QPalette::PlaceholderText);
-    m_empty->setBackgroundRole(QPalette::Base);
-    m_empty->setAutoFillBackground(true);
-    m_empty->setMargin(scaled(this, 12));
-    m_empty->setWordWrap(true);
     addWidget(m_table);
     addWidget(m_empty);
     auto* timer = new QTimer(this);
@@ -103,10 +97,10 @@ class ProcessesDock : public QStackedWidget {
     QMenu menu(this);
     menu.addAction(themedIcon(QStringLiteral("view-refresh")),
                    tr("Restart all processes of %1").arg(name), m_controller,
-                   [this, id] { m_controller->restartProcesses(id); });
+                   [this, id] { m_controller->edits()->restartProcesses(id); });
     menu.addAction(themedIcon(QStringLiteral("media-playback-stop")),
                    tr("Stop all processes of %1").arg(name), m_controller,
-                   [this, id] { m_controller->stopProcesses(id); });
+                   [this, id] { m_controller->edits()->stopProcesses(id); });
     menu.exec(m_table->viewport()->mapToGlobal(at));
   }
 
@@ -119,8 +113,8 @@ class ProcessesDock : public QStackedWidget {
 
 }  // namespace
 
-QWidget* makeProcessesDock(const StudioContext& context, QWidget* parent) {
-  return new ProcessesDock(context, parent);
+QWidget* makeProcessesDock(MatchController* controller, SourceSwitch* source, QWidget* parent) {
+  return new ProcessesDock(controller, source, parent);
 }
 
 }  // namespace pitchboard::ui

@@ -11,6 +11,7 @@
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 
 namespace pitchboard::ui {
 
@@ -22,7 +23,7 @@ BlackboardWindow::BlackboardWindow(MatchController* controller, RobotId id, QWid
       m_table(new QTableWidget(0, 3, this)) {
   constexpr int refreshMilliseconds = 200;
   setAttribute(Qt::WA_DeleteOnClose);
-  const link::ScenarioRobot* robot = controller->robot(id);
+  const link::ScenarioRobot* robot = controller->edits()->robot(id);
   setWindowTitle(tr("Blackboard of %1").arg(robot ? robotName(robot->identity) : QString()));
   m_where->setWordWrap(true);
   m_where->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -20,7 +20,7 @@
 
 namespace pitchboard::ui {
 
-RobotsDock::RobotsDock(const StudioContext& context, QWidget* parent)
+RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
     : QScrollArea(parent), m_context(context) {
   constexpr int refreshMilliseconds = 100;
   setObjectName(QStringLiteral("robotCards"));
@@ -247,7 +247,7 @@ void RobotsDock::setAllCollapsed(bool collapsed) {
   for (const auto& [id, card] : m_cards) card->setCollapsed(collapsed);
 }
 
-QWidget* makeRobotsDock(const StudioContext& context, QWidget* parent) {
+QWidget* makeRobotsDock(const RobotsContext& context, QWidget* parent) {
   return new RobotsDock(context, parent);
 }
 

@@ -7,6 +7,7 @@
 #include <ui/base/theme.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/source_switch.h>
@@ -54,14 +55,14 @@ void RobotsDock::setParts(const CardParts& parts) {
 void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   const RobotId id = card->state().id;
   MatchController* controller = m_context.controller;
-  if (controller->robot(id) == nullptr) return;
+  if (controller->edits()->robot(id) == nullptr) return;
   addBehaviourMenu(&menu, controller, {id});
   addTeamMenu(&menu, controller, {id});
   menu.addAction(tr("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();
   });
   menu.addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove %1").arg(card->state().name),
-                 controller, [controller, id] { controller->removeRobots({id}); });
+                 controller, [controller, id] { controller->edits()->removeRobots({id}); });
   menu.addSeparator();
 }
 

@@ -9,6 +9,7 @@
 #include <telemetry/session/session_repair.h>
 #include <ui/base/notice_bar.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
@@ -173,7 +174,7 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
 void SessionFiles::continueFromHere() {
   if (m_source->kind() != SourceKind::Simulate || !m_timeline->isLookingBack()) return;
   const double time = m_timeline->shownTime();
-  m_controller->continueFrom(time);
+  m_controller->memory()->continueFrom(time);
   m_timeline->goLive();
 }
 

@@ -2,6 +2,7 @@
 #include <ui/sources/attached_boards.h>
 
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 
 namespace pitchboard::ui {
 
@@ -17,7 +18,7 @@ QString AttachedBoards::groupName(int key) {
 }
 
 Result<std::unique_ptr<link::BoardSampler>> AttachedBoards::start(int key, double rate) const {
-  auto rows = m_controller->rowsBeside();
+  auto rows = m_controller->memory()->rowsBeside();
   if (!rows) {
     return failure(ErrorCode::NotFound,
                    "open a match first: what is sampled is kept beside its rows");

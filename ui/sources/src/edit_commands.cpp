@@ -5,6 +5,8 @@
 
 #include <ui/base/robot_words.h>
 
+#include "match_roster.h"
+
 namespace pitchboard::ui {
 namespace {
 
@@ -14,26 +16,25 @@ QString subject(std::size_t count, const QString& one) {
   return count == 1 ? one : QStringLiteral("%1 robots").arg(count);
 }
 
-QString nameIn(const MatchController& controller, RobotId id) {
-  const link::ScenarioRobot* robot = controller.robot(id);
+QString nameIn(const MatchRoster& roster, RobotId id) {
+  const link::ScenarioRobot* robot = roster.robot(id);
   return robot != nullptr ? robotName(robot->identity) : QStringLiteral("robot");
 }
 
 }  // namespace
 
-PlacementCommand::PlacementCommand(MatchController* controller,
-                                   std::vector<RobotPlacement> placements)
-    : m_controller(controller), m_placements(std::move(placements)) {
+PlacementCommand::PlacementCommand(MatchRoster* roster, std::vector<RobotPlacement> placements)
+    : m_roster(roster), m_placements(std::move(placements)) {
   setText(QStringLiteral("Move ") +
-          subject(m_placements.size(), nameIn(*controller, m_placements.front().id)));
+          subject(m_placements.size(), nameIn(*roster, m_placements.front().id)));
   m_age.start();
 }
 
 void PlacementCommand::redo() {
-  m_controller->placeRobots(m_placements, false);
+  m_roster->place(m_placements, false);
 }
 void PlacementCommand::undo() {
-  m_controller->placeRobots(m_placements, true);
+  m_roster->place(m_placements, true);
 }
 
 bool PlacementCommand::mergeWith(const QUndoCommand* other) {
@@ -51,17 +52,17 @@ bool PlacementCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
-BallCommand::BallCommand(MatchController* controller, Point from, Point to)
-    : m_controller(controller), m_from(from), m_to(to) {
+BallCommand::BallCommand(MatchRoster* roster, Point from, Point to)
+    : m_roster(roster), m_from(from), m_to(to) {
   setText(QStringLiteral("Move the ball"));
   m_age.start();
 }
 
 void BallCommand::redo() {
-  m_controller->placeBall(m_to);
+  m_roster->placeBall(m_to);
 }
 void BallCommand::undo() {
-  m_controller->placeBall(m_from);
+  m_roster->placeBall(m_from);
 }
 
 bool BallCommand::mergeWith(const QUndoCommand* other) {
@@ -71,32 +72,32 @@ bool BallCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
-AddRobotCommand::AddRobotCommand(MatchController* controller, link::ScenarioRobot robot)
-    : m_controller(controller), m_robot(std::move(robot)) {
+AddRobotCommand::AddRobotCommand(MatchRoster* roster, link::ScenarioRobot robot)
+    : m_roster(roster), m_robot(std::move(robot)) {
   setText(QStringLiteral("Add ") + robotName(m_robot.identity));
 }
 
 void AddRobotCommand::redo() {
-  m_controller->insertRobot(m_robot);
+  m_roster->insert(m_robot);
 }
 void AddRobotCommand::undo() {
-  m_controller->eraseRobot(m_robot.identity.id);
+  m_roster->erase(m_robot.identity.id);
 }
 
-RemoveRobotsCommand::RemoveRobotsCommand(MatchController* controller,
+RemoveRobotsCommand::RemoveRobotsCommand(MatchRoster* roster,
                                          std::vector<link::ScenarioRobot> robots)
-    : m_controller(controller), m_robots(std::move(robots)) {
+    : m_roster(roster), m_robots(std::move(robots)) {
   setText(QStringLiteral("Remove ") +
           subject(m_robots.size(), robotName(m_robots.front().identity)));
 }
 
 void RemoveRobotsCommand::redo() {
-  for (const link::ScenarioRobot& robot : m_robots) m_controller->eraseRobot(robot.identity.id);
+  for (const link::ScenarioRobot& robot : m_robots) m_roster->erase(robot.identity.id);
 }
 
-TeamCommand::TeamCommand(MatchController* controller, std::vector<sim::RobotIdentity> before,
+TeamCommand::TeamCommand(MatchRoster* roster, std::vector<sim::RobotIdentity> before,
                          std::vector<sim::RobotIdentity> after)
-    : m_controller(controller), m_before(std::move(before)), m_after(std::move(after)) {
+    : m_roster(roster), m_before(std::move(before)), m_after(std::move(after)) {
   const std::string_view team = info(m_after.front().team).name;
   setText(QStringLiteral("Put %1 in team %2")
               .arg(subject(m_before.size(), robotName(m_before.front())),
@@ -104,14 +105,14 @@ TeamCommand::TeamCommand(MatchController* controller, std::vector<sim::RobotIden
 }
 
 void TeamCommand::redo() {
-  m_controller->changeIdentities(m_after);
+  m_roster->changeIdentities(m_after);
 }
 void TeamCommand::undo() {
-  m_controller->changeIdentities(m_before);
+  m_roster->changeIdentities(m_before);
 }
 
 void RemoveRobotsCommand::undo() {
-  for (const link::ScenarioRobot& robot : m_robots) m_controller->insertRobot(robot);
+  for (const link::ScenarioRobot& robot : m_robots) m_roster->insert(robot);
 }
 
 }  // namespace pitchboard::ui

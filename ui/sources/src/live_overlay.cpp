@@ -22,9 +22,11 @@ LiveOverlay::LiveOverlay(MatchController* controller, LiveController* live, Sour
 }
 
 void LiveOverlay::setOn(bool on) {
+  if (on == m_on) return;
   m_on = on;
   if (on) m_live->start();
   show();
+  emit switched(on);
 }
 
 FramePtr LiveOverlay::other() const {

@@ -2,13 +2,10 @@
 #include <ui/sources/match_controller.h>
 
 #include <QTimer>
-#include <QUndoStack>
 #include <algorithm>
 
-#include <robotlink/session/match_sampler.h>
-#include <ui/base/robot_words.h>
-
-#include "match_rows.h"
+#include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -36,14 +33,15 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
       m_nextCatalog(&link::VariableCatalog::published(), [](const auto*) {}),
       m_catalog(m_nextCatalog),
       m_timer(new QTimer(this)),
-      m_undoStack(new QUndoStack(this)) {
+      m_edits(new MatchEdits(this)),
+      m_memory(new MatchMemory(this)) {
   constexpr int displayMilliseconds = 16;
-  constexpr int undoLimit = 1000;
-  m_undoStack->setUndoLimit(undoLimit);
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
   m_worker.setMaxThreadCount(1);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
+  connect(m_edits, &MatchEdits::failed, this, &MatchController::errorOccurred);
+  connect(m_memory, &MatchMemory::failed, this, &MatchController::errorOccurred);
 }
 
 // Runners' commands and the worker post back to this object: they must be gone while it is whole.
@@ -56,7 +54,7 @@ MatchController::~MatchController() {
 struct MatchController::Opening {
   std::shared_ptr<link::MatchRunner> runner;
   link::Cognition cognition = link::Cognition::Inline;
-  std::shared_ptr<link::TickObserver> sampler, archive;  // that the match was started with
+  std::vector<std::shared_ptr<link::TickObserver>> observers;  // that the match was started with
   QString error;  // of a match that plays otherwise than asked for, or not at all
 
   void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
@@ -68,13 +66,13 @@ void MatchController::Opening::start(const link::Scenario& scenario,
                                      CatalogPtr catalog) {
   const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
   cognition = options.cognition;
-  auto made = link::MatchRunner::start(scenario, options, paused, *catalog, {sampler, archive});
+  auto made = link::MatchRunner::start(scenario, options, paused, *catalog, observers);
   if (!made && options.cognition != link::Cognition::Inline) {
     const Error reason = made.error();
     link::MatchOptions inside = options;
     inside.cognition = cognition = link::Cognition::Inline;
     inside.systemV = false;
-    made = link::MatchRunner::start(scenario, inside, paused, *catalog, {sampler, archive});
+    made = link::MatchRunner::start(scenario, inside, paused, *catalog, observers);
     if (made) {
       error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
                  "instead, and other programs cannot see their blackboards. Close the other "
@@ -88,29 +86,22 @@ void MatchController::Opening::start(const link::Scenario& scenario,
     error = tr("The match cannot be played: %1").arg(words(made.error()));
 }
 
-void MatchController::setMemoryBudget(std::size_t bytes) {
-  m_memoryBudget = bytes;
-  if (m_rows) m_rows->setMemoryBudget(bytes);
-}
-
 std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const {
-  return m_rows ? std::shared_ptr<const telemetry::SeriesStore>(m_rows, &m_rows->store()) : nullptr;
+  return m_memory->series();
 }
 
-std::shared_ptr<telemetry::RowSink> MatchController::rowsBeside() const {
-  return m_rows ? MatchRows::beside(m_rows) : nullptr;
+FramePtr MatchController::frameAt(double time) const {
+  return m_memory->frameAt(time);
 }
 
-void MatchController::setSampling(int everyNth) {
-  if (everyNth == m_everyNth || everyNth < 1) return;
-  m_everyNth = everyNth;
-  if (!m_rows) return;
-  const auto old = std::exchange(
-      m_sampler, std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{everyNth}));
-  // While a match is being opened, take() exchanges them.
-  if (!m_runner) return;
-  m_runner->stopObserving(old);
-  m_runner->observe(m_sampler);
+bool MatchController::observe(std::shared_ptr<link::TickObserver> observer) {
+  if (!m_runner) return false;
+  m_runner->observe(std::move(observer));
+  return true;
+}
+
+void MatchController::stopObserving(const std::shared_ptr<link::TickObserver>& observer) {
+  if (m_runner) m_runner->stopObserving(observer);
 }
 
 QString MatchController::emptyText() const {
@@ -127,11 +118,7 @@ std::shared_ptr<link::MatchRunner> MatchController::retire() {
   m_whenOpen.clear();
   m_runTo.reset();
   m_frame.reset();
-  m_rows.reset();
-  m_sampler.reset();
-  m_archive.reset();
-  m_past.reset();
-  m_undoStack->clear();
+  m_memory->forget();
   return std::move(m_runner);
 }
 
@@ -162,26 +149,19 @@ void MatchController::restartAfter(std::function<void()> between) {
 void MatchController::openAfter(const link::Scenario& scenario, bool paused,
                                 std::function<void()> between) {
   auto old = retire();
-  m_robots.clear();
   m_scenario = scenario;
   m_paused = paused;
   m_opening = true;
   m_catalog = m_nextCatalog;
-  m_rows = std::make_shared<MatchRows>(m_memoryBudget);
-  m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
-  m_archive = std::make_shared<link::StateArchive>();
-  for (const link::ScenarioRobot& entry : scenario.robots) {
-    m_robots.emplace(entry.identity.id, entry);
-  }
+  m_memory->begin();
   m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
-                  options = m_options, catalog = m_catalog, sampler = m_sampler,
-                  archive = m_archive, generation = m_generation.load()]() mutable {
+                  options = m_options, catalog = m_catalog, observers = m_memory->observers(),
+                  generation = m_generation.load()]() mutable {
     old.reset();
     if (between) between();
     if (generation != m_generation) return;
     const auto opening = std::make_shared<Opening>();
-    opening->sampler = sampler;
-    opening->archive = archive;
+    opening->observers = observers;
     opening->start(scenario, options, paused, catalog);
     QMetaObject::invokeMethod(
         this,
@@ -205,10 +185,15 @@ void MatchController::take(Opening& opening) {
   if (m_runner) {
     m_runner->setSpeed(m_speed);
     m_runner->setPaused(m_paused);
-    if (opening.sampler != m_sampler) {
-      m_runner->stopObserving(opening.sampler);
-      m_runner->observe(m_sampler);
-    }
+    // Another sampling may have been chosen meanwhile.
+    const auto wanted = m_memory->observers();
+    const auto without = [](const auto& observers, const auto& others, const auto& act) {
+      for (const auto& one : observers) {
+        if (std::find(others.begin(), others.end(), one) == others.end()) act(one);
+      }
+    };
+    without(opening.observers, wanted, [this](const auto& old) { m_runner->stopObserving(old); });
+    without(wanted, opening.observers, [this](const auto& added) { m_runner->observe(added); });
     if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
     m_timer->start();
@@ -281,24 +266,22 @@ std::uint64_t MatchController::stateHash() {
   return hash;
 }
 
-const link::ScenarioRobot* MatchController::robot(RobotId id) const {
-  const auto found = m_robots.find(id);
-  return found != m_robots.end() ? &found->second : nullptr;
-}
-
-void MatchController::postChecked(const QString& whatFailed,
-                                  std::function<Result<void>(link::SimulatedMatch&)> command,
-                                  std::function<void()> onFailure) {
-  post([this, whatFailed, command = std::move(command), onFailure = std::move(onFailure),
+void MatchController::post(MatchOrder order) {
+  post([this, order = std::move(order),
         generation = m_generation.load()](link::SimulatedMatch& match) {
-    const Result<void> done = command(match);
-    if (done) return;
-    const QString sentence =
-        whatFailed + QStringLiteral(": ") + QString::fromStdString(done.error().text());
+    const Result<void> done = order.carryOut(match);
+    if (done && !order.onSuccess) return;
+    const QString sentence = done ? QString()
+                                  : order.whatFailed + QStringLiteral(": ") +
+                                        QString::fromStdString(done.error().text());
     QMetaObject::invokeMethod(
         this,
-        [this, sentence, onFailure, generation] {
+        [this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess, generation] {
           if (generation != m_generation) return;
+          if (sentence.isEmpty()) {
+            onSuccess();
+            return;
+          }
           if (onFailure) onFailure();
           emit errorOccurred(sentence);
         },

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MatchController's edits by hand and orders to single robots: each becomes a command that the
-// match's thread carries out between two ticks.
+#include <ui/sources/match_edits.h>
+
 #include <QUndoStack>
 #include <algorithm>
 #include <set>
 
 #include <ui/base/robot_words.h>
-#include <ui/sources/match_controller.h>
 
 #include "edit_commands.h"
+#include "match_roster.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -22,34 +22,59 @@ int smallestFree(const Used& used) {
 
 }  // namespace
 
-void MatchController::moveRobots(const std::vector<RobotPlacement>& placements) {
-  if (m_runner && !placements.empty()) {
-    m_undoStack->push(new PlacementCommand(this, placements));
+MatchEdits::MatchEdits(MatchController* match)
+    : QObject(match),
+      m_match(match),
+      m_roster(std::make_unique<MatchRoster>(match)),
+      m_undoStack(new QUndoStack(this)) {
+  constexpr int undoLimit = 1000;
+  m_undoStack->setUndoLimit(undoLimit);
+  connect(match, &MatchController::scenarioChanged, this, [this] {
+    m_undoStack->clear();
+    m_roster->begin(m_match->isOpening() ? m_match->scenario().robots
+                                         : std::vector<link::ScenarioRobot>{});
+  });
+}
+
+MatchEdits::~MatchEdits() = default;
+
+const link::ScenarioRobot* MatchEdits::robot(RobotId id) const {
+  return m_roster->robot(id);
+}
+
+void MatchEdits::adopt(const link::Moment& moment) {
+  m_undoStack->clear();
+  m_roster->adopt(moment);
+}
+
+void MatchEdits::moveRobots(const std::vector<RobotPlacement>& placements) {
+  if (m_match->isOpen() && !placements.empty()) {
+    m_undoStack->push(new PlacementCommand(m_roster.get(), placements));
   }
 }
 
-void MatchController::moveBall(Point from, Point to) {
-  if (m_runner) m_undoStack->push(new BallCommand(this, from, to));
+void MatchEdits::moveBall(Point from, Point to) {
+  if (m_match->isOpen()) m_undoStack->push(new BallCommand(m_roster.get(), from, to));
 }
 
-void MatchController::previewRobots(const std::vector<RobotPlacement>& placements) {
-  placeRobots(placements, false);
+void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
+  m_roster->place(placements, false);
 }
 
-void MatchController::previewBall(Point position) {
-  placeBall(position);
+void MatchEdits::previewBall(Point position) {
+  m_roster->placeBall(position);
 }
 
-void MatchController::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
-  if (!m_runner) return;
+void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
+  if (!m_match->isOpen()) return;
   std::set<int> ids, numbers;
-  for (const auto& [id, entry] : m_robots) {
+  for (const auto& [id, entry] : m_roster->robots()) {
     ids.insert(id.value);
     if (entry.identity.team == team) numbers.insert(entry.identity.number);
   }
   if (static_cast<int>(ids.size()) >= sim::Simulation::maxRobots) {
-    emit errorOccurred(tr("No more than %1 robots fit on a field. Remove one first.")
-                           .arg(sim::Simulation::maxRobots));
+    emit failed(tr("No more than %1 robots fit on a field. Remove one first.")
+                    .arg(sim::Simulation::maxRobots));
     return;
   }
   link::ScenarioRobot entry;
@@ -57,31 +82,33 @@ void MatchController::addRobot(TeamColor team, const Pose& pose, std::optional<i
                     info(team).facesLeft};
   entry.pose = pose;
   if (numbers.count(entry.identity.number) != 0) {
-    emit errorOccurred(
+    emit failed(
         tr("%1 is on the field already. Choose another number.").arg(robotName(entry.identity)));
     return;
   }
-  m_undoStack->push(new AddRobotCommand(this, entry));
+  m_undoStack->push(new AddRobotCommand(m_roster.get(), entry));
 }
 
-void MatchController::removeRobots(const std::vector<RobotId>& ids) {
+void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
+  const FramePtr newest = m_match->frame();
   std::vector<link::ScenarioRobot> leaving;
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
     if (known == nullptr) continue;
     leaving.push_back(*known);
-    if (!m_frame) continue;
-    for (const sim::RobotSnapshot& seen : m_frame->snapshot.robots) {
+    if (!newest) continue;
+    for (const sim::RobotSnapshot& seen : newest->snapshot.robots) {
       if (seen.identity.id == id) leaving.back().pose = seen.pose;
     }
   }
-  if (!leaving.empty()) m_undoStack->push(new RemoveRobotsCommand(this, std::move(leaving)));
+  if (!leaving.empty())
+    m_undoStack->push(new RemoveRobotsCommand(m_roster.get(), std::move(leaving)));
 }
 
-void MatchController::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
-  if (!m_runner) return;
+void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
+  if (!m_match->isOpen()) return;
   std::set<int> numbers;
-  for (const auto& [id, entry] : m_robots) {
+  for (const auto& [id, entry] : m_roster->robots()) {
     if (entry.identity.team == team) numbers.insert(entry.identity.number);
   }
   std::vector<sim::RobotIdentity> before, after;
@@ -94,58 +121,12 @@ void MatchController::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
     after.push_back({id, team, number, info(team).facesLeft});
   }
   if (!after.empty()) {
-    m_undoStack->push(new TeamCommand(this, std::move(before), std::move(after)));
+    m_undoStack->push(new TeamCommand(m_roster.get(), std::move(before), std::move(after)));
   }
 }
 
-void MatchController::changeIdentities(const std::vector<sim::RobotIdentity>& identities) {
-  for (const sim::RobotIdentity& identity : identities) {
-    const auto known = m_robots.find(identity.id);
-    if (known == m_robots.end()) continue;
-    const sim::RobotIdentity before = std::exchange(known->second.identity, identity);
-    postChecked(
-        tr("%1 stays in its team").arg(robotName(before)),
-        [identity](link::SimulatedMatch& match) { return match.setIdentity(identity); },
-        [this, before] {
-          const auto still = m_robots.find(before.id);
-          if (still != m_robots.end()) still->second.identity = before;
-        });
-  }
-}
-
-void MatchController::insertRobot(const link::ScenarioRobot& entry) {
-  m_robots.insert_or_assign(entry.identity.id, entry);
-  postChecked(
-      tr("%1 cannot be added").arg(robotName(entry.identity)),
-      [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
-      [this, id = entry.identity.id] { m_robots.erase(id); });
-}
-
-void MatchController::eraseRobot(RobotId id) {
-  const link::ScenarioRobot* known = robot(id);
-  const QString name = known ? robotName(known->identity) : tr("The robot");
-  m_robots.erase(id);
-  postChecked(tr("%1 cannot be removed").arg(name),
-              [id](link::SimulatedMatch& match) { return match.removeRobot(id); });
-}
-
-void MatchController::placeRobots(const std::vector<RobotPlacement>& placements, bool back) {
-  post([placements, back](link::SimulatedMatch& match) {
-    // A robot that left meanwhile has nothing to be placed.
-    for (const RobotPlacement& placement : placements) {
-      (void)match.simulation().placeRobot(placement.id, back ? placement.from : placement.to);
-    }
-  });
-}
-
-void MatchController::placeBall(Point position) {
-  postChecked(tr("The ball cannot be placed"), [position](link::SimulatedMatch& match) {
-    return match.simulation().placeBall(position);
-  });
-}
-
-void MatchController::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
-  post([id, actionA, actionB](link::SimulatedMatch& match) {
+void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
+  m_match->post([id, actionA, actionB](link::SimulatedMatch& match) {
     link::Blackboard* board = match.blackboard(id);
     if (board == nullptr) return;
     // B first: control reads it in the moment it sees a new A.
@@ -154,88 +135,79 @@ void MatchController::commandAction(RobotId id, int actionA, std::optional<int> 
   });
 }
 
-void MatchController::commandSearch(RobotId id, bool on) {
-  post([id, on](link::SimulatedMatch& match) {
+void MatchEdits::commandSearch(RobotId id, bool on) {
+  m_match->post([id, on](link::SimulatedMatch& match) {
     if (link::Blackboard* board = match.blackboard(id)) {
       board->write(match.variables().decisionSearchOn, on ? 1 : 0);
     }
   });
 }
 
-void MatchController::writeVariable(RobotId id, const QString& name, double value) {
-  const link::Variable* variable = m_catalog->find(name.toStdString());
-  const QString failed = tr("%1 is not written").arg(name);
+void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
+  const link::Variable* variable = m_match->catalog().find(name.toStdString());
+  const QString notWritten = tr("%1 is not written").arg(name);
   if (variable == nullptr) {
-    emit errorOccurred(tr("%1: this match's catalog has no such variable.").arg(failed));
+    emit failed(tr("%1: this match's catalog has no such variable.").arg(notWritten));
     return;
   }
-  postChecked(failed,
-              [this, id, name, value, type = variable->type, index = variable->index,
-               generation = m_generation.load()](link::SimulatedMatch& match) -> Result<void> {
-                link::Blackboard* board = match.blackboard(id);
-                if (board == nullptr) {
-                  return failure(ErrorCode::NotFound, "the robot is not on the field any more");
-                }
-                if (type == link::VariableType::Int) {
-                  board->write(link::IntVar{index}, static_cast<int>(value));
-                } else {
-                  board->write(link::FloatVar{index}, static_cast<float>(value));
-                }
-                const sim::WorldState& state = match.simulation().state();
-                const double time = static_cast<double>(state.tick) / state.settings.tickRate;
-                QMetaObject::invokeMethod(
-                    this,
-                    [this, id, name, time, generation] {
-                      if (generation == m_generation) emit variableWritten(id, name, time);
-                    },
-                    Qt::QueuedConnection);
-                return {};
-              });
+  const auto time = std::make_shared<double>();  // of the tick after which it was written, s
+  m_match->post({notWritten,
+                 [id, value, type = variable->type, index = variable->index,
+                  time](link::SimulatedMatch& match) -> Result<void> {
+                   link::Blackboard* board = match.blackboard(id);
+                   if (board == nullptr) {
+                     return failure(ErrorCode::NotFound, "the robot is not on the field any more");
+                   }
+                   if (type == link::VariableType::Int) {
+                     board->write(link::IntVar{index}, static_cast<int>(value));
+                   } else {
+                     board->write(link::FloatVar{index}, static_cast<float>(value));
+                   }
+                   const sim::WorldState& state = match.simulation().state();
+                   *time = static_cast<double>(state.tick) / state.settings.tickRate;
+                   return {};
+                 },
+                 {},
+                 [this, id, name, time] { emit variableWritten(id, name, *time); }});
 }
 
-void MatchController::setNoise(const sim::NoiseParameters& noise) {
-  postChecked(tr("The noise stays as it was"),
-              [noise](link::SimulatedMatch& match) { return match.simulation().setNoise(noise); });
+void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
+  m_match->post({tr("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
+                   return match.simulation().setNoise(noise);
+                 }});
 }
 
-void MatchController::setRigidBody(const sim::RigidBodySettings& settings) {
-  postChecked(tr("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
-    return match.simulation().setRigidBody(settings);
-  });
+void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
+  m_match->post({tr("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
+                   return match.simulation().setRigidBody(settings);
+                 }});
 }
 
-void MatchController::setPhysics(const QString& model) {
-  link::Scenario moment = currentMoment();
+void MatchEdits::setPhysics(const QString& model) {
+  link::Scenario moment = m_match->currentMoment();
   moment.settings.physics = model.toStdString();
-  open(moment, m_paused);
+  m_match->open(moment, m_match->isPaused());
 }
 
-void MatchController::setBehaviour(RobotId id, const QString& behaviour) {
-  const auto known = m_robots.find(id);
-  if (known == m_robots.end()) return;
-  known->second.behaviour = behaviour.toStdString();
-  postChecked(tr("%1 keeps its behaviour").arg(robotName(known->second.identity)),
-              [id, name = behaviour.toStdString()](link::SimulatedMatch& match) {
-                return match.setBehaviour(id, name);
-              });
+void MatchEdits::setBehaviour(RobotId id, const QString& behaviour) {
+  m_roster->setBehaviour(id, behaviour.toStdString());
 }
 
-void MatchController::restartProcesses(RobotId id) {
-  const auto known = m_robots.find(id);
-  if (known == m_robots.end()) return;
-  setBehaviour(id, QString::fromStdString(known->second.behaviour));
+void MatchEdits::restartProcesses(RobotId id) {
+  if (const link::ScenarioRobot* known = robot(id)) m_roster->setBehaviour(id, known->behaviour);
 }
 
-void MatchController::stopProcesses(RobotId id) {
-  post([id](link::SimulatedMatch& match) { match.supervisor().stop(id); });
+void MatchEdits::stopProcesses(RobotId id) {
+  m_match->post([id](link::SimulatedMatch& match) { match.supervisor().stop(id); });
 }
 
-void MatchController::setClockRunning(bool running) {
-  post([running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
+void MatchEdits::setClockRunning(bool running) {
+  m_match->post(
+      [running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
 }
 
-void MatchController::resetScore() {
-  post([](link::SimulatedMatch& match) {
+void MatchEdits::resetScore() {
+  m_match->post([](link::SimulatedMatch& match) {
     match.simulation().setScore({});
     match.simulation().editState().clockTicks = 0;
   });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
 
 #include <QActionGroup>
@@ -15,7 +16,7 @@ namespace {
 template <class Is>
 bool allOf(const MatchController& controller, const std::vector<RobotId>& ids, Is is) {
   return std::all_of(ids.begin(), ids.end(), [&](RobotId id) {
-    const link::ScenarioRobot* robot = controller.robot(id);
+    const link::ScenarioRobot* robot = controller.edits()->robot(id);
     return robot != nullptr && is(*robot);
   });
 }
@@ -40,7 +41,7 @@ void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vecto
     const QString key = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
     QObject::connect(addChoice(group, behaviour, text, chosen), &QAction::triggered, controller,
                      [controller, ids, key] {
-                       for (const RobotId id : ids) controller->setBehaviour(id, key);
+                       for (const RobotId id : ids) controller->edits()->setBehaviour(id, key);
                      });
   };
   for (const link::BehaviourInfo& known : link::behaviours())
@@ -57,9 +58,9 @@ void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<Rob
     const bool chosen = allOf(*controller, ids, [&](const link::ScenarioRobot& r) {
       return r.identity.team == color.color;
     });
-    QObject::connect(addChoice(group, team, capitalised(color.name), chosen), &QAction::triggered,
-                     controller,
-                     [controller, ids, to = color.color] { controller->setTeam(ids, to); });
+    QObject::connect(
+        addChoice(group, team, capitalised(color.name), chosen), &QAction::triggered, controller,
+        [controller, ids, to = color.color] { controller->edits()->setTeam(ids, to); });
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/match_memory.h>
 #include <ui/sources/session_recording.h>
 
 #include <QCoreApplication>
@@ -145,7 +146,7 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
   link::RecorderOptions options;
   options.program = programName();
   options.writer = m_writing;
-  options.everyNth = m_controller->sampling();
+  options.everyNth = m_controller->memory()->sampling();
   auto made = link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
                                           m_controller->catalog(), options);
   if (!made) return tl::unexpected(made.error());
@@ -295,7 +296,7 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     past.log.assign(m_log.begin(), m_log.end());
     past.scenario = link::scenarioToJson(m_controller->scenario());
     past.catalog = m_controller->catalog().toJson();
-    archive = m_controller->archive();
+    archive = m_controller->memory()->archive();
   }
   return
       [past = std::move(past), rows, archive, about, seconds](const QString& path) -> Result<void> {

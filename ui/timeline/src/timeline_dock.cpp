@@ -17,7 +17,7 @@ namespace {
 
 class TimelineDock : public QWidget {
  public:
-  TimelineDock(const StudioContext& context, QWidget* parent)
+  TimelineDock(const TimelineContext& context, QWidget* parent)
       : QWidget(parent),
         m_timeline(context.timeline),
         m_strip(new TimelineStrip(context.timeline, context.time, this)),
@@ -50,9 +50,12 @@ class TimelineDock : public QWidget {
               context.timelineActions->fill(&menu);
               menu.exec(at);
             });
-    connect(context.compared, &ComparedSession::changed, this, [this, compared = context.compared] {
-      m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
-    });
+    if (context.compared != nullptr) {
+      connect(context.compared, &ComparedSession::changed, this,
+              [this, compared = context.compared] {
+                m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
+              });
+    }
     showLive();
   }
 
@@ -90,7 +93,7 @@ class TimelineDock : public QWidget {
 
 }  // namespace
 
-QWidget* makeTimelineDock(const StudioContext& context, QWidget* parent) {
+QWidget* makeTimelineDock(const TimelineContext& context, QWidget* parent) {
   return new TimelineDock(context, parent);
 }
 

@@ -5,6 +5,7 @@
 
 #include <ui/base/in_place_message.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 
 #include "variables_model.h"
 
@@ -14,7 +15,7 @@ ValueWriter::ValueWriter(MatchController* controller, VariablesModel* model,
                          InPlaceMessage* message, QObject* parent)
     : QObject(parent), m_controller(controller), m_model(model), m_message(message) {
   connect(model, &VariablesModel::valueEdited, this, &ValueWriter::write);
-  connect(controller, &MatchController::variableWritten, this, &ValueWriter::written);
+  connect(controller->edits(), &MatchEdits::variableWritten, this, &ValueWriter::written);
 }
 
 void ValueWriter::forget() {
@@ -37,7 +38,7 @@ void ValueWriter::write(const QModelIndex& index, double value) {
   m_pending.push_back({id,
                        {QString::fromStdString(group->info().name), name,
                         before ? before->value : 0.0, value, 0.0}});
-  m_controller->writeVariable(id, name, value);
+  m_controller->edits()->writeVariable(id, name, value);
 }
 
 void ValueWriter::written(RobotId robot, const QString& name, double time) {

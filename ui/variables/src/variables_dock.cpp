@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/match_memory.h>
 #include <ui/variables/variables_dock.h>
 
 #include <QApplication>
@@ -15,6 +16,7 @@
 
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
+#include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/match_controller.h>
@@ -39,14 +41,14 @@ const QString changedKey = QStringLiteral("variables/changedWithin");
 
 class VariablesDock : public QWidget {
  public:
-  VariablesDock(const StudioContext& context, QWidget* parent)
+  VariablesDock(const VariablesContext& context, QWidget* parent)
       : QWidget(parent),
         m_context(context),
         m_model(new VariablesModel(this)),
         m_filter(new VariablesFilter(m_model, this)),
         m_view(new VariablesView(m_model, m_filter, this)),
         m_message(new InPlaceMessage(this)),
-        m_empty(new QLabel(this)),
+        m_empty(makeEmptyLabel(this, QStringLiteral("emptyVariables"))),
         m_timer(new QTimer(this)),
         m_writer(new ValueWriter(context.controller, m_model, m_message, this)),
         m_boards(new AttachedBoards(context.controller, this)),
@@ -61,7 +63,6 @@ class VariablesDock : public QWidget {
     column->addWidget(m_message);
     column->addWidget(m_view, 1);
     column->addWidget(m_empty, 1);
-    prepareEmpty();
     connect(m_view->header(), &QHeaderView::sortIndicatorChanged, this, [this] {
       if (m_filter->sortsByNumbers()) m_filter->update();
     });
@@ -192,13 +193,13 @@ class VariablesDock : public QWidget {
       QAction* action =
           menu->addAction(ticks == 1 ? tr("Each tick") : tr("Every %1 ticks").arg(ticks));
       action->setCheckable(true);
-      action->setChecked(m_context.controller->sampling() == ticks);
+      action->setChecked(m_context.controller->memory()->sampling() == ticks);
       connect(action, &QAction::triggered, this, [this, ticks] { setSampling(ticks); });
     }
   }
 
   void setSampling(int ticks) {
-    m_context.controller->setSampling(ticks);
+    m_context.controller->memory()->setSampling(ticks);
     if (m_context.settings) m_context.settings->setValue(samplingKey, ticks);
   }
 
@@ -268,16 +269,6 @@ class VariablesDock : public QWidget {
     }
   }
 
-  void prepareEmpty() {
-    m_empty->setObjectName(QStringLiteral("emptyVariables"));
-    m_empty->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    m_empty->setForegroundRole(QPalette::PlaceholderText);
-    m_empty->setBackgroundRole(QPalette::Base);
-    m_empty->setAutoFillBackground(true);
-    m_empty->setMargin(scaled(this, 12));
-    m_empty->setWordWrap(true);
-  }
-
   void connectView() {
     connect(m_view, &VariablesView::plotRequested, this, [this](const QStringList& names) {
       if (m_context.plots) m_context.plots->plotVariables(names);
@@ -303,7 +294,8 @@ class VariablesDock : public QWidget {
     if (const QSettings* settings = m_context.settings) {
       m_model->setFavourites(settings->value(favouritesKey).toStringList());
       m_changedWithin = qBound(1, settings->value(changedKey, m_changedWithin).toInt(), 3600);
-      m_context.controller->setSampling(qBound(1, settings->value(samplingKey, 1).toInt(), 60));
+      m_context.controller->memory()->setSampling(
+          qBound(1, settings->value(samplingKey, 1).toInt(), 60));
       const QByteArray header = settings->value(headerKey).toByteArray();
       if (!header.isEmpty()) m_view->header()->restoreState(header);
       m_view->header()->setSortIndicator(-1, Qt::AscendingOrder);
@@ -395,7 +387,7 @@ class VariablesDock : public QWidget {
     return tr("None of the favourites is in this match.");
   }
 
-  StudioContext m_context;
+  VariablesContext m_context;
   VariablesModel* m_model;
   VariablesFilter* m_filter;
   VariablesView* m_view;
@@ -416,7 +408,7 @@ class VariablesDock : public QWidget {
 
 }  // namespace
 
-QWidget* makeVariablesDock(const StudioContext& context, QWidget* parent) {
+QWidget* makeVariablesDock(const VariablesContext& context, QWidget* parent) {
   return new VariablesDock(context, parent);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/window/dock_list.h>
+#include "dock_list.h"
 
 #include <ui/live/bad_messages_dock.h>
 #include <ui/log/log_dock.h>
@@ -10,18 +10,50 @@
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
 
+#include "studio_parts.h"
+
 namespace pitchboard::ui {
+
+namespace {
+
+// Each dock gets what it uses and no more.
+QWidget* robots(const StudioParts& s, QWidget* parent) {
+  return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings}, parent);
+}
+QWidget* variables(const StudioParts& s, QWidget* parent) {
+  return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings}, parent);
+}
+QWidget* noise(const StudioParts& s, QWidget* parent) {
+  return makeNoiseDock(s.controller, parent);
+}
+QWidget* plots(const StudioParts& s, QWidget* parent) {
+  return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);
+}
+QWidget* processes(const StudioParts& s, QWidget* parent) {
+  return makeProcessesDock(s.controller, s.source, parent);
+}
+QWidget* badMessages(const StudioParts& s, QWidget* parent) {
+  return makeBadMessagesDock(s.live, parent);
+}
+QWidget* log(const StudioParts& s, QWidget* parent) {
+  return makeLogDock(s.controller, s.source, parent);
+}
+QWidget* timeline(const StudioParts& s, QWidget* parent) {
+  return makeTimelineDock({s.time, s.timeline, s.timelineActions, s.compared}, parent);
+}
+
+}  // namespace
 
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
-      {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, makeRobotsDock},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, makeVariablesDock},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, makeNoiseDock},
-      {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, makePlotsDock},
-      {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, makeProcessesDock},
-      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, makeBadMessagesDock},
-      {"log", "Log", Qt::BottomDockWidgetArea, true, 180, makeLogDock},
-      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, makeTimelineDock, true},
+      {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, variables},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, noise},
+      {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
+      {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
+      {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
+      {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
+      {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, timeline, true},
   };
   return docks;
 }

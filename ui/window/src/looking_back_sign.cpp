@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "looking_back_sign.h"
 
-#include <QEvent>
-#include <QPainter>
-
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/timeline.h>
@@ -11,21 +8,11 @@
 namespace pitchboard::ui {
 
 LookingBackSign::LookingBackSign(Timeline* timeline, QWidget* canvas)
-    : QLabel(canvas), m_timeline(timeline) {
-  setObjectName(QStringLiteral("lookingBack"));
-  setAlignment(Qt::AlignCenter);
-  setFont(themeFont(TypeRole::Body, true));
-  setAttribute(Qt::WA_TransparentForMouseEvents);
-  canvas->installEventFilter(this);
+    : FieldSign(canvas, QStringLiteral("lookingBack"), &ThemeColors::accentLine),
+      m_timeline(timeline) {
   connect(timeline, &Timeline::lookingBackChanged, this, &LookingBackSign::present);
   connect(timeline, &Timeline::moved, this, &LookingBackSign::present);
   connect(timeline, &Timeline::sourceChanged, this, &LookingBackSign::present);
-  hide();
-}
-
-bool LookingBackSign::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && isVisible()) present();
-  return QLabel::eventFilter(watched, event);
 }
 
 void LookingBackSign::present() {
@@ -47,16 +34,6 @@ void LookingBackSign::present() {
   setGeometry(box);
   show();
   raise();
-}
-
-void LookingBackSign::paintEvent(QPaintEvent* event) {
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(theme().accentLine);
-  painter.setBrush(theme().window);
-  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
-  painter.end();
-  QLabel::paintEvent(event);
 }
 
 }  // namespace pitchboard::ui

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QLabel>
+// Says at the top of the field that the past is shown: "Looking back: 00:03:12 (live goes on)". UI
+// thread only.
+
+#include "field_sign.h"
 
 namespace pitchboard::ui {
 
 class Timeline;
 
-/// Says at the top of the field that the past is shown: "Looking back: 00:03:12 (live goes on)".
-class LookingBackSign : public QLabel {
-  Q_OBJECT
+class LookingBackSign : public FieldSign {
  public:
   /// `canvas` is what it lies on.
   LookingBackSign(Timeline* timeline, QWidget* canvas);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-  void paintEvent(QPaintEvent* event) override;
-
  private:
-  void present();
+  void present() override;
   Timeline* m_timeline;
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
 #include <ui/window/main_window.h>
 
 #include <QAbstractScrollArea>
@@ -31,18 +33,18 @@
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/session_recording.h>
 #include <ui/sources/source_switch.h>
-#include <ui/sources/studio_context.h>
 #include <ui/sources/timeline.h>
 #include <ui/timeline/timeline_actions.h>
-#include <ui/window/dock_list.h>
 #include <ui/window/scenario_files.h>
 
+#include "dock_list.h"
 #include "dock_title.h"
 #include "looking_back_sign.h"
 #include "menus.h"
 #include "opening_label.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
+#include "studio_parts.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
@@ -74,8 +76,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_timeline->watch(controller);
   m_timeline->watch(m_live);
   m_timeline->watch(m_replay);
-  m_undo->addStack(controller->undoStack());
-  m_undo->setActiveStack(controller->undoStack());
+  m_undo->addStack(controller->edits()->undoStack());
+  m_undo->setActiveStack(controller->edits()->undoStack());
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
   setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
@@ -107,14 +109,15 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
         {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }}, {tr("Close"), {}}});
   });
   connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
-  const StudioContext context = this->context();
-  m_bar = new TransportBar(context, settings, this);
+  m_bar = new TransportBar({controller, m_source, m_timeline, m_replay, m_recording, m_live},
+                           settings, this);
   addToolBar(m_bar);
-  m_status = new StudioStatusBar(context, this);
+  m_status = new StudioStatusBar(
+      {controller, m_source, m_selection, m_timeline, m_replay, m_recording, m_live}, this);
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   makeDocks();
-  StudioMenus(*this).make();
+  makeMenus();
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
@@ -126,7 +129,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
           [this](const QString& sentence) { m_notices->show(sentence); });
   connect(m_source, &SourceSwitch::changed, this, [this] {
     const bool editable = m_source->kind() == SourceKind::Simulate;
-    m_undo->setActiveStack(editable ? m_controller->undoStack() : nullptr);
+    m_undo->setActiveStack(editable ? m_controller->edits()->undoStack() : nullptr);
     m_selection->set({});
   });
   connect(m_files, &ScenarioFiles::failed, m_notices,
@@ -170,10 +173,21 @@ void MainWindow::shutDown() {
   delete m_live;
 }
 
-StudioContext MainWindow::context() const {
+StudioParts MainWindow::parts() const {
   return {m_controller, m_source, m_selection, m_field,           m_time,
           m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
           m_recording,  m_live,   m_overlay,   m_compared};
+}
+
+void MainWindow::makeMenus() {
+  StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(), m_bar->transportActions(),
+               m_status, m_docks},
+              *this)
+      .make();
+}
+
+void MainWindow::overlayLive(bool on) {
+  m_overlay->setOn(on);
 }
 
 void MainWindow::openSession(const QString& path) {
@@ -221,7 +235,7 @@ int MainWindow::memoryBudget() const {
 void MainWindow::setMemoryBudget(int megabytes) {
   m_settings->setValue(memoryKey, std::clamp(megabytes, 1, mostMemory));
   const std::size_t bytes = static_cast<std::size_t>(memoryBudget()) << 20;
-  m_controller->setMemoryBudget(bytes);
+  m_controller->memory()->setMemoryBudget(bytes);
   m_live->setMemoryBudget(bytes);
   m_replay->setMemoryBudget(bytes);
   m_compared->setMemoryBudget(bytes);
@@ -235,11 +249,11 @@ void MainWindow::showSource(SourceKind kind) {
 }
 
 void MainWindow::makeDocks() {
-  const StudioContext context = this->context();
+  const StudioParts parts = this->parts();
   for (const DockInfo& info : studioDocks()) {
     auto* dock = new QDockWidget(tr(info.title), this);
     dock->setObjectName(QLatin1String(info.id));
-    dock->setWidget(info.make(context, dock));
+    dock->setWidget(info.make(parts, dock));
     dock->setTitleBarWidget(new DockTitle(dock));
     m_docks.push_back(dock);
     for (const auto changed : {&QDockWidget::visibilityChanged, &QDockWidget::topLevelChanged}) {
@@ -272,14 +286,14 @@ void MainWindow::connectField() {
           [this] { m_files->open(QStringLiteral("match-3v3")); });
   connect(m_field, &FieldView::resetRequested, m_controller, [this] {
     m_controller->restart();
-    m_controller->resetScore();
+    m_controller->edits()->resetScore();
   });
   connect(m_field, &FieldView::clearRequested, m_controller, [this] {
     std::vector<RobotId> all;
     if (const FramePtr frame = m_controller->frame()) {
       for (const auto& robot : frame->snapshot.robots) all.push_back(robot.identity.id);
     }
-    m_controller->removeRobots(all);
+    m_controller->edits()->removeRobots(all);
   });
 }
 

@@ -19,6 +19,7 @@
 #include <ui/sources/compared_session.h>
 #include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/session_recording.h>
@@ -31,7 +32,6 @@
 #include "help_windows.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
-#include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -44,6 +44,9 @@ QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = 
 
 }  // namespace
 
+StudioMenus::StudioMenus(MenuContext context, MainWindow& window)
+    : m_context(std::move(context)), m_parts(m_context.parts), m_window(window) {}
+
 void StudioMenus::make() {
   makeFile();
   makeEdit();
@@ -55,7 +58,7 @@ void StudioMenus::make() {
 }
 
 void StudioMenus::onlyWhenSimulating(QAction* action) {
-  SourceSwitch* source = m_window.m_source;
+  SourceSwitch* source = m_parts.source;
   QObject::connect(source, &SourceSwitch::changed, action, [action, source] {
     action->setEnabled(source->kind() == SourceKind::Simulate);
   });
@@ -63,21 +66,22 @@ void StudioMenus::onlyWhenSimulating(QAction* action) {
 
 void StudioMenus::makeFile() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&File"));
-  ScenarioFiles* files = m_window.m_files;
+  ScenarioFiles* files = m_context.files;
   withIcon(menu->addAction(QObject::tr("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
            "document-open", QKeySequence::Open);
   QMenu* recent = menu->addMenu(QObject::tr("Open &recent"));
-  QObject::connect(menu, &QMenu::aboutToShow, recent, [recent, files, bar = m_window.m_bar] {
-    recent->clear();
-    for (const QString& file : bar->scenarios()->recentFiles()) {
-      QAction* action = recent->addAction(QFileInfo(file).completeBaseName(), files,
-                                          [files, file] { files->open(file); });
-      action->setToolTip(file);
-    }
-    recent->setToolTipsVisible(true);
-    recent->setEnabled(!recent->isEmpty());
-  });
-  SessionFiles* sessions = m_window.m_sessions;
+  QObject::connect(
+      menu, &QMenu::aboutToShow, recent, [recent, files, scenarios = m_context.scenarios] {
+        recent->clear();
+        for (const QString& file : scenarios->recentFiles()) {
+          QAction* action = recent->addAction(QFileInfo(file).completeBaseName(), files,
+                                              [files, file] { files->open(file); });
+          action->setToolTip(file);
+        }
+        recent->setToolTipsVisible(true);
+        recent->setEnabled(!recent->isEmpty());
+      });
+  SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QObject::tr("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
            "folder-open", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
   QAction* save = menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
@@ -94,11 +98,11 @@ void StudioMenus::makeFile() {
 
 void StudioMenus::makeEdit() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Edit"));
-  MatchController* controller = m_window.m_controller;
-  RobotSelection* selection = m_window.m_selection;
-  SourceSwitch* source = m_window.m_source;
-  QAction* undo = m_window.m_undo->createUndoAction(&m_window, QObject::tr("Undo"));
-  QAction* redo = m_window.m_undo->createRedoAction(&m_window, QObject::tr("Redo"));
+  MatchController* controller = m_parts.controller;
+  RobotSelection* selection = m_parts.selection;
+  SourceSwitch* source = m_parts.source;
+  QAction* undo = m_context.undo->createUndoAction(&m_window, QObject::tr("Undo"));
+  QAction* redo = m_context.undo->createRedoAction(&m_window, QObject::tr("Redo"));
   menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
   menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
   menu->addSeparator();
@@ -115,9 +119,9 @@ void StudioMenus::makeEdit() {
            // Ctrl+A is a key of the field: it adds a red robot.
            "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
-  QAction* remove =
-      menu->addAction(QObject::tr("&Delete selected robots"), controller,
-                      [controller, selection] { controller->removeRobots(selection->ids()); });
+  QAction* remove = menu->addAction(
+      QObject::tr("&Delete selected robots"), controller,
+      [controller, selection] { controller->edits()->removeRobots(selection->ids()); });
   withIcon(remove, "edit-delete");
   remove->setEnabled(false);
   QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
@@ -137,7 +141,7 @@ void StudioMenus::makeThemes(QMenu* menu) {
     action->setChecked(themeChoice() == choice);
     group->addAction(action);
     QObject::connect(action, &QAction::triggered, &m_window,
-                     [settings = m_window.m_settings, chosen = choice] {
+                     [settings = m_parts.settings, chosen = choice] {
                        setTheme(*qobject_cast<QApplication*>(QApplication::instance()), chosen);
                        settings->setValue(QStringLiteral("window/theme"), static_cast<int>(chosen));
                      });
@@ -146,21 +150,21 @@ void StudioMenus::makeThemes(QMenu* menu) {
 
 void StudioMenus::makeView() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&View"));
-  for (QDockWidget* dock : m_window.m_docks) menu->addAction(dock->toggleViewAction());
+  for (QDockWidget* dock : m_context.docks) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();
   QMenu* layers = menu->addMenu(QObject::tr("Field &layers"));
-  for (QAction* action : m_window.m_field->layerActions()) layers->addAction(action);
+  for (QAction* action : m_parts.field->layerActions()) layers->addAction(action);
   layers->addSeparator();
-  for (QAction* action : m_window.m_field->layerOptionActions()) layers->addAction(action);
-  for (QAction* action : m_window.m_field->viewActions()) menu->addAction(action);
+  for (QAction* action : m_parts.field->layerOptionActions()) layers->addAction(action);
+  for (QAction* action : m_parts.field->viewActions()) menu->addAction(action);
   QAction* overlay = menu->addAction(QObject::tr("Overlay what is &heard live"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);
-  m_window.m_overlayAction = overlay;
   overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
-  QObject::connect(overlay, &QAction::toggled, m_window.m_overlay, &LiveOverlay::setOn);
-  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [this_ = &m_window] {
-    showLiveSettings(this_->m_live, this_->m_settings, this_);
+  QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
+  QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
+  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [window = &m_window, parts = m_parts] {
+    showLiveSettings(parts.live, parts.settings, window);
   });
   menu->addSeparator();
   makeThemes(menu->addMenu(QObject::tr("&Theme")));
@@ -175,27 +179,26 @@ void StudioMenus::makeView() {
 
 void StudioMenus::makeSimulation() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Simulation"));
-  MatchController* controller = m_window.m_controller;
-  for (QAction* action : m_window.m_bar->transportActions()) menu->addAction(action);
+  MatchController* controller = m_parts.controller;
+  for (QAction* action : m_context.transport) menu->addAction(action);
   menu->addSeparator();
   QAction* clock = menu->addAction(QObject::tr("Game &clock runs"));
   clock->setCheckable(true);
-  QObject::connect(menu, &QMenu::aboutToShow, clock,
-                   [clock, controller, source = m_window.m_source] {
-                     const FramePtr frame = controller->frame();
-                     clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
-                     clock->setChecked(frame && frame->snapshot.clockRunning);
-                   });
-  QObject::connect(clock, &QAction::triggered, controller, &MatchController::setClockRunning);
+  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller, source = m_parts.source] {
+    const FramePtr frame = controller->frame();
+    clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
+    clock->setChecked(frame && frame->snapshot.clockRunning);
+  });
+  QObject::connect(clock, &QAction::triggered, controller->edits(), &MatchEdits::setClockRunning);
   onlyWhenSimulating(
-      menu->addAction(QObject::tr("Reset &score"), controller, &MatchController::resetScore));
+      menu->addAction(QObject::tr("Reset &score"), controller->edits(), &MatchEdits::resetScore));
 }
 
 void StudioMenus::makeTimeline() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Timeline"));
-  m_window.m_timelineActions->fill(menu);
+  m_parts.timelineActions->fill(menu);
   menu->addSeparator();
-  SessionFiles* sessions = m_window.m_sessions;
+  SessionFiles* sessions = m_context.sessions;
   using Poses = link::MomentOptions::Poses;
   QAction* asBelieved =
       menu->addAction(QObject::tr("Simulate from here, &as the robots believe"), sessions,
@@ -207,8 +210,8 @@ void StudioMenus::makeTimeline() {
   asBelieved->setObjectName(QStringLiteral("simulateBelieved"));
   asItWas->setObjectName(QStringLiteral("simulateTrue"));
   goOn->setObjectName(QStringLiteral("continueFromHere"));
-  Timeline* timeline = m_window.m_timeline;
-  SourceSwitch* source = m_window.m_source;
+  Timeline* timeline = m_parts.timeline;
+  SourceSwitch* source = m_parts.source;
   const auto refresh = [asItWas, goOn, timeline, source] {
     const FramePtr frame = source->frame();
     asItWas->setEnabled(frame && frame->truthKnown);
@@ -218,7 +221,7 @@ void StudioMenus::makeTimeline() {
   QObject::connect(timeline, &Timeline::sourceChanged, goOn, refresh);
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
   menu->addSeparator();
-  ComparedSession* compared = m_window.m_compared;
+  ComparedSession* compared = m_parts.compared;
   QAction* compare =
       menu->addAction(QObject::tr("Co&mpare with session…"), sessions, [sessions, compared] {
         const QString path = sessions->askForFile(QObject::tr("Compare with session"));
@@ -236,7 +239,7 @@ void StudioMenus::makeTimeline() {
   QObject::connect(compared, &ComparedSession::changed, stop, showCompared);
   showCompared();
   menu->addSeparator();
-  SessionRecording* recording = m_window.m_recording;
+  SessionRecording* recording = m_parts.recording;
   QAction* exportAction = menu->addAction(QObject::tr("&Export…"), &m_window,
                                           [this_ = &m_window] { this_->showExport(); });
   exportAction->setObjectName(QStringLiteral("exportSession"));
@@ -269,7 +272,7 @@ void StudioMenus::makeHelp() {
   QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Help"));
   menu->addAction(QObject::tr("&Keyboard shortcuts"), &m_window,
                   [this_ = &m_window] { showShortcuts(this_); });
-  menu->addAction(QObject::tr("Copy state &hash"), m_window.m_status,
+  menu->addAction(QObject::tr("Copy state &hash"), m_context.status,
                   &StudioStatusBar::copyStateHash);
   menu->addSeparator();
   menu->addAction(QObject::tr("&About Pitchboard"), &m_window,

@@ -1,17 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The window's menu bar. Every entry does something. UI thread only.
+
+#include <QList>
+#include <vector>
+
+#include "studio_parts.h"
+
 class QAction;
+class QDockWidget;
 class QMenu;
+class QUndoGroup;
 
 namespace pitchboard::ui {
 
 class MainWindow;
+class ScenarioChooser;
+class ScenarioFiles;
+class SessionFiles;
+class StudioStatusBar;
 
-/// Fills the window's menu bar. Every entry does something.
+/// What the menus' entries act on; everything outlives them.
+struct MenuContext {
+  StudioParts parts;
+  QUndoGroup* undo;
+  ScenarioFiles* files;
+  SessionFiles* sessions;
+  ScenarioChooser* scenarios;  ///< knows the recent ones
+  QList<QAction*> transport;   ///< restart, play/pause, step
+  StudioStatusBar* status;
+  std::vector<QDockWidget*> docks;
+};
+
+/// Makes the menus, once.
 class StudioMenus {
  public:
-  explicit StudioMenus(MainWindow& window) : m_window(window) {}
+  StudioMenus(MenuContext context, MainWindow& window);
   void make();
 
  private:
@@ -26,6 +51,8 @@ class StudioMenus {
   /// Greyed while another source than the simulation is shown.
   void onlyWhenSimulating(QAction* action);
 
+  MenuContext m_context;
+  const StudioParts& m_parts;
   MainWindow& m_window;
 };
 

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "opening_label.h"
 
-#include <QEvent>
-#include <QPainter>
-
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
 
 namespace pitchboard::ui {
 
 OpeningLabel::OpeningLabel(MatchController* controller, QWidget* canvas)
-    : QLabel(canvas), m_controller(controller) {
-  setObjectName(QStringLiteral("openingLabel"));
-  setAlignment(Qt::AlignCenter);
-  setFont(themeFont(TypeRole::Body, true));
-  setAttribute(Qt::WA_TransparentForMouseEvents);
-  canvas->installEventFilter(this);
+    : FieldSign(canvas, QStringLiteral("openingLabel"), &ThemeColors::innerLine),
+      m_controller(controller) {
   for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
     connect(controller, changed, this, &OpeningLabel::present);
   }
   connect(controller, &MatchController::frameReceived, this, &OpeningLabel::hide);
-  hide();
-}
-
-bool OpeningLabel::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && isVisible()) present();
-  return QLabel::eventFilter(watched, event);
 }
 
 void OpeningLabel::present() {
@@ -43,16 +30,6 @@ void OpeningLabel::present() {
   setGeometry(box);
   show();
   raise();
-}
-
-void OpeningLabel::paintEvent(QPaintEvent* event) {
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(theme().innerLine);
-  painter.setBrush(theme().window);
-  painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
-  painter.end();
-  QLabel::paintEvent(event);
 }
 
 }  // namespace pitchboard::ui

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QLabel>
+// Says on the field that a match is being opened, where the field says that none is. UI
+// thread only.
+
+#include "field_sign.h"
 
 namespace pitchboard::ui {
 
 class MatchController;
 
-/// Says on the field that a match is being opened, where the field says that none is.
-class OpeningLabel : public QLabel {
-  Q_OBJECT
+class OpeningLabel : public FieldSign {
  public:
   /// `canvas` is what it lies on.
   OpeningLabel(MatchController* controller, QWidget* canvas);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-  void paintEvent(QPaintEvent* event) override;
-
  private:
-  void present();
+  void present() override;
   MatchController* m_controller;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/window/scoreboard.h>
+#include "scoreboard.h"
 
 #include <QFontMetrics>
 #include <QPainter>

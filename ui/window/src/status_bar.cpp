@@ -22,7 +22,7 @@
 
 namespace pitchboard::ui {
 
-StudioStatusBar::StudioStatusBar(const StudioContext& context, QWidget* parent)
+StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
     : QStatusBar(parent), m_context(context) {
   constexpr int refreshMilliseconds = 200;
   m_clock.start();

@@ -10,16 +10,34 @@
 #include <vector>
 
 #include <ui/live/live_status.h>
-#include <ui/sources/studio_context.h>
 
 class QLabel;
 
 namespace pitchboard::ui {
 
+class LiveController;
+class MatchController;
+class ReplayController;
+class RobotSelection;
+class SessionRecording;
+class SourceSwitch;
+class Timeline;
+
+/// What the line tells of; everything outlives it.
+struct StatusContext {
+  MatchController* controller = nullptr;
+  SourceSwitch* source = nullptr;
+  RobotSelection* selection = nullptr;
+  Timeline* timeline = nullptr;
+  ReplayController* replay = nullptr;
+  SessionRecording* recording = nullptr;
+  LiveController* live = nullptr;
+};
+
 class StudioStatusBar : public QStatusBar {
   Q_OBJECT
  public:
-  explicit StudioStatusBar(const StudioContext& context, QWidget* parent = nullptr);
+  explicit StudioStatusBar(const StatusContext& context, QWidget* parent = nullptr);
   void setCursor(QPointF metres, bool valid);
   void copyStateHash();
 
@@ -40,7 +58,7 @@ class StudioStatusBar : public QStatusBar {
   void showSelected(const link::MatchFrame& frame);
   QLabel* addLabel(const char* name, bool atRight);
 
-  StudioContext m_context;
+  StatusContext m_context;
   LiveStatus m_live;
   QElapsedTimer m_clock;
   std::vector<Part> m_parts;

@@ -18,9 +18,9 @@
 #include <ui/sources/session_recording.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
-#include <ui/window/scoreboard.h>
 
 #include "scenario_chooser.h"
+#include "scoreboard.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -47,7 +47,7 @@ QString speedText(double speed) {
 
 }  // namespace
 
-TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QWidget* parent)
+TransportBar::TransportBar(const TransportContext& context, QSettings* settings, QWidget* parent)
     : QToolBar(tr("Tool bar"), parent),
       m_context(context),
       m_scenarios(new ScenarioChooser(settings, this)),
@@ -69,7 +69,7 @@ TransportBar::TransportBar(const StudioContext& context, QSettings* settings, QW
   addTransport();
   m_recordSeparator = addSeparator();
   addRecord();
-  addControl(SourceKind::Live, addWidget(new LiveBar(context, this)));
+  addControl(SourceKind::Live, addWidget(new LiveBar(context.live, settings, this)));
   auto* stretch = new QWidget(this);
   stretch->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   addWidget(stretch);

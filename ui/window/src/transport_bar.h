@@ -2,13 +2,12 @@
 #pragma once
 
 // The tool bar: mode; scenario, transport and speed of a simulation, or ports and team of Live;
-// scoreboard.
+// scoreboard. UI thread only.
 
 #include <QToolBar>
 #include <vector>
 
 #include <ui/sources/frame_source.h>
-#include <ui/sources/studio_context.h>
 
 class QComboBox;
 class QSettings;
@@ -16,14 +15,30 @@ class QToolButton;
 
 namespace pitchboard::ui {
 
+class LiveController;
+class MatchController;
 class Playback;
+class ReplayController;
 class ScenarioChooser;
 class Scoreboard;
+class SessionRecording;
+class SourceSwitch;
+class Timeline;
+
+/// What the bar shows and moves; everything outlives it.
+struct TransportContext {
+  MatchController* controller = nullptr;
+  SourceSwitch* source = nullptr;
+  Timeline* timeline = nullptr;
+  ReplayController* replay = nullptr;
+  SessionRecording* recording = nullptr;
+  LiveController* live = nullptr;
+};
 
 class TransportBar : public QToolBar {
   Q_OBJECT
  public:
-  TransportBar(const StudioContext& context, QSettings* settings, QWidget* parent);
+  TransportBar(const TransportContext& context, QSettings* settings, QWidget* parent);
   ScenarioChooser* scenarios() const { return m_scenarios; }
   /// Restart, play/pause, step: for the menu too.
   QList<QAction*> transportActions() const { return {m_restart, m_play, m_step}; }
@@ -48,7 +63,7 @@ class TransportBar : public QToolBar {
     QAction* action;
   };
 
-  StudioContext m_context;
+  TransportContext m_context;
   std::vector<Control> m_modes;  // their buttons' actions
   std::vector<Control> m_controls;
   ScenarioChooser* m_scenarios;

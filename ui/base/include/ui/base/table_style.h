@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// What all tables of the window share: their look, and the label that stands in the place of one
+// that has no rows. UI thread only.
+
 #include <QHeaderView>
+#include <QLabel>
 #include <QTableView>
 
 #include <ui/base/theme.h>
@@ -25,6 +29,19 @@ inline void styleTable(QTableView* table) {
   table->horizontalHeader()->setStretchLastSection(true);
   table->horizontalHeader()->setHighlightSections(false);
   table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+}
+
+/// Says in the place of an empty table why it is empty. The name is for tests.
+inline QLabel* makeEmptyLabel(QWidget* parent, const QString& objectName) {
+  auto* label = new QLabel(parent);
+  label->setObjectName(objectName);
+  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  label->setForegroundRole(QPalette::PlaceholderText);
+  label->setBackgroundRole(QPalette::Base);
+  label->setAutoFillBackground(true);
+  label->setMargin(scaled(parent, 12));
+  label->setWordWrap(true);
+  return label;
 }
 
 }  // namespace pitchboard::ui

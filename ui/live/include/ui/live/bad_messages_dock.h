@@ -2,12 +2,15 @@
 #pragma once
 
 // What was heard and could not be used: by kind, for each robot and each sender, with the last
-// text.
+// text. UI thread only.
 
-#include <ui/sources/studio_context.h>
+class QWidget;
 
 namespace pitchboard::ui {
 
-QWidget* makeBadMessagesDock(const StudioContext& context, QWidget* parent);
+class LiveController;
+
+/// `live` must outlive the dock.
+QWidget* makeBadMessagesDock(LiveController* live, QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -5,24 +5,27 @@
 
 #include <QWidget>
 
-#include <ui/sources/studio_context.h>
-
 class QComboBox;
+class QSettings;
 class QToolButton;
 
 namespace pitchboard::ui {
 
+class LiveController;
+
 class LiveBar : public QWidget {
   Q_OBJECT
  public:
-  LiveBar(const StudioContext& context, QWidget* parent);
+  /// Both must outlive the bar.
+  LiveBar(LiveController* live, QSettings* settings, QWidget* parent);
 
  private:
   void refresh();
   void showTeams();
   void switchMonitor(bool on);
 
-  StudioContext m_context;
+  LiveController* m_live;
+  QSettings* m_settings;
   QToolButton* m_ports;
   QComboBox* m_team;
   QToolButton* m_monitor;

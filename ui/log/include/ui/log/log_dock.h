@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <ui/sources/studio_context.h>
+// The log with a filter of words; follows the newest line until one scrolls up; Ctrl+C copies. UI
+// thread only.
+
+class QWidget;
 
 namespace pitchboard::ui {
 
-/// The log with a filter of words; follows the newest line until one scrolls up; Ctrl+C copies.
-QWidget* makeLogDock(const StudioContext& context, QWidget* parent);
+class MatchController;
+class SourceSwitch;
+
+/// Both must outlive the dock.
+QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <ui/sources/studio_context.h>
+// Every noise value and physics constant, with units; changes act at once. UI thread only.
+
+class QWidget;
 
 namespace pitchboard::ui {
 
-/// Every noise value and physics constant, with units; changes act at once.
-QWidget* makeNoiseDock(const StudioContext& context, QWidget* parent);
+class MatchController;
+
+/// The controller must outlive the dock.
+QWidget* makeNoiseDock(MatchController* controller, QWidget* parent);
 
 }  // namespace pitchboard::ui

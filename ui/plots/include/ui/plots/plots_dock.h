@@ -12,11 +12,11 @@
 #include <telemetry/series/series_store.h>
 #include <ui/plots/plot_layout.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/studio_context.h>
 
 class QAction;
 class QComboBox;
 class QMenu;
+class QSettings;
 class QTabWidget;
 
 namespace pitchboard::ui {
@@ -25,12 +25,24 @@ class NoticeBar;
 class PlotFeed;
 class PlotPage;
 class PlotPane;
+class PlotTarget;
+class SourceSwitch;
+class Timeline;
+
+/// What the dock shows and moves; everything outlives it.
+struct PlotsContext {
+  SourceSwitch* source = nullptr;
+  LinkedTime* time = nullptr;     ///< visible range, cursor and marks of plots and timeline
+  Timeline* timeline = nullptr;   ///< the moment shown, events; may be null
+  PlotTarget* plots = nullptr;    ///< who asks for plots from elsewhere; may be null
+  QSettings* settings = nullptr;  ///< the user's; may be null
+};
 
 class PlotsDock : public QWidget {
   Q_OBJECT
  public:
   /// The layout of the last time comes from `context.settings`, when there are any.
-  PlotsDock(const StudioContext& context, QWidget* parent);
+  PlotsDock(const PlotsContext& context, QWidget* parent);
   ~PlotsDock() override;
 
   PlotFeed* feed() const { return m_feed; }
@@ -44,7 +56,7 @@ class PlotsDock : public QWidget {
   PlotLayout layoutSpec() const;
   void setLayoutSpec(const PlotLayout& layout);
 
-  const StudioContext& context() const { return m_context; }
+  const PlotsContext& context() const { return m_context; }
   /// Says what went wrong, above the plots.
   void showNotice(const QString& sentence);
 
@@ -64,7 +76,7 @@ class PlotsDock : public QWidget {
   void save();
   void showWindow();
 
-  StudioContext m_context;
+  PlotsContext m_context;
   QPointer<LinkedTime> m_time;  // the window deletes it before its docks
   PlotFeed* m_feed;
   QTabWidget* m_tabs;
@@ -79,6 +91,6 @@ class PlotsDock : public QWidget {
   std::optional<telemetry::TimeRange> m_drawnData;
 };
 
-QWidget* makePlotsDock(const StudioContext& context, QWidget* parent);
+QWidget* makePlotsDock(const PlotsContext& context, QWidget* parent);
 
 }  // namespace pitchboard::ui

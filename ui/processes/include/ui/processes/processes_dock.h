@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <ui/sources/studio_context.h>
+// Table of the robots' processes; restart and stop in its context menu. UI thread only.
+
+class QWidget;
 
 namespace pitchboard::ui {
 
-/// Table of the robots' processes; restart and stop in its context menu.
-QWidget* makeProcessesDock(const StudioContext& context, QWidget* parent);
+class MatchController;
+class SourceSwitch;
+
+/// Both must outlive the dock.
+QWidget* makeProcessesDock(MatchController* controller, SourceSwitch* source, QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -11,19 +11,33 @@
 
 #include <ui/robots/card_state.h>
 #include <ui/robots/robot_card.h>
-#include <ui/sources/studio_context.h>
 
 class QDockWidget;
 class QLabel;
 class QMenu;
+class QSettings;
 class QVBoxLayout;
 
 namespace pitchboard::ui {
 
+class LiveOverlay;
+class MatchController;
+class RobotSelection;
+class SourceSwitch;
+
+/// What the dock shows and changes; everything outlives it.
+struct RobotsContext {
+  MatchController* controller = nullptr;
+  SourceSwitch* source = nullptr;
+  RobotSelection* selection = nullptr;
+  LiveOverlay* overlay = nullptr;  ///< cards tell how far the two differ; may be null
+  QSettings* settings = nullptr;   ///< the user's; may be null
+};
+
 class RobotsDock : public QScrollArea {
   Q_OBJECT
  public:
-  RobotsDock(const StudioContext& context, QWidget* parent);
+  RobotsDock(const RobotsContext& context, QWidget* parent);
   /// Those in the list, from the top; not those that float.
   QList<RobotCard*> cards() const;
   void setAllCollapsed(bool collapsed);
@@ -54,7 +68,7 @@ class RobotsDock : public QScrollArea {
   void addMatchActions(QMenu& menu, RobotCard* card);
   void addPartActions(QMenu& menu, RobotCard* card);
 
-  StudioContext m_context;
+  RobotsContext m_context;
   CardTracker m_tracker;
   QElapsedTimer m_clock;
   CardParts m_parts;
@@ -65,6 +79,6 @@ class RobotsDock : public QScrollArea {
   QLabel* m_empty;
 };
 
-QWidget* makeRobotsDock(const StudioContext& context, QWidget* parent);
+QWidget* makeRobotsDock(const RobotsContext& context, QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -26,6 +26,7 @@ class LiveOverlay : public QObject {
   FramePtr other() const;
 
  signals:
+  void switched(bool on);
   /// other(), whenever that may be another one.
   void otherReceived(const pitchboard::ui::FramePtr& frame);
 

@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <ui/sources/studio_context.h>
+// Every variable of every robot with its newest value; see docs/STUDIO.md, "Variables". UI thread
+// only.
+
+class QSettings;
+class QWidget;
 
 namespace pitchboard::ui {
 
-/// Every variable of every robot with its newest value; see docs/STUDIO.md, "Variables".
-QWidget* makeVariablesDock(const StudioContext& context, QWidget* parent);
+class MatchController;
+class PlotTarget;
+class SourceSwitch;
+class Timeline;
+
+/// What the dock shows and changes; everything outlives it.
+struct VariablesContext {
+  MatchController* controller = nullptr;  ///< words are written to its robots
+  SourceSwitch* source = nullptr;
+  Timeline* timeline = nullptr;   ///< the moment shown; null: always the newest
+  PlotTarget* plots = nullptr;    ///< where variables can be sent to be plotted; may be null
+  QSettings* settings = nullptr;  ///< the user's; may be null
+};
+
+QWidget* makeVariablesDock(const VariablesContext& context, QWidget* parent);
 
 }  // namespace pitchboard::ui

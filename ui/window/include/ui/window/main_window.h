@@ -36,7 +36,7 @@ class SessionFiles;
 class SessionRecording;
 class SourceSwitch;
 class StudioStatusBar;
-struct StudioContext;
+struct StudioParts;
 class Timeline;
 class TimelineActions;
 class TransportBar;
@@ -70,7 +70,7 @@ class MainWindow : public QMainWindow {
   /// Shows this kind of source; Live begins to listen.
   void showSource(SourceKind kind);
   /// Simulated and heard robots side by side on the field.
-  void overlayLive(bool on) { m_overlayAction->setChecked(on); }
+  void overlayLive(bool on);
 
   /// Docks where they were; the default layout when there is none or it cannot be restored.
   void restoreLayout();
@@ -85,8 +85,8 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  friend class StudioMenus;
-  StudioContext context() const;
+  StudioParts parts() const;
+  void makeMenus();
   void makeDocks();
   void showTitles();
   void connectField();
@@ -108,7 +108,6 @@ class MainWindow : public QMainWindow {
   FieldView* m_field;
   LiveOverlay* m_overlay;
   ComparedSession* m_compared;
-  QAction* m_overlayAction = nullptr;  // of the View menu
   NoticeBar* m_notices;
   TransportBar* m_bar;
   StudioStatusBar* m_status;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one list of docks. A dock is a pair of files with a make function, and a line in
-// dock_list.cpp; menus, saved layouts and "Reset layout" follow from it.
+// The one list of docks. A dock is a pair of files with a make function, and two lines in
+// dock_list.cpp: how it is made from the parts of the window, and where it stands. Menus, saved
+// layouts and "Reset layout" follow from it.
 
 #include <QString>
 #include <Qt>
@@ -12,7 +13,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
-struct StudioContext;
+struct StudioParts;
 
 struct DockInfo {
   const char* id;  ///< in saved layouts: never change it
@@ -20,7 +21,7 @@ struct DockInfo {
   Qt::DockWidgetArea area;  ///< docks of the bottom are tabbed together
   bool shownAtFirst;
   int extent;  ///< width (left, right) or height (bottom) at first, mock pixels
-  QWidget* (*make)(const StudioContext& context, QWidget* parent);
+  QWidget* (*make)(const StudioParts& parts, QWidget* parent);
   bool ownRow = false;  ///< bottom: below the tabs, without a title while docked
 };
 

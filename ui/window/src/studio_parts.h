@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the parts of the window share. UI thread.
+// Everything the window shares out among docks, bars and menus: the list from which each of them is
+// given what it uses. Only the window's room knows it whole. UI thread.
 
 class QSettings;
 
@@ -16,14 +17,13 @@ class MatchController;
 class PlotTarget;
 class ReplayController;
 class RobotSelection;
-class SessionFiles;
 class SessionRecording;
 class SourceSwitch;
 class Timeline;
 class TimelineActions;
 
-/// What a dock may use; everything outlives it.
-struct StudioContext {
+/// Everything outlives what is made from it.
+struct StudioParts {
   MatchController* controller = nullptr;  ///< edits and transport of the simulated match
   SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
   RobotSelection* selection = nullptr;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Everything that is done by hand to the match being simulated: robots and ball are placed, added,
+// removed, which can be undone; behaviours, processes, noise, physics, words of the blackboards,
+// which cannot. Belongs to the MatchController and ends with it. UI thread only; what is ordered is
+// carried out on the match's thread between two ticks.
+
+#include <QObject>
+#include <QString>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <robotlink/session/moment_reader.h>
+#include <ui/sources/match_controller.h>
+
+class QUndoStack;
+
+namespace pitchboard::ui {
+
+class MatchRoster;
+
+/// A robot and where it is to stand; for moving several at once.
+struct RobotPlacement {
+  RobotId id;
+  Pose from;
+  Pose to;
+};
+
+class MatchEdits : public QObject {
+  Q_OBJECT
+ public:
+  explicit MatchEdits(MatchController* match);
+  ~MatchEdits() override;
+
+  QUndoStack* undoStack() const { return m_undoStack; }
+  /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
+  const link::ScenarioRobot* robot(RobotId id) const;
+  /// The match goes on from this moment: its robots are known, and nothing can be undone.
+  void adopt(const link::Moment& moment);
+
+  // Edits by hand: take effect at once and can be undone.
+  void moveRobots(const std::vector<RobotPlacement>& placements);
+  void moveBall(Point from, Point to);
+  void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
+  void removeRobots(const std::vector<RobotId>& ids);
+  /// These robots play for another team, each with the smallest shirt number that is free there.
+  void setTeam(const std::vector<RobotId>& ids, TeamColor team);
+
+  // While a drag is going on the world follows, but only its end is one undoable command:
+  /// Shows robots at their `to` pose without an entry on the undo stack.
+  void previewRobots(const std::vector<RobotPlacement>& placements);
+  void previewBall(Point position);
+
+  // Not undoable: actions of the robots themselves.
+  /// Writes DECISION_ACTION_A (and B when given) as the decision process would.
+  void commandAction(RobotId id, int actionA, std::optional<int> actionB = {});
+  void commandSearch(RobotId id, bool on);
+  /// Writes one word of the robot's blackboard between two ticks, as any process could; `value` is
+  /// converted to the variable's type. `variableWritten` follows, or the
+  /// controller's `errorOccurred`.
+  void writeVariable(RobotId id, const QString& name, double value);
+  void setNoise(const sim::NoiseParameters& noise);
+  void setRigidBody(const sim::RigidBodySettings& settings);
+  /// The model of motion and collisions: starts the present moment anew with it.
+  void setPhysics(const QString& model);
+  /// Another decision process takes the robot over.
+  void setBehaviour(RobotId id, const QString& behaviour);
+  /// Ends the robot's processes and starts them again.
+  void restartProcesses(RobotId id);
+  void stopProcesses(RobotId id);
+  void setClockRunning(bool running);
+  void resetScore();
+
+ signals:
+  void failed(const QString& sentence);
+  /// `time`: of the tick after which it was written, simulated s.
+  void variableWritten(pitchboard::RobotId id, const QString& name, double time);
+
+ private:
+  MatchController* m_match;
+  std::unique_ptr<MatchRoster> m_roster;
+  QUndoStack* m_undoStack;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What is kept of the match being simulated: rows of its variables, exact states of the recent
+// past, and frames rebuilt from them. Belongs to the MatchController and ends with it. UI thread
+// only; the match's thread writes rows and states.
+
+#include <QObject>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/state_archive.h>
+#include <ui/sources/match_controller.h>
+
+namespace pitchboard::link {
+class MatchSampler;
+}
+namespace pitchboard::telemetry {
+class RowSink;
+}
+
+namespace pitchboard::ui {
+
+class MatchRows;
+
+class MatchMemory : public QObject {
+  Q_OBJECT
+ public:
+  explicit MatchMemory(MatchController* match);
+  ~MatchMemory() override;
+
+  // The controller: another match is being made, or there is none.
+  void begin();
+  void forget();
+  /// What has to watch the match from its first tick, for its rows and states.
+  std::vector<std::shared_ptr<link::TickObserver>> observers() const;
+
+  std::shared_ptr<const telemetry::SeriesStore> series() const;
+  /// Rebuilt from the rows; null when they do not hold that time (s).
+  FramePtr frameAt(double time) const;
+  /// Bytes that the rows of a match may take; the oldest leave first. At once and for matches to
+  /// come.
+  void setMemoryBudget(std::size_t bytes);
+  /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
+  void setSampling(int everyNth);
+  int sampling() const { return m_everyNth; }
+  /// Where other blackboards of this computer are sampled to: their rows get the match's time.
+  /// Another one after the controller's `restarted`; null while there is no match.
+  std::shared_ptr<telemetry::RowSink> rowsBeside() const;
+  /// The exact states of the recent past; another one after `restarted`, null while there is no
+  /// match.
+  std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
+  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and
+  /// what could be undone. The controller's `errorOccurred` when memory does not hold it any more.
+  void continueFrom(double time);
+
+ signals:
+  void failed(const QString& sentence);
+
+ private:
+  MatchController* m_match;
+  std::size_t m_budget = std::size_t{1} << 30;
+  int m_everyNth = 1;
+  std::shared_ptr<MatchRows> m_rows;
+  std::shared_ptr<link::MatchSampler> m_sampler;
+  std::shared_ptr<link::StateArchive> m_archive;
+  mutable std::unique_ptr<link::RecordedFrames> m_past;  // rebuilds frames; made when asked for
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/sources/match_memory.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <robotlink/session/match_sampler.h>
+#include <robotlink/session/moment_reader.h>
+#include <ui/sources/match_edits.h>
+
+#include "match_rows.h"
+
+namespace pitchboard::ui {
+
+MatchMemory::MatchMemory(MatchController* match) : QObject(match), m_match(match) {}
+MatchMemory::~MatchMemory() = default;
+
+void MatchMemory::begin() {
+  m_rows = std::make_shared<MatchRows>(m_budget);
+  m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
+  m_archive = std::make_shared<link::StateArchive>();
+}
+
+void MatchMemory::forget() {
+  m_rows.reset();
+  m_sampler.reset();
+  m_archive.reset();
+  m_past.reset();
+}
+
+std::vector<std::shared_ptr<link::TickObserver>> MatchMemory::observers() const {
+  if (!m_sampler) return {};
+  return {m_sampler, m_archive};
+}
+
+void MatchMemory::setMemoryBudget(std::size_t bytes) {
+  m_budget = bytes;
+  if (m_rows) m_rows->setMemoryBudget(bytes);
+}
+
+std::shared_ptr<const telemetry::SeriesStore> MatchMemory::series() const {
+  return m_rows ? std::shared_ptr<const telemetry::SeriesStore>(m_rows, &m_rows->store()) : nullptr;
+}
+
+std::shared_ptr<telemetry::RowSink> MatchMemory::rowsBeside() const {
+  return m_rows ? MatchRows::beside(m_rows) : nullptr;
+}
+
+void MatchMemory::setSampling(int everyNth) {
+  if (everyNth == m_everyNth || everyNth < 1) return;
+  m_everyNth = everyNth;
+  if (!m_rows) return;
+  const auto old = std::exchange(
+      m_sampler, std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{everyNth}));
+  // A match that is being opened gets it when it is there.
+  m_match->stopObserving(old);
+  m_match->observe(m_sampler);
+}
+
+FramePtr MatchMemory::frameAt(double time) const {
+  const auto rows = series();
+  const FramePtr newest = m_match->frame();
+  if (!rows || !newest || !rows->range()) return nullptr;
+  if (!m_past) {
+    link::FrameBackdrop backdrop;
+    backdrop.field = newest->field;
+    backdrop.noise = newest->noise;
+    backdrop.physics = newest->physics;
+    backdrop.seed = newest->seed;
+    backdrop.tickRate = newest->tickRate;
+    m_past = std::make_unique<link::RecordedFrames>(std::move(backdrop));
+  }
+  auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
+  if (past->snapshot.robots.empty() && !newest->snapshot.robots.empty() &&
+      time < rows->range()->begin) {
+    return nullptr;
+  }
+  return past;
+}
+
+void MatchMemory::continueFrom(double time) {
+  const auto rows = series();
+  const FramePtr newest = m_match->frame();
+  if (!m_match->isOpen() || !m_archive || !rows || !newest) return;
+  const auto tick =
+      static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * newest->tickRate));
+  m_match->setPaused(true);
+  auto moment = link::momentFromMemory(*m_archive, *rows, tick, m_match->catalog());
+  if (!moment) {
+    emit failed(tr("The match cannot be continued from this moment: %1")
+                    .arg(QString::fromStdString(moment.error().text())));
+    return;
+  }
+  m_match->edits()->adopt(*moment);
+  m_match->post({tr("The match cannot be continued from this moment"),
+                 [moment = std::move(*moment)](link::SimulatedMatch& match) {
+                   return match.reenter(moment);
+                 }});
+}
+
+}  // namespace pitchboard::ui
