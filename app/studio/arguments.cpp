@@ -47,8 +47,10 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--settings", a.settings,
                  "File for layout and preferences instead of the user's own")
       ->type_name("FILE");
-  app.add_option("--session,session", a.session, "Open this recorded session in Replay")
+  app.add_option("--session", a.session, "Open this recorded session in Replay")
       ->type_name("FILE.mcap");
+  app.add_option("file", a.file, "A session to replay, or a scenario (FILE.json) to play")
+      ->type_name("FILE");
   app.add_option(
          "--record", a.record,
          "Record from the first moment into this new file, in a match or live; when there is "
@@ -85,6 +87,16 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->needs(render);
 }
 
+/// A file named without an option is a scenario when it ends in .json, else a session. False when
+/// the option that it stands for is given, too.
+bool takeFile(const CLI::App& app, Arguments& a) {
+  if (a.file.empty()) return true;
+  const bool scenario = a.file.ends_with(".json");
+  if (app.count(scenario ? "--scenario" : "--session") > 0) return false;
+  (scenario ? a.scenario : a.session) = a.file;
+  return true;
+}
+
 }  // namespace
 
 int report(const Error& error) {
@@ -108,7 +120,13 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
                  error.what());
     return 2;
   }
-  arguments.scenarioGiven = app.count("--scenario") > 0;
+  if (!takeFile(app, arguments)) {
+    return report({ErrorCode::InvalidArgument,
+                   "two files are named to open, one by its option and " + arguments.file +
+                       " without; leave out one of the two",
+                   {}});
+  }
+  arguments.scenarioGiven = app.count("--scenario") > 0 || arguments.file.ends_with(".json");
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
     return report(
         {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});

@@ -33,6 +33,7 @@ struct Arguments {
   std::string renderScenario;
   std::string picture;
   std::string settings;
+  std::string file;     ///< named without an option: a session or a scenario to open
   std::string session;  ///< a recorded session to open in Replay
   std::string record;   ///< session file to record into from the first moment; empty: none
   bool live = false;

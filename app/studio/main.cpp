@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <QIcon>
 #include <QSaveFile>
 #include <QSettings>
 #include <QTimer>
@@ -21,6 +22,14 @@
 
 namespace pitchboard::studio {
 namespace {
+
+QIcon programIcon() {
+  QIcon icon;
+  for (const char* size : {"16", "32", "48", "256"}) {
+    icon.addFile(QStringLiteral(":/icons/%1.png").arg(QLatin1String(size)));
+  }
+  return icon;
+}
 
 std::unique_ptr<QSettings> makeSettings(const Arguments& arguments) {
   if (!arguments.settings.empty()) {
@@ -190,6 +199,9 @@ int run(int argc, char** argv) {
   QApplication::setApplicationVersion(QStringLiteral(PITCHBOARD_VERSION));
   int applicationArguments = 1;
   QApplication application(applicationArguments, argv);
+  QApplication::setWindowIcon(programIcon());
+  // Wayland finds the icon by the name of the desktop entry.
+  QApplication::setDesktopFileName(QStringLiteral("org.pitchboard.Pitchboard"));
   if (const auto good = checkRecordFolder(arguments); !good) return report(good.error());
   const auto settings = makeSettings(arguments);
   ui::setTheme(application, themeOf(arguments, *settings));

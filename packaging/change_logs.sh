@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# packaging/change_logs.sh CHANGELOG.md "NAME <ADDRESS>" FOLDER
+# Writes changelog.gz, which is that file, and changelog.Debian.gz, the same in Debian's form.
+set -euo pipefail
+export LC_ALL=C TZ=UTC
+gzip -9nc "$1" >"$3/changelog.gz"
+while IFS= read -r line; do
+  if [[ $line =~ ^##\ ([0-9.]+)\ \((.*)\)$ ]]; then
+    [ -z "${end:-}" ] || printf '\n%s\n\n' "$end"
+    end=" -- $2  $(date -R -d "${BASH_REMATCH[2]}")"
+    printf 'pitchboard (%s-1) unstable; urgency=medium\n\n' "${BASH_REMATCH[1]}"
+  elif [[ $line == "- "* ]]; then
+    echo "  * ${line#- }"
+  elif [[ $line == "  "* ]]; then
+    echo "  $line"
+  fi
+done <"$1" | gzip -9nc >"$3/changelog.Debian.gz"
