@@ -1,84 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The include rule of ARCHITECTURE.md: a library may include only what stands below it. The build
-// refuses our own headers that a target does not link; this test also covers headers of packages,
-// which stand in /usr/include for everybody, and layers that happen to link more than they may use.
+// The plan of rooms in ARCHITECTURE.md holds: what a file includes and what a target links stands
+// below it. The build refuses headers of rooms that a target does not link; this test also covers
+// headers of packages, which stand in /usr/include for everybody, links that come by way of others,
+// and the table itself.
 
 #include <QDirIterator>
-#include <QRegularExpression>
 #include <QtTest>
+
+#include "layer_rules.h"
+
+using namespace layers;
 
 namespace {
 
-struct Layer {
-  const char* folder;
-  QStringList ownHeaders;      ///< prefixes of our headers that it may include
-  QStringList packageHeaders;  ///< prefixes of package headers, besides the standard library
-};
-
 const QString source = QStringLiteral(PITCHBOARD_SOURCE_DIR "/");
 
-/// Standard library and POSIX headers have no folder, or one of these.
-const QStringList systemFolders{"sys/", "linux/", "netinet/", "arpa/", "net/"};
-
-const QList<Layer>& layers() {
-  static const QList<Layer> all{
-      {"simcore/base", {"base/"}, {"Random123/", "tl/"}},
-      {"simcore", {"base/", "simcore/"}, {"Eigen/", "box2d/", "tl/", "Random123/"}},
-      // Profiles of the text protocol are JSON files, and the published one is a resource.
-      {"telemetry",
-       {"base/", "telemetry/", "resources/"},
-       {"nlohmann/", "tl/", "zlib.h", "zstd.h"}},
-      {"resources", {"resources/"}, {}},
-      {"robotlink",
-       {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},
-       {"Eigen/", "nlohmann/", "tl/", "zlib.h"}},
-      {"ui",
-       {"base/", "simcore/", "telemetry/", "robotlink/", "resources/", "ui/"},
-       {"Q", "Qt", "tl/", "nlohmann/", "muParser.h"}},
-      {"app/cli",
-       {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},
-       {"CLI/", "nlohmann/", "tl/"}},
-      {"app/robot", {"base/", "robotlink/"}, {"CLI/", "tl/"}},
-      {"app/studio", {"base/", "simcore/", "robotlink/", "ui/"}, {"Q", "Qt", "CLI/", "tl/"}},
-  };
-  return all;
-}
-
-bool startsWithOne(const QString& text, const QStringList& prefixes) {
-  return std::any_of(prefixes.begin(), prefixes.end(),
-                     [&text](const QString& prefix) { return text.startsWith(prefix); });
-}
-
-/// Plain names such as <vector> or <unistd.h>: no folder, no upper case, and not a package's.
-bool isSystemHeader(const QString& header) {
-  static const QRegularExpression plain(QStringLiteral("^[a-z_0-9]+(\\.h)?$"));
-  static const QStringList packages{"zlib.h", "zstd.h"};
-  return (plain.match(header).hasMatch() && !packages.contains(header)) ||
-         startsWithOne(header, systemFolders);
-}
-
-struct Include {
-  QString file;
-  int line;
-  QString header;
-};
-
-QList<Include> includesBelow(const QString& folder) {
-  static const QRegularExpression include(QStringLiteral("^\\s*#\\s*include\\s*<([^>]+)>"));
-  QList<Include> found;
-  QDirIterator files(source + folder, {"*.h", "*.cpp"}, QDir::Files, QDirIterator::Subdirectories);
-  while (files.hasNext()) {
-    const QString path = files.next();
-    QFile file(path);
-    if (!file.open(QIODevice::ReadOnly)) continue;
-    int number = 0;
-    while (!file.atEnd()) {
-      ++number;
-      const auto match = include.match(QString::fromUtf8(file.readLine()));
-      if (match.hasMatch()) found.append({path.mid(source.size()), number, match.captured(1)});
+QList<SourceFile> filesNamed(const QStringList& names) {
+  QList<SourceFile> found;
+  for (const char* library : {"simcore", "telemetry", "resources", "robotlink", "ui", "app"}) {
+    QDirIterator files(source + library, names, QDir::Files, QDirIterator::Subdirectories);
+    while (files.hasNext()) {
+      QFile file(files.next());
+      if (file.open(QIODevice::ReadOnly)) {
+        found.append({file.fileName().mid(source.size()), QString::fromUtf8(file.readAll())});
+      }
     }
   }
   return found;
+}
+
+const QList<SourceFile>& sources() {
+  static const QList<SourceFile> files = filesNamed({"*.h", "*.cpp"});
+  return files;
+}
+
+const QList<SourceFile>& cmakeFiles() {
+  static const QList<SourceFile> files = filesNamed({"CMakeLists.txt"});
+  return files;
+}
+
+// A made-up house: sky above earth, and a cellar that knows nobody.
+const QList<Room>& house() {
+  static const QList<Room> rooms{
+      {"ui/sky", {"ui/earth"}, {"Eigen/"}}, {"ui/earth", {}, {}}, {"ui/cellar", {}, {}}};
+  return rooms;
 }
 
 }  // namespace
@@ -86,38 +51,116 @@ QList<Include> includesBelow(const QString& folder) {
 class TestLayers : public QObject {
   Q_OBJECT
  private slots:
-  void includesPointDown_data() {
-    QTest::addColumn<int>("layer");
-    for (int i = 0; i < layers().size(); ++i) QTest::newRow(layers()[i].folder) << i;
-  }
   void includesPointDown() {
-    QFETCH(int, layer);
-    const Layer& rule = layers()[layer];
-    const QList<Include> includes = includesBelow(QString::fromLatin1(rule.folder));
-    QVERIFY2(!includes.isEmpty(), "no sources found: the rule would be checked against nothing");
-    QStringList wrong;
-    for (const Include& include : includes) {
-      // The base folder has a rule of its own.
-      if (QLatin1String(rule.folder) == QLatin1String("simcore") &&
-          include.file.startsWith("simcore/base/")) {
-        continue;
-      }
-      if (isSystemHeader(include.header) || startsWithOne(include.header, rule.ownHeaders) ||
-          startsWithOne(include.header, rule.packageHeaders)) {
-        continue;
-      }
-      wrong << QStringLiteral("%1:%2 includes <%3>")
-                   .arg(include.file)
-                   .arg(include.line)
-                   .arg(include.header);
-    }
-    QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join("\n")));
+    QVERIFY2(sources().size() > 300,
+             "no sources found: the table would be checked against nothing");
+    const QStringList wrong = includeErrors(sources(), table());
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join('\n')));
   }
 
-  void publicHeadersHideBox2D() {
-    for (const Include& include : includesBelow(QStringLiteral("simcore/include"))) {
-      QVERIFY2(!include.header.startsWith("box2d"), qPrintable(include.file));
+  void linksPointDown() {
+    QVERIFY(cmakeFiles().size() > 30);
+    const QStringList wrong = linkErrors(cmakeFiles(), table());
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join('\n')));
+  }
+
+  void packagesAreLinkedOnlyWhereTheyAreUsed() {
+    const QStringList wrong = packageErrors(cmakeFiles(), sources());
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join('\n')));
+  }
+
+  void everyRoomOfTheTableIsBuilt() {
+    QSet<QString> built;
+    for (const SourceFile& cmake : cmakeFiles()) {
+      for (const Links& links : linksOf(cmake)) built.insert(links.folder);
     }
+    for (const Room& room : table()) {
+      QVERIFY2(room.folder == "resources" || built.contains(room.folder), qPrintable(room.folder));
+    }
+  }
+
+  // Without this a table could allow two rooms to use each other.
+  void theTableHasNoCircles() {
+    QStringList settled;
+    QList<Room> left = table();
+    while (!left.isEmpty()) {
+      const auto before = left.size();
+      left.removeIf([&settled](const Room& room) {
+        const bool ready = std::all_of(
+            room.rooms.begin(), room.rooms.end(),
+            [&](const QString& below) { return settled.contains(below) || below == room.folder; });
+        if (ready) settled << room.folder;
+        return ready;
+      });
+      QVERIFY2(left.size() < before, qPrintable("circle at " + left.value(0).folder));
+    }
+  }
+
+  void plantedIncludesAreFound_data() {
+    QTest::addColumn<QString>("path");
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<bool>("good");
+    const QString sky = "ui/sky/src/bird.cpp", earth = "ui/earth/src/mole.cpp";
+    QTest::newRow("downwards") << sky << "#include <ui/earth/tree.h>\n" << true;
+    QTest::newRow("own room") << sky << "#include <ui/sky/wing.h>\n#include \"wing_bone.h\"\n"
+                              << true;
+    QTest::newRow("standard library") << sky << "#include <vector>\n#include <sys/stat.h>\n"
+                                      << true;
+    QTest::newRow("package of the room") << sky << "#include <Eigen/Core>\n" << true;
+    QTest::newRow("upwards") << earth << "#include <ui/sky/wing.h>\n" << false;
+    QTest::newRow("sideways") << earth << "  #  include <ui/cellar/rat.h>\n" << false;
+    QTest::newRow("package of another room") << earth << "#include <Eigen/Core>\n" << false;
+    QTest::newRow("package without folder") << earth << "#include <zlib.h>\n" << false;
+    QTest::newRow("quoted, of another room") << earth << "#include \"wing_bone.h\"\n" << false;
+    QTest::newRow("quoted, by its path") << sky << "#include \"ui/earth/tree.h\"\n" << false;
+    QTest::newRow("quoted, over the fence") << sky << "#include \"../../earth/src/mole.h\"\n"
+                                            << false;
+    QTest::newRow("a folder nobody planned") << "ui/attic/src/dust.cpp"
+                                             << "" << false;
+  }
+  void plantedIncludesAreFound() {
+    QFETCH(QString, path);
+    QFETCH(QString, text);
+    QFETCH(bool, good);
+    const QList<SourceFile> files{{path, text},
+                                  {"ui/sky/include/ui/sky/wing.h", {}},
+                                  {"ui/sky/src/wing_bone.h", {}},
+                                  {"ui/earth/include/ui/earth/tree.h", {}},
+                                  {"ui/earth/src/mole.h", {}}};
+    QCOMPARE(includeErrors(files, house()).isEmpty(), good);
+  }
+
+  void plantedLinksAreFound_data() {
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<bool>("good");
+    QTest::newRow("downwards") << "pitchboard_room(ui sky\n  SOURCES src/a.cpp\n"
+                                  "  PUBLIC ui::earth Threads::Threads\n  PRIVATE Eigen3::Eigen)"
+                               << true;
+    QTest::newRow("upwards") << "pitchboard_room(ui earth SOURCES src/a.cpp PRIVATE ui::sky)"
+                             << false;
+    QTest::newRow("all rooms") << "pitchboard_room(ui sky SOURCES src/a.cpp PUBLIC ui::all)"
+                               << false;
+    QTest::newRow("package of another room")
+        << "pitchboard_room(ui earth SOURCES src/a.cpp PRIVATE Eigen3::Eigen)" << false;
+    QTest::newRow("unknown room") << "pitchboard_room(ui attic SOURCES src/a.cpp)" << false;
+    QTest::newRow("unknown program")
+        << "pitchboard_program(kite SOURCES a.cpp LIBS ui::sky)" << false;
+  }
+  void plantedLinksAreFound() {
+    QFETCH(QString, text);
+    QFETCH(bool, good);
+    QCOMPARE(linkErrors({{"CMakeLists.txt", text}}, house()).isEmpty(), good);
+  }
+
+  void plantedPackagesAreFound() {
+    const SourceFile uses{"ui/sky/src/bird.cpp", "#include <Eigen/Core>\n"};
+    const SourceFile shows{"ui/sky/include/ui/sky/wing.h", "#include <Eigen/Core>\n"};
+    const SourceFile hidden{"CMakeLists.txt", "pitchboard_room(ui sky PRIVATE Eigen3::Eigen)"};
+    const SourceFile shown{"CMakeLists.txt", "pitchboard_room(ui sky PUBLIC Eigen3::Eigen)"};
+    QVERIFY(packageErrors({hidden}, {uses}).isEmpty());
+    QVERIFY(packageErrors({shown}, {shows}).isEmpty());
+    QVERIFY(!packageErrors({hidden}, {}).isEmpty());
+    QVERIFY(!packageErrors({shown}, {uses}).isEmpty());
   }
 
   void everySourceFileNamesItsLicence() {

@@ -2,14 +2,11 @@
 #include <ui/field/field_view.h>
 
 #include <QAction>
-#include <QActionGroup>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QToolBar>
-#include <QToolButton>
 #include <algorithm>
-#include <array>
 #include <numbers>
 
 #include <ui/base/theme.h>
@@ -21,41 +18,13 @@
 #include "field_keys.h"
 #include "field_menu.h"
 #include "field_pointer.h"
+#include "field_tools.h"
 #include "film_painter.h"
 #include "help_overlay.h"
 #include "pose_editor.h"
 
 namespace pitchboard::ui {
 namespace {
-
-struct LayerText {
-  const char* text;
-  const char* key;  // shown only; the field handles its keys itself
-};
-constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "F6"},
-                                                             {"Belief", ""},
-                                                             {"Ghost at the believed pose", ""},
-                                                             {"Perceived ball", ""},
-                                                             {"Trails", ""},
-                                                             {"Numbers", ""},
-                                                             {"Coordinate grid", ""},
-                                                             {"Landmarks", "F9"},
-                                                             {"EOPRA sectors", "F7"},
-                                                             {"StarVars sectors", "F8"},
-                                                             {"Particles of localization", ""},
-                                                             {"Planned path", ""}}};
-
-struct ToolText {
-  FieldTool tool;
-  const char* icon;
-  const char* text;
-  const char* tip;
-};
-constexpr std::array<ToolText, 3> toolTexts{{
-    {FieldTool::Select, "edit-select", "Select and move", "Select, drag and turn robots"},
-    {FieldTool::Ruler, "measure", "Ruler", "Measure distance and direction by dragging"},
-    {FieldTool::Add, "list-add", "Add robots", "Click to add a robot; hold for its team"},
-}};
 
 constexpr double nudge_m = 0.01;
 constexpr double coarseNudge_m = 0.10;
@@ -73,12 +42,9 @@ struct FieldView::Private : FieldKeyTarget {
         scene(new FieldScene(view)),
         pointer(new FieldPointer(scene, matchController, view)),
         canvas(new FieldCanvas(scene, pointer, view)),
-        help(new HelpOverlay(canvas)) {}
+        help(new HelpOverlay(canvas)),
+        tools(new FieldTools(scene, pointer, canvas, help, view)) {}
 
-  void makeActions();
-  void makeLayerOptions();
-  void makeToolStrip();
-  void showLayer(int layer, bool shown);
   void openPoseEditor(RobotId id);
   void openBallEditor();
   void openEditor(PoseEdit edit);
@@ -120,7 +86,9 @@ struct FieldView::Private : FieldKeyTarget {
     const double step = (coarse ? coarseNudge_m : nudge_m) * (scene->style().flipped ? -1 : 1);
     pointer->nudge({right * step, up * step});
   }
-  void toggleLayer(int layer) override { layers[static_cast<std::size_t>(layer)]->toggle(); }
+  void toggleLayer(int layer) override {
+    tools->layers()[static_cast<std::size_t>(layer)]->toggle();
+  }
   void escape() override {
     if (pointer->cancel()) return;
     if (pointer->tool() != FieldTool::Select) {
@@ -150,126 +118,16 @@ struct FieldView::Private : FieldKeyTarget {
   FieldPointer* pointer;
   FieldCanvas* canvas;
   HelpOverlay* help;
-  QToolBar* strip = nullptr;
-  std::vector<QAction*> layers;
-  std::vector<QAction*> layerOptions;
-  std::vector<QAction*> tools;
-  QAction* flip = nullptr;
-  QAction* fitAction = nullptr;
-  QAction* keys = nullptr;
+  FieldTools* tools;
   bool rightShift = false;
 };
-
-void FieldView::Private::makeActions() {
-  for (int i = 0; i < fieldLayerCount; ++i) {
-    const LayerText& text = layerTexts[static_cast<std::size_t>(i)];
-    auto* action = new QAction(tr(text.text), q);
-    action->setCheckable(true);
-    action->setChecked(scene->style().layers[static_cast<std::size_t>(i)]);
-    if (*text.key) action->setText(action->text() + QLatin1Char('\t') + QLatin1String(text.key));
-    connect(action, &QAction::toggled, q, [this, i](bool on) { showLayer(i, on); });
-    layers.push_back(action);
-  }
-  makeLayerOptions();
-  auto* group = new QActionGroup(q);
-  for (const ToolText& text : toolTexts) {
-    auto* action = new QAction(themedIcon(QLatin1String(text.icon)), tr(text.text), group);
-    action->setCheckable(true);
-    action->setChecked(text.tool == pointer->tool());
-    action->setToolTip(tr(text.tip));
-    connect(action, &QAction::triggered, q, [this, tool = text.tool] { pointer->setTool(tool); });
-    connect(pointer, &FieldPointer::toolChanged, action,
-            [action, tool = text.tool](FieldTool chosen) { action->setChecked(chosen == tool); });
-    tools.push_back(action);
-  }
-  flip = new QAction(themedIcon(QStringLiteral("object-flip-horizontal")), tr("Flip sides"), q);
-  flip->setCheckable(true);
-  flip->setToolTip(tr("See the field from the other side (Space)"));
-  connect(flip, &QAction::toggled, q, [this](bool on) { canvas->setFlipped(on); });
-  fitAction =
-      new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Fit the field\tHome"), q);
-  fitAction->setToolTip(tr("Fit the field (Home)"));
-  connect(fitAction, &QAction::triggered, q, [this] { canvas->fit(); });
-  keys = new QAction(themedIcon(QStringLiteral("help-contextual")), tr("Keys of the field\tF1"), q);
-  keys->setToolTip(tr("All keys of the field (F1)"));
-  connect(keys, &QAction::triggered, q, [this] { help->toggle(); });
-}
-
-void FieldView::Private::makeLayerOptions() {
-  auto* all = new QAction(tr("Field of view of all robots"), q);
-  all->setCheckable(true);
-  all->setChecked(scene->style().wedgeForAll);
-  connect(all, &QAction::toggled, q, [this](bool on) {
-    scene->changeStyle([on](FieldStyle& style) { style.wedgeForAll = on; });
-  });
-  layerOptions.push_back(all);
-  auto* group = new QActionGroup(q);
-  for (const int granularity : {4, 6}) {
-    auto* action = new QAction(tr("EOPRA granularity %1").arg(granularity), group);
-    action->setCheckable(true);
-    action->setChecked(scene->style().eopraGranularity == granularity);
-    connect(action, &QAction::toggled, q, [this, granularity](bool on) {
-      if (!on) return;
-      scene->changeStyle(
-          [granularity](FieldStyle& style) { style.eopraGranularity = granularity; });
-    });
-    layerOptions.push_back(action);
-  }
-}
-
-void FieldView::Private::makeToolStrip() {
-  strip = new QToolBar(q);
-  strip->setObjectName(QStringLiteral("fieldTools"));
-  strip->setOrientation(Qt::Vertical);
-  const int icon = scaled(q, 18);
-  strip->setIconSize(QSize(icon, icon));
-  strip->setFixedWidth(scaled(q, 36));
-  for (QAction* tool : tools) strip->addAction(tool);
-  if (auto* button = qobject_cast<QToolButton*>(strip->widgetForAction(tools.back()))) {
-    auto* teams = new QMenu(button);
-    auto* group = new QActionGroup(teams);
-    for (const TeamColorInfo& team : teamColors) {
-      QString name =
-          QString::fromLatin1(team.name.data(), static_cast<qsizetype>(team.name.size()));
-      name[0] = name[0].toUpper();
-      auto* action = teams->addAction(name, q, [this, color = team.color] {
-        pointer->setTeam(color);
-        pointer->setTool(FieldTool::Add);
-      });
-      action->setCheckable(true);
-      action->setChecked(team.color == TeamColor::Blue);
-      group->addAction(action);
-    }
-    button->setMenu(teams);
-    button->setPopupMode(QToolButton::DelayedPopup);
-  }
-  strip->addSeparator();
-  auto* layersButton = new QToolButton;
-  layersButton->setIcon(themedIcon(QStringLiteral("layer-visible-on")));
-  layersButton->setToolTip(tr("Layers: what the field shows"));
-  layersButton->setAccessibleName(tr("Layers"));
-  layersButton->setPopupMode(QToolButton::InstantPopup);
-  auto* menu = new QMenu(layersButton);
-  for (QAction* layer : layers) menu->addAction(layer);
-  menu->addSeparator();
-  for (QAction* option : layerOptions) menu->addAction(option);
-  layersButton->setMenu(menu);
-  strip->addWidget(layersButton);
-  for (QAction* action : {flip, fitAction, keys}) strip->addAction(action);
-}
-
-void FieldView::Private::showLayer(int layer, bool shown) {
-  scene->changeStyle(
-      [&](FieldStyle& style) { style.layers[static_cast<std::size_t>(layer)] = shown; });
-  canvas->viewport()->update();
-}
 
 void FieldView::Private::setReadOnly(bool readOnly) {
   if (scene->style().readOnly == readOnly) return;
   pointer->cancel();
   if (readOnly && pointer->tool() == FieldTool::Add) pointer->setTool(FieldTool::Select);
   scene->changeStyle([readOnly](FieldStyle& style) { style.readOnly = readOnly; });
-  tools.back()->setEnabled(!readOnly);  // the one that adds robots
+  tools->adding()->setEnabled(!readOnly);
 }
 
 void FieldView::Private::addAtCursor(TeamColor color) {
@@ -350,19 +208,17 @@ FieldView::FieldView(MatchController* controller, QWidget* parent)
 
 FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* parent)
     : QWidget(parent), d(std::make_unique<Private>(this, controller)) {
-  d->makeActions();
-  d->makeToolStrip();
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addWidget(d->strip);
+  layout->addWidget(d->tools->strip());
   layout->addWidget(d->canvas, 1);
   setFocusProxy(d->canvas);
   d->canvas->setKeyHandler([this](QKeyEvent* event) { return d->handleKey(event); });
   connect(d->canvas, &FieldCanvas::cursorMoved, this, &FieldView::cursorMoved);
   connect(d->canvas, &FieldCanvas::menuRequested, this,
           [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
-  connect(d->canvas, &FieldCanvas::spaceTapped, this, [this] { d->flip->toggle(); });
+  connect(d->canvas, &FieldCanvas::spaceTapped, this, [this] { d->tools->flip()->toggle(); });
   connect(d->scene, &FieldScene::selectionChangedTo, this, &FieldView::selectionChanged);
   connect(d->scene, &FieldScene::followedChanged, this, &FieldView::followedChanged);
   connect(d->pointer, &FieldPointer::poseRequested, this,
@@ -422,27 +278,25 @@ std::optional<RobotId> FieldView::followed() const {
   return d->scene->followed();
 }
 std::vector<QAction*> FieldView::layerActions() const {
-  return d->layers;
+  return d->tools->layers();
 }
 
 std::vector<QAction*> FieldView::layerOptionActions() const {
-  return d->layerOptions;
+  return d->tools->layerOptions();
 }
 
 std::vector<QAction*> FieldView::viewActions() const {
-  std::vector<QAction*> actions = d->tools;
-  for (QAction* action : {d->flip, d->fitAction, d->keys}) actions.push_back(action);
-  return actions;
+  return d->tools->viewActions();
 }
 
 void FieldView::fitField() {
   d->canvas->fit();
 }
 void FieldView::setFlipped(bool flipped) {
-  d->flip->setChecked(flipped);
+  d->tools->flip()->setChecked(flipped);
 }
 bool FieldView::isFlipped() const {
-  return d->flip->isChecked();
+  return d->tools->flip()->isChecked();
 }
 
 QImage FieldView::picture(QSize size) const {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
 
 #include <QActionGroup>
@@ -9,6 +8,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
 #include <ui/base/robot_words.h>
+#include <ui/sources/match_edits.h>
 
 namespace pitchboard::ui {
 namespace {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/sources/match_memory.h>
 #include <ui/sources/session_recording.h>
 
 #include <QCoreApplication>
@@ -13,6 +12,7 @@
 #include <robotlink/session/live_recorder.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/sources/match_memory.h>
 #include <ui/variables/variables_dock.h>
 
 #include <QApplication>
@@ -12,7 +11,6 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <set>
 
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
@@ -20,11 +18,13 @@
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
 #include "attach_form.h"
 #include "catalog_choice.h"
+#include "guest_boards.h"
 #include "value_writer.h"
 #include "variables_filter.h"
 #include "variables_header.h"
@@ -51,15 +51,14 @@ class VariablesDock : public QWidget {
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyVariables"))),
         m_timer(new QTimer(this)),
         m_writer(new ValueWriter(context.controller, m_model, m_message, this)),
-        m_boards(new AttachedBoards(context.controller, this)),
-        m_attach(new AttachForm(this)) {
+        m_guests(new GuestBoards(context.controller, m_model, m_message, this)) {
     m_model->setObjectName(QStringLiteral("variablesModel"));
     m_catalog = new CatalogChoice(context.controller, context.settings, m_message, this);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     column->addLayout(makeTools());
-    column->addWidget(m_attach);
+    column->addWidget(m_guests->form());
     column->addWidget(m_message);
     column->addWidget(m_view, 1);
     column->addWidget(m_empty, 1);
@@ -67,7 +66,6 @@ class VariablesDock : public QWidget {
       if (m_filter->sortsByNumbers()) m_filter->update();
     });
     connectView();
-    connectBoards();
     adoptSettings();
     connect(context.source, &FrameSource::restarted, this, [this] { adoptSource(); });
     connect(context.source, &SourceSwitch::changed, this, [this] { adoptSource(); });
@@ -170,7 +168,8 @@ class VariablesDock : public QWidget {
     QAction* reset = menu->addAction(tr("Use the published catalog"), this,
                                      [this] { m_catalog->usePublished(); });
     reset->setObjectName(QStringLiteral("publishedCatalog"));
-    QAction* attach = menu->addAction(tr("Attach blackboard…"), this, [this] { m_attach->open(); });
+    QAction* attach =
+        menu->addAction(tr("Attach blackboard…"), this, [this] { m_guests->form()->open(); });
     attach->setObjectName(QStringLiteral("attachBlackboard"));
     menu->addSeparator();
     menu->addAction(tr("Open all"), this, [this] { m_view->openAll(); });
@@ -203,21 +202,6 @@ class VariablesDock : public QWidget {
     if (m_context.settings) m_context.settings->setValue(samplingKey, ticks);
   }
 
-  void connectBoards() {
-    connect(m_attach, &AttachForm::attachRequested, this, [this](int key, double rate) {
-      if (const Result<void> done = m_boards->attach(key, rate); !done) {
-        m_message->say(InPlaceMessage::Tone::Error,
-                       tr("Not attached. %1").arg(QString::fromStdString(done.error().text())));
-        return;
-      }
-      m_attach->hide();
-      m_message->clear();
-    });
-    m_view->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(m_view, &QWidget::customContextMenuRequested, this,
-            [this](QPoint at) { showMenu(at); });
-  }
-
   void showMenu(QPoint at) {
     const QModelIndex index = m_filter->mapToSource(m_view->indexAt(at).siblingAtColumn(0));
     if (!index.isValid()) return;
@@ -236,9 +220,9 @@ class VariablesDock : public QWidget {
     const auto& attributes = group->info().attributes;
     if (attributes.count("attached") != 0) {
       const int key = QString::fromStdString(attributes.at("key")).toInt();
-      if (m_boards->contains(key)) {
+      if (m_guests->contains(key)) {
         menu->addAction(tr("Detach %1").arg(AttachedBoards::groupName(key)), this,
-                        [this, key] { detach(key); });
+                        [this, key] { m_guests->detach(key); });
       }
     }
     if (menu->isEmpty())
@@ -247,29 +231,10 @@ class VariablesDock : public QWidget {
       menu->popup(m_view->viewport()->mapToGlobal(at));
   }
 
-  void detach(int key) {
-    m_boards->detach(key);
-    m_model->setNote(AttachedBoards::groupName(key), {tr("detached"), {}, 0.0});
-  }
-
-  void showBoards() {
-    for (const auto& [key, status] : m_boards->status()) {
-      const QString group = AttachedBoards::groupName(key);
-      m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
-                               status.missed == 0 ? QString()
-                                                  : tr("%1 samples were left out, because the "
-                                                       "computer was busy.")
-                                                        .arg(status.missed),
-                               status.attached ? status.rate : 0.0});
-      if (!status.attached && m_removed.insert(key).second) {
-        m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
-      } else if (status.attached) {
-        m_removed.erase(key);
-      }
-    }
-  }
-
   void connectView() {
+    m_view->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(m_view, &QWidget::customContextMenuRequested, this,
+            [this](QPoint at) { showMenu(at); });
     connect(m_view, &VariablesView::plotRequested, this, [this](const QStringList& names) {
       if (m_context.plots) m_context.plots->plotVariables(names);
     });
@@ -353,7 +318,7 @@ class VariablesDock : public QWidget {
     const Timeline* timeline = m_context.timeline;
     const bool past = timeline && (timeline->isLookingBack() || timeline->isRecording());
     m_model->setMoment(past ? std::optional(timeline->shownTime()) : std::nullopt);
-    showBoards();
+    m_guests->refresh();
     m_model->updateGroups();
     constexpr int slowly = 5;
     const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
@@ -395,9 +360,7 @@ class VariablesDock : public QWidget {
   QLabel* m_empty;
   QTimer* m_timer;
   ValueWriter* m_writer;
-  AttachedBoards* m_boards;
-  AttachForm* m_attach;
-  std::set<int> m_removed;  // keys whose removal was said
+  GuestBoards* m_guests;
   CatalogChoice* m_catalog = nullptr;
   QLineEdit* m_words = nullptr;
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;

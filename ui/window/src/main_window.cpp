@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/sources/match_edits.h>
-#include <ui/sources/match_memory.h>
 #include <ui/window/main_window.h>
 
 #include <QAbstractScrollArea>
@@ -28,6 +26,8 @@
 #include <ui/sources/live_overlay.h>
 #include <ui/sources/live_settings.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Which room may use which, as ARCHITECTURE.md draws it: one table, and the checks of includes and
+// of the links in CMake files against it. Works on texts, so that the checks themselves can be
+// tested. Any thread.
+
+#include <QHash>
+#include <QList>
+#include <QRegularExpression>
+#include <QSet>
+#include <QString>
+#include <QStringList>
+#include <algorithm>
+
+namespace layers {
+
+/// A room or program and what it may use besides itself, the standard library and POSIX.
+struct Room {
+  QString folder;       ///< "robotlink/frame"
+  QStringList rooms;    ///< folders of other rooms
+  QStringList headers;  ///< beginnings of package headers: "Eigen/", "zlib.h"
+};
+
+struct SourceFile {
+  QString path;  ///< from the top of the project
+  QString text;
+};
+
+inline QStringList all(const QString& library) {
+  static const QHash<QString, QStringList> rooms{
+      {"simcore", {"base", "world", "rules", "physics"}},
+      {"telemetry", {"wire", "series", "mcap", "session"}},
+      {"robotlink",
+       {"blackboard", "processes", "cognition", "scenario", "frame", "match", "live", "session",
+        "report", "conformance"}},
+      {"ui",
+       {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
+        "noise", "processes", "log", "window"}}};
+  QStringList folders;
+  for (const QString& room : rooms.value(library)) folders << library + '/' + room;
+  return folders;
+}
+
+inline const QList<Room>& table() {
+  static const QList<Room> rooms = [] {
+    const QString base = "simcore/base", world = "simcore/world", physics = "simcore/physics";
+    const QString wire = "telemetry/wire", series = "telemetry/series";
+    const QString board = "robotlink/blackboard", processes = "robotlink/processes",
+                  cognition = "robotlink/cognition", scenario = "robotlink/scenario",
+                  frame = "robotlink/frame", match = "robotlink/match", live = "robotlink/live",
+                  session = "robotlink/session";
+    const QStringList below = all("simcore") + all("telemetry");
+    const QStringList belowUi = below + all("robotlink");
+    const QStringList qt{"Q"};
+    QList<Room> made{
+        {base, {}, {"Random123/", "nlohmann/", "tl/"}},
+        {world, {base}, {"tl/"}},
+        {"simcore/rules", {base, world}, {}},
+        {physics, {base, world, "simcore/rules"}, {"box2d/"}},
+        {"resources", {}, {}},
+        {wire, {base, "resources"}, {"nlohmann/"}},
+        {series, {base}, {}},
+        {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
+        {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
+        {board, {base, series, wire, "resources"}, {"nlohmann/"}},
+        {processes, {base, board}, {}},
+        {cognition, {base, world, wire, board, processes}, {"Eigen/"}},
+        {scenario, {base, world, physics, board, cognition, "resources"}, {"nlohmann/"}},
+        {frame, {base, world, series, wire, board, processes, cognition}, {}},
+        {match, all("simcore") + QStringList{board, processes, cognition, scenario, frame}, {}},
+        {live, {base, world, physics, wire, series, frame}, {}},
+        {session,
+         below + QStringList{board, processes, cognition, scenario, frame, match, live},
+         {"nlohmann/"}},
+        {"robotlink/report", below + QStringList{frame, session}, {}},
+        {"robotlink/conformance",
+         all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
+         {"nlohmann/", "zlib.h"}},
+        // A robot's processes know nothing of matches, sessions and windows; of scenarios, only how
+        // a field is written.
+        {"app/robot", {base, world, wire, board, processes, cognition, scenario}, {"CLI/"}},
+        {"app/cli", belowUi, {"CLI/", "nlohmann/"}},
+        {"app/studio",
+         belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/window"},
+         {"CLI/", "Q"}},
+        {"ui/base", {base, world, wire, series, frame}, qt},
+        {"ui/sources", belowUi + QStringList{"ui/base"}, qt},
+        {"ui/window", belowUi + all("ui"), qt},
+    };
+    // The rooms of the window know models and words, and nothing of each other.
+    for (const QString& room : all("ui")) {
+      const bool listed = std::any_of(made.begin(), made.end(),
+                                      [&room](const Room& one) { return one.folder == room; });
+      if (!listed) made.append({room, belowUi + QStringList{"ui/base", "ui/sources"}, qt});
+    }
+    for (Room& room : made) {
+      if (room.folder == "ui/plots") room.headers << "muParser.h";
+    }
+    return made;
+  }();
+  return rooms;
+}
+
+inline const Room* find(const QList<Room>& rooms, const QString& folder) {
+  const auto found = std::find_if(rooms.begin(), rooms.end(),
+                                  [&folder](const Room& room) { return room.folder == folder; });
+  return found == rooms.end() ? nullptr : &*found;
+}
+
+/// "ui/field" of "ui/field/src/ball_item.cpp"; resources are one room.
+inline QString roomOfPath(const QString& path) {
+  if (path.startsWith("resources/")) return "resources";
+  return path.section('/', 0, 1);
+}
+
+/// The room of one of our headers ("robotlink/frame" of "robotlink/frame/belief.h"); empty for all
+/// others.
+inline QString roomOfHeader(const QString& header) {
+  if (header.startsWith("base/")) return "simcore/base";
+  if (header.startsWith("resources/")) return "resources";
+  static const QStringList libraries{"simcore", "telemetry", "robotlink", "ui", "app"};
+  return libraries.contains(header.section('/', 0, 0)) && header.count('/') > 0
+             ? header.section('/', 0, 1)
+             : QString();
+}
+
+/// Plain names such as <vector> or <unistd.h>: no folder, no upper case, and not a package's.
+inline bool isSystemHeader(const QString& header) {
+  static const QRegularExpression plain(QStringLiteral("^[a-z_0-9]+(\\.h)?$"));
+  static const QStringList packages{"zlib.h", "zstd.h"};
+  static const QRegularExpression folder(QStringLiteral("^(sys|linux|netinet|arpa|net)/"));
+  return (plain.match(header).hasMatch() && !packages.contains(header)) ||
+         folder.match(header).hasMatch();
+}
+
+inline bool beginsWithOne(const QString& text, const QStringList& beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&text](const QString& one) { return text.startsWith(one); });
+}
+
+/// `files` are all of the project, so that quoted includes can be looked up.
+inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Room>& rooms) {
+  static const QRegularExpression include(
+      QStringLiteral("^[ \\t]*#[ \\t]*include[ \\t]*([<\"])([^>\"]+)[>\"]"),
+      QRegularExpression::MultilineOption);
+  QSet<QString> paths;
+  for (const SourceFile& file : files) paths.insert(file.path);
+  QStringList wrong;
+  for (const SourceFile& file : files) {
+    const QString room = roomOfPath(file.path);
+    const Room* rule = find(rooms, room);
+    if (rule == nullptr) {
+      wrong << file.path + ": its folder is not in the table of rooms";
+      continue;
+    }
+    for (auto matches = include.globalMatch(file.text); matches.hasNext();) {
+      const auto match = matches.next();
+      const QString header = match.captured(2);
+      const auto line = file.text.left(match.capturedStart()).count('\n') + 1;
+      const QString place = QStringLiteral("%1:%2 includes ").arg(file.path).arg(line);
+      if (match.captured(1) == "\"") {
+        const QString beside = file.path.section('/', 0, -2) + '/' + header;
+        if (header.contains("..") ||
+            (!paths.contains(beside) && !paths.contains(room + "/src/" + header))) {
+          wrong << place + '"' + header + "\", which is not of its room";
+        }
+        continue;
+      }
+      const QString other = roomOfHeader(header);
+      const bool allowed = !other.isEmpty()
+                               ? other == room || rule->rooms.contains(other)
+                               : isSystemHeader(header) || beginsWithOne(header, rule->headers);
+      if (!allowed) wrong << place + '<' + header + '>';
+    }
+  }
+  return wrong;
+}
+
+/// What a CMake file links to a room or program.
+struct Links {
+  QString folder;
+  QStringList publicOnes, privateOnes;  ///< "robotlink::frame", "Eigen3::Eigen"
+  QStringList both() const { return publicOnes + privateOnes; }
+};
+
+inline QList<Links> linksOf(const SourceFile& cmake) {
+  static const QRegularExpression call(QStringLiteral("pitchboard_(room|program)\\(([^)]*)\\)"));
+  static const QRegularExpression space(QStringLiteral("\\s+"));
+  static const QHash<QString, QString> programs{{"pitchboard", "app/studio"},
+                                                {"pitchboard-cli", "app/cli"},
+                                                {"pitchboard-robot", "app/robot"}};
+  QList<Links> found;
+  for (auto matches = call.globalMatch(cmake.text); matches.hasNext();) {
+    const auto match = matches.next();
+    const QStringList words = match.captured(2).split(space, Qt::SkipEmptyParts);
+    Links links;
+    links.folder = match.captured(1) == "room" ? words.value(0) + '/' + words.value(1)
+                                               : programs.value(words.value(0), words.value(0));
+    QString part;
+    for (const QString& word : words) {
+      if (QStringList{"SOURCES", "PUBLIC", "PRIVATE", "LIBS"}.contains(word)) {
+        part = word;
+      } else if (word.contains("::")) {
+        (part == "PUBLIC" ? links.publicOnes : links.privateOnes) << word;
+      }
+    }
+    found << links;
+  }
+  return found;
+}
+
+/// The header that a package's target is linked for; empty for those that any room may link.
+inline QString headerOfPackage(const QString& target) {
+  static const QHash<QString, QString> headers{{"Eigen3::Eigen", "Eigen/"},
+                                               {"box2d::box2d", "box2d/"},
+                                               {"nlohmann_json::nlohmann_json", "nlohmann/"},
+                                               {"ZLIB::ZLIB", "zlib.h"},
+                                               {"PkgConfig::ZSTD", "zstd.h"},
+                                               {"PkgConfig::muparser", "muParser.h"},
+                                               {"CLI11::CLI11", "CLI/"},
+                                               {"Threads::Threads", {}}};
+  if (target.startsWith("Qt6::")) return "Q";
+  return headers.value(target, target);
+}
+
+inline QStringList linkErrors(const QList<SourceFile>& cmakes, const QList<Room>& rooms) {
+  QStringList wrong;
+  for (const SourceFile& cmake : cmakes) {
+    for (const Links& links : linksOf(cmake)) {
+      const Room* rule = find(rooms, links.folder);
+      if (rule == nullptr) {
+        wrong << cmake.path + ": " + links.folder + " is not in the table of rooms";
+        continue;
+      }
+      for (const QString& target : links.both()) {
+        QString room = QString(target).replace("::", "/");
+        if (target == "pitchboard::resources") room = "resources";
+        const bool ours = room == "resources" || !roomOfHeader(room + '/').isEmpty();
+        const QString header = ours ? QString() : headerOfPackage(target);
+        const bool allowed =
+            ours ? rule->rooms.contains(room) : header.isEmpty() || rule->headers.contains(header);
+        if (!allowed) wrong << cmake.path + ": " + links.folder + " links " + target;
+      }
+    }
+  }
+  return wrong;
+}
+
+/// Packages that a room links though none of its files needs it, or that it shows to others though
+/// no public header needs it.
+inline QStringList packageErrors(const QList<SourceFile>& cmakes, const QList<SourceFile>& files) {
+  const auto includes = [&files](const QString& below, const QString& header) {
+    return std::any_of(files.begin(), files.end(), [&](const SourceFile& file) {
+      return file.path.startsWith(below + '/') && file.text.contains("#include <" + header);
+    });
+  };
+  QStringList wrong;
+  for (const SourceFile& cmake : cmakes) {
+    for (const Links& links : linksOf(cmake)) {
+      for (const QString& target : links.both()) {
+        const QString header = headerOfPackage(target);
+        // Rooms of ours, and what is one package with many parts.
+        if (header.isEmpty() || header == target || header == "Q") continue;
+        if (!includes(links.folder, header)) {
+          wrong << cmake.path + ": " + links.folder + " links " + target + " and does not use it";
+        } else if (links.publicOnes.contains(target) &&
+                   !includes(links.folder + "/include", header)) {
+          wrong << cmake.path + ": " + links.folder + " shows " + target + " to others";
+        }
+      }
+    }
+  }
+  return wrong;
+}
+
+}  // namespace layers

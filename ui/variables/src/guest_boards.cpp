@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "guest_boards.h"
+
+#include <ui/base/in_place_message.h>
+#include <ui/sources/attached_boards.h>
+
+#include "attach_form.h"
+#include "variables_model.h"
+
+namespace pitchboard::ui {
+
+GuestBoards::GuestBoards(MatchController* controller, VariablesModel* model,
+                         InPlaceMessage* message, QWidget* dock)
+    : QObject(dock),
+      m_model(model),
+      m_message(message),
+      m_boards(new AttachedBoards(controller, this)),
+      m_form(new AttachForm(dock)) {
+  connect(m_form, &AttachForm::attachRequested, this, &GuestBoards::attach);
+}
+
+void GuestBoards::attach(int key, double rate) {
+  if (const Result<void> done = m_boards->attach(key, rate); !done) {
+    m_message->say(InPlaceMessage::Tone::Error,
+                   tr("Not attached. %1").arg(QString::fromStdString(done.error().text())));
+    return;
+  }
+  m_form->hide();
+  m_message->clear();
+}
+
+bool GuestBoards::contains(int key) const {
+  return m_boards->contains(key);
+}
+
+void GuestBoards::detach(int key) {
+  m_boards->detach(key);
+  m_model->setNote(AttachedBoards::groupName(key), {tr("detached"), {}, 0.0});
+}
+
+void GuestBoards::refresh() {
+  for (const auto& [key, status] : m_boards->status()) {
+    const QString group = AttachedBoards::groupName(key);
+    m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
+                             status.missed == 0 ? QString()
+                                                : tr("%1 samples were left out, because the "
+                                                     "computer was busy.")
+                                                      .arg(status.missed),
+                             status.attached ? status.rate : 0.0});
+    if (!status.attached && m_removed.insert(key).second) {
+      m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
+    } else if (status.attached) {
+      m_removed.erase(key);
+    }
+  }
+}
+
+}  // namespace pitchboard::ui
