@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include <robotlink/match/match_runner.h>
 
@@ -47,8 +49,11 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--settings", a.settings,
                  "File for layout and preferences instead of the user's own")
       ->type_name("FILE");
-  app.add_option("--session,session", a.session, "Open this recorded session in Replay")
+  app.add_option("--session,session", a.session,
+                 "Open this recorded session in Replay; given alone, in the studio that runs "
+                 "already, if there is one")
       ->type_name("FILE.mcap");
+  app.add_flag("--new-window", "Open the session in a studio of its own although one runs");
   app.add_option(
          "--record", a.record,
          "Record from the first moment into this new file, in a match or live; when there is "
@@ -85,6 +90,14 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->needs(render);
 }
 
+bool onlyGiven(const CLI::App& app, const std::vector<std::string>& names) {
+  const auto given = app.get_options([](const CLI::Option* option) { return option->count() > 0; });
+  return std::all_of(given.begin(), given.end(), [&](const CLI::Option* option) {
+    return std::any_of(names.begin(), names.end(),
+                       [option](const std::string& name) { return option->check_name(name); });
+  });
+}
+
 }  // namespace
 
 int report(const Error& error) {
@@ -109,6 +122,7 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
     return 2;
   }
   arguments.scenarioGiven = app.count("--scenario") > 0;
+  arguments.onlySession = !arguments.session.empty() && onlyGiven(app, {"--session", "--settings"});
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
     return report(
         {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});

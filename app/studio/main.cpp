@@ -18,6 +18,7 @@
 
 #include "arguments.h"
 #include "end_signals.h"
+#include "running_studio.h"
 
 namespace pitchboard::studio {
 namespace {
@@ -151,6 +152,17 @@ int showWindow(QApplication& application, const Arguments& arguments,
     play();
   }
   window.show();
+  std::optional<RunningStudio> running;
+  if (const QString socket = studioSocket(arguments); !socket.isEmpty()) {
+    running.emplace(socket, [&window](const QString& file) {
+      if (!window.isVisible()) return false;  // it ends
+      window.openSession(file);
+      window.setWindowState(window.windowState() & ~Qt::WindowMinimized);
+      window.raise();
+      window.activateWindow();
+      return true;
+    });
+  }
   if (!arguments.screenshotFile.empty()) {
     const int wait = static_cast<int>(std::lround(arguments.after * 1000));
     QTimer::singleShot(wait, &window, [&] {
@@ -159,6 +171,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
     });
   }
   const int ended = application.exec();
+  running.reset();
   made.reset();
   return ended != 0 ? ended : exitCode;
 }
@@ -190,6 +203,10 @@ int run(int argc, char** argv) {
   QApplication::setApplicationVersion(QStringLiteral(PITCHBOARD_VERSION));
   int applicationArguments = 1;
   QApplication application(applicationArguments, argv);
+  if (arguments.onlySession &&
+      handOver(studioSocket(arguments), QString::fromStdString(arguments.session))) {
+    return 0;
+  }
   if (const auto good = checkRecordFolder(arguments); !good) return report(good.error());
   const auto settings = makeSettings(arguments);
   ui::setTheme(application, themeOf(arguments, *settings));
