@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include <robotlink/match/match_runner.h>
 
@@ -49,8 +51,11 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   app.add_option("--session", a.session, "Open this recorded session in Replay")
       ->type_name("FILE.mcap");
-  app.add_option("file", a.file, "A session to replay, or a scenario (FILE.json) to play")
+  app.add_option("file", a.file,
+                 "A session to replay, or a scenario (FILE.json) to play; a session given alone is "
+                 "opened in the studio that runs already, if there is one")
       ->type_name("FILE");
+  app.add_flag("--new-window", "Open the session in a studio of its own although one runs");
   app.add_option(
          "--record", a.record,
          "Record from the first moment into this new file, in a match or live; when there is "
@@ -97,6 +102,15 @@ bool takeFile(const CLI::App& app, Arguments& a) {
   return true;
 }
 
+/// No other options than these are on the command line.
+bool onlyGiven(const CLI::App& app, const std::vector<std::string>& names) {
+  const auto given = app.get_options([](const CLI::Option* option) { return option->count() > 0; });
+  return std::all_of(given.begin(), given.end(), [&](const CLI::Option* option) {
+    return std::any_of(names.begin(), names.end(),
+                       [option](const std::string& name) { return option->check_name(name); });
+  });
+}
+
 }  // namespace
 
 int report(const Error& error) {
@@ -127,6 +141,8 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
                    {}});
   }
   arguments.scenarioGiven = app.count("--scenario") > 0 || arguments.file.ends_with(".json");
+  arguments.onlySession =
+      !arguments.session.empty() && onlyGiven(app, {"--session", "file", "--settings"});
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
     return report(
         {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});

@@ -33,9 +33,10 @@ struct Arguments {
   std::string renderScenario;
   std::string picture;
   std::string settings;
-  std::string file;     ///< named without an option: a session or a scenario to open
-  std::string session;  ///< a recorded session to open in Replay
-  std::string record;   ///< session file to record into from the first moment; empty: none
+  std::string file;          ///< named without an option: a session or a scenario to open
+  std::string session;       ///< a recorded session to open in Replay
+  bool onlySession = false;  ///< nothing else was asked for: a studio that runs can open it
+  std::string record;        ///< session file to record into from the first moment; empty: none
   bool live = false;
   bool overlay = false;
   bool scenarioGiven = false;  ///< else Live starts without a simulated match

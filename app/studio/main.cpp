@@ -19,6 +19,7 @@
 
 #include "arguments.h"
 #include "end_signals.h"
+#include "running_studio.h"
 
 namespace pitchboard::studio {
 namespace {
@@ -160,6 +161,17 @@ int showWindow(QApplication& application, const Arguments& arguments,
     play();
   }
   window.show();
+  std::optional<RunningStudio> running;
+  if (const QString socket = studioSocket(arguments); !socket.isEmpty()) {
+    running.emplace(socket, [&window](const QString& file) {
+      if (!window.isVisible()) return false;  // it ends
+      window.openSession(file);
+      window.setWindowState(window.windowState() & ~Qt::WindowMinimized);
+      window.raise();
+      window.activateWindow();
+      return true;
+    });
+  }
   if (!arguments.screenshotFile.empty()) {
     const int wait = static_cast<int>(std::lround(arguments.after * 1000));
     QTimer::singleShot(wait, &window, [&] {
@@ -168,6 +180,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
     });
   }
   const int ended = application.exec();
+  running.reset();
   made.reset();
   return ended != 0 ? ended : exitCode;
 }
@@ -202,6 +215,10 @@ int run(int argc, char** argv) {
   QApplication::setWindowIcon(programIcon());
   // Wayland finds the icon by the name of the desktop entry.
   QApplication::setDesktopFileName(QStringLiteral("org.pitchboard.Pitchboard"));
+  if (arguments.onlySession &&
+      handOver(studioSocket(arguments), QString::fromStdString(arguments.session))) {
+    return 0;
+  }
   if (const auto good = checkRecordFolder(arguments); !good) return report(good.error());
   const auto settings = makeSettings(arguments);
   ui::setTheme(application, themeOf(arguments, *settings));

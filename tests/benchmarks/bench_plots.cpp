@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Milliseconds for one frame while a plot with 10 curves of a million samples each is panned or
-// zoomed, by software rendering: the data, the axes and the painting of the whole panel.
+// zoomed, by software rendering: the data, the axes and the painting of the whole panel. And what
+// one curve costs with Qt's own line series instead of our painter.
 
 #include <benchmark/benchmark.h>
 
 #include <QApplication>
+#include <QChart>
+#include <QChartView>
 #include <QImage>
+#include <QLegend>
+#include <QLineSeries>
+#include <QValueAxis>
 
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -67,7 +74,7 @@ struct Bench {
   PlotTarget target;
   std::unique_ptr<PlotsDock> dock;
 
-  explicit Bench(StoredSource* source, QSize size) : sources(source) {
+  explicit Bench(StoredSource* source, QSize size, int shown = curves) : sources(source) {
     PlotsContext context;
     context.source = &sources;
     context.time = &time;
@@ -77,7 +84,7 @@ struct Bench {
     dock->show();
     dock->feed()->refresh();
     QStringList names;
-    for (int c = 0; c < curves; ++c) names << QStringLiteral("B1/V%1").arg(c);
+    for (int c = 0; c < shown; ++c) names << QStringLiteral("B1/V%1").arg(c);
     dock->currentPage()->addVariables(names);
     QCoreApplication::processEvents();
   }
@@ -109,6 +116,90 @@ void frames(benchmark::State& state, bool zoom) {
   times.report(state);
 }
 
+/// A chart as Qt makes it, with one line.
+struct QtChart {
+  QChartView view;
+  QLineSeries* line = new QLineSeries;
+  QValueAxis* x = new QValueAxis;
+  QValueAxis* y = new QValueAxis;
+
+  explicit QtChart(QSize size) {
+    view.chart()->legend()->hide();
+    view.chart()->addSeries(line);
+    view.chart()->addAxis(x, Qt::AlignBottom);
+    view.chart()->addAxis(y, Qt::AlignLeft);
+    line->attachAxis(x);
+    line->attachAxis(y);
+    line->setPen(QPen(Qt::red, 0));
+    y->setRange(-10, 10);
+    view.resize(size);
+    view.show();
+    QCoreApplication::processEvents();
+  }
+};
+
+QList<QPointF> allRows(const ColumnView& column, telemetry::TimeRange range) {
+  std::vector<telemetry::Sample> samples;
+  column.group->samples(column.column, range, samples, rows);
+  QList<QPointF> points;
+  points.reserve(qsizetype(samples.size()));
+  for (const auto& sample : samples) points.emplace_back(sample.time, sample.value);
+  return points;
+}
+
+QList<QPointF> reduced(const ColumnView& column, telemetry::TimeRange range, int columns) {
+  const CurveTrace trace = traceOf(column, range, columns);
+  QList<QPointF> points;
+  for (const auto& sample : trace.samples) points.emplace_back(sample.time, sample.value);
+  for (const auto& c : trace.columns) {
+    for (const double value : {c.first, c.min, c.max, c.last}) points.emplace_back(c.time, value);
+  }
+  return points;
+}
+
+/// One curve over all its time, panned: our whole panel, Qt's line series with every row, and Qt's
+/// with only the points that our painter takes. The ratios are Qt's time over ours.
+void line_series(benchmark::State& state) {
+  using Clock = std::chrono::steady_clock;
+  const QSize size(int(state.range(0)), int(state.range(1)));
+  Bench ours(&source(), size, 1);
+  QtChart every(size), few(size);
+  const ColumnView column = ours.dock->currentPage()->panes().first()->curves()[0].view();
+  every.line->replace(allRows(column, {0.0, rows / rate}));
+  QImage screen(size, QImage::Format_RGB32);
+  double seconds[3] = {};
+  const auto timed = [&](double& sum, auto frame) {
+    const auto begin = Clock::now();
+    frame();
+    sum += std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  double begin = 0.0;
+  for (auto _ : state) {
+    begin += 50.0;
+    const telemetry::TimeRange range{begin, begin + rows / rate};
+    timed(seconds[0], [&] {
+      ours.time.setRange(range);
+      ours.dock->currentPage()->refresh();
+      ours.dock->render(&screen);
+    });
+    timed(seconds[1], [&] {
+      every.x->setRange(range.begin, range.end);
+      every.view.QWidget::render(&screen);
+    });
+    timed(seconds[2], [&] {
+      few.line->replace(reduced(column, range, size.width()));
+      few.x->setRange(range.begin, range.end);
+      few.view.QWidget::render(&screen);
+    });
+  }
+  const auto frames = double(state.iterations());
+  state.counters["ours_ms"] = seconds[0] / frames * 1e3;
+  state.counters["every_row_ms"] = seconds[1] / frames * 1e3;
+  state.counters["reduced_ms"] = seconds[2] / frames * 1e3;
+  state.counters["every_row_ratio"] = seconds[1] / seconds[0];
+  state.counters["reduced_ratio"] = seconds[2] / seconds[0];
+}
+
 void pan(benchmark::State& state) {
   frames(state, false);
 }
@@ -129,6 +220,13 @@ void cases(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK(pan)->Apply(cases);
 BENCHMARK(zoom)->Apply(cases);
+BENCHMARK(line_series)
+    ->ArgNames({"width", "height"})
+    ->Args({1280, 400})
+    ->Args({1920, 1000})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(10);
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hand at the studio's window for tests that run it as a program: a plugin of Qt that does what
-// its standard input says. "close": the window's button; "quit": Ctrl+Q.
+// its standard input says. "close": the window's button; "quit": Ctrl+Q; "minimize". "look" answers
+// on standard output with the window's title, and "minimized" before it when it is.
 #include <unistd.h>
 #include <QGenericPlugin>
 #include <QGuiApplication>
@@ -29,6 +30,12 @@ class Hand : public QObject {
     m_line.clear();
     for (QWindow* window : QGuiApplication::topLevelWindows()) {
       if (!window->isVisible() || window->transientParent() != nullptr) continue;
+      if (word == "look") {
+        const bool hidden = window->windowStates().testFlag(Qt::WindowMinimized);
+        const QByteArray seen = (hidden ? "minimized " : "") + window->title().toUtf8() + '\n';
+        if (write(STDOUT_FILENO, seen.constData(), std::size_t(seen.size())) < 0) return;
+      }
+      if (word == "minimize") window->setWindowState(Qt::WindowMinimized);
       if (word == "close") window->close();
       if (word == "quit") QTest::keyClick(window, Qt::Key_Q, Qt::ControlModifier);
       return;

@@ -396,7 +396,9 @@ class TestFieldView : public QObject {
     auto* y = m_view->findChild<QDoubleSpinBox*>("y");
     QVERIFY(y);
     QVERIFY(!m_view->findChild<QDoubleSpinBox*>("heading"));
-    y->setValue(-1.25);
+    // With a decimal comma, by its keys.
+    y->selectAll();
+    QTest::keyClicks(y, QStringLiteral("-1,25"));
     QTest::keyClick(y, Qt::Key_Return);
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y + 1.25) < 1e-6);
     QCOMPARE(m_controller->edits()->undoStack()->count(), 1);

@@ -19,6 +19,7 @@
 #include <ui/sources/live_controller.h>
 
 #include "bad_messages_model.h"
+#include "network_chooser.h"
 #include "profile_editor.h"
 
 using namespace pitchboard;
@@ -67,6 +68,55 @@ class TestLiveSettings : public QObject {
     QVERIFY(again.problem.isEmpty());
   }
 
+  void theNetworkIsChosenByNameAndAddress() {
+    QList<NetworkAddress> there{{"lo", "127.0.0.1"}, {"eth0", "192.168.0.12"}};
+    NetworkChooser chooser(nullptr, [&there] { return there; });
+    QCOMPARE(chooser.address(), QStringLiteral("0.0.0.0"));
+    QCOMPARE(chooser.currentText(), QStringLiteral("every interface"));
+    chooser.setAddress(QStringLiteral("192.168.0.12"));
+    QCOMPARE(chooser.currentText(), QStringLiteral("eth0 — 192.168.0.12"));
+    QCOMPARE(chooser.count(), 3);
+    // The cable is pulled: the choice stays and says so; it comes back by itself.
+    there.removeLast();
+    chooser.show();
+    chooser.showPopup();
+    QCOMPARE(chooser.currentText(), QStringLiteral("192.168.0.12 — not on this computer now"));
+    QCOMPARE(chooser.address(), QStringLiteral("192.168.0.12"));
+    chooser.hidePopup();
+    there << NetworkAddress{"wlan0", "192.168.0.12"};
+    chooser.showPopup();
+    QCOMPARE(chooser.currentText(), QStringLiteral("wlan0 — 192.168.0.12"));
+    chooser.hidePopup();
+    // By hand.
+    chooser.lineEdit()->selectAll();
+    QTest::keyClicks(chooser.lineEdit(), QStringLiteral("10.0.0.7"));
+    QCOMPARE(chooser.address(), QStringLiteral("10.0.0.7"));
+    chooser.setEditText(QStringLiteral("no address"));
+    chooser.showPopup();
+    QCOMPARE(chooser.address(), QStringLiteral("no address"));
+    chooser.hidePopup();
+  }
+
+  void theInterfacesOfThisComputerAreOffered() {
+    Dialog d;
+    auto* bind = d.box<QComboBox>("bind");
+    const int own = bind->findData(QStringLiteral("127.0.0.1"));
+    QVERIFY(own > 0);
+    QVERIFY(bind->itemText(own).endsWith(QStringLiteral(" — 127.0.0.1")));
+    bind->setCurrentIndex(own);
+    QVERIFY(d.dialog->apply());
+    QCOMPARE(d.live.options().bind.text(), std::string("127.0.0.1"));
+    QCOMPARE(loadLiveSettings(d.settings).options.bind.text(), std::string("127.0.0.1"));
+    // A saved address of a network that is not there now (one of those for documentation).
+    d.box<QComboBox>("bind")->setEditText(QStringLiteral("192.0.2.77"));
+    QVERIFY(d.dialog->apply());
+    LiveSettingsDialog again(&d.live, &d.settings, nullptr);
+    QCOMPARE(again.findChild<QComboBox*>(QStringLiteral("bind"))->currentText(),
+             QStringLiteral("192.0.2.77 — not on this computer now"));
+    QVERIFY(again.apply());
+    QCOMPARE(d.live.options().bind.text(), std::string("192.0.2.77"));
+  }
+
   void mistakesAreSaidInTheDialog_data() {
     QTest::addColumn<QString>("box");
     QTest::addColumn<QString>("text");
@@ -92,6 +142,8 @@ class TestLiveSettings : public QObject {
     auto* widget = d.dialog->findChild<QWidget*>(box);
     if (auto* edit = qobject_cast<QLineEdit*>(widget))
       edit->setText(text);
+    else if (auto* choice = qobject_cast<QComboBox*>(widget))
+      choice->setEditText(text);
     else
       qobject_cast<QSpinBox*>(widget)->setValue(text.toInt());
     QVERIFY(!d.dialog->apply());

@@ -2,7 +2,10 @@
 // Derived curves, expressions, layouts as values and files, exports, divisions of axes.
 
 #include <QBuffer>
+#include <QCheckBox>
 #include <QJsonDocument>
+#include <QLabel>
+#include <QLineEdit>
 #include <QtTest>
 #include <numbers>
 
@@ -290,6 +293,24 @@ class TestPlotCurves : public QObject {
     QVERIFY(niceLimits(0, 0, 4).limits == (ValueLimits{-1, 1}));
     QCOMPARE(decimalsOf(0.05), 2);
     QCOMPARE(decimalsOf(20), 0);
+  }
+
+  void limitsAreTypedWithCommaOrPoint() {
+    AxesDialog dialog({}, {0.0, 1.0}, nullptr);
+    dialog.show();
+    dialog.findChild<QCheckBox*>(QStringLiteral("fixedLimits"))->setChecked(true);
+    const auto type = [&dialog](const char* box, const QString& number) {
+      auto* edit = dialog.findChild<QLineEdit*>(QLatin1String(box));
+      edit->selectAll();
+      QTest::keyClicks(edit, number);
+    };
+    type("lowLimit", QStringLiteral("-1,25"));
+    type("highLimit", QStringLiteral("2.5"));
+    QCOMPARE(dialog.pane().values, (ValueLimits{-1.25, 2.5}));
+    auto* problem = dialog.findChild<QLabel*>(QStringLiteral("problem"));
+    QVERIFY(problem->text().isEmpty());
+    type("lowLimit", QStringLiteral("1,2,3"));
+    QVERIFY(!problem->text().isEmpty());
   }
 };
 

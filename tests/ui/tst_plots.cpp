@@ -345,6 +345,49 @@ class TestPlots : public QObject {
     QCOMPARE(xy->xLimits().high - xy->xLimits().low, before);
   }
 
+  void linesOfAnXyPlotAreBrokenWhereAValueIsMissing() {
+    const double none = std::nan("");
+    const auto stretches = stretchesOf({{0, none}, {1, 1}, {2, 4}, {none, 0}, {4, 16}}, 2);
+    QVERIFY(stretches.has_value());
+    QCOMPARE(stretches->size(), std::size_t(2));
+    QCOMPARE(stretches->at(0), (QList<QPointF>{{1, 1}, {2, 4}}));
+    QCOMPARE(stretches->at(1), (QList<QPointF>{{4, 16}}));
+    QVERIFY(!stretchesOf({{0, 0}, {1, none}, {2, 0}, {3, none}, {4, 0}}, 2));
+  }
+
+  void theCurvesOfAnXyPlotAreSeen_data() {
+    QTest::addColumn<CurveStyle>("style");
+    QTest::newRow("line") << CurveStyle::Line;
+    QTest::newRow("points") << CurveStyle::Points;
+  }
+  void theCurvesOfAnXyPlotAreSeen() {
+    QFETCH(CurveStyle, style);
+    Shown s;
+    PaneSpec spec;
+    spec.kind = PaneKind::Xy;
+    spec.curves << variableCurve("B1/DIST");
+    spec.curves[0].inputs << "B1/ANGLE";
+    spec.curves[0].style = style;
+    s.dock->setLayoutSpec({{PageSpec{"one", {spec}}}, 0});
+    s.time.setRange({0.0, 20.0});
+    auto* xy = qobject_cast<XyPane*>(s.pane());
+    QVERIFY(xy);
+    QTRY_VERIFY(!xy->points().empty() && xy->points()[0].size() > 1000);
+    const auto pixels = [&] {
+      const QImage image = xy->surface()->grab().toImage();
+      const QColor wanted = curveColor(0);
+      int found = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) found += image.pixelColor(x, y) == wanted;
+      }
+      return found;
+    };
+    QTRY_VERIFY2(pixels() > 100, qPrintable(QString::number(pixels())));
+    // Taken away: the place is empty again.
+    xy->removeCurve(0);
+    QTRY_COMPARE(pixels(), 0);
+  }
+
   void variablesThatAreNotThereYetAreWaitedFor() {
     Shown s(0.0);
     s.page()->addVariables({"B2/DIST"});

@@ -456,8 +456,8 @@ class TestVariablesDock : public QObject {
                           << "0 or 1";
     QTest::newRow("words") << action << "dance"
                            << "words of a code";
-    QTest::newRow("comma") << distance << "1,5"
-                           << "not a number";
+    QTest::newRow("two commas") << distance << "1,234,5"
+                                << "not a number";
   }
   void badValuesAreRefusedBesideTheEditor() {
     QFETCH(const QString, path);
@@ -491,6 +491,7 @@ class TestVariablesDock : public QObject {
     QTest::newRow("words") << action << "Walk forward, fast" << 1.0;
     QTest::newRow("float") << distance << "1.5e2" << 150.0;
     QTest::newRow("minus sign") << distance << QStringLiteral("−2.5") << -2.5;
+    QTest::newRow("decimal comma") << distance << "-1,25" << -1.25;
     QTest::newRow("flag") << "B1/VISION_LOST"
                           << "1" << 1.0;
   }

@@ -2,7 +2,6 @@
 #include "pose_editor.h"
 
 #include <QCloseEvent>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QKeyEvent>
 #include <QLabel>
@@ -11,14 +10,15 @@
 #include <vector>
 
 #include <base/angles.h>
+#include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 namespace {
 
-QDoubleSpinBox* spinBox(const char* name, double most, double value, double step, int decimals,
-                        const QString& unit) {
-  auto* box = new QDoubleSpinBox;
+NumberBox* spinBox(const char* name, double most, double value, double step, int decimals,
+                   const QString& unit) {
+  auto* box = new NumberBox;
   box->setObjectName(QLatin1String(name));
   box->setRange(-most, most);
   box->setDecimals(decimals);
@@ -42,7 +42,7 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
   auto* form = new QFormLayout;
   form->addRow(QStringLiteral("x"), m_x);
   form->addRow(QStringLiteral("y"), m_y);
-  std::vector<QDoubleSpinBox*> boxes{m_x, m_y};
+  std::vector<NumberBox*> boxes{m_x, m_y};
   if (m_edit.hasHeading) {
     m_heading =
         spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1, QStringLiteral("°"));
@@ -60,8 +60,8 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
   layout->addWidget(title);
   layout->addLayout(form);
   layout->addWidget(hint);
-  for (QDoubleSpinBox* box : boxes) {
-    connect(box, &QDoubleSpinBox::valueChanged, this, [this] { m_edit.preview(pose()); });
+  for (NumberBox* box : boxes) {
+    connect(box, &NumberBox::valueChanged, this, [this] { m_edit.preview(pose()); });
   }
   m_x->setFocus();
   m_x->selectAll();
@@ -74,7 +74,7 @@ Pose PoseEditor::pose() const {
 
 bool PoseEditor::isChanged() const {
   // What the boxes show is rounded; only a change of that counts.
-  const auto differs = [](const QDoubleSpinBox* box, double before) {
+  const auto differs = [](const NumberBox* box, double before) {
     return QString::number(box->value(), 'f', box->decimals()) !=
            QString::number(before, 'f', box->decimals());
   };

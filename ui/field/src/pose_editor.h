@@ -10,9 +10,9 @@
 #include <base/geometry.h>
 #include <simcore/world/field.h>
 
-class QDoubleSpinBox;
-
 namespace pitchboard::ui {
+
+class NumberBox;
 
 /// What is edited, and how its changes reach the world.
 struct PoseEdit {
@@ -39,9 +39,9 @@ class PoseEditor : public QFrame {
 
   PoseEdit m_edit;
   bool m_cancelled = false;
-  QDoubleSpinBox* m_x;
-  QDoubleSpinBox* m_y;
-  QDoubleSpinBox* m_heading = nullptr;  // none for the ball
+  NumberBox* m_x;
+  NumberBox* m_y;
+  NumberBox* m_heading = nullptr;  // none for the ball
 };
 
 }  // namespace pitchboard::ui

@@ -4,7 +4,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -16,9 +15,11 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_controller.h>
 
+#include "network_chooser.h"
 #include "profile_editor.h"
 
 namespace pitchboard::ui {
@@ -80,10 +81,10 @@ QSpinBox* LiveSettingsDialog::addNumber(QFormLayout* form, const char* name, con
   return box;
 }
 
-QDoubleSpinBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name,
-                                            const QString& label, double low, double high,
-                                            int decimals, const QString& unit, const QString& tip) {
-  auto* box = new QDoubleSpinBox(this);
+NumberBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name, const QString& label,
+                                       double low, double high, int decimals, const QString& unit,
+                                       const QString& tip) {
+  auto* box = new NumberBox(this);
   box->setObjectName(QLatin1String(name));
   box->setDecimals(decimals);
   box->setRange(low, high);
@@ -97,9 +98,11 @@ QDoubleSpinBox* LiveSettingsDialog::addReal(QFormLayout* form, const char* name,
 QWidget* LiveSettingsDialog::makeNetwork() {
   auto* widget = new QWidget(this);
   QFormLayout* form = page(widget);
-  m_bind = new QLineEdit(widget);
+  m_bind = new NetworkChooser(widget);
   m_bind->setObjectName(QStringLiteral("bind"));
-  m_bind->setToolTip(tr("0.0.0.0: every address of this computer, broadcasts included"));
+  m_bind->setToolTip(
+      tr("Every interface: all addresses of this computer, broadcasts included. One address "
+         "receives what is sent to it, but no broadcasts. An address can be typed, too"));
   form->addRow(tr("Listen at"), m_bind);
   m_portBase =
       addNumber(form, "portBase", tr("Port base"), 0, 65534, tr("Robot n sends to port base + n"));
@@ -204,7 +207,7 @@ QWidget* LiveSettingsDialog::makeMessages() {
 void LiveSettingsDialog::adopt() {
   const link::LiveOptions& o = m_live->options();
   const LiveSettings saved = loadLiveSettings(*m_settings);
-  m_bind->setText(QString::fromStdString(o.bind.text()));
+  m_bind->setAddress(QString::fromStdString(o.bind.text()));
   m_portBase->setValue(o.portBase);
   m_robots->setValue(o.robots);
   m_refereePort->setValue(o.refereePort);
@@ -282,7 +285,7 @@ bool LiveSettingsDialog::fail(const QString& sentence) {
 bool LiveSettingsDialog::read(LiveSettings& live) {
   link::LiveOptions& o = live.options;
   const auto words = [](const Error& error) { return QString::fromStdString(error.text()); };
-  const auto bind = telemetry::parseAddress(m_bind->text().trimmed().toStdString());
+  const auto bind = telemetry::parseAddress(m_bind->address().toStdString());
   if (!bind) return fail(tr("Listen at: %1").arg(words(bind.error())));
   o.bind = *bind;
   o.portBase = m_portBase->value();

@@ -5,12 +5,12 @@
 #include <QComboBox>
 #include <QCompleter>
 #include <QDialogButtonBox>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 
+#include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 
 #include "expression.h"
@@ -30,8 +30,8 @@ constexpr std::array<const char*, 8> kindNames{
     QT_TRANSLATE_NOOP("CurveDialog", "Other unit"),
     QT_TRANSLATE_NOOP("CurveDialog", "Expression")};
 
-QDoubleSpinBox* numberBox(QWidget* parent) {
-  auto* box = new QDoubleSpinBox(parent);
+NumberBox* numberBox(QWidget* parent) {
+  auto* box = new NumberBox(parent);
   box->setRange(-1e9, 1e9);
   box->setDecimals(6);
   box->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -122,7 +122,7 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
   for (QLineEdit* edit : {m_first, m_second, m_expression}) {
     connect(edit, &QLineEdit::textChanged, this, &CurveDialog::check);
   }
-  connect(m_parameter, &QDoubleSpinBox::valueChanged, this, &CurveDialog::check);
+  connect(m_parameter, &NumberBox::valueChanged, this, &CurveDialog::check);
   showKind();
 }
 
@@ -234,13 +234,12 @@ void AxesDialog::check() {
   const bool fixed = m_fixed->isChecked();
   m_low->setEnabled(fixed);
   m_high->setEnabled(fixed);
-  bool lowIs = false, highIs = false;
-  const double low = m_low->text().toDouble(&lowIs);
-  const double high = m_high->text().toDouble(&highIs);
+  const auto low = numberFromText(m_low->text());
+  const auto high = numberFromText(m_high->text());
   QString problem;
-  if (fixed && (!lowIs || !highIs))
-    problem = tr("Limits are numbers, with a decimal point.");
-  else if (fixed && !(low < high))
+  if (fixed && (!low || !high))
+    problem = tr("Both limits must be numbers.");
+  else if (fixed && !(*low < *high))
     problem = tr("The first limit must be the smaller one.");
   m_problem->setText(problem);
   m_accept->setEnabled(problem.isEmpty());
@@ -251,7 +250,8 @@ PaneSpec AxesDialog::pane() const {
   pane.title = m_title->text().trimmed();
   pane.valueTitle = m_valueTitle->text().trimmed();
   pane.autoValues = !m_fixed->isChecked();
-  pane.values = {m_low->text().toDouble(), m_high->text().toDouble()};
+  pane.values = {numberFromText(m_low->text()).value_or(0.0),
+                 numberFromText(m_high->text()).value_or(0.0)};
   return pane;
 }
 

@@ -9,7 +9,6 @@
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
@@ -17,6 +16,7 @@ class QPushButton;
 
 namespace pitchboard::ui {
 
+class NumberBox;
 class PlotFeed;
 
 /// What a curve shows and how. Cannot be accepted while the description cannot work; it says why.
@@ -39,8 +39,8 @@ class CurveDialog : public QDialog {
   QLineEdit* m_first;
   QLineEdit* m_second;
   QLineEdit* m_expression;
-  QDoubleSpinBox* m_parameter;
-  QDoubleSpinBox* m_offset;
+  NumberBox* m_parameter;
+  NumberBox* m_offset;
   QLineEdit* m_unit;
   QLineEdit* m_title;
   QLabel* m_problem;

@@ -2,7 +2,8 @@
 #pragma once
 
 // The row above a plot: a stroke of each curve's colour, its name and its value; as many rows as
-// the width needs. UI thread only.
+// the width needs. Not Qt's QLegend: its entries are one text in one colour, so values that run
+// would move the names, and it has no tips, menus or double clicks. UI thread only.
 
 #include <QColor>
 #include <QList>

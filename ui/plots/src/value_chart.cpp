@@ -5,12 +5,12 @@
 #include <QGraphicsItem>
 #include <QLegend>
 #include <QLineSeries>
+#include <QLocale>
 #include <QPaintEngine>
 #include <QPainter>
 #include <QResizeEvent>
 #include <QValueAxis>
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <ui/base/robot_words.h>
@@ -19,6 +19,16 @@
 #include "side_by_side.h"
 
 namespace pitchboard::ui {
+namespace {
+
+/// Numbers as numberText() writes them, with a real minus sign and a point: what this locale has.
+QLocale numbersLocale() {
+  QLocale locale(QLocale::SwissGerman, QLocale::Switzerland);
+  locale.setNumberOptions(QLocale::OmitGroupSeparator);
+  return locale;
+}
+
+}  // namespace
 
 /// Keeps what it painted as a picture: a cursor that moves over it costs a copy. A file format
 /// with lines (SVG) gets the lines.
@@ -109,21 +119,29 @@ ValueChart::ValueChart(QWidget* parent)
   chart()->setPlotAreaBackgroundVisible(true);
   chart()->setContentsMargins(0, 0, 0, 0);
   chart()->layout()->setContentsMargins(0, 0, 0, 0);
-  // Axes are laid out by the domain of a series.
-  auto* series = new QLineSeries(chart());
-  chart()->addSeries(series);
+  chart()->setLocalizeNumbers(true);
+  chart()->setLocale(numbersLocale());
   chart()->addAxis(m_axisX, Qt::AlignBottom);
   chart()->addAxis(m_axisY, Qt::AlignLeft);
-  series->attachAxis(m_axisX);
-  series->attachAxis(m_axisY);
+  addSeries(new QLineSeries);  // axes are laid out by the domain of a series
   for (QValueAxis* axis : {m_axisX, m_axisY}) {
-    axis->setLabelsVisible(false);
     axis->setLineVisible(false);
     axis->setTickType(QValueAxis::TicksDynamic);
   }
+  m_axisX->setLabelsVisible(false);
   m_layer = new Layer(chart());
   m_layer->setZValue(100);
   applyTheme();
+}
+
+void ValueChart::setLabelsX(bool on) {
+  m_axisX->setLabelsVisible(on);
+}
+
+void ValueChart::addSeries(QAbstractSeries* series) {
+  chart()->addSeries(series);
+  series->attachAxis(m_axisX);
+  series->attachAxis(m_axisY);
 }
 
 void ValueChart::applyTheme() {
@@ -140,6 +158,8 @@ void ValueChart::applyTheme() {
     axis->setGridLinePen(QPen(grid, 1));
     axis->setTitleFont(themeFont(TypeRole::Small));
     axis->setTitleBrush(colors.secondaryText);
+    axis->setLabelsFont(themeFont(TypeRole::Small));
+    axis->setLabelsBrush(colors.secondaryText);
   }
   redraw();
 }
@@ -175,8 +195,13 @@ void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double ySte
     if (now == to && step == toStep) return;
     // While limits and step disagree Qt would make a grid line for every step of the new range.
     if (step != toStep) axis->setTickInterval(std::max(step, toStep));
-    if (!(now == to)) axis->setRange(to.low, to.high);
-    if (step != toStep) axis->setTickInterval(toStep);
+    // Rounding must not cost the first or last number.
+    const double slack = toStep * 1e-9;
+    if (!(now == to)) axis->setRange(to.low - slack, to.high + slack);
+    if (step != toStep) {
+      axis->setTickInterval(toStep);
+      axis->setLabelFormat(QStringLiteral("%.%1f").arg(decimalsOf(toStep)));
+    }
     now = to;
     step = toStep;
   };
@@ -213,29 +238,10 @@ void ValueChart::redraw() {
 }
 
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
-  if (m_area.isEmpty() || !(m_stepY > 0.0)) return;
+  if (m_area.isEmpty()) return;
   painter->setPen(theme().innerLine);
   painter->setBrush(Qt::NoBrush);
   painter->drawRect(m_area);
-  painter->setFont(themeFont(TypeRole::Small));
-  painter->setPen(theme().secondaryText);
-  const QFontMetricsF metrics(painter->font());
-  const double half = metrics.height() / 2;
-  const int decimals = decimalsOf(m_stepY);
-  const ValueLimits y = m_y;
-  for (double k = std::ceil(y.low / m_stepY - 1e-9); k * m_stepY <= y.high + m_stepY * 1e-9; ++k) {
-    const double at = m_area.bottom() - (k * m_stepY - y.low) / (y.high - y.low) * m_area.height();
-    painter->drawText(QRectF(0, at - half, m_area.left() - scaled(this, 6), 2 * half),
-                      Qt::AlignRight | Qt::AlignVCenter, numberText(k * m_stepY, decimals));
-  }
-  if (!m_labelsX || !(m_stepX > 0.0)) return;
-  const int decimalsX = decimalsOf(m_stepX);
-  const ValueLimits x = m_x;
-  for (double k = std::ceil(x.low / m_stepX - 1e-9); k * m_stepX <= x.high + m_stepX * 1e-9; ++k) {
-    const double at = m_area.left() + (k * m_stepX - x.low) / (x.high - x.low) * m_area.width();
-    painter->drawText(QRectF(at - 60, m_area.bottom() + scaled(this, 2), 120, 2 * half),
-                      Qt::AlignHCenter | Qt::AlignTop, numberText(k * m_stepX, decimalsX));
-  }
 }
 
 }  // namespace pitchboard::ui

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A Qt chart with two value axes whose curves are painted by a function: Qt's own series would need
-// every point as a QPointF each time. Axes, grid and titles are Qt's; the numbers beside them are
-// painted here with a real minus sign. UI thread only.
+// A Qt chart with two value axes. Axes, grid, numbers and titles are Qt's, and so are the series of
+// an XY plot. Long curves over time are painted by a function instead: Qt's line series takes every
+// row as a point and keeps all of them, and even with only the points that show it is slower by
+// far (measured: line_series in tests/benchmarks/bench_plots.cpp, docs/PERFORMANCE.md, Plots). UI
+// thread only.
 
 #include <QChartView>
 #include <functional>
 
 #include <ui/plots/axis_ticks.h>
 
-class QLineSeries;
+class QAbstractSeries;
 class QValueAxis;
 
 namespace pitchboard::ui {
@@ -34,7 +36,9 @@ class ValueChart : public QChartView {
   ValueLimits yLimits() const { return m_y; }
   void setTitles(const QString& x, const QString& y);
   /// Numbers under the x axis: of an XY plot, not of a time axis that others label.
-  void setLabelsX(bool on) { m_labelsX = on; }
+  void setLabelsX(bool on);
+  /// The chart owns it from now on.
+  void addSeries(QAbstractSeries* series);
   /// Room for the numbers of the y axis and its title, px.
   int wantedLeft() const;
 
@@ -61,7 +65,6 @@ class ValueChart : public QChartView {
   QRectF m_area;
   ValueLimits m_x, m_y;
   double m_stepX = 0.0, m_stepY = 0.0;
-  bool m_labelsX = false;
 };
 
 }  // namespace pitchboard::ui

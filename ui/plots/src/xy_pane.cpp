@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "xy_pane.h"
 
+#include <QChart>
+#include <QImage>
+#include <QLineSeries>
 #include <QMenu>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QPolygonF>
+#include <QScatterSeries>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -20,6 +23,8 @@ namespace {
 constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
 constexpr int pixelsPerStepX = 64;        // px of the mock
 constexpr int pixelsPerStepY = 24;
+// A line with more breaks is shown as points: Qt needs a series for each stretch.
+constexpr std::size_t mostStretches = 100;
 constexpr double stepFactor = 0.8;
 constexpr double notch = 120.0;
 
@@ -37,7 +42,42 @@ void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
     widen(y, perX * size.height());
 }
 
+bool isFinite(const QPointF& point) {
+  return std::isfinite(point.x()) && std::isfinite(point.y());
+}
+
+QImage dot(const QColor& color, double diameter, double ratio) {
+  const int side = std::max(1, static_cast<int>(std::ceil(diameter * ratio)));
+  QImage image(side, side, QImage::Format_ARGB32_Premultiplied);
+  image.fill(Qt::transparent);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  painter.drawEllipse(QRectF(0, 0, side, side));
+  return image;
+}
+
 }  // namespace
+
+std::optional<std::vector<QList<QPointF>>> stretchesOf(const std::vector<QPointF>& points,
+                                                       std::size_t most) {
+  std::vector<QList<QPointF>> stretches;
+  bool broken = true;
+  for (const QPointF& point : points) {
+    if (!isFinite(point)) {
+      broken = true;
+      continue;
+    }
+    if (broken) {
+      if (stretches.size() == most) return {};
+      stretches.emplace_back();
+    }
+    broken = false;
+    stretches.back() << point;
+  }
+  return stretches;
+}
 
 std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetry::TimeRange range,
                               std::size_t most) {
@@ -66,7 +106,7 @@ XyPane::XyPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   setSurface(m_chart);
   m_chart->setMinimumHeight(scaled(this, 80));
   m_chart->setLabelsX(true);
-  m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); });
+  m_chart->setRenderHint(QPainter::Antialiasing, true);
   m_chart->viewport()->installEventFilter(this);
   connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
 }
@@ -96,7 +136,7 @@ void XyPane::draw() {
     m_points.push_back(
         xyPoints(curve.view(), curve.ordinate(), m_feed->time()->range(), mostPoints));
     for (const QPointF& point : m_points.back()) {
-      if (!std::isfinite(point.x()) || !std::isfinite(point.y())) continue;
+      if (!isFinite(point)) continue;
       x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
       y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
     }
@@ -115,13 +155,8 @@ void XyPane::draw() {
   m_chart->setAxes(m_x, niceStep(m_x.high - m_x.low, stepsX), m_y,
                    niceStep(m_y.high - m_y.low, stepsY));
   m_chart->setTitles(xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle);
-  m_chart->redraw();
-}
-
-QPointF XyPane::toView(const QPointF& value) const {
-  const QRectF area = m_chart->plotArea();
-  return {area.left() + (value.x() - m_x.low) / (m_x.high - m_x.low) * area.width(),
-          area.bottom() - (value.y() - m_y.low) / (m_y.high - m_y.low) * area.height()};
+  showCurves();
+  showMarkers();
 }
 
 QPointF XyPane::toValue(const QPointF& view) const {
@@ -130,37 +165,75 @@ QPointF XyPane::toValue(const QPointF& view) const {
           m_y.low + (area.bottom() - view.y()) / area.height() * (m_y.high - m_y.low)};
 }
 
-void XyPane::paintCurves(QPainter& painter) {
-  painter.setRenderHint(QPainter::Antialiasing, true);
-  const auto cursor = m_feed->time()->cursor();
-  for (std::size_t i = 0; i < m_points.size() && i < m_curves.size(); ++i) {
-    const Curve& curve = m_curves[i];
-    const bool dots = curve.spec().style == CurveStyle::Points;
-    const double width = curve.spec().width * scaled(this, 100) / 100.0;
-    QPolygonF line;
-    const auto end = [&] {
-      if (line.size() > 1 && !dots) painter.drawPolyline(line);
-      line.clear();
-    };
-    painter.setPen(QPen(curve.color(), m_points[i].size() > 2000 ? 0.0 : width));
-    painter.setBrush(curve.color());
-    for (const QPointF& point : m_points[i]) {
-      if (!std::isfinite(point.x()) || !std::isfinite(point.y())) {
-        end();
-        continue;
-      }
-      line << toView(point);
-      if (dots) painter.drawEllipse(line.last(), width, width);
+void XyPane::showCurves() {
+  std::size_t used = 0;
+  const auto next = [&]() -> QLineSeries* {
+    if (used == m_lines.size()) {
+      removeMarkers();  // series lie in the order in which they came
+      m_lines.push_back(new QLineSeries);
+      m_chart->addSeries(m_lines.back());
     }
-    end();
-    // Where it was at the cursor, or is now.
+    return m_lines[used++];
+  };
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    const CurveSpec& spec = m_curves[i].spec();
+    const QColor color = m_curves[i].color();
+    const double width = spec.width * scaled(this, 100) / 100.0;
+    const auto stretches =
+        spec.style == CurveStyle::Points ? std::nullopt : stretchesOf(m_points[i], mostStretches);
+    if (stretches) {
+      const QPen pen(color, m_points[i].size() > manyPoints ? 0.0 : width);
+      for (const QList<QPointF>& stretch : *stretches) {
+        QLineSeries* line = next();
+        line->setPen(pen);
+        line->setPointsVisible(false);
+        line->setLightMarker({});
+        line->replace(stretch);
+      }
+      continue;
+    }
+    QList<QPointF> points;
+    std::copy_if(m_points[i].begin(), m_points[i].end(), std::back_inserter(points), isFinite);
+    QLineSeries* dots = next();
+    dots->setPen(Qt::NoPen);
+    dots->setPointsVisible(true);
+    dots->setMarkerSize(2 * width);
+    dots->setLightMarker(dot(color, 2 * width, devicePixelRatioF()));
+    dots->replace(points);
+  }
+  for (std::size_t i = 0; i < m_lines.size(); ++i) m_lines[i]->setVisible(i < used);
+}
+
+void XyPane::removeMarkers() {
+  for (QScatterSeries* marker : m_markers) {
+    m_chart->chart()->removeSeries(marker);
+    delete marker;
+  }
+  m_markers.clear();
+}
+
+void XyPane::showMarkers() {
+  // Where it was at the cursor, or is now.
+  const auto cursor = m_feed->time()->cursor();
+  while (m_markers.size() < m_curves.size()) {
+    m_markers.push_back(new QScatterSeries);
+    m_chart->addSeries(m_markers.back());
+  }
+  for (std::size_t i = 0; i < m_markers.size(); ++i) {
+    QScatterSeries* marker = m_markers[i];
+    marker->setVisible(false);
+    if (i >= m_curves.size()) continue;
+    const Curve& curve = m_curves[i];
     const auto x = curve.valueAt(cursor);
     const auto y = !curve.ordinate() ? std::nullopt
                    : cursor          ? curve.ordinate().group->at(curve.ordinate().column, *cursor)
                                      : curve.ordinate().group->latest(curve.ordinate().column);
-    if (!x || !y || !std::isfinite(*x) || !std::isfinite(y->value)) continue;
-    painter.setPen(QPen(theme().view, 1.0));
-    painter.drawEllipse(toView({*x, y->value}), scaled(this, 4), scaled(this, 4));
+    if (!x || !y || !isFinite({*x, y->value})) continue;
+    marker->setColor(curve.color());
+    marker->setBorderColor(theme().view);
+    marker->setMarkerSize(2.0 * scaled(this, 4));
+    marker->replace({{*x, y->value}});
+    marker->setVisible(true);
   }
 }
 

@@ -3,9 +3,13 @@
 
 // One variable over another, during the linked time range: a path on the field, a phase picture.
 
+#include <QList>
 #include <QPointF>
 
 #include "plot_pane.h"
+
+class QLineSeries;
+class QScatterSeries;
 
 namespace pitchboard::ui {
 
@@ -15,6 +19,10 @@ class ValueChart;
 /// point with NaN breaks the line.
 std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetry::TimeRange range,
                               std::size_t most);
+
+/// The unbroken stretches of `points`; when there are more than `most`, nothing.
+std::optional<std::vector<QList<QPointF>>> stretchesOf(const std::vector<QPointF>& points,
+                                                       std::size_t most);
 
 class XyPane : public PlotPane {
   Q_OBJECT
@@ -34,12 +42,15 @@ class XyPane : public PlotPane {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void paintCurves(QPainter& painter);
-  QPointF toView(const QPointF& value) const;
+  void showCurves();
+  void showMarkers();
+  void removeMarkers();
   QPointF toValue(const QPointF& view) const;
   void showAll();
 
   ValueChart* m_chart;
+  std::vector<QLineSeries*> m_lines;       // owned by the chart; the first ones are in use
+  std::vector<QScatterSeries*> m_markers;  // one for each curve, above the lines
   std::vector<std::vector<QPointF>> m_points;
   bool m_fits = true;    // limits follow the points
   ValueLimits m_x, m_y;  // when they do not

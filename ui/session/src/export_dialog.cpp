@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -18,6 +17,7 @@
 #include <QTemporaryDir>
 
 #include <base/file_target.h>
+#include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
 
@@ -43,8 +43,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
       m_source(std::move(source)),
       m_pictures(pictures),
       m_format(new QComboBox(this)),
-      m_begin(new QDoubleSpinBox(this)),
-      m_end(new QDoubleSpinBox(this)),
+      m_begin(new NumberBox(this)),
+      m_end(new NumberBox(this)),
       m_robots(new QLineEdit(this)),
       m_variables(new QLineEdit(this)),
       m_size(new QComboBox(this)),
@@ -69,7 +69,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(tr(" pictures a second"));
-  for (QDoubleSpinBox* box : {m_begin, m_end}) {
+  for (NumberBox* box : {m_begin, m_end}) {
     box->setRange(-1e7, 1e7);
     box->setDecimals(3);
     box->setSuffix(tr(" s"));

@@ -55,11 +55,13 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
           [this](const QString& sentence) { m_notices->show(sentence); });
   connect(replay, &ReplayController::opened, this, [this] {
     m_source->choose(m_replay);
+    showTitle();
     if (!m_replay->isBroken()) return;
     offerRepair(tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
                    "be made beside it.")
                     .arg(QFileInfo(m_replay->path()).fileName()));
   });
+  connect(source, &SourceSwitch::restarted, this, &SessionFiles::showTitle);
   connect(replay, &ReplayController::damageFound, this, [this](const QStringList& sentences) {
     offerRepair(tr("%1 is damaged inside; the rest is shown. %2")
                     .arg(QFileInfo(m_replay->path()).fileName(), shortened(sentences)));
@@ -71,6 +73,13 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
 SessionFiles::~SessionFiles() {
   m_cancelled = true;
   m_worker.waitForDone();
+}
+
+void SessionFiles::showTitle() {
+  const QString file =
+      m_source->current() == m_replay ? QFileInfo(m_replay->path()).fileName() : QString();
+  const QString program = QStringLiteral("Pitchboard");
+  m_window->setWindowTitle(file.isEmpty() ? program : QStringLiteral("%1 — %2").arg(file, program));
 }
 
 QString SessionFiles::shortened(const QStringList& sentences) {

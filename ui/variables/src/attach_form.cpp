@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attach_form.h"
 
-#include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QKeyEvent>
 #include <QLabel>
@@ -10,12 +9,13 @@
 #include <limits>
 
 #include <robotlink/session/board_sampler.h>
+#include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 
 AttachForm::AttachForm(QWidget* parent)
-    : QFrame(parent), m_key(new QSpinBox(this)), m_rate(new QDoubleSpinBox(this)) {
+    : QFrame(parent), m_key(new QSpinBox(this)), m_rate(new NumberBox(this)) {
   setObjectName(QStringLiteral("attachForm"));
   m_key->setObjectName(QStringLiteral("attachKey"));
   m_key->setRange(1, std::numeric_limits<int>::max());

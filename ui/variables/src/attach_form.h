@@ -5,10 +5,11 @@
 
 #include <QFrame>
 
-class QDoubleSpinBox;
 class QSpinBox;
 
 namespace pitchboard::ui {
+
+class NumberBox;
 
 class AttachForm : public QFrame {
   Q_OBJECT
@@ -26,7 +27,7 @@ class AttachForm : public QFrame {
   void request();
 
   QSpinBox* m_key;
-  QDoubleSpinBox* m_rate;
+  NumberBox* m_rate;
 };
 
 }  // namespace pitchboard::ui

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <ui/base/number_box.h>
 #include <ui/base/robot_words.h>
 
 namespace pitchboard::ui {
@@ -97,20 +98,19 @@ QString wordsOf(const ColumnInfo& column, double value) {
 }
 
 Result<double> parseValue(const ColumnInfo& column, const QString& text) {
-  QString typed = text.trimmed();
-  typed.replace(QChar(0x2212), QLatin1Char('-'));
+  const QString typed = text.trimmed();
   if (typed.isEmpty()) return refuse(QStringLiteral("Type a value for %1.").arg(name(column)));
   for (const auto& [code, words] : column.labels) {
     if (typed.compare(QString::fromStdString(words), Qt::CaseInsensitive) == 0) return code;
   }
-  bool isNumber = false;
-  const double value = QLocale::c().toDouble(typed, &isNumber);
-  if (typed.contains(QLatin1Char(','))) isNumber = false;
+  const auto number = numberFromText(typed);
+  const bool isNumber = number.has_value();
+  const double value = number.value_or(0.0);
   if (column.kind == ColumnKind::Flag) {
     if (isNumber && (value == 0.0 || value == 1.0)) return value;
     return refuse(QStringLiteral("%1 is a flag: 0 or 1, not “%2”.").arg(name(column), typed));
   }
-  if (!isNumber || !std::isfinite(value)) {
+  if (!isNumber) {
     return refuse(QStringLiteral("“%1” is not a number%2.")
                       .arg(typed, column.labels.empty()
                                       ? QString()

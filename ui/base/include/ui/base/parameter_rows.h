@@ -3,13 +3,13 @@
 
 // Rows of a form for numbers that are changed while the match runs: name, slider, value with unit.
 
-#include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <functional>
 
+#include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -35,7 +35,7 @@ class ParameterRow : public QObject {
                std::function<void(double)> edited, QWidget* parent)
       : QObject(parent),
         m_slider(new QSlider(Qt::Horizontal, parent)),
-        m_box(new QDoubleSpinBox(parent)),
+        m_box(new NumberBox(parent)),
         m_edited(std::move(edited)) {
     auto* label = new QLabel(name, parent);
     label->setToolTip(tip);
@@ -61,7 +61,7 @@ class ParameterRow : public QObject {
       const double range = m_box->maximum() - m_box->minimum();
       m_box->setValue(m_box->minimum() + range * at / steps);
     });
-    connect(m_box, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    connect(m_box, &NumberBox::valueChanged, this, [this](double value) {
       moveSlider();
       m_edited(value);
     });
@@ -84,7 +84,7 @@ class ParameterRow : public QObject {
   }
 
   QSlider* m_slider;
-  QDoubleSpinBox* m_box;
+  NumberBox* m_box;
   std::function<void(double)> m_edited;
 };
 

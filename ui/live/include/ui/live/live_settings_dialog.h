@@ -10,7 +10,6 @@
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
@@ -19,6 +18,8 @@ class QSpinBox;
 namespace pitchboard::ui {
 
 class LiveController;
+class NetworkChooser;
+class NumberBox;
 
 class LiveSettingsDialog : public QDialog {
   Q_OBJECT
@@ -34,8 +35,8 @@ class LiveSettingsDialog : public QDialog {
   QWidget* makeMessages();
   QSpinBox* addNumber(QFormLayout* form, const char* name, const QString& label, int low, int high,
                       const QString& tip);
-  QDoubleSpinBox* addReal(QFormLayout* form, const char* name, const QString& label, double low,
-                          double high, int decimals, const QString& unit, const QString& tip);
+  NumberBox* addReal(QFormLayout* form, const char* name, const QString& label, double low,
+                     double high, int decimals, const QString& unit, const QString& tip);
   void adopt();
   void showProfile();
   void chooseProfile();
@@ -45,10 +46,10 @@ class LiveSettingsDialog : public QDialog {
 
   LiveController* m_live;
   QSettings* m_settings;
-  QLineEdit* m_bind;
+  NetworkChooser* m_bind;
   QSpinBox *m_portBase, *m_robots, *m_refereePort, *m_ourTeam, *m_cells;
   QLineEdit* m_senders;
-  QDoubleSpinBox *m_timeout, *m_full, *m_low, *m_empty;
+  NumberBox *m_timeout, *m_full, *m_low, *m_empty;
   QComboBox *m_field, *m_colours;
   QCheckBox* m_monitor;
   QLineEdit* m_monitorAddress;

@@ -18,7 +18,6 @@
 
 class QComboBox;
 class QDialogButtonBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
@@ -30,6 +29,7 @@ class QTemporaryDir;
 namespace pitchboard::ui {
 
 class FieldPictures;
+class NumberBox;
 class VideoExport;
 
 /// What is exported from: a file, or memory.
@@ -75,8 +75,8 @@ class ExportDialog : public QDialog {
   ExportSource m_source;
   const FieldPictures* m_pictures;
   QComboBox* m_format;
-  QDoubleSpinBox* m_begin;
-  QDoubleSpinBox* m_end;
+  NumberBox* m_begin;
+  NumberBox* m_end;
   QLineEdit* m_robots;
   QLineEdit* m_variables;
   QComboBox* m_size;

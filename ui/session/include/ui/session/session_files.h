@@ -44,6 +44,8 @@ class SessionFiles : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// Windows of several studios are told apart by their sessions.
+  void showTitle();
   static QString shortened(const QStringList& sentences);
   void offerRepair(const QString& sentence);
 

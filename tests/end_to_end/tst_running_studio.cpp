@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `pitchboard FILE` while studios run: whole programs, in a folder for their sockets that is this
+// test's only.
+#include <QTemporaryDir>
+#include <QtTest>
+#include <csignal>
+
+#include "studio_program.h"
+
+using studio_program::Studio;
+
+namespace {
+constexpr int longWait = 30000;
+const QString sessions = QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/");
+const QString first = QStringLiteral("small.mcap");
+const QString second = QStringLiteral("plain_broken_off.mcap");
+}  // namespace
+
+class TestRunningStudio : public QObject {
+  Q_OBJECT
+
+  /// Programs that share a folder for sockets, each started with the arguments given and no others.
+  struct Desk {
+    QTemporaryDir folder;
+    QString runtime = folder.filePath(QStringLiteral("runtime"));
+    Desk() {
+      QDir().mkdir(runtime);
+      QFile::setPermissions(runtime, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    }
+    QString settings(const QString& name = QStringLiteral("s.ini")) const {
+      return folder.filePath(name);
+    }
+    void start(Studio& studio, const QStringList& arguments) const {
+      QProcessEnvironment environment = studio.processEnvironment();
+      environment.insert(QStringLiteral("XDG_RUNTIME_DIR"), runtime);
+      studio.setProcessEnvironment(environment);
+      studio.start(Studio::program(), arguments);
+      QVERIFY(studio.waitForStarted());
+    }
+    void open(Studio& studio, const QString& file, const QStringList& more = {}) const {
+      start(studio, QStringList{QStringLiteral("--settings"), settings(), sessions + file} + more);
+    }
+    QFileInfoList sockets() const {
+      return QDir(runtime).entryInfoList({QStringLiteral("*.socket")}, QDir::System);
+    }
+  };
+
+  static QString seen(Studio& studio) {
+    studio.readAllStandardOutput();
+    studio.write("look\n");
+    while (studio.state() == QProcess::Running && !studio.canReadLine()) {
+      if (!studio.waitForReadyRead(longWait)) return {};
+    }
+    return QString::fromUtf8(studio.readLine());
+  }
+  /// Handed over: the program ends, and this studio shows the file.
+  static void verifyShows(const Desk& desk, Studio& studio, const QString& file) {
+    Studio opener(desk.folder);
+    desk.open(opener, file);
+    QVERIFY(opener.waitForFinished(longWait));
+    QCOMPARE(opener.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(opener.exitCode(), 0);
+    QTRY_VERIFY2_WITH_TIMEOUT(seen(studio).startsWith(file), qPrintable(seen(studio)), longWait);
+  }
+
+ private slots:
+  void aFileGoesToTheStudioThatRuns() {
+    const Desk desk;
+    Studio studio(desk.folder);
+    desk.start(studio, studio.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
+    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+    studio.write("minimize\n");
+    QTRY_VERIFY(seen(studio).startsWith(QStringLiteral("minimized")));
+    verifyShows(desk, studio, first);
+    verifyShows(desk, studio, second);
+    // Nobody else may speak to it.
+    const auto others = QFile::ReadGroup | QFile::WriteGroup | QFile::ReadOther | QFile::WriteOther;
+    QCOMPARE(desk.sockets().first().permissions() & others, QFile::Permissions());
+    studio.terminate();
+    QVERIFY(studio.waitForFinished(longWait));
+    QCOMPARE(studio.exitCode(), 0);
+    QVERIFY(desk.sockets().isEmpty());
+  }
+
+  void aStudioOfItsOwnKeepsItsFile_data() {
+    QTest::addColumn<QStringList>("more");
+    QTest::newRow("asked for") << QStringList{QStringLiteral("--new-window")};
+    QTest::newRow("another theme")
+        << QStringList{QStringLiteral("--theme"), QStringLiteral("dark")};
+  }
+  void aStudioOfItsOwnKeepsItsFile() {
+    QFETCH(QStringList, more);
+    const Desk desk;
+    Studio studio(desk.folder), other(desk.folder);
+    desk.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+    desk.open(other, second, more);
+    QTRY_VERIFY_WITH_TIMEOUT(seen(other).startsWith(second), longWait);
+    QVERIFY(seen(studio).startsWith(first));
+  }
+
+  void otherSettingsAreAnotherStudio() {
+    const Desk desk;
+    Studio studio(desk.folder), other(desk.folder);
+    desk.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+    desk.start(other, {QStringLiteral("--settings"), desk.settings(QStringLiteral("t.ini")),
+                       sessions + second});
+    QTRY_VERIFY_WITH_TIMEOUT(seen(other).startsWith(second), longWait);
+    QVERIFY(seen(studio).startsWith(first));
+    QCOMPARE(desk.sockets().size(), 2);
+  }
+
+  void aPictureIsMadeByItsOwnProgram() {
+    const Desk desk;
+    Studio studio(desk.folder), picture(desk.folder);
+    desk.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+    const QString file = desk.folder.filePath(QStringLiteral("shot.png"));
+    desk.open(picture, second,
+              {QStringLiteral("--screenshot-to"), file, QStringLiteral("--after"),
+               QStringLiteral("0.1")});
+    QVERIFY(picture.waitForFinished(longWait));
+    QCOMPARE(picture.exitCode(), 0);
+    QVERIFY(QFile::exists(file));
+    QVERIFY(seen(studio).startsWith(first));
+  }
+
+  void theSocketOfAKilledStudioIsNoObstacle() {
+    const Desk desk;
+    {
+      Studio killed(desk.folder);
+      desk.open(killed, first);
+      QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+      killed.kill();
+      QVERIFY(killed.waitForFinished(longWait));
+    }
+    QCOMPARE(desk.sockets().size(), 1);
+    Studio studio(desk.folder);
+    desk.open(studio, first);
+    QTRY_VERIFY_WITH_TIMEOUT(seen(studio).startsWith(first), longWait);
+    verifyShows(desk, studio, second);
+  }
+
+  void anotherStudioTakesThePlaceOfOneThatEnds_data() {
+    QTest::addColumn<int>("signal");
+    QTest::newRow("ended") << SIGTERM;
+    QTest::newRow("killed") << SIGKILL;
+  }
+  void anotherStudioTakesThePlaceOfOneThatEnds() {
+    QFETCH(int, signal);
+    const Desk desk;
+    Studio studio(desk.folder), other(desk.folder);
+    desk.open(studio, first);
+    QTRY_COMPARE_WITH_TIMEOUT(desk.sockets().size(), 1, longWait);
+    const QDateTime made = desk.sockets().first().lastModified();
+    // Without a file: a studio as always.
+    desk.start(other, other.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
+    QTRY_VERIFY_WITH_TIMEOUT(!seen(other).isEmpty(), longWait);
+    QCOMPARE(desk.sockets().size(), 1);
+    ::kill(static_cast<pid_t>(studio.processId()), signal);
+    QVERIFY(studio.waitForFinished(longWait));
+    QTRY_VERIFY_WITH_TIMEOUT(
+        desk.sockets().size() == 1 && desk.sockets().first().lastModified() > made, longWait);
+    verifyShows(desk, other, second);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRunningStudio)
+#include "tst_running_studio.moc"

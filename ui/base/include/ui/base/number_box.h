@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Numbers that people type. A decimal comma is understood like a point, whatever the locale; what
+// the studio writes has a point. There are no signs between thousands: "1,234" is 1.234. Every
+// entry of a number with decimals is a NumberBox or is read by numberFromText(). UI thread only.
+
+#include <QDoubleSpinBox>
+#include <optional>
+
+namespace pitchboard::ui {
+
+/// Nothing when it is not a number. Reads the minus sign of the screen (U+2212), too.
+std::optional<double> numberFromText(const QString& text);
+
+class NumberBox : public QDoubleSpinBox {
+  Q_OBJECT
+ public:
+  explicit NumberBox(QWidget* parent = nullptr);
+
+  QValidator::State validate(QString& input, int& position) const override;
+  double valueFromText(const QString& text) const override;
+
+ private:
+  QString withPoint(QString text) const;
+};
+
+}  // namespace pitchboard::ui
