@@ -54,7 +54,6 @@ struct VideoExport::Reader {
 
 VideoExport::VideoExport(const FieldStyle& style, QObject* parent)
     : QObject(parent), m_scene(std::make_unique<FieldScene>()) {
-  m_worker.setMaxThreadCount(1);
   m_scene->changeStyle([&style](FieldStyle& own) {
     own.layers = style.layers;
     own.flipped = style.flipped;
@@ -115,20 +114,17 @@ void VideoExport::read() {
   const double time = m_range.begin + static_cast<double>(number) / m_rate;
   m_worker.start([this, reader = m_reader, time, job = m_job] {
     FramePtr frame = reader->frameAt(time);
-    QMetaObject::invokeMethod(
-        this,
-        [this, frame, job, problem = reader->problem] {
-          if (job != m_job) return;
-          m_reading = false;
-          if (!frame) {
-            cancel();
-            emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
-            return;
-          }
-          m_frame = frame;
-          next();
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, frame, job, problem = reader->problem] {
+      if (job != m_job) return;
+      m_reading = false;
+      if (!frame) {
+        cancel();
+        emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
+        return;
+      }
+      m_frame = frame;
+      next();
+    });
   });
 }
 

@@ -5,11 +5,12 @@
 // are drawn as the field shows them, and go to ffmpeg. UI thread; nothing waits.
 
 #include <QObject>
-#include <QThreadPool>
 #include <atomic>
 #include <memory>
 
 #include <telemetry/series/series_store.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 #include <ui/field/field_style.h>
 
 #include "video_writer.h"
@@ -52,7 +53,8 @@ class VideoExport : public QObject {
   bool m_reading = false;
   FramePtr m_frame;  // read and not drawn yet
   std::uint64_t m_job = 0;
-  QThreadPool m_worker;
+  UiQueue m_toUi;
+  Workers m_worker;
 };
 
 }  // namespace pitchboard::ui

@@ -42,7 +42,6 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
   m_undoStack->setUndoLimit(undoLimit);
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
-  m_worker.setMaxThreadCount(1);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
 }
 
@@ -183,15 +182,12 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
     opening->sampler = sampler;
     opening->archive = archive;
     opening->start(scenario, options, paused, catalog);
-    QMetaObject::invokeMethod(
-        this,
-        [this, opening, generation] {
-          if (generation == m_generation)
-            take(*opening);
-          else
-            m_worker.start([opening] { opening->runner.reset(); });
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, opening, generation] {
+      if (generation == m_generation)
+        take(*opening);
+      else
+        m_worker.start([opening] { opening->runner.reset(); });
+    });
   });
   emit scenarioChanged();
   emit restarted();
@@ -295,14 +291,11 @@ void MatchController::postChecked(const QString& whatFailed,
     if (done) return;
     const QString sentence =
         whatFailed + QStringLiteral(": ") + QString::fromStdString(done.error().text());
-    QMetaObject::invokeMethod(
-        this,
-        [this, sentence, onFailure, generation] {
-          if (generation != m_generation) return;
-          if (onFailure) onFailure();
-          emit errorOccurred(sentence);
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, sentence, onFailure, generation] {
+      if (generation != m_generation) return;
+      if (onFailure) onFailure();
+      emit errorOccurred(sentence);
+    });
   });
 }
 

@@ -183,12 +183,9 @@ void MatchController::writeVariable(RobotId id, const QString& name, double valu
                 }
                 const sim::WorldState& state = match.simulation().state();
                 const double time = static_cast<double>(state.tick) / state.settings.tickRate;
-                QMetaObject::invokeMethod(
-                    this,
-                    [this, id, name, time, generation] {
-                      if (generation == m_generation) emit variableWritten(id, name, time);
-                    },
-                    Qt::QueuedConnection);
+                m_toUi.post([this, id, name, time, generation] {
+                  if (generation == m_generation) emit variableWritten(id, name, time);
+                });
                 return {};
               });
 }

@@ -9,7 +9,6 @@
 #include <QObject>
 #include <QPointF>
 #include <QString>
-#include <QThreadPool>
 #include <atomic>
 #include <functional>
 #include <map>
@@ -20,6 +19,8 @@
 #include <robotlink/match/match_runner.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/state_archive.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 #include <ui/sources/frame_source.h>
 
 class QTimer;
@@ -204,7 +205,8 @@ class MatchController : public FrameSource {
   std::optional<std::uint64_t> m_runTo;  // once it is open
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()
-  QThreadPool m_worker;                         // one thread: matches end and start in order
+  UiQueue m_toUi;
+  Workers m_worker;  // one thread: matches end and start in order
   QTimer* m_timer = nullptr;
   QUndoStack* m_undoStack = nullptr;
 };
