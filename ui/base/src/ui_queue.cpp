@@ -16,6 +16,12 @@ QEvent::Type somethingWaits() {
 
 }  // namespace
 
+UiQueue::~UiQueue() {
+  std::deque<Call> dropped;
+  const std::lock_guard lock(m_mutex);
+  dropped.swap(m_waiting);
+}
+
 void UiQueue::post(Call call) {
   {
     const std::lock_guard lock(m_mutex);

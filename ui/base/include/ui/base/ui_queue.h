@@ -17,8 +17,10 @@ class UiQueue : public QObject {
  public:
   using Call = std::function<void()>;
 
-  /// UI thread, as is the destructor. Threads that still post must have ended before that.
+  /// UI thread, as is the destructor. Threads that post must have ended before that, but for those
+  /// that a waiting call owns.
   UiQueue() = default;
+  ~UiQueue() override;
 
   /// Any thread. The call runs when the UI thread is back in its event loop.
   void post(Call call);
