@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# For ./run and ./test: install_packages LIST..., build TARGET. Run from the top folder.
+# For ./run, ./test, .ci/run and scripts/: install_packages LIST..., quietly COMMAND..., build PRESET
+# TARGET... Run from the top folder.
 # A line of a list is a package, or a package and a command: it is needed only where the command is
 # missing, because another packaging of the same program would be in conflict with it.
 
@@ -26,14 +27,22 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build programs | build all. Quiet when all is well; the log when it is not.
-build() {
+# quietly COMMAND...: says nothing when all is well, the end of what it said when it is not.
+quietly() {
   mkdir -p build
   local log=build/build.log
-  echo "Building (the log is in $log) ..." >&2
-  if ! { cmake --preset release && cmake --build --preset release --target "$1"; } >"$log" 2>&1; then
+  if ! "$@" >"$log" 2>&1; then
     tail -n 60 "$log" >&2
-    echo "error: the build failed; the whole log is in $log" >&2
+    echo "error: this failed: $*; all it said is in $log" >&2
     return 2
   fi
+}
+
+# build PRESET TARGET...
+build() {
+  local preset=$1
+  shift
+  echo "Building $preset (the log is in build/build.log) ..." >&2
+  quietly cmake --preset "$preset"
+  quietly cmake --build --preset "$preset" --target "$@"
 }

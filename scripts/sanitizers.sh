@@ -2,21 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
+. scripts/common.sh
 
 usage() {
   cat <<'END'
-Usage: scripts/sanitizers.sh [asan|tsan] [CTEST OPTION...]
-Builds everything with sanitizers and runs the tests; every report fails its test.
-  asan   addresses, leaks and undefined behaviour (default), in build/asan-ubsan
-  tsan   data races, in build/tsan
+Usage: scripts/sanitizers.sh [asan|asan-core|tsan] [CTEST OPTION...]
+Builds with sanitizers and runs the tests; every report fails its test.
+  asan       addresses, leaks and undefined behaviour in all tests (default), in build/asan-ubsan
+  asan-core  the same in the tests of simcore, telemetry and robotlink, in build/asan-core
+  tsan       data races in the tests in which threads work at the same time, in build/tsan
 Reports from libraries that are not ours are left out by tests/sanitizers/*.supp.
 Example: scripts/sanitizers.sh tsan -R 'tst_match_runner|tst_udp_receiver'
 END
 }
 
+label=
 case ${1:-asan} in
-  asan) preset=asan-ubsan ;;
-  tsan) preset=tsan ;;
+  asan) preset=asan-ubsan targets=(all) ;;
+  asan-core) preset=asan-core targets=(tests_simcore tests_telemetry tests_robotlink) label='^(simcore|telemetry|robotlink)$' ;;
+  tsan) preset=tsan targets=(tests_threads) label='^threads$' ;;
   -h | --help) usage; exit 0 ;;
   *) echo "error: no sanitizer \"$1\"" >&2; usage >&2; exit 2 ;;
 esac
@@ -24,6 +28,5 @@ shift || true
 
 unset DISPLAY WAYLAND_DISPLAY
 export LC_ALL=C.UTF-8
-cmake --preset "$preset" >/dev/null
-cmake --build --preset "$preset"
-ctest --preset "$preset" -j2 "$@"
+build "$preset" "${targets[@]}"
+ctest --preset "$preset" -j2 ${label:+-L "$label"} "$@"

@@ -89,6 +89,8 @@ endfunction()
 # pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE rooms] [LABELS ...] [GUI]): one QtTest
 # executable per unit. GUI tests run offscreen. INSIDE names the rooms (ui/plots) whose private headers
 # it may include. Tests find the programs in PITCHBOARD_BIN and their data in PITCHBOARD_TEST_DATA.
+# The tests of a label are built by the target tests_<label>. Every test has its folder as a label;
+# `threads` are those in which threads of ours work at the same time: they run under TSan too.
 function(pitchboard_test name)
   cmake_parse_arguments(ARG "GUI" "TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
@@ -125,6 +127,14 @@ function(pitchboard_test name)
          "TSAN_OPTIONS=suppressions=${suppressions}/tsan.supp:second_deadlock_stack=1")
     math(EXPR ARG_TIMEOUT "${ARG_TIMEOUT} * 4")
   endif()
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  list(PREPEND ARG_LABELS ${folder})
+  foreach(label IN LISTS ARG_LABELS)
+    if(NOT TARGET tests_${label})
+      add_custom_target(tests_${label})
+    endif()
+    add_dependencies(tests_${label} ${name})
+  endforeach()
   set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${ARG_LABELS}"
                        TIMEOUT ${ARG_TIMEOUT})
 endfunction()

@@ -306,7 +306,6 @@ class TestCliSessions : public QObject {
       const std::string text =
           "1 " + std::to_string(400 + i) + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT";
       QVERIFY(robot.send(robotPort, text));
-      QTest::qWait(5);
     }
     QVERIFY(robot.send(robotPort, "hello\xff there"));
     QVERIFY(

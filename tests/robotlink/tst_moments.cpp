@@ -82,7 +82,8 @@ struct Played {
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
   }
   void stop() {
-    runner->stopObserving(recorder);
+    // With its thread: a match that stands still shows itself to its observers after every command.
+    runner.reset();
     const auto finished = recorder->finish();
     if (!finished) qFatal("%s", finished.error().text().c_str());
   }

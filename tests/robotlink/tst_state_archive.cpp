@@ -157,6 +157,11 @@ class TestStateArchive : public QObject {
     // Changed while it plays: nothing is shown between the change and the next tick.
     runner->setSpeed(MatchRunner::unlimitedSpeed);
     runner->setPaused(false);
+    const auto nowTick = [&runner] {
+      std::uint64_t tick = 0;
+      runner->execute([&tick](SimulatedMatch& m) { tick = m.simulation().state().tick; });
+      return tick;
+    };
     for (int i = 0; i < 20; ++i) {
       runner->execute([i](SimulatedMatch& m) {
         if (i % 3 == 0) (void)m.simulation().placeBall({0.1 * i, 0.2}, {0, -1});
@@ -164,7 +169,8 @@ class TestStateArchive : public QObject {
         if (i == 10) m.blackboard(RobotId{9})->write(m.variables().decisionActionA, 1);
         if (i == 11) (void)m.setBehaviour(RobotId{9}, std::string(noBehaviour));
       });
-      QTest::qWait(3);
+      const std::uint64_t changed = nowTick();
+      QTRY_VERIFY(nowTick() > changed);
     }
     runner->setPaused(true);
     QVERIFY(runner->waitUntilStill(10s));

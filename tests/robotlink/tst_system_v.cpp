@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/wait.h>
 #include <QProcess>
 #include <QtTest>
 #include <csignal>
@@ -25,6 +24,9 @@ class TestSystemV : public QObject {
     if (!process.waitForFinished() || process.exitCode() != 0)
       return "failed: " + process.readAllStandardError();
     return process.readAllStandardOutput().trimmed();
+  }
+  void startUser(QProcess& other, const QString& deed) {
+    other.start(QStringLiteral(SEGMENT_USER), {deed, QString::number(m_key)});
   }
   QString refusal(AttachMode mode) {
     const auto board = SystemVSegments::open(m_key, mode);
@@ -73,14 +75,11 @@ class TestSystemV : public QObject {
   }
 
   void forkedChildDoesNotRemove() {
-    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
-    const pid_t child = fork();
-    if (child == 0) {
-      board = failure(ErrorCode::NotFound, "");  // destroys the child's copy
-      _exit(0);
-    }
-    waitpid(child, nullptr, 0);
-    QVERIFY(SystemVSegments::info(m_key));
+    QProcess other;
+    startUser(other, "fork");
+    QVERIFY(other.waitForFinished());
+    QCOMPARE(other.readAllStandardOutput(), QByteArray("y\n"));
+    QVERIFY(!SystemVSegments::info(m_key));
   }
 
   void mode0600AndExactSize() {
@@ -139,34 +138,22 @@ class TestSystemV : public QObject {
 
   void readOnlyMemoryCannotBeWritten() {
     const auto owner = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
-    const pid_t child = fork();
-    if (child == 0) {
-      signal(SIGSEGV, SIG_DFL);
-      auto board = SystemVSegments::open(m_key, AttachMode::ReadOnly);
-      if (board) board->write(IntVar{0}, 1);
-      _exit(0);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    QVERIFY(WIFSIGNALED(status) && WTERMSIG(status) == SIGSEGV);
+    QProcess other;
+    startUser(other, "write");
+    QVERIFY(other.waitForFinished());
+    QCOMPARE(other.exitStatus(), QProcess::CrashExit);
+    QCOMPARE(other.exitCode(), SIGSEGV);
+    QCOMPARE(owner->read(IntVar{0}), 0);
   }
 
   void segmentOfAKilledCreatorIsAnOrphan() {
-    int ready[2];
-    QVERIFY(pipe(ready) == 0);
-    const pid_t child = fork();
-    if (child == 0) {
-      const auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
-      if (write(ready[1], "x", 1) != 1) _exit(1);
-      for (;;) pause();
-    }
-    char byte = 0;
-    QVERIFY(read(ready[0], &byte, 1) == 1);
-    close(ready[0]);
-    close(ready[1]);
+    QProcess other;
+    startUser(other, "hold");
+    QVERIFY(other.waitForReadyRead());
+    QCOMPARE(other.readAllStandardOutput(), QByteArray("y\n"));
     QVERIFY(!SystemVSegments::info(m_key)->orphan);
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
+    other.kill();
+    QVERIFY(other.waitForFinished());
     const auto segments = SystemVSegments::list(m_base);
     QCOMPARE(segments.size(), std::size_t(1));
     QCOMPARE(segments[0].key, m_key);
@@ -188,26 +175,19 @@ class TestSystemV : public QObject {
   }
 
   void bridgeClaimIsExclusiveBetweenProcesses() {
-    int ready[2];
-    QVERIFY(pipe(ready) == 0);
-    const pid_t child = fork();
-    if (child == 0) {
-      const auto claim = BridgeClaim::take(m_key);
-      if (write(ready[1], claim ? "y" : "n", 1) != 1) _exit(1);
-      for (;;) pause();
-    }
-    char byte = 0;
-    QVERIFY(read(ready[0], &byte, 1) == 1 && byte == 'y');
-    close(ready[0]);
-    close(ready[1]);
+    QProcess other;
+    startUser(other, "claim");
+    QVERIFY(other.waitForReadyRead());
+    QCOMPARE(other.readAllStandardOutput(), QByteArray("y\n"));
     const auto refused = BridgeClaim::take(m_key);
     QVERIFY(!refused);
     QCOMPARE(refused.error().code, ErrorCode::Conflict);
-    QVERIFY2(QString::fromStdString(refused.error().text()).contains(QString::number(child)),
-             refused.error().text().c_str());
+    QVERIFY2(
+        QString::fromStdString(refused.error().text()).contains(QString::number(other.processId())),
+        refused.error().text().c_str());
     QVERIFY(BridgeClaim::take(m_key + 100));
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
+    other.kill();
+    QVERIFY(other.waitForFinished());
     QVERIFY(BridgeClaim::take(m_key));
     QVERIFY(BridgeClaim::take(m_key));  // the one above has been given back
   }

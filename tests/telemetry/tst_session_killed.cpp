@@ -3,16 +3,17 @@
 // most.
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <random>
 
-#include <robotlink/processes/spawn.h>
 #include <telemetry/session/session_reader.h>
 #include <telemetry/session/session_repair.h>
 
@@ -78,17 +79,21 @@ class TestSessionKilled : public QObject {
     clock.start();
     int started = 0;
     std::vector<Child> running;
+    const auto due = [&clock](Child& child) {
+      if (child.shared->rows == 0) child.end = std::max(child.end, clock.elapsed() + 50);
+      if (clock.elapsed() > 60'000) child.end = 0;
+      return clock.elapsed() >= child.end;
+    };
     while (started < killed || !running.empty()) {
       while (static_cast<int>(running.size()) < atOnce && started < killed) {
         running.push_back(start(started++, stall));
         QVERIFY(running.back().process > 0);
         running.back().end = clock.elapsed() + 50 + static_cast<qint64>(random() % 3000);
       }
+      (void)QTest::qWaitFor([&] { return std::any_of(running.begin(), running.end(), due); });
       for (std::size_t i = 0; i < running.size();) {
         Child& child = running[i];
-        if (child.shared->rows == 0) child.end = std::max(child.end, clock.elapsed() + 50);
-        if (clock.elapsed() > 60'000) child.end = 0;
-        if (clock.elapsed() < child.end) {
+        if (!due(child)) {
           ++i;
           continue;
         }
@@ -97,7 +102,6 @@ class TestSessionKilled : public QObject {
         done.push_back(child);
         running.erase(running.begin() + static_cast<long>(i));
       }
-      QTest::qWait(1);
     }
     double mostLost = 0.0;
     for (const Child& child : done) {

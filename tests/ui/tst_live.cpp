@@ -232,13 +232,16 @@ class TestLive : public QObject {
     Studio s;
     s.goLive();
     const Robot one(s.options, 4), two(s.options, 4);
-    for (int i = 0; i < 3; ++i) {
+    // Two programs take turns; the order is what matters.
+    const std::uint64_t before = s.live()->details().network.datagrams();
+    const auto heard = [&] { return s.live()->details().network.datagrams() - before; };
+    for (std::uint64_t i = 0; i < 3; ++i) {
       QVERIFY(one.say());
-      QTest::qWait(1);  // two programs take turns; the order is what matters
+      QTRY_COMPARE(heard(), 2 * i + 1);
       telemetry::TextMessage other = live_rig::message(4);
-      other.x += 100 + i;
+      other.x += 100 + static_cast<int>(i);
       QVERIFY(two.say(other));
-      QTest::qWait(1);
+      QTRY_COMPARE(heard(), 2 * i + 2);
     }
     QTRY_COMPARE(s.robots(), std::size_t(2));
     QVERIFY(s.health(0).conflict && s.health(1).conflict);

@@ -35,13 +35,13 @@ CurveSpec derivedOf(CurveKind kind, double parameter = 0.0) {
 /// Every sample of a curve when its work is done.
 std::vector<telemetry::Sample> allOf(Curve& curve, PlotFeed& feed, std::size_t wanted) {
   std::vector<telemetry::Sample> samples;
-  for (int i = 0; i < 500 && samples.size() < wanted; ++i) {
+  (void)QTest::qWaitFor([&] {
     feed.refresh();
     curve.update(feed);
     samples.clear();
     if (curve.view()) curve.view().group->samples(curve.view().column, {-1e9, 1e9}, samples);
-    if (samples.size() < wanted) QTest::qWait(5);
-  }
+    return samples.size() >= wanted;
+  });
   return samples;
 }
 
@@ -100,14 +100,12 @@ class TestPlotCurves : public QObject {
     QCOMPARE(more[120].value, samples[120].value);
     // A source that was put back: computed anew, no rows of the future stay.
     bench.source.append(group, 1.0, 0, 0.0, 0.0);
-    for (int i = 0; i < 200; ++i) {
+    const auto endIsOne = [&] {
       feed.refresh();
       curve.update(feed);
-      if (curve.view() && curve.view().group->range()->end == 1.0) break;
-      QTest::qWait(5);
-    }
-    QVERIFY(curve.view());
-    QCOMPARE(curve.view().group->range()->end, 1.0);
+      return curve.view() && curve.view().group->range()->end == 1.0;
+    };
+    QTRY_VERIFY(endIsOne());
   }
 
   void expressionsThatCannotWorkSaySo_data() {

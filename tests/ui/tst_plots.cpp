@@ -73,7 +73,7 @@ struct Shown : PlotBench {
   /// Adds by a drop on the empty page.
   PlotPane* dropped(const QStringList& names) {
     dropOn(page(), names, page()->rect().center());
-    QTest::qWait(1);
+    QCoreApplication::processEvents();
     return page()->panes().last();
   }
   std::unique_ptr<PlotsDock> dock;
@@ -258,7 +258,13 @@ class TestPlots : public QObject {
     s.time.showMarks(true);
     auto* heads = s.page()->findChild<MarkHeads*>();
     QTRY_VERIFY(heads->isVisible() && heads->height() > 5);
-    QTest::qWait(30);
+    // A head stands above its line once both are laid out.
+    const auto lineOfA = [&] {
+      const QPoint left = s.pane()->surface()->mapTo(s.page(), QPoint());
+      return heads->mapFrom(s.page(), left).x() +
+             s.pane()->timeScale().toX(*s.time.mark(TimeMark::A));
+    };
+    QTRY_VERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - lineOfA()) < 1.5);
     const QPoint from = heads->headRect(TimeMark::A).center().toPoint();
     const double before = *s.time.mark(TimeMark::A);
     drag(heads, from, from + QPoint(50, 0));
@@ -327,7 +333,7 @@ class TestPlots : public QObject {
 
   void oneVariableOverAnother() {
     Shown s;
-    QTest::qWait(1);
+    QCoreApplication::processEvents();
     dropOn(s.page(), {"B1/DIST", "B1/ANGLE"}, QPoint(s.page()->width() - 20, 200));
     auto* xy = qobject_cast<XyPane*>(s.pane());
     QVERIFY(xy);
@@ -475,29 +481,34 @@ class TestPlots : public QObject {
     s.dock->setLayoutSpec({{page, {"localization", {}}}, 0});
     s.time.setMark(TimeMark::A, 21.0);
     s.time.setMark(TimeMark::B, 27.0);
-    QTest::qWait(150);
-    QPixmap picture(size * ratio);
-    picture.setDevicePixelRatio(ratio);
-    s.dock->render(&picture);
-    const QImage image = picture.toImage().convertToFormat(QImage::Format_RGB32);
-    // In each plot a pixel of its curves' colours, below the legend.
-    for (int pane = 0; pane < 2; ++pane) {
-      const QWidget* surface = s.pane(pane)->surface();
-      const QRect where(surface->mapTo(s.dock.get(), QPoint()) * ratio, surface->size() * ratio);
-      for (const int number : {2 * pane, 2 * pane + 1}) {
-        const QColor wanted = curveColor(number);
-        bool found = false;
-        for (int y = where.top(); y < where.bottom() && !found; ++y) {
-          for (int x = where.left(); x < where.right() && !found; ++x) {
-            const QColor is = image.pixelColor(x, y);
-            found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
-                        std::abs(is.blue() - wanted.blue()) <
-                    60;
+    QImage image;
+    // Whether each plot has a pixel of its curves' colours, below the legend.
+    const auto curvesAreSeen = [&] {
+      QPixmap picture(size * ratio);
+      picture.setDevicePixelRatio(ratio);
+      s.dock->render(&picture);
+      image = picture.toImage().convertToFormat(QImage::Format_RGB32);
+      bool all = true;
+      for (int pane = 0; pane < 2; ++pane) {
+        const QWidget* surface = s.pane(pane)->surface();
+        const QRect where(surface->mapTo(s.dock.get(), QPoint()) * ratio, surface->size() * ratio);
+        for (const int number : {2 * pane, 2 * pane + 1}) {
+          const QColor wanted = curveColor(number);
+          bool found = false;
+          for (int y = where.top(); y < where.bottom() && !found; ++y) {
+            for (int x = where.left(); x < where.right() && !found; ++x) {
+              const QColor is = image.pixelColor(x, y);
+              found = std::abs(is.red() - wanted.red()) + std::abs(is.green() - wanted.green()) +
+                          std::abs(is.blue() - wanted.blue()) <
+                      60;
+            }
           }
+          all = all && found;
         }
-        QVERIFY2(found, qPrintable(QStringLiteral("no curve of colour %1").arg(number + 1)));
       }
-    }
+      return all;
+    };
+    QTRY_VERIFY(curvesAreSeen());
     // The lane leaves no room unused below it.
     const PlotPane* last = s.page()->panes().last();
     const int below = s.page()->picture()->height() -

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the window does to the match behind it: opening without waiting, notices with buttons,
 // processes, noise, two studios on one key base, and the same numbers as the command line.
-#include <sys/shm.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <QComboBox>
 #include <QDockWidget>
@@ -73,11 +71,9 @@ class TestStudioWork : public QObject {
 
   // A segment whose creator is gone, as after a studio that was killed.
   void leaveOrphan(int key) {
-    const pid_t other = fork();
-    if (other == 0) _exit(shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600) < 0 ? 1 : 0);
-    int status = 0;
-    QCOMPARE(waitpid(other, &status, 0), other);
-    QCOMPARE(status, 0);
+    QCOMPARE(QProcess::execute(QStringLiteral(SEGMENT_USER),
+                               {QStringLiteral("leave"), QString::number(key)}),
+             0);
   }
   // Opens the context menu of the processes table's first row and takes the entry.
   static void chooseInProcesses(Studio& s, const QString& starts, bool& chosen) {

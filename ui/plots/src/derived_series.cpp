@@ -2,7 +2,6 @@
 #include "derived_series.h"
 
 #include <QCoreApplication>
-#include <QThreadPool>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <numbers>
 
 #include <telemetry/series/derived_curve.h>
+#include <ui/base/workers.h>
 
 #include "expression.h"
 
@@ -207,7 +207,7 @@ void DerivedSeries::update(PlotFeed& feed) {
   m_work->behind = until > m_work->done;
   if (!m_work->behind) return;
   m_work->running = true;
-  QThreadPool::globalInstance()->start([work = m_work, views = std::move(views), until] {
+  sharedWorkers().start([work = m_work, views = std::move(views), until] {
     work->run(views, until);
     work->running = false;
   });

@@ -8,7 +8,7 @@
 
 namespace pitchboard::ui {
 
-/// Calls work(0) to work(parts - 1), each once, on this thread and on idle ones of Qt's pool;
+/// Calls work(0) to work(parts - 1), each once, on this thread and on idle ones of sharedWorkers();
 /// returns when all are done. `work` must not throw and must not wait for another part.
 void sideBySide(int parts, const std::function<void(int)>& work);
 

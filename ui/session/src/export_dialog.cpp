@@ -98,7 +98,6 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   column->addWidget(m_message);
   column->addWidget(buttons);
   resize(scaled(this, 420), sizeHint().height());
-  m_worker.setMaxThreadCount(1);
   connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::showRows);
   showRows();
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -182,20 +181,16 @@ void ExportDialog::exportTo(const QString& path) {
   }
   m_worker.start([this, request, make = std::move(make)] {
     const auto made = make(request.session);
-    QMetaObject::invokeMethod(
-        this,
-        [this, made, request] {
-          if (made && !m_cancelled) {
-            write(request);
-            return;
-          }
-          setWriting(false);
-          fail(
-              m_cancelled
-                  ? tr("Cancelled; nothing was written.")
-                  : tr("Nothing was written: %1").arg(QString::fromStdString(made.error().text())));
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, made, request] {
+      if (made && !m_cancelled) {
+        write(request);
+        return;
+      }
+      setWriting(false);
+      fail(m_cancelled
+               ? tr("Cancelled; nothing was written.")
+               : tr("Nothing was written: %1").arg(QString::fromStdString(made.error().text())));
+    });
   });
 }
 
@@ -211,24 +206,19 @@ void ExportDialog::write(const ExportRequest& request) {
   }
   m_worker.start([this, request, chosen = form(), picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
-      QMetaObject::invokeMethod(
-          this, [this, part] { m_progress->setValue(static_cast<int>(part * 1000)); },
-          Qt::QueuedConnection);
+      m_toUi.post([this, part] { m_progress->setValue(static_cast<int>(part * 1000)); });
       return !m_cancelled;
     });
-    QMetaObject::invokeMethod(
-        this,
-        [this, done, path = request.path] {
-          setWriting(false);
-          if (done) {
-            succeed(path);
-          } else {
-            fail(m_cancelled ? tr("Cancelled; nothing was written.")
-                             : tr("Nothing was written: %1")
-                                   .arg(QString::fromStdString(done.error().text())));
-          }
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, done, path = request.path] {
+      setWriting(false);
+      if (done) {
+        succeed(path);
+      } else {
+        fail(m_cancelled
+                 ? tr("Cancelled; nothing was written.")
+                 : tr("Nothing was written: %1").arg(QString::fromStdString(done.error().text())));
+      }
+    });
   });
 }
 

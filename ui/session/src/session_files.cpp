@@ -48,7 +48,6 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
       m_timeline(timeline),
       m_notices(notices),
       m_window(window) {
-  m_worker.setMaxThreadCount(1);
   window->setAcceptDrops(true);
   window->installEventFilter(this);
   connect(replay, &ReplayController::failed, this,
@@ -113,23 +112,19 @@ void SessionFiles::repair(const QString& path) {
   m_worker.start([this, path, to] {
     const auto report = telemetry::repairSession(path.toStdString(), to.toStdString(),
                                                  [this](double) { return !m_cancelled; });
-    QMetaObject::invokeMethod(
-        this,
-        [this, report, to] {
-          if (!report) {
-            m_notices->show(tr("The session was not repaired: %1")
-                                .arg(QString::fromStdString(report.error().text())));
-            return;
-          }
-          QString text =
-              tr("Repaired into %1: %2").arg(to, QString::fromStdString(report->summary()));
-          if (!report->lost.empty()) {
-            text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
-          }
-          m_notices->show(text);
-          open(to);
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, report, to] {
+      if (!report) {
+        m_notices->show(tr("The session was not repaired: %1")
+                            .arg(QString::fromStdString(report.error().text())));
+        return;
+      }
+      QString text = tr("Repaired into %1: %2").arg(to, QString::fromStdString(report->summary()));
+      if (!report->lost.empty()) {
+        text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
+      }
+      m_notices->show(text);
+      open(to);
+    });
   });
 }
 

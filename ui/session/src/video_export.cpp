@@ -28,7 +28,6 @@ struct VideoExport::Reader {
 
 VideoExport::VideoExport(std::unique_ptr<FramePainter> painter, QObject* parent)
     : QObject(parent), m_painter(std::move(painter)) {
-  m_worker.setMaxThreadCount(1);
   connect(&m_writer, &VideoWriter::wantsPicture, this, &VideoExport::next);
   connect(&m_writer, &VideoWriter::finished, this, [this](const QString& path) {
     m_reader.reset();
@@ -82,20 +81,17 @@ void VideoExport::read() {
   const double time = m_range.begin + static_cast<double>(number) / m_rate;
   m_worker.start([this, reader = m_reader, time, job = m_job] {
     FramePtr frame = reader->frameAt(time);
-    QMetaObject::invokeMethod(
-        this,
-        [this, frame, job, problem = reader->problem] {
-          if (job != m_job) return;
-          m_reading = false;
-          if (!frame) {
-            cancel();
-            emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
-            return;
-          }
-          m_frame = frame;
-          next();
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, frame, job, problem = reader->problem] {
+      if (job != m_job) return;
+      m_reading = false;
+      if (!frame) {
+        cancel();
+        emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
+        return;
+      }
+      m_frame = frame;
+      next();
+    });
   });
 }
 

@@ -5,11 +5,12 @@
 // go to ffmpeg. UI thread; nothing waits.
 
 #include <QObject>
-#include <QThreadPool>
 #include <atomic>
 #include <memory>
 
 #include <telemetry/series/series_store.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 #include <ui/sources/field_pictures.h>
 
 #include "video_writer.h"
@@ -49,7 +50,8 @@ class VideoExport : public QObject {
   bool m_reading = false;
   FramePtr m_frame;  // read and not drawn yet
   std::uint64_t m_job = 0;
-  QThreadPool m_worker;
+  UiQueue m_toUi;
+  Workers m_worker;
 };
 
 }  // namespace pitchboard::ui

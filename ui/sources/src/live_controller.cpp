@@ -37,9 +37,8 @@ LiveController::~LiveController() {
 
 void LiveController::start() {
   if (m_watch) return;
-  m_watch = std::make_unique<link::LiveWatch>(m_options, [this] {
-    QMetaObject::invokeMethod(this, &LiveController::deliver, Qt::QueuedConnection);
-  });
+  m_watch =
+      std::make_unique<link::LiveWatch>(m_options, [this] { m_toUi.post([this] { deliver(); }); });
   keepRows();
   for (const auto& observer : m_observers) m_watch->observe(observer);
   emit restarted();

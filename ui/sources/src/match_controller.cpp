@@ -38,7 +38,6 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
   constexpr int displayMilliseconds = 16;
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
-  m_worker.setMaxThreadCount(1);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
   connect(m_edits, &MatchEdits::failed, this, &MatchController::errorOccurred);
   connect(m_memory, &MatchMemory::failed, this, &MatchController::errorOccurred);
@@ -163,15 +162,12 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
     const auto opening = std::make_shared<Opening>();
     opening->observers = observers;
     opening->start(scenario, options, paused, catalog);
-    QMetaObject::invokeMethod(
-        this,
-        [this, opening, generation] {
-          if (generation == m_generation)
-            take(*opening);
-          else
-            m_worker.start([opening] { opening->runner.reset(); });
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, opening, generation] {
+      if (generation == m_generation)
+        take(*opening);
+      else
+        m_worker.start([opening] { opening->runner.reset(); });
+    });
   });
   emit scenarioChanged();
   emit restarted();
@@ -274,18 +270,16 @@ void MatchController::post(MatchOrder order) {
     const QString sentence = done ? QString()
                                   : order.whatFailed + QStringLiteral(": ") +
                                         QString::fromStdString(done.error().text());
-    QMetaObject::invokeMethod(
-        this,
-        [this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess, generation] {
-          if (generation != m_generation) return;
-          if (sentence.isEmpty()) {
-            onSuccess();
-            return;
-          }
-          if (onFailure) onFailure();
-          emit errorOccurred(sentence);
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess,
+                 generation] {
+      if (generation != m_generation) return;
+      if (sentence.isEmpty()) {
+        onSuccess();
+        return;
+      }
+      if (onFailure) onFailure();
+      emit errorOccurred(sentence);
+    });
   });
 }
 

@@ -71,8 +71,6 @@ struct ReplayController::File {
 
 ReplayController::ReplayController(QObject* parent)
     : FrameSource(parent), m_playback(new Playback(this)) {
-  m_seeker.setMaxThreadCount(1);
-  m_loader.setMaxThreadCount(1);
   connect(m_playback, &Playback::positionChanged, this, &ReplayController::wantMoment);
 }
 
@@ -146,19 +144,16 @@ void ReplayController::open(const QString& path) {
       }
       file->broken = !file->session.complete();
     }
-    QMetaObject::invokeMethod(
-        this,
-        [this, file, problem, path, mine] {
-          if (mine != m_generation) return;
-          m_opening = false;
-          if (!file) {
-            emit failed(tr("The session was not opened: %1").arg(problem));
-            return;
-          }
-          m_path = path;
-          take(file);
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, file, problem, path, mine] {
+      if (mine != m_generation) return;
+      m_opening = false;
+      if (!file) {
+        emit failed(tr("The session was not opened: %1").arg(problem));
+        return;
+      }
+      m_path = path;
+      take(file);
+    });
   });
 }
 
@@ -221,17 +216,14 @@ void ReplayController::readMoment() {
   m_seeker.start(
       [this, file = m_file, time = *std::exchange(m_wanted, {}), mine = m_generation.load()] {
         auto frame = std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, time));
-        QMetaObject::invokeMethod(
-            this,
-            [this, frame, mine] {
-              m_reading = false;
-              if (mine == m_generation) {
-                m_frame = frame;
-                emit frameReceived(m_frame);
-              }
-              readMoment();
-            },
-            Qt::QueuedConnection);
+        m_toUi.post([this, frame, mine] {
+          m_reading = false;
+          if (mine == m_generation) {
+            m_frame = frame;
+            emit frameReceived(m_frame);
+          }
+          readMoment();
+        });
       });
 }
 
@@ -240,15 +232,12 @@ void ReplayController::load() {
   emit loadedChanged(m_loaded);
   m_loader.start([this, path = m_path, rows = m_file->rows, mine = m_generation.load()] {
     const auto tell = [this, mine](double part) {
-      QMetaObject::invokeMethod(
-          this,
-          [this, part, mine] {
-            if (mine != m_generation) return;
-            m_loaded = part;
-            emit loadedChanged(part);
-            if (part >= 1.0) noteWhatDoesNotFit();
-          },
-          Qt::QueuedConnection);
+      m_toUi.post([this, part, mine] {
+        if (mine != m_generation) return;
+        m_loaded = part;
+        emit loadedChanged(part);
+        if (part >= 1.0) noteWhatDoesNotFit();
+      });
     };
     const QStringList damage = readRows(path, *rows, [this, mine, &tell](double part) {
       if (part < 1.0) tell(part);
@@ -256,12 +245,9 @@ void ReplayController::load() {
     });
     tell(1.0);
     if (damage.isEmpty()) return;
-    QMetaObject::invokeMethod(
-        this,
-        [this, damage, mine] {
-          if (mine == m_generation && !m_file->broken) emit damageFound(damage);
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, damage, mine] {
+      if (mine == m_generation && !m_file->broken) emit damageFound(damage);
+    });
   });
 }
 

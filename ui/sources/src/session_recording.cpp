@@ -69,7 +69,6 @@ SessionRecording::SessionRecording(MatchController* controller, LiveController* 
       m_settings(settings),
       m_timer(new QTimer(this)) {
   constexpr int healthMilliseconds = 500;
-  m_worker.setMaxThreadCount(1);
   m_timer->setInterval(healthMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &SessionRecording::checkHealth);
   connect(controller, &MatchController::ending, this, [this] {
@@ -103,7 +102,7 @@ void SessionRecording::end() {
   finish(false);
   m_worker.waitForDone();
   // What the worker says of its files waits for an event loop that may have ended.
-  QCoreApplication::sendPostedEvents(this, QEvent::MetaCall);
+  m_toUi.deliver();
 }
 
 QString SessionRecording::folder() const {
@@ -228,19 +227,16 @@ void SessionRecording::finish(bool matchEnds) {
   recorder.detach();
   m_worker.start([this, recorder, path = m_path, matchEnds] {
     const auto done = recorder.finish();
-    QMetaObject::invokeMethod(
-        this,
-        [this, done, path, matchEnds] {
-          if (!done) {
-            emit failed(
-                tr("The recording %1 is not complete: %2. What was written before can be opened.")
-                    .arg(path, words(done.error())));
-            return;
-          }
-          if (matchEnds) emit noted(tr("The recording ended with the match: %1").arg(path));
-          emit saved(path);
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, done, path, matchEnds] {
+      if (!done) {
+        emit failed(
+            tr("The recording %1 is not complete: %2. What was written before can be opened.")
+                .arg(path, words(done.error())));
+        return;
+      }
+      if (matchEnds) emit noted(tr("The recording ended with the match: %1").arg(path));
+      emit saved(path);
+    });
   });
   emit changed();
 }
@@ -319,15 +315,12 @@ void SessionRecording::saveLast(double seconds) {
   if (path.isEmpty()) return;
   m_worker.start([this, path, make = std::move(make)] {
     const auto done = make(path);
-    QMetaObject::invokeMethod(
-        this,
-        [this, done, path] {
-          if (done)
-            emit saved(path);
-          else
-            emit failed(tr("Nothing was saved: %1").arg(words(done.error())));
-        },
-        Qt::QueuedConnection);
+    m_toUi.post([this, done, path] {
+      if (done)
+        emit saved(path);
+      else
+        emit failed(tr("Nothing was saved: %1").arg(words(done.error())));
+    });
   });
 }
 

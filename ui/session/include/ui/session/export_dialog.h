@@ -7,12 +7,13 @@
 // the window. UI thread only.
 
 #include <QDialog>
-#include <QThreadPool>
 #include <atomic>
 #include <functional>
 #include <memory>
 
 #include <telemetry/series/series_store.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 #include <ui/session/export_forms.h>
 #include <ui/sources/session_recording.h>
 
@@ -90,7 +91,8 @@ class ExportDialog : public QDialog {
   std::unique_ptr<VideoExport> m_video;
   bool m_writing = false;
   std::atomic<bool> m_cancelled = false;
-  QThreadPool m_worker;
+  UiQueue m_toUi;
+  Workers m_worker;
 };
 
 }  // namespace pitchboard::ui

@@ -6,10 +6,11 @@
 // only.
 
 #include <QObject>
-#include <QThreadPool>
 #include <atomic>
 
 #include <robotlink/session/moment_scenario.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 
 class QWidget;
 
@@ -56,7 +57,8 @@ class SessionFiles : public QObject {
   NoticeBar* m_notices;
   QWidget* m_window;
   std::atomic<bool> m_cancelled = false;
-  QThreadPool m_worker;
+  UiQueue m_toUi;
+  Workers m_worker;
 };
 
 }  // namespace pitchboard::ui

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include <robotlink/live/live_watch.h>
+#include <ui/base/ui_queue.h>
 #include <ui/sources/frame_source.h>
 
 namespace pitchboard::ui {
@@ -63,6 +64,7 @@ class LiveController : public FrameSource {
   void remember();
   void keepRows();
 
+  UiQueue m_toUi;
   link::LiveOptions m_options;
   std::vector<std::shared_ptr<link::LiveObserver>> m_observers;
   std::unique_ptr<link::LiveWatch> m_watch;

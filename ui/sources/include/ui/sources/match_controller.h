@@ -9,7 +9,6 @@
 
 #include <QObject>
 #include <QString>
-#include <QThreadPool>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -17,6 +16,8 @@
 #include <vector>
 
 #include <robotlink/match/match_runner.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 #include <ui/sources/frame_source.h>
 
 class QTimer;
@@ -126,7 +127,8 @@ class MatchController : public FrameSource {
   std::optional<std::uint64_t> m_runTo;  // once it is open
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()
-  QThreadPool m_worker;                         // one thread: matches end and start in order
+  UiQueue m_toUi;
+  Workers m_worker;  // one thread: matches end and start in order
   QTimer* m_timer;
   MatchEdits* m_edits;
   MatchMemory* m_memory;

@@ -5,10 +5,11 @@
 // inspector and plots while the first moment is already on the screen. UI thread only; files are
 // read on worker threads.
 
-#include <QThreadPool>
 #include <atomic>
 
 #include <telemetry/session/session_types.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 #include <ui/sources/frame_source.h>
 
 namespace pitchboard::ui {
@@ -75,7 +76,8 @@ class ReplayController : public FrameSource {
   std::optional<double> m_wanted;  // the moment to be shown next
   bool m_reading = false;          // a worker reads a moment
   std::atomic<std::uint64_t> m_generation = 0;
-  QThreadPool m_seeker, m_loader;  // one thread each: a reader belongs to one thread
+  UiQueue m_toUi;
+  Workers m_seeker, m_loader;  // one thread each: a reader belongs to one thread
 };
 
 }  // namespace pitchboard::ui

@@ -9,7 +9,6 @@
 #include <QDir>
 #include <QObject>
 #include <QPointer>
-#include <QThreadPool>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -18,6 +17,8 @@
 
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/session/recording_health.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
 
 class QSettings;
 class QTimer;
@@ -106,7 +107,8 @@ class SessionRecording : public QObject {
   QString m_path;
   std::set<telemetry::RecordingTrouble> m_told;  // of this recording
   std::deque<telemetry::SessionLogLine> m_log;   // of the present match, for saveLast()
-  QThreadPool m_worker;
+  UiQueue m_toUi;
+  Workers m_worker;
 };
 
 /// This path, with a number before its suffix when there is such a file already.

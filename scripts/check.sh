@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The rules of the project that a machine can check. ./test runs the tests; this runs the rest.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+. scripts/common.sh
+
+usage() {
+  cat <<'END'
+Usage: scripts/check.sh [--full] [--base COMMIT] [CHECK...]
+Checks, in this order (default: all of them):
+  format     clang-format over the whole tree
+  docs       links, file names and options that the documents name are there
+  includes   include directions between libraries and rooms (tst_layers)
+  tidy       clang-tidy over the sources that changed since COMMIT (default: main)
+  tidy-all   clang-tidy over all sources; long; only when asked for
+  headers    every public header compiles alone
+  core-only  everything that needs no Qt Widgets builds by itself
+--full adds, or takes as names:
+  asan       all tests with address, leak and undefined-behaviour sanitizers
+  threads    the tests in which threads work at the same time, with the thread sanitizer
+  no-pch     everything builds without precompiled headers
+Every check runs whatever the others say; the last line counts them, and the exit code is 1 when one
+failed. Missing packages (scripts/packages-*.txt) are installed.
+Examples:
+  scripts/check.sh format docs      # in a few seconds, before a commit
+  scripts/check.sh --full           # before a release
+END
+}
+
+checks=()
+full=no
+base=
+while [ $# -gt 0 ]; do
+  case $1 in
+    -h | --help) usage; exit 0 ;;
+    --full) full=yes ;;
+    --base) base=${2:?error: --base needs a commit}; shift ;;
+    format | docs | includes | tidy | tidy-all | headers | core-only | asan | threads | no-pch)
+      checks+=("$1") ;;
+    *) echo "error: no check \"$1\"" >&2; usage >&2; exit 2 ;;
+  esac
+  shift
+done
+if [ ${#checks[@]} -eq 0 ]; then
+  checks=(format docs includes tidy headers core-only)
+  [ $full = no ] || checks+=(asan threads no-pch)
+elif [ $full = yes ]; then
+  checks+=(asan threads no-pch)
+fi
+
+unset DISPLAY WAYLAND_DISPLAY
+export LC_ALL=C.UTF-8 QT_QPA_PLATFORM=offscreen
+
+sources() { git ls-files --cached --others --exclude-standard "$@" | while read -r f; do [ ! -e "$f" ] || echo "$f"; done; }
+
+# tests/data is what tests read, as it was made elsewhere.
+format() { sources '*.h' '*.cpp' ':!tests/data' | xargs clang-format --dry-run --Werror; }
+
+docs() { python3 scripts/check_docs.py; }
+
+includes() {
+  quietly cmake --preset core-only
+  quietly cmake --build --preset core-only --target tst_layers
+  build/core-only/tests/tst_layers
+}
+
+headers() {
+  quietly cmake --preset release
+  quietly cmake --build --preset release --target headers
+}
+
+core-only() {
+  quietly cmake --preset core-only
+  quietly cmake --build --preset core-only
+}
+
+# clang does not read gcc's precompiled headers: a build folder without them, in which only moc runs.
+tidy_these() {
+  [ $# -gt 0 ] || { echo "no source has changed"; return 0; }
+  quietly cmake --preset tidy
+  local autogen
+  mapfile -t autogen < <(ninja -C build/tidy -t targets all | sed -n 's/^\([A-Za-z_]*_autogen\): phony$/\1/p')
+  quietly ninja -C build/tidy "${autogen[@]}"
+  printf '%s\n' "$@" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' 2> \
+    >(grep -vE '^[0-9]+ warnings? (generated|treated)' >&2)
+}
+
+tidy() {
+  local since=$base changed
+  if [ -z "$since" ]; then
+    for since in origin/main main HEAD~1; do git rev-parse -q --verify "$since^{commit}" >/dev/null && break; done
+  fi
+  since=$(git merge-base "$since" HEAD)
+  mapfile -t changed < <(comm -12 <(sources 'app/*.cpp' 'simcore/*.cpp' 'telemetry/*.cpp' 'robotlink/*.cpp' 'ui/*.cpp' | sort) \
+    <({ git diff --name-only "$since"; sources --others '*.cpp'; } | sort -u))
+  tidy_these "${changed[@]}"
+}
+
+tidy-all() {
+  local all
+  mapfile -t all < <(sources 'app/*.cpp' 'simcore/*.cpp' 'telemetry/*.cpp' 'robotlink/*.cpp' 'ui/*.cpp')
+  tidy_these "${all[@]}"
+}
+
+asan() { scripts/sanitizers.sh asan; }
+
+threads() { scripts/sanitizers.sh tsan; }
+
+no-pch() {
+  quietly cmake --preset no-pch
+  quietly cmake --build --preset no-pch
+}
+
+install_packages scripts/packages-run.txt scripts/packages-test.txt scripts/packages-check.txt
+failed=()
+for check in "${checks[@]}"; do
+  echo "--- $check"
+  # A shell of its own: "set -e" holds inside a function that is called in a condition no longer.
+  code=0
+  (set -e; "$check") & wait $! || code=$?
+  [ $code -eq 0 ] || { failed+=("$check"); echo "error: $check failed" >&2; }
+done
+echo "${#checks[@]} checks, ${#failed[@]} failed${failed[*]:+: ${failed[*]}}"
+[ ${#failed[@]} -eq 0 ]

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The watch of real robots, with real sockets on 127.0.0.1: what it hears, to whom it tells it, and
+// what it sends.
+
+#include <QFile>
+#include <QtTest>
+#include <atomic>
+#include <mutex>
+
+#include <robotlink/live/live_watch.h>
+#include <telemetry/wire/text_protocol.h>
+
+#include "../telemetry/test_socket.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+/// Ports of this test: `robots` after a base and the referee's, that nobody has at this moment.
+LiveOptions freeOptions(int robots = 3) {
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const int base = TestSocket().port();
+    bool free = base + robots + 1 < 65536;
+    for (int i = 1; free && i <= robots + 1; ++i) {
+      const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+      sockaddr_in name{};
+      name.sin_family = AF_INET;
+      name.sin_port = htons(static_cast<std::uint16_t>(base + i));
+      name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      free = bind(descriptor, reinterpret_cast<sockaddr*>(&name), sizeof name) == 0;
+      close(descriptor);
+    }
+    if (!free) continue;
+    LiveOptions made;
+    made.bind = {INADDR_LOOPBACK};
+    made.portBase = base;
+    made.robots = robots;
+    made.refereePort = base + robots + 1;
+    return made;
+  }
+  qFatal("no free ports");
+}
+
+std::uint16_t portOf(const LiveOptions& options, int robot) {
+  return static_cast<std::uint16_t>(options.portBase + robot);
+}
+
+std::string message(int robot, float x = 300.0F) {
+  telemetry::TextMessage m;
+  m.robot = robot;
+  m.x = x;
+  m.y = 200;
+  m.control = m.vision = m.localization = m.decision = m.imu = 1;
+  return telemetry::encode(m);
+}
+
+std::string refereePacket(const char* name) {
+  QFile file(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/") + QLatin1String(name));
+  if (!file.open(QIODevice::ReadOnly)) qFatal("no %s", name);
+  return file.readAll().toStdString();
+}
+
+std::size_t bound(const LiveWatch& watch) {
+  std::size_t count = 0;
+  for (const auto& port : watch.details().network.ports) count += port.bound ? 1 : 0;
+  return count;
+}
+
+/// Counts what the watch's thread tells.
+class Witness : public LiveObserver {
+ public:
+  void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
+             const telemetry::TextDecoder&, const telemetry::DecodedText& decoded) override {
+    const std::lock_guard lock(mutex);
+    ids.push_back(id.value);
+    numbers.push_back(decoded.robot);
+    times.push_back(time);
+    payloads.emplace_back(datagram.payload);
+  }
+  void refereeHeard(double, const telemetry::DatagramView&,
+                    const telemetry::RefereeState&) override {
+    ++referee;
+  }
+  void unusedHeard(double, const telemetry::DatagramView&) override { ++unused; }
+  void reported(const telemetry::TeamStatus&) override { ++reports; }
+  void frameMade(const MatchFrame&) override { ++frames; }
+
+  std::size_t count() {
+    const std::lock_guard lock(mutex);
+    return numbers.size();
+  }
+
+  std::mutex mutex;
+  std::vector<int> ids, numbers;
+  std::vector<double> times;
+  std::vector<std::string> payloads;
+  std::atomic<int> referee = 0, unused = 0, reports = 0, frames = 0;
+};
+
+}  // namespace
+
+class TestLiveWatch : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void portsThatCollideAreRefused() {
+    LiveOptions options;
+    QVERIFY(validate(options));
+    options.refereePort = options.portBase + 1;
+    QCOMPARE(validate(options).error().code, ErrorCode::InvalidArgument);
+    options.refereePort = 70'000;
+    QCOMPARE(validate(options).error().code, ErrorCode::InvalidArgument);
+  }
+
+  void whatRobotsSayIsSeen() {
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options);
+    const auto witness = std::make_shared<Witness>();
+    watch.observe(witness);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket one, three;
+    QVERIFY(one.send(portOf(options, 1), message(1, 310)));
+    QTRY_COMPARE(witness->count(), std::size_t{1});
+    QVERIFY(three.send(portOf(options, 3), message(3, 330)));
+    QTRY_COMPARE(witness->count(), std::size_t{2});
+    QVERIFY(three.send(portOf(options, 3), "nonsense"));
+    QTRY_COMPARE(witness->unused.load(), 1);
+
+    QTRY_VERIFY(watch.latest() && watch.latest()->snapshot.robots.size() == 2);
+    const auto frame = watch.latest();
+    QCOMPARE(frame->origin, FrameOrigin::Live);
+    QVERIFY(!frame->truthKnown);
+    const telemetry::TeamStatus team = watch.details().team;
+    QCOMPARE(team.robots.size(), std::size_t{2});
+    QCOMPARE(team.robots[0].number, 1);
+    QCOMPARE(team.robots[1].number, 3);
+    QCOMPARE(team.robots[1].sender.port, three.port());
+    QCOMPARE(team.robots[1].errors.total(), std::uint64_t{1});
+    const std::lock_guard lock(witness->mutex);
+    QCOMPARE(witness->numbers, (std::vector<int>{1, 3}));
+    QCOMPARE(witness->payloads, (std::vector<std::string>{message(1, 310), message(3, 330)}));
+    QVERIFY(witness->ids[0] != witness->ids[1]);
+    QVERIFY(witness->times[0] <= witness->times[1]);
+  }
+
+  void aFrameIsAnnouncedOnceUntilItIsTaken() {
+    std::atomic<int> calls = 0;
+    LiveWatch watch(freeOptions(), [&calls] { ++calls; });
+    const auto witness = std::make_shared<Witness>();
+    watch.observe(witness);
+    // Frames go on without messages, so that ages and timeouts do.
+    QTRY_VERIFY(witness->frames.load() >= 4);
+    QCOMPARE(calls.load(), 1);
+    const auto first = watch.latest();
+    QVERIFY(first);
+    QTRY_COMPARE(calls.load(), 2);
+    QVERIFY(watch.latest()->serial > first->serial);
+  }
+
+  void whoDoesNotObserveAnyMoreHearsNothing() {
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options);
+    const auto gone = std::make_shared<Witness>(), there = std::make_shared<Witness>();
+    watch.observe(gone);
+    watch.observe(there);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket robot;
+    QVERIFY(robot.send(portOf(options, 2), message(2, 300)));
+    QTRY_COMPARE(there->count(), std::size_t{1});
+    watch.stopObserving(gone);
+    const int frames = gone->frames;
+    QVERIFY(robot.send(portOf(options, 2), message(2, 301)));
+    QTRY_COMPARE(there->count(), std::size_t{2});
+    QTRY_VERIFY(there->frames.load() > frames + 1);
+    QCOMPARE(gone->count(), std::size_t{1});
+    QCOMPARE(gone->frames.load(), frames);
+    QCOMPARE(gone.use_count(), 1L);
+    QTRY_VERIFY(there->reports.load() > 0);
+  }
+
+  void theRefereeIsHeard() {
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options);
+    const auto witness = std::make_shared<Witness>();
+    watch.observe(witness);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket referee;
+    const auto port = static_cast<std::uint16_t>(options.refereePort);
+    QVERIFY(referee.send(port, refereePacket("v12hl688_PLAYING_1-0.bin")));
+    QTRY_COMPARE(witness->referee.load(), 1);
+    QTRY_VERIFY(watch.latest() && watch.latest()->referee);
+    QCOMPARE(watch.latest()->referee->version, 12);
+    QVERIFY(referee.send(port, "no packet"));
+    QTRY_COMPARE(watch.details().unknownReferee, std::uint64_t{1});
+    QCOMPARE(watch.details().unknownRefereeSample, std::string("no packet"));
+    QVERIFY(!watch.details().unknownRefereeReason.empty());
+    QCOMPARE(witness->unused.load(), 1);
+    // What was logged of it is given once.
+    QVERIFY(!watch.takeLog().empty());
+    QVERIFY(watch.takeLog().empty());
+  }
+
+  void otherPortsAreListenedTo() {
+    const LiveOptions before = freeOptions();
+    LiveWatch watch(before);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket robot;
+    QVERIFY(robot.send(portOf(before, 1), message(1)));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+    const LiveOptions after = freeOptions(2);
+    watch.setOptions(after);
+    QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{3});
+    QTRY_COMPARE(bound(watch), std::size_t{3});
+    QCOMPARE(watch.details().network.ports[0].port, portOf(after, 1));
+    QVERIFY(robot.send(portOf(after, 2), message(2)));
+    // The robot of before stays.
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
+  }
+
+  void aTakenPortIsNamed() {
+    const LiveOptions options = freeOptions();
+    const int other = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    sockaddr_in name{};
+    name.sin_family = AF_INET;
+    name.sin_port = htons(portOf(options, 2));
+    name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    QVERIFY(bind(other, reinterpret_cast<sockaddr*>(&name), sizeof name) == 0);
+    LiveWatch watch(options);
+    QTRY_COMPARE(bound(watch), std::size_t{3});
+    const auto ports = watch.details().network.ports;
+    QVERIFY(!ports[1].bound && !ports[1].problem.empty());
+    close(other);
+  }
+
+  void whatIsClearedIsForgotten() {
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket robot;
+    QVERIFY(robot.send(portOf(options, 1), message(1)));
+    QVERIFY(robot.send(static_cast<std::uint16_t>(options.refereePort), "no packet"));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+    QTRY_COMPARE(watch.details().unknownReferee, std::uint64_t{1});
+    watch.clear();
+    QTRY_VERIFY(watch.details().team.robots.empty());
+    QCOMPARE(watch.details().unknownReferee, std::uint64_t{0});
+    QTRY_VERIFY(watch.latest()->snapshot.robots.empty());
+    QVERIFY(robot.send(portOf(options, 1), message(1)));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+  }
+
+  void onlyTheRefereeIsAskedAndOnlyWhenToldTo() {
+    const TestSocket referee, robot;
+    LiveOptions options = freeOptions();
+    options.monitorPort = referee.port();
+    LiveWatch watch(options);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    QVERIFY(robot.send(portOf(options, 1), message(1)));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+    QVERIFY(!referee.heard());
+    options.monitor = telemetry::Address{INADDR_LOOPBACK};
+    watch.setOptions(options);
+    QTRY_VERIFY(referee.heard());
+    QCOMPARE(watch.details().monitorProblem, std::string());
+    QVERIFY(!robot.heard());
+  }
+
+  void itEndsWhileAFloodGoesOn() {
+    const LiveOptions options = freeOptions();
+    const TestSocket robot;
+    auto watch = std::make_unique<LiveWatch>(options);
+    QTRY_COMPARE(bound(*watch), std::size_t{4});
+    for (int i = 0; i < 2000; ++i) {
+      QVERIFY(robot.send(portOf(options, 1), message(1, static_cast<float>(i))));
+      if (i == 1000) watch.reset();
+    }
+    QVERIFY(!watch);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveWatch)
+#include "tst_live_watch.moc"

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What other threads hand to the UI thread: calls, run there in the order of post(). Owned by
+// whoever the calls are meant for; what has not run when it goes is dropped, so a call may use its
+// owner. The calls wait under a std::mutex, and Qt's event queue carries an event without payload:
+// a thread sanitizer cannot see into Qt's queue, and would report every value that crosses there.
+
+#include <QObject>
+#include <deque>
+#include <functional>
+#include <mutex>
+
+namespace pitchboard::ui {
+
+class UiQueue : public QObject {
+ public:
+  using Call = std::function<void()>;
+
+  /// UI thread, as is the destructor. Threads that post must have ended before that, but for those
+  /// that a waiting call owns.
+  UiQueue() = default;
+  ~UiQueue() override;
+
+  /// Any thread. The call runs when the UI thread is back in its event loop.
+  void post(Call call);
+  /// UI thread. Runs what waits, for a program whose event loop may have ended.
+  void deliver();
+
+  bool event(QEvent* event) override;
+
+ private:
+  Call next();
+
+  std::mutex m_mutex;
+  std::deque<Call> m_waiting;  // guarded by m_mutex
+};
+
+}  // namespace pitchboard::ui
