@@ -104,13 +104,8 @@ std::shared_ptr<telemetry::RowSink> MatchController::rowsBeside() const {
 void MatchController::setSampling(int everyNth) {
   if (everyNth == m_everyNth || everyNth < 1) return;
   m_everyNth = everyNth;
-  if (!m_rows) return;
-  const auto old = std::exchange(
-      m_sampler, std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{everyNth}));
-  // While a match is being opened, take() exchanges them.
-  if (!m_runner) return;
-  m_runner->stopObserving(old);
-  m_runner->observe(m_sampler);
+  if (!m_sampler) return;
+  post([sampler = m_sampler, everyNth](link::SimulatedMatch&) { sampler->setEveryNth(everyNth); });
 }
 
 QString MatchController::emptyText() const {
@@ -205,10 +200,6 @@ void MatchController::take(Opening& opening) {
   if (m_runner) {
     m_runner->setSpeed(m_speed);
     m_runner->setPaused(m_paused);
-    if (opening.sampler != m_sampler) {
-      m_runner->stopObserving(opening.sampler);
-      m_runner->observe(m_sampler);
-    }
     if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
     m_timer->start();

@@ -111,6 +111,8 @@ class MatchController : public FrameSource {
   /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
   void setSampling(int everyNth);
   int sampling() const { return m_everyNth; }
+  /// Of the match that is open: whoever wants its rows is added here, on its thread.
+  std::shared_ptr<link::MatchSampler> sampler() const { return m_sampler; }
   /// Where other blackboards of this computer are sampled to: their rows get the match's time.
   /// Another one after `restarted`; null while there is no match.
   std::shared_ptr<telemetry::RowSink> rowsBeside() const;
