@@ -8,6 +8,8 @@
 #include <set>
 #include <thread>
 
+#include <robotlink/match/match_player.h>
+#include <robotlink/session/match_recorder.h>
 #include <telemetry/session/recording_health.h>
 
 #include "commands.h"
@@ -73,7 +75,7 @@ class Health {
   std::set<RecordingTrouble> m_told;
 };
 
-/// Sees its match from outside the runner, as fast as it can be played.
+/// As fast as it can be played.
 int recordMatch(const Options& options) {
   auto scenario = link::loadScenario(options.scenario);
   if (!scenario) return reportError(scenario.error());
@@ -95,20 +97,19 @@ int recordMatch(const Options& options) {
   if (!created) return reportError(created.error());
   const std::shared_ptr<SessionWriter> writer = std::move(*created);
   link::attachMatch(*writer, match->scenario(), link::VariableCatalog::published());
-  link::MatchRecorder recorder(writer);
+  const auto sampler = std::make_shared<link::MatchSampler>();
+  const auto recorder = std::make_shared<link::MatchRecorder>(writer, sampler);
+  link::MatchPlayer player(std::move(*match));
+  player.observe(sampler);
+  player.observe(recorder);
   Result<void> finished;
   {
     Health health(options.progress);
-    recorder.ticked(*match, {});
-    while (!interrupted && !match->finished() && writer->status().recording) {
-      const auto begin = Clock::now();
-      match->tick();
-      const auto spent = Clock::now() - begin;
-      if (!match->simulation().events().empty()) recorder.happened(match->simulation().events());
-      recorder.ticked(*match, spent);
+    while (!interrupted && !player.match().finished() && writer->status().recording) {
+      player.play(Clock::now());
       health.say(writer->status());
     }
-    finished = recorder.finish();
+    finished = recorder->finish();
   }
   return ended(writer->path(), writer->status(), finished);
 }

@@ -9,7 +9,7 @@
 #include <memory>
 #include <thread>
 
-#include <robotlink/match/pacer.h>
+#include <robotlink/match/match_player.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
@@ -26,7 +26,6 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr double defaultDuration = 60.0;  // s simulated
-constexpr auto longestBatch = 10ms;
 constexpr auto pollInterval = 50ms;
 constexpr auto progressInterval = 500ms;
 
@@ -150,37 +149,46 @@ tl::unexpected<Error> cannotWrite(Error error, const Arguments& arguments) {
   return tl::unexpected(std::move(error));
 }
 
-/// Plays the match to its end, tells children that died, writes the trace.
-class Player {
+/// Writes a row of the trace after every tick, until the system refuses one.
+class TraceRows : public link::TickObserver {
  public:
-  Player(link::SimulatedMatch& match, double speed, TraceWriter* trace)
-      : m_match(match), m_speed(speed), m_trace(trace), m_begin(Clock::now()) {}
+  explicit TraceRows(TraceWriter writer) : m_writer(std::move(writer)) {}
+  void ticked(const link::SimulatedMatch& match, std::chrono::nanoseconds /*tickTime*/) override {
+    if (!m_written) return;
+    match.simulation().snapshot(m_snapshot);
+    m_written = m_writer.add(m_snapshot);
+  }
+  const Result<void>& written() const { return m_written; }
+  Result<void> finish() { return m_written ? m_writer.finish() : m_written; }
 
-  Result<Outcome> play() {
-    const std::uint64_t first = tick();
-    const double rate = m_match.simulation().state().settings.tickRate;
-    link::Pacer pacer;
-    if (m_speed > 0) pacer.start(m_begin, first, m_speed * rate);
-    if (auto written = record(); !written) return tl::unexpected(written.error());
-    while (!interrupted && !m_match.finished()) {
-      const auto now = Clock::now();
-      const std::uint64_t target = m_speed > 0 ? pacer.target(now) : ~std::uint64_t{0};
-      if (auto played = playBatch(now + longestBatch, target); !played) {
-        return tl::unexpected(played.error());
-      }
+ private:
+  TraceWriter m_writer;
+  sim::Snapshot m_snapshot;
+  Result<void> m_written;
+};
+
+/// Plays the match to its end and tells of children that died.
+class Playing {
+ public:
+  Playing(link::MatchPlayer& player, double speed)
+      : m_player(player), m_match(player.match()), m_begin(Clock::now()) {
+    m_player.setSpeed(speed, m_begin);
+  }
+
+  /// Ends early when `trace` cannot be written.
+  Outcome play(const TraceRows* trace) {
+    const std::uint64_t first = m_player.currentTick();
+    while (!interrupted && !m_match.finished() && (!trace || trace->written())) {
+      const auto next = m_player.play(Clock::now()).next;
       lookAfter();
-      if (m_speed > 0) {
-        const auto after = Clock::now();
-        pacer.forgive(after, tick());
-        if (pacer.target(after) <= tick()) {
-          std::this_thread::sleep_until(std::min(pacer.wake(after, tick()), after + pollInterval));
-        }
-      }
+      const auto now = Clock::now();
+      if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
     }
     if (m_showsProgress) std::fprintf(stderr, "\r\033[K");
     Outcome outcome;
-    outcome.ticks = tick() - first;
-    outcome.simulatedSeconds = static_cast<double>(outcome.ticks) / rate;
+    outcome.ticks = m_player.currentTick() - first;
+    outcome.simulatedSeconds =
+        static_cast<double>(outcome.ticks) / m_match.simulation().state().settings.tickRate;
     outcome.wallSeconds = std::chrono::duration<double>(Clock::now() - m_begin).count();
     outcome.finishedBy = m_match.finished() ? std::string(m_match.finishedBy()) : "interrupted";
     outcome.noise = noiseName(m_match.simulation().state().settings.noise);
@@ -188,23 +196,6 @@ class Player {
   }
 
  private:
-  std::uint64_t tick() const { return m_match.simulation().state().tick; }
-
-  Result<void> playBatch(Clock::time_point until, std::uint64_t target) {
-    while (tick() < target && !m_match.finished() && !interrupted) {
-      m_match.tick();
-      if (auto written = record(); !written) return written;
-      if (Clock::now() >= until) break;
-    }
-    return {};
-  }
-
-  Result<void> record() {
-    if (!m_trace) return {};
-    m_match.simulation().snapshot(m_snapshot);
-    return m_trace->add(m_snapshot);
-  }
-
   void lookAfter() {
     const auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
@@ -214,7 +205,8 @@ class Player {
     if (m_showsProgress && now - m_lastProgress >= progressInterval) {
       m_lastProgress = now;
       const double rate = m_match.simulation().state().settings.tickRate;
-      std::fprintf(stderr, "\r%.1f s simulated", static_cast<double>(tick()) / rate);
+      std::fprintf(stderr, "\r%.1f s simulated",
+                   static_cast<double>(m_player.currentTick()) / rate);
     }
   }
 
@@ -232,11 +224,9 @@ class Player {
     }
   }
 
+  link::MatchPlayer& m_player;
   link::SimulatedMatch& m_match;
-  double m_speed;
-  TraceWriter* m_trace;
   Clock::time_point m_begin, m_lastPoll, m_lastProgress;
-  sim::Snapshot m_snapshot;
   std::vector<int> m_told;
   bool m_showsProgress = ::isatty(STDERR_FILENO) == 1;
 };
@@ -272,25 +262,26 @@ Result<void> simulate(const Arguments& arguments) {
     if (auto entered = match->reenter(recorded->moment); !entered) return entered;
   }
 
+  link::MatchPlayer player(std::move(*match));
   const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
-  std::optional<TraceWriter> trace;
+  std::shared_ptr<TraceRows> trace;
   if (!arguments.trace.empty()) {
     auto made = TraceWriter::create(arguments.trace, ifExists, arguments.session,
-                                    match->simulation().snapshot());
+                                    player.match().simulation().snapshot());
     if (!made) return cannotWrite(made.error(), arguments);
-    trace = std::move(*made);
+    trace = std::make_shared<TraceRows>(std::move(*made));
+    player.observe(trace);
   }
-  const auto outcome = Player(*match, *speed, trace ? &*trace : nullptr).play();
-  if (!outcome) return tl::unexpected(outcome.error());
+  const Outcome outcome = Playing(player, *speed).play(trace.get());
   if (trace) {
     if (auto finished = trace->finish(); !finished) return finished;
   }
   if (!arguments.moment.empty()) {
-    auto saved = writeFile(arguments.moment, link::scenarioToJson(match->toScenario()), ifExists,
-                           arguments.session);
+    auto saved = writeFile(arguments.moment, link::scenarioToJson(player.match().toScenario()),
+                           ifExists, arguments.session);
     if (!saved) return cannotWrite(saved.error(), arguments);
   }
-  arguments.json ? printJson(*match, *outcome) : printSummary(*match, *outcome);
+  arguments.json ? printJson(player.match(), outcome) : printSummary(player.match(), outcome);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace {
 constexpr int maxPixels = 16384;
 
 bool isNumber(const std::string& text, double& value) {
-  return CLI::detail::lexical_cast(text, value);
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && stop == end;
 }
 
 void addOptions(CLI::App& app, Arguments& a) {

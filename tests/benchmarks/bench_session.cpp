@@ -98,14 +98,13 @@ std::string recorded(const char* name, double seconds) {
       SessionWriter::create(file, link::sessionInfo(match, "benchmark", WallTime{}), options)
           .value();
   link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
-  link::MatchRecorder recorder(writer);
-  recorder.ticked(match, {});
-  for (int tick = 0; tick < static_cast<int>(seconds * 60); ++tick) {
-    match.tick();
-    recorder.happened(match.simulation().events());
-    recorder.ticked(match, std::chrono::microseconds(20));
-  }
-  (void)recorder.finish();
+  const auto sampler = std::make_shared<link::MatchSampler>();
+  const auto recorder = std::make_shared<link::MatchRecorder>(writer, sampler);
+  link::MatchPlayer player(std::move(match));
+  player.observe(sampler);
+  player.observe(recorder);
+  for (int tick = 0; tick < static_cast<int>(seconds * 60); ++tick) player.tick();
+  (void)recorder->finish();
   return file;
 }
 

@@ -62,20 +62,20 @@ class TestConformance : public QObject {
     };
     QTest::newRow("empty") << QByteArray() << QStringLiteral("Not a trace: ");
     QTest::newRow("not JSON") << QByteArray("frames: 3") << QStringLiteral("Not a trace: ");
-    QTest::newRow("a list") << QByteArray("[]") << QStringLiteral("the trace must be an object");
+    QTest::newRow("a list") << QByteArray("[]") << QStringLiteral("must be an object in braces");
     QTest::newRow("no name") << without(R"("name":"t",)", "")
-                             << QStringLiteral("the trace has no \"name\"");
+                             << QStringLiteral("bad.json:1: Not a trace: name: is missing");
     QTest::newRow("negative frames") << without(R"("frames":1)", R"("frames":-1)")
-                                     << QStringLiteral("the trace.frames must be a whole number");
+                                     << QStringLiteral("frames: must be a whole number");
     QTest::newRow("text for a number")
-        << without(R"("x":1)", R"("x":"1")") << QStringLiteral("ball.x must be a number");
+        << without(R"("x":1)", R"("x":"1")") << QStringLiteral("ball.x: must be a number");
     QTest::newRow("unknown operation")
         << without(R"("schedule":[])", R"("schedule":[{"frame":1,"op":"fly"}])")
-        << QStringLiteral("schedule[0].op \"fly\" is not a known operation");
+        << QStringLiteral("schedule[0].op: there is no operation \"fly\"; known are");
     QTest::newRow("robot that is not there")
         << without(R"("schedule":[])",
                    R"("schedule":[{"frame":1,"op":"bkb_int","robot":1,"var":"X","value":1}])")
-        << QStringLiteral("schedule[0].robot must be a whole number from 1 to 0");
+        << QStringLiteral("schedule[0].robot: must be a whole number from 1 to 0");
     QTest::newRow("rows are missing")
         << good << QStringLiteral("The recorded rows cannot be opened.");
   }

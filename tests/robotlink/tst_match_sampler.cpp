@@ -5,10 +5,14 @@
 
 #include <bit>
 #include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include <base/angles.h>
 #include <resources/resources.h>
 #include <robotlink/blackboard/variable_meanings.h>
+#include <robotlink/match/match_runner.h>
 #include <robotlink/session/match_sampler.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/wire/action_words.h>
@@ -53,6 +57,46 @@ class TestMatchSampler : public QObject {
   Q_OBJECT
 
  private slots:
+  void oneSampleServesWhoeverWantsIt() {
+    class Places : public telemetry::RowSink {
+     public:
+      telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
+        names.push_back(info.name);
+        return static_cast<telemetry::GroupId>(first + names.size());
+      }
+      void append(telemetry::GroupId group, const telemetry::RowView& row) override {
+        rows.push_back(
+            {names.at(group - first - 1), row.time, row.words.data(), row.values.data()});
+      }
+      explicit Places(std::size_t firstId) : first(firstId) {}
+      using Row = std::tuple<std::string, double, const std::uint32_t*, const double*>;
+      const std::size_t first;  // every sink has ids of its own
+      std::vector<std::string> names;
+      std::vector<Row> rows;
+    };
+    Rig rig;
+    const auto early = std::make_shared<Places>(10);
+    const auto late = std::make_shared<Places>(70);
+    rig.sampler.add(early, rig.match);
+    QCOMPARE(early->rows.size(), std::size_t{7});  // the match and six robots
+    rig.play(10);
+    rig.sampler.add(late, rig.match);
+    QCOMPARE(early->rows.size(), std::size_t{7 * 11});  // nothing twice for those who were there
+    QCOMPARE(late->rows.size(), std::size_t{7});
+    QCOMPARE(std::get<double>(late->rows.front()), 10.0 / 60.0);
+    early->rows.clear();
+    late->rows.clear();
+    rig.play(5);
+    (void)rig.match.removeRobot(RobotId{2});
+    rig.play(5);
+    QCOMPARE(late->rows.size(), std::size_t{7 * 5 + 6 * 5});
+    QVERIFY(early->rows == late->rows);  // not equal values: the same memory
+    rig.sampler.remove(early);
+    rig.play(1);
+    QCOMPARE(late->rows.size() - early->rows.size(), std::size_t{6});
+    QCOMPARE(rig.latest("match", "TICK"), 21.0);
+  }
+
   void everyTickIsARow() {
     Rig rig;
     rig.play(300);

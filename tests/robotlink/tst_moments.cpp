@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include <robotlink/match/match_runner.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
@@ -61,15 +62,18 @@ Scenario scenarioOf(const char* physics = "rigid-body") {
   return scenario;
 }
 
+const RecorderOptions recording;
+
 /// A match that was played for 20 s, seen by everybody.
 struct Played {
   explicit Played(const QString& folder, const char* physics = "rigid-body")
       : scenario(scenarioOf(physics)), path((folder + "/match.mcap").toStdString()) {
-    recorder = MatchRecorder::create(path, scenario, VariableCatalog::published()).value();
-    runner = MatchRunner::start(
-                 scenario, {}, true, VariableCatalog::published(),
-                 {archive, std::make_shared<MatchSampler>(std::make_shared<StoreSink>(store)),
-                  recorder, witness})
+    const auto sampler = std::make_shared<MatchSampler>(std::make_shared<StoreSink>(store));
+    recorder =
+        MatchRecorder::create(path, scenario, VariableCatalog::published(), sampler, recording)
+            .value();
+    runner = MatchRunner::start(scenario, {}, true, VariableCatalog::published(),
+                                {archive, sampler, recorder, witness})
                  .value();
     runner->runTo(500);
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
@@ -248,7 +252,8 @@ class TestMoments : public QObject {
 
   void anExistingFileIsNeverWrittenOver() {
     const auto again =
-        MatchRecorder::create(m_match->path, m_match->scenario, VariableCatalog::published());
+        MatchRecorder::create(m_match->path, m_match->scenario, VariableCatalog::published(),
+                              std::make_shared<MatchSampler>(), recording);
     QVERIFY(!again);
     QCOMPARE(again.error().code, ErrorCode::Conflict);
   }
@@ -409,7 +414,7 @@ class TestMoments : public QObject {
     const std::string path = m_folder.filePath("live.mcap").toStdString();
     LiveOptions live;
     const telemetry::WallTime zero = std::chrono::system_clock::now();
-    auto recorder = LiveRecorder::create(path, live, zero).value();
+    auto recorder = LiveRecorder::create(path, live, zero, recording).value();
     telemetry::TeamMonitor monitor(live.profile, live.team);
     const auto hear = [&](double time, std::string text) {
       telemetry::DatagramView datagram;

@@ -147,14 +147,14 @@ class TestVariableCatalog : public QObject {
     row("py twice", "py", "variable_int = {'A': 1}\nvariable_int = {'A': 1}\n", "f:2: ", "second");
     row("py quote", "py", "variable_int = {'A: 1\n}\n", "f:1: ", "closing quote");
     row("py name", "py", "variable_int = {\n'A B': 1}\n", "f:2: ", "\"A B\"");
-    row("json syntax", "json", "{\n\"int\": {,}}", "f:2: ", "not JSON");
-    row("json list", "json", "[]", "f: ", "object");
-    row("json key", "json", R"({"ints": {}})", "f: ints: ", "not a key");
-    row("json segment", "json", R"({"segment": {"bytes": 1024}})", "f: segment.bytes: ", "2048");
-    row("json value", "json", R"({"int": {"A": 1.5}})", "f: int.A: ", "whole number");
-    row("json negative", "json", R"({"int": {"A": -1}})", "f: int.A: ", "0 to 511");
-    row("json twice", "json", R"({"int": {"A": 1, "A": 2}})", "f: int.A: ", "twice");
-    row("json both", "json", R"({"int": {"A": 1}, "float": {"A": 2}})", "f: float.A: ", "twice");
+    row("json syntax", "json", "{\n\"int\": {,}}", "f:2: ", "not valid JSON");
+    row("json list", "json", "[]", "f:1: ", "object");
+    row("json key", "json", R"({"ints": {}})", "f:1: ints: ", "did you mean \"int\"");
+    row("json segment", "json", R"({"segment": {"bytes": 1024}})", "f:1: segment.bytes: ", "2048");
+    row("json value", "json", R"({"int": {"A": 1.5}})", "f:1: int.A: ", "whole number");
+    row("json negative", "json", R"({"int": {"A": -1}})", "f:1: int.A: ", "0 to 511");
+    row("json twice", "json", R"({"int": {"A": 1, "A": 2}})", "f:1: int.A: ", "twice");
+    row("json both", "json", R"({"int": {"A": 1}, "float": {"A": 2}})", "f:1: float.A: ", "twice");
   }
   void refuses() {
     QFETCH(QString, format);

@@ -58,7 +58,8 @@ class TestSimulation : public QObject {
     row(
         "tick rate nan", [nan](auto& s) { s.tickRate = nan; }, "tick_rate: ");
     row(
-        "field without length", [](auto& s) { s.field.length = 0; }, "length is 0");
+        "field without length", [](auto& s) { s.field.length = 0; },
+        "length must lie between 1 and 200 metres, and is 0");
     row(
         "goal wider than field", [](auto& s) { s.field.goalWidth = 7; },
         "the goal is wider than the field");

@@ -49,12 +49,14 @@ class TestProfile : public QObject {
     QTest::newRow("field is text") << profileWith("\"n\"") << QByteArray("fields[0]");
     QTest::newRow("bad type")
         << profileWith(robot + ",\n  {\"name\": \"A\", \"type\": \"double\"}")
-        << QByteArray("p.json:5: fields[1]: type: \"double\" is not one of int, float, flag");
+        << QByteArray(
+               "p.json:5: fields[1].type: there is no type of a field \"double\"; known are int, "
+               "float, flag");
     QTest::newRow("bad meaning")
         << profileWith(robot + ",\n\n  {\"name\": \"A\", \"type\": \"int\", \"meaning\": \"ball\"}")
-        << QByteArray("p.json:6: fields[1]: meaning");
+        << QByteArray("p.json:6: fields[1].meaning: there is no meaning \"ball\"");
     QTest::newRow("missing type") << profileWith(robot + ",\n  {\"name\": \"A\"}")
-                                  << QByteArray("fields[1]: type: This key is missing");
+                                  << QByteArray("fields[1].type: is missing");
     QTest::newRow("same name") << profileWith(robot + ",\n  {\"name\": \"n\", \"type\": \"int\"}")
                                << QByteArray("p.json:5: fields[1]: Two fields are called \"n\"");
     QTest::newRow("two robots")
@@ -71,16 +73,17 @@ class TestProfile : public QObject {
     QTest::newRow("robot is a float")
         << profileWith("  {\"name\": \"n\", \"type\": \"float\", \"meaning\": \"robot\"}")
         << QByteArray("has the type int");
-    QTest::newRow("number as name") << profileWith("  {\"name\": 7, \"type\": \"int\"}")
-                                    << QByteArray("text in quotation marks");
-    QTest::newRow("deep") << QByteArray(100000, '[') << QByteArray("not JSON");
+    QTest::newRow("number as name")
+        << profileWith("  {\"name\": 7, \"type\": \"int\"}")
+        << QByteArray("p.json:4: fields[0].name: must be text in quotes");
+    QTest::newRow("deep") << QByteArray(100000, '[') << QByteArray("nested deeper than 64 levels");
     QTest::newRow("101 fields") << [] {
       QByteArray fields = robot;
       for (int i = 0; i < 100; ++i) {
         fields += ",\n{\"name\": \"F" + QByteArray::number(i) + "\", \"type\": \"int\"}";
       }
       return profileWith(fields);
-    }() << QByteArray("1 to 100 fields");
+    }() << QByteArray("fields: must not have more than 100 entries");
   }
   void mistakesAreNamed() {
     QFETCH(QByteArray, json);

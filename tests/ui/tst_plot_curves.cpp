@@ -220,15 +220,15 @@ class TestPlotCurves : public QObject {
   void brokenLayoutsAreRefused_data() {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("says");
-    QTest::newRow("no json") << QByteArray("hello") << "not a layout";
+    QTest::newRow("no json") << QByteArray("hello") << "plots.json:1: not valid JSON";
     QTest::newRow("other json") << QByteArray("{\"a\": 1}") << "not a layout";
     QTest::newRow("later") << QByteArray("{\"pitchboardPlots\": 7}") << "version 7";
-    QTest::newRow("kind") << QByteArray(
-                                 R"({"pitchboardPlots":1,"tabs":[{"plots":[{"kind":"pie"}]}]})")
-                          << "tabs[0].plots[0].kind";
+    QTest::newRow("kind")
+        << QByteArray(R"({"pitchboardPlots":1,"tabs":[{"plots":[{"kind":"pie"}]}]})")
+        << "plots.json:1: tabs[0].plots[0].kind: there is no kind of plot \"pie\"";
     QTest::newRow("inputs") << QByteArray(R"({"pitchboardPlots":1,"tabs":[{"plots":[{"curves":
         [{"kind":"difference","inputs":["B1/X"]}]}]}]})")
-                            << "curves[0].inputs";
+                            << "plots.json:2: tabs[0].plots[0].curves[0].inputs: needs 2";
     QTest::newRow("limits") << QByteArray(R"({"pitchboardPlots":1,"tabs":[{"plots":[
         {"values":[3,1]}]}]})")
                             << "values";

@@ -6,167 +6,141 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
+#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 
+#include <base/lined_json.h>
 #include <base/read_file.h>
 
 namespace pitchboard::link {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr int mostFrames = 10'000'000;
 constexpr std::size_t mostRobots = 64;
 constexpr std::size_t mostBytes = 1ULL << 30;
 constexpr std::size_t mostTextBytes = std::size_t{64} << 20;
 
-/// Thrown and caught inside this file only; the text says which key is wrong.
-struct Malformed : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-const Json& member(const Json& object, const char* key, const std::string& where) {
-  if (!object.is_object()) throw Malformed(where + " must be an object");
-  const auto it = object.find(key);
-  if (it == object.end()) throw Malformed(where + " has no \"" + key + "\"");
-  return *it;
+/// Everything in a trace must be there: what is left out is not a default.
+double number(const JsonObject& object, std::string_view key) {
+  object.require(key);
+  return object.number(key, 0.0, anyNumber);
 }
 
-double number(const Json& object, const char* key, const std::string& where) {
-  const Json& value = member(object, key, where);
-  if (!value.is_number()) throw Malformed(where + "." + key + " must be a number");
-  return value.get<double>();
+int wholeNumber(const JsonObject& object, std::string_view key, int least, int most) {
+  object.require(key);
+  return object.integer(key, least, least, most);
 }
 
-int wholeNumber(const Json& object, const char* key, const std::string& where, int least,
-                int most) {
-  const double value = number(object, key, where);
-  if (value != std::floor(value) || value < least || value > most) {
-    throw Malformed(where + "." + key + " must be a whole number from " + std::to_string(least) +
-                    " to " + std::to_string(most));
-  }
-  return static_cast<int>(value);
+int anyInt(const JsonObject& object, std::string_view key) {
+  return wholeNumber(object, key, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
 }
 
-int anyInt(const Json& object, const char* key, const std::string& where) {
-  return wholeNumber(object, key, where, std::numeric_limits<int>::min(),
-                     std::numeric_limits<int>::max());
+std::string text(const JsonObject& object, std::string_view key) {
+  object.require(key);
+  return object.text(key, {}, mostTextBytes);
 }
 
-std::string text(const Json& object, const char* key, const std::string& where) {
-  const Json& value = member(object, key, where);
-  if (!value.is_string()) throw Malformed(where + "." + key + " must be a text");
-  return value.get<std::string>();
+/// The object of that key; an empty one after a complaint.
+JsonObject object(JsonReport& report, const JsonObject& parent, std::string_view key) {
+  static const JsonNode nothing = [] {
+    JsonNode node;
+    node.kind = JsonNode::Kind::Object;
+    return node;
+  }();
+  parent.require(key);
+  const JsonNode* node = parent.find(key);
+  return {report, node ? *node : nothing, parent.pathOf(key)};
 }
 
-TeamColor teamOf(const std::string& color, const std::string& where) {
-  struct Name {
-    const char* published;
-    TeamColor team;
-  };
-  constexpr std::array<Name, 5> names{{{"CYAN", TeamColor::Blue},
-                                       {"MAGENTA", TeamColor::Red},
-                                       {"BLACK", TeamColor::Black},
-                                       {"ORANGE", TeamColor::Orange},
-                                       {"YELLOW", TeamColor::Yellow}}};
-  for (const Name& name : names) {
-    if (color == name.published) return name.team;
-  }
-  throw Malformed(where + ".color \"" + color + "\" is not one of the published colours");
+TeamColor teamOf(const JsonObject& robot) {
+  constexpr std::array<std::string_view, 5> names{"CYAN", "MAGENTA", "BLACK", "ORANGE", "YELLOW"};
+  constexpr std::array<TeamColor, 5> teams{TeamColor::Blue, TeamColor::Red, TeamColor::Black,
+                                           TeamColor::Orange, TeamColor::Yellow};
+  robot.require("color");
+  return teams[robot.choice("color", names, "published colour").value_or(0)];
 }
 
-TraceRobot robotFrom(const Json& json, const std::string& where) {
+TraceRobot robotFrom(JsonReport& report, const JsonObject& json) {
   TraceRobot robot;
-  robot.x = number(json, "x", where);
-  robot.y = number(json, "y", where);
-  robot.rotate = number(json, "rotate", where);
-  robot.team = teamOf(text(json, "color", where), where);
-  const int imu = anyInt(json, "imu_initial_value", where);
-  if (imu != 0 && imu != 180) throw Malformed(where + ".imu_initial_value must be 0 or 180");
+  robot.x = number(json, "x");
+  robot.y = number(json, "y");
+  robot.rotate = number(json, "rotate");
+  robot.team = teamOf(json);
+  const int imu = anyInt(json, "imu_initial_value");
+  if (imu != 0 && imu != 180) json.fail("imu_initial_value", "must be 0 or 180");
   robot.imuStartsAt180 = imu == 180;
-  if (const auto ints = json.find("bkb_int"); ints != json.end()) {
-    if (!ints->is_object()) throw Malformed(where + ".bkb_int must be an object");
-    for (const auto& [name, value] : ints->items()) {
-      robot.initialInts.emplace_back(name, anyInt(*ints, name.c_str(), where + ".bkb_int"));
+  if (json.find("bkb_int")) {
+    const JsonObject ints = object(report, json, "bkb_int");
+    for (const auto& [name, value] : ints.members()) {
+      robot.initialInts.emplace_back(name, anyInt(ints, name));
     }
   }
   return robot;
 }
 
-using ReadOperation = TraceOperation (*)(const Json&, const std::string&, std::size_t robots);
+using ReadOperation = TraceOperation (*)(const JsonObject&, std::size_t robots);
 
-std::size_t robotIndex(const Json& json, const std::string& where, std::size_t robots) {
-  return static_cast<std::size_t>(wholeNumber(json, "robot", where, 1, static_cast<int>(robots))) -
-         1;
+std::size_t robotIndex(const JsonObject& json, std::size_t robots) {
+  return static_cast<std::size_t>(wholeNumber(json, "robot", 1, static_cast<int>(robots))) - 1;
 }
 
-constexpr std::array<std::pair<const char*, ReadOperation>, 6> operations{{
-    {"bkb_int",
-     [](const Json& j, const std::string& w, std::size_t n) -> TraceOperation {
-       return WriteInt{robotIndex(j, w, n), text(j, "var", w), anyInt(j, "value", w)};
-     }},
-    {"bkb_float",
-     [](const Json& j, const std::string& w, std::size_t n) -> TraceOperation {
-       return WriteFloat{robotIndex(j, w, n), text(j, "var", w), number(j, "value", w)};
-     }},
-    {"robot_place",
-     [](const Json& j, const std::string& w, std::size_t n) -> TraceOperation {
-       return PlaceTraceRobot{robotIndex(j, w, n), number(j, "x", w), number(j, "y", w),
-                              number(j, "rotate", w), number(j, "view_rot", w)};
-     }},
-    {"ball_new",
-     [](const Json& j, const std::string& w, std::size_t) -> TraceOperation {
-       return NewBall{number(j, "x", w), number(j, "y", w)};
-     }},
-    {"ball_motion",
-     [](const Json& j, const std::string& w, std::size_t) -> TraceOperation {
-       return MoveBall{number(j, "speed", w), number(j, "angle", w)};
-     }},
-    {"game_stop",
-     [](const Json& j, const std::string& w, std::size_t) -> TraceOperation {
-       return StopGame{anyInt(j, "value", w) != 0};
-     }},
-}};
+constexpr std::array<std::string_view, 6> operationNames{"bkb_int",  "bkb_float",   "robot_place",
+                                                         "ball_new", "ball_motion", "game_stop"};
+constexpr std::array<ReadOperation, operationNames.size()> operations{
+    [](const JsonObject& j, std::size_t n) -> TraceOperation {
+      return WriteInt{robotIndex(j, n), text(j, "var"), anyInt(j, "value")};
+    },
+    [](const JsonObject& j, std::size_t n) -> TraceOperation {
+      return WriteFloat{robotIndex(j, n), text(j, "var"), number(j, "value")};
+    },
+    [](const JsonObject& j, std::size_t n) -> TraceOperation {
+      return PlaceTraceRobot{robotIndex(j, n), number(j, "x"), number(j, "y"), number(j, "rotate"),
+                             number(j, "view_rot")};
+    },
+    [](const JsonObject& j, std::size_t) -> TraceOperation {
+      return NewBall{number(j, "x"), number(j, "y")};
+    },
+    [](const JsonObject& j, std::size_t) -> TraceOperation {
+      return MoveBall{number(j, "speed"), number(j, "angle")};
+    },
+    [](const JsonObject& j, std::size_t) -> TraceOperation {
+      return StopGame{anyInt(j, "value") != 0};
+    },
+};
 
-ScheduledOperation operationFrom(const Json& json, const std::string& where, std::size_t robots) {
-  const int frame = wholeNumber(json, "frame", where, 1, mostFrames);
-  const std::string name = text(json, "op", where);
-  for (const auto& [known, read] : operations) {
-    if (name == known) return {frame, read(json, where, robots)};
-  }
-  throw Malformed(where + ".op \"" + name + "\" is not a known operation");
+ScheduledOperation operationFrom(const JsonObject& json, std::size_t robots) {
+  const int frame = wholeNumber(json, "frame", 1, mostFrames);
+  json.require("op");
+  const auto operation = json.choice("op", operationNames, "operation");
+  if (!operation) return {};
+  return {frame, operations[*operation](json, robots)};
 }
 
-Trace traceFrom(const Json& json) {
+Trace traceFrom(JsonReport& report, const JsonNode& root) {
   Trace trace;
-  trace.name = text(json, "name", "the trace");
-  trace.frames = wholeNumber(json, "frames", "the trace", 0, mostFrames);
-  if (json.contains("naive_every")) {
-    trace.naiveEvery = wholeNumber(json, "naive_every", "the trace", 1, mostFrames);
+  const JsonObject json(report, root, "");
+  trace.name = text(json, "name");
+  trace.frames = wholeNumber(json, "frames", 0, mostFrames);
+  trace.naiveEvery = json.integer("naive_every", trace.naiveEvery, 1, mostFrames);
+  if (const JsonNode* crash = json.find("crash"); crash && crash->kind != JsonNode::Kind::Null) {
+    trace.crashFrame = wholeNumber(object(report, json, "crash"), "frame", 1, mostFrames);
   }
-  if (const auto crash = json.find("crash"); crash != json.end() && !crash->is_null()) {
-    trace.crashFrame = wholeNumber(*crash, "frame", "crash", 1, mostFrames);
+  const JsonObject ball = object(report, json, "ball");
+  trace.ballX = number(ball, "x");
+  trace.ballY = number(ball, "y");
+  trace.ballFriction = number(ball, "friction");
+  json.require("robots");
+  const auto* robots = json.array("robots", mostRobots);
+  for (std::size_t i = 0; robots && i < robots->size() && !report.failed(); ++i) {
+    trace.robots.push_back(
+        robotFrom(report, JsonObject(report, (*robots)[i], json.pathOf("robots", i))));
   }
-  const Json& ball = member(json, "ball", "the trace");
-  trace.ballX = number(ball, "x", "ball");
-  trace.ballY = number(ball, "y", "ball");
-  trace.ballFriction = number(ball, "friction", "ball");
-  const Json& robots = member(json, "robots", "the trace");
-  if (!robots.is_array() || robots.size() > mostRobots) {
-    throw Malformed("robots must be a list of at most 64 robots");
-  }
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    trace.robots.push_back(robotFrom(robots[i], "robots[" + std::to_string(i) + "]"));
-  }
-  const Json& schedule = member(json, "schedule", "the trace");
-  if (!schedule.is_array()) throw Malformed("schedule must be a list");
-  for (std::size_t i = 0; i < schedule.size(); ++i) {
-    trace.schedule.push_back(
-        operationFrom(schedule[i], "schedule[" + std::to_string(i) + "]", trace.robots.size()));
+  json.require("schedule");
+  const auto* schedule = json.array("schedule", mostFrames);
+  for (std::size_t i = 0; schedule && i < schedule->size() && !report.failed(); ++i) {
+    trace.schedule.push_back(operationFrom(
+        JsonObject(report, (*schedule)[i], json.pathOf("schedule", i)), trace.robots.size()));
   }
   std::stable_sort(trace.schedule.begin(), trace.schedule.end(),
                    [](const auto& a, const auto& b) { return a.frame < b.frame; });
@@ -259,12 +233,13 @@ Result<Trace> readTrace(const std::string& jsonPath) {
   }
   const auto text = readFile(jsonPath, mostTextBytes, "The trace");
   if (!text) return tl::unexpected(text.error());
+  JsonReport report(jsonPath);
   Trace trace;
-  try {
-    trace = traceFrom(Json::parse(*text));
-  } catch (const std::exception& error) {
-    return failure(ErrorCode::ParseError, std::string("Not a trace: ") + error.what() + ".",
-                   jsonPath);
+  if (const auto root = parseJson(*text, report, mostTextBytes)) trace = traceFrom(report, *root);
+  if (report.failed()) {
+    Error error = report.error();
+    error.message = "Not a trace: " + error.message;
+    return tl::unexpected(error);
   }
   const std::string rows = jsonPath.substr(0, jsonPath.size() - extension.size()) + ".csv.gz";
   if (auto read = readRows(trace, rows); !read) return tl::unexpected(read.error());

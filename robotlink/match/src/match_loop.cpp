@@ -2,7 +2,6 @@
 #include "match_loop.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace pitchboard::link {
@@ -10,10 +9,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longestBatch = 8ms;  // then commands, frames and a stop get their turn
 constexpr auto frameInterval = 8ms;
 constexpr auto pollInterval = 50ms;
-constexpr std::uint64_t noLastTick = std::numeric_limits<std::uint64_t>::max();
 
 template <class T>
 void pushBounded(std::deque<T>& queue, T value, std::uint64_t& dropped) {
@@ -48,7 +45,8 @@ void FramePool::giveBack(std::unique_ptr<MatchFrame> frame) {
 }
 
 MatchLoop::MatchLoop(MatchRunner::Shared& shared, SimulatedMatch match)
-    : m_shared(shared), m_match(std::move(match)) {
+    : m_shared(shared), m_player(std::move(match)), m_match(m_player.match()) {
+  m_player.observe(m_newEvents);
   m_builder.resetSpeed(Clock::now(), m_match.simulation().state().tick);
 }
 
@@ -87,11 +85,9 @@ bool MatchLoop::carryOutCommands() {
   if (commands.empty()) return false;
   const std::uint64_t before = m_match.simulation().hash();
   for (const auto& command : commands) command(m_match);
-  if (m_match.simulation().hash() != before) {
-    for (const auto& observer : m_observers) observer->worldChanged(m_match);
-  }
+  if (m_match.simulation().hash() != before) m_player.worldChanged();
   // Otherwise the next tick shows what they did.
-  if (m_still) showObservers({});
+  if (m_still) m_player.showMoment();
   return true;
 }
 
@@ -108,8 +104,7 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   const double speed = runTo ? MatchRunner::unlimitedSpeed : m_shared.speed;
   const bool still = finished || (m_shared.paused && !runTo);
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
-    m_pacer.start(now, tick,
-                  std::max(speed, 1e-6) * m_match.simulation().state().settings.tickRate);
+    m_player.setSpeed(speed, now);
     m_builder.resetSpeed(now, tick);
     m_publishWanted = true;
   }
@@ -118,7 +113,7 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   noteFinish();
 
   if (singleSteps > 0) {
-    for (int i = 0; i < singleSteps && !m_match.finished(); ++i) tickOnce();
+    for (int i = 0; i < singleSteps && !m_match.finished(); ++i) m_player.tick();
     lock.lock();
     m_shared.singleSteps -= singleSteps;
     lock.unlock();
@@ -127,61 +122,19 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   if (still) {
     return refreshesWhileStill() ? now + pollInterval : Clock::time_point::max();
   }
-  if (speed == MatchRunner::unlimitedSpeed) {
-    playBatch(now + longestBatch, runTo.value_or(noLastTick));
-    return now;
-  }
-  playBatch(now + longestBatch, m_pacer.target(now));
-  const std::uint64_t reached = m_match.simulation().state().tick;
-  const auto after = Clock::now();
-  m_pacer.forgive(after, reached);
-  // Behind by less than is forgiven: go on at once.
-  return m_pacer.target(after) > reached ? after : m_pacer.wake(after, reached);
+  return playBatch(now, runTo.value_or(MatchPlayer::noLastTick));
 }
 
-void MatchLoop::tickOnce() {
-  const auto begin = Clock::now();
-  m_match.tick();
-  const auto tickTime = Clock::now() - begin;
-  const auto events = m_match.simulation().events();
-  m_newEvents.insert(m_newEvents.end(), events.begin(), events.end());
-  if (!events.empty()) {
-    for (const auto& observer : m_observers) observer->happened(events);
-  }
-  showObservers(tickTime);
-}
-
-void MatchLoop::showObservers(std::chrono::nanoseconds tickTime) {
-  for (const auto& observer : m_observers) observer->ticked(m_match, tickTime);
-}
-
-void MatchLoop::observe(std::shared_ptr<TickObserver> observer) {
-  observer->ticked(m_match, {});
-  m_observers.push_back(std::move(observer));
-}
-
-void MatchLoop::stopObserving(const std::shared_ptr<TickObserver>& observer) {
-  std::erase(m_observers, observer);
-}
-
-std::uint64_t MatchLoop::playBatch(Clock::time_point until, std::uint64_t lastTick) {
-  const auto begin = Clock::now();
-  auto now = begin;
-  std::uint64_t done = 0;
-  while (m_match.simulation().state().tick < lastTick && !m_match.finished()) {
-    tickOnce();
-    ++done;
-    now = Clock::now();
-    if (now >= until) break;
-  }
-  m_builder.addBusy(now - begin, done);
+MatchLoop::Clock::time_point MatchLoop::playBatch(Clock::time_point now, std::uint64_t lastTick) {
+  const MatchPlayer::Played played = m_player.play(now, lastTick);
+  m_builder.addBusy(played.busy, played.ticks);
   collectEvents();
-  return done;
+  return played.next;
 }
 
 void MatchLoop::collectEvents() {
-  if (m_newEvents.empty()) return;
-  for (const sim::Event& event : m_newEvents) {
+  if (m_newEvents->list.empty()) return;
+  for (const sim::Event& event : m_newEvents->list) {
     if (event.kind != sim::EventKind::UnknownAction) continue;
     const auto& robots = m_match.simulation().state().robots;
     const auto index = m_match.simulation().indexOf(event.robot);
@@ -190,10 +143,10 @@ void MatchLoop::collectEvents() {
         "unknown action " + std::to_string(event.value) + " in DECISION_ACTION_A; it stops", true);
   }
   const std::lock_guard lock(m_shared.mutex);
-  for (const sim::Event& event : m_newEvents) {
+  for (const sim::Event& event : m_newEvents->list) {
     pushBounded(m_shared.events, event, m_shared.droppedEvents);
   }
-  m_newEvents.clear();
+  m_newEvents->list.clear();
 }
 
 bool MatchLoop::refreshesWhileStill() const {
@@ -247,7 +200,7 @@ void MatchLoop::noteFinish() {
 void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {
   const sim::WorldState& state = m_match.simulation().state();
   LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text, warning};
-  for (const auto& observer : m_observers) observer->logged(line);
+  for (const auto& observer : m_player.observers()) observer->logged(line);
   const std::lock_guard lock(m_shared.mutex);
   pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);
 }

@@ -8,8 +8,8 @@
 #include <mutex>
 #include <stop_token>
 
+#include <robotlink/match/match_player.h>
 #include <robotlink/match/match_runner.h>
-#include <robotlink/match/pacer.h>
 
 #include "frame_builder.h"
 
@@ -52,15 +52,23 @@ struct MatchRunner::Shared {
   MatchLoop* loop = nullptr;  // for commands, which run on its thread
 };
 
+/// What happened since it was asked last.
+class NewEvents : public TickObserver {
+ public:
+  void ticked(const SimulatedMatch& /*match*/, std::chrono::nanoseconds /*tickTime*/) override {}
+  void happened(std::span<const sim::Event> events) override {
+    list.insert(list.end(), events.begin(), events.end());
+  }
+  std::vector<sim::Event> list;
+};
+
 class MatchLoop {
  public:
   MatchLoop(MatchRunner::Shared& shared, SimulatedMatch match);
   /// Until stopped.
   void run(const std::stop_token& stop);
   void publish();
-  /// Shows it the present moment.
-  void observe(std::shared_ptr<TickObserver> observer);
-  void stopObserving(const std::shared_ptr<TickObserver>& observer);
+  MatchPlayer& player() { return m_player; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -68,9 +76,7 @@ class MatchLoop {
   bool carryOutCommands();
   /// Plays what is due; says when to look again.
   Clock::time_point play(Clock::time_point now);
-  void tickOnce();
-  std::uint64_t playBatch(Clock::time_point until, std::uint64_t lastTick);
-  void showObservers(std::chrono::nanoseconds tickTime);
+  Clock::time_point playBatch(Clock::time_point now, std::uint64_t lastTick);
   void collectEvents();
   void pollChildren();
   void log(const std::string& origin, const std::string& text, bool warning);
@@ -79,12 +85,11 @@ class MatchLoop {
   bool refreshesWhileStill() const;
 
   MatchRunner::Shared& m_shared;
-  SimulatedMatch m_match;
-  Pacer m_pacer;
+  MatchPlayer m_player;
+  SimulatedMatch& m_match;  // the player's
   FrameBuilder m_builder;
   std::shared_ptr<FramePool> m_pool = std::make_shared<FramePool>();
-  std::vector<std::shared_ptr<TickObserver>> m_observers;
-  std::vector<sim::Event> m_newEvents;
+  const std::shared_ptr<NewEvents> m_newEvents = std::make_shared<NewEvents>();
   std::vector<ChildState> m_childStates;  // as last seen
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;

@@ -26,7 +26,7 @@ Result<std::unique_ptr<MatchRunner>> MatchRunner::start(
           return;
         }
         MatchLoop loop(*shared, std::move(*match));
-        for (auto& observer : observers) loop.observe(std::move(observer));
+        for (auto& observer : observers) loop.player().observe(std::move(observer));
         shared->loop = &loop;
         loop.publish();
         promise.set_value({});
@@ -101,11 +101,11 @@ void MatchRunner::execute(const Command& command) {
 }
 
 void MatchRunner::observe(const std::shared_ptr<TickObserver>& observer) {
-  execute([this, &observer](SimulatedMatch&) { m_shared->loop->observe(observer); });
+  execute([this, &observer](SimulatedMatch&) { m_shared->loop->player().observe(observer); });
 }
 
 void MatchRunner::stopObserving(const std::shared_ptr<TickObserver>& observer) {
-  execute([this, &observer](SimulatedMatch&) { m_shared->loop->stopObserving(observer); });
+  execute([this, &observer](SimulatedMatch&) { m_shared->loop->player().stopObserving(observer); });
 }
 
 std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial) const {

@@ -61,6 +61,9 @@ std::string IniFile::place(const IniEntry& entry) const {
   return placeOf(source, entry.line);
 }
 
+// Read by hand, because the packaged readers do not read what Python's ConfigParser reads: libinih
+// cuts every line after 199 characters (a command line may be longer) and tells of one wrong line
+// only, which may be the team's own; the others know no ':' between name and value, or no lines.
 Result<IniFile> iniFromText(std::string_view text, std::string_view source) {
   IniFile file{std::string(source), {}};
   std::string section;

@@ -27,9 +27,8 @@ Result<sim::NoiseParameters> noisePreset(std::string_view name) {
   const auto root = parseJson(resourceText(path), report);
   sim::NoiseParameters noise;
   if (root) {
-    std::vector<std::string_view> keys{"name", "title", "description"};
-    for (const auto& key : noiseKeys()) keys.push_back(key.key);
-    readNoiseKeys(JsonObject(report, *root, "", keys), noise);
+    const auto keys = withKeys({"name", "title", "description"}, sim::noiseParameters);
+    readNumbers(JsonObject(report, *root, "", keys), sim::noiseParameters, noise);
   }
   if (report.failed()) return tl::unexpected(report.error());
   return noise;

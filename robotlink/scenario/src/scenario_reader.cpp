@@ -30,13 +30,6 @@ std::string resourcePath(std::string_view name) {
   return "scenarios/" + std::string(name) + ".json";
 }
 
-template <class T>
-std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
-                                       std::span<const NumberKey<T>> more) {
-  for (const auto& key : more) keys.push_back(key.key);
-  return keys;
-}
-
 std::vector<std::string_view> fieldNames() {
   std::vector<std::string_view> names;
   for (const sim::FieldSpec& field : sim::builtInFields()) names.push_back(field.name);
@@ -45,14 +38,12 @@ std::vector<std::string_view> fieldNames() {
 
 sim::FieldSpec readFieldObject(JsonReport& report, const JsonNode& node, const std::string& path) {
   sim::FieldSpec field;
-  const JsonObject object(report, node, path, withKeys({"name", "base"}, fieldKeys()));
+  const JsonObject object(report, node, path, withKeys({"name", "base"}, sim::fieldParameters));
   if (const auto base = object.choice("base", fieldNames(), "field")) {
     field = sim::builtInFields()[*base];
   }
   field.name = object.text("name", "custom", 64);
-  for (const auto& key : fieldKeys()) {
-    field.*key.member = object.number(key.key, field.*key.member, key.range);
-  }
+  readNumbers(object, sim::fieldParameters, field);
   if (const auto valid = sim::validate(field); !valid)
     report.fail(node.line, path, valid.error().message);
   return field;
@@ -111,8 +102,8 @@ class Reader {
     if (const auto model = m_root.choice("physics", models, "physics model")) {
       settings.physics = models[*model];
     }
-    settings.tickRate =
-        m_root.number("tick_rate", settings.tickRate, {1, 10000, "ticks per second"});
+    settings.tickRate = m_root.number(sim::tickRateParameter.key, settings.tickRate,
+                                      rangeOf(sim::tickRateParameter));
     settings.seed = m_root.unsignedInteger("seed", settings.seed);
     if (const auto rule = m_root.choice("after_goal", afterGoalNames, "rule after a goal")) {
       settings.afterGoal = static_cast<sim::AfterGoal>(*rule);
@@ -154,22 +145,19 @@ class Reader {
       m_root.fail("noise", "must be the name of a noise preset, in quotes, or an object in braces");
       return;
     }
-    const JsonObject object(m_report, *node, "noise", withKeys({"preset"}, noiseKeys()));
+    const JsonObject object(m_report, *node, "noise", withKeys({"preset"}, sim::noiseParameters));
     if (const auto preset = object.choice("preset", known, "noise preset")) take(*preset);
-    readNoiseKeys(object, noise);
+    readNumbers(object, sim::noiseParameters, noise);
   }
 
   void readRigidBody() {
     const JsonNode* node = m_root.find("rigid_body");
     if (!node) return;
-    const JsonObject object(m_report, *node, "rigid_body", withKeys({"falls"}, rigidBodyKeys()));
+    const JsonObject object(m_report, *node, "rigid_body",
+                            withKeys({sim::fallsSwitch.key}, sim::rigidBodyParameters));
     sim::RigidBodySettings& body = m_scenario.settings.rigidBody;
-    body.falls = object.boolean("falls", body.falls);
-    for (const auto& key : rigidBodyKeys()) {
-      if (!object.find(key.key)) continue;
-      const double value = object.number(key.key, 0.0, key.range);
-      body.*key.member = key.angle() ? radiansFromDegrees(value) : value;
-    }
+    body.falls = object.boolean(sim::fallsSwitch.key, body.falls);
+    readNumbers(object, sim::rigidBodyParameters, body);
   }
 
   void readBall() {
@@ -194,7 +182,8 @@ class Reader {
     const sim::FieldSpec& field = m_scenario.settings.field;
     const double x = field.halfLength() + field.border;
     const double y = field.halfWidth() + field.border;
-    return {object.number("x", 0.0, {-x, x, inMetres}), object.number("y", 0.0, {-y, y, inMetres})};
+    return {object.number("x", 0.0, {-x, x, sim::units::metres.words}),
+            object.number("y", 0.0, {-y, y, sim::units::metres.words})};
   }
 
   void readRobots() {
@@ -223,7 +212,7 @@ class Reader {
     robot.identity.imuStartsAt180 = object.boolean("imu_starts_at_180", facesLeft);
     robot.pose.position = readPlace(object);
     robot.pose.yaw = radiansFromDegrees(
-        object.number("heading", facesLeft ? 180.0 : 0.0, {-360, 360, inDegrees}));
+        object.number("heading", facesLeft ? 180.0 : 0.0, {-360, 360, sim::units::degrees.words}));
     std::vector<std::string_view> known;
     for (const BehaviourInfo& behaviour : behaviours()) known.push_back(behaviour.name);
     known.push_back(noBehaviour);

@@ -19,13 +19,14 @@ Json number(double value) {
   return value;
 }
 
-template <class T>
-Json differences(std::span<const NumberKey<T>> keys, const T& value, const T& base) {
+template <class Values, std::size_t N>
+Json differences(const std::array<sim::Parameter<Values>, N>& parameters, const Values& value,
+                 const Values& base) {
   Json out = Json::object();
-  for (const auto& key : keys) {
-    if (value.*key.member == base.*key.member) continue;
-    out[std::string(key.key)] =
-        number(key.angle() ? fileDegrees(value.*key.member) : value.*key.member);
+  for (const auto& p : parameters) {
+    const double stored = value.*p.member;
+    if (stored == base.*p.member) continue;
+    out[p.key] = number(p.unit.angle ? fileDegrees(stored) : stored);
   }
   return out;
 }
@@ -35,7 +36,7 @@ Json fieldToJson(const sim::FieldSpec& field) {
   Json least;
   for (const sim::FieldSpec& built : sim::builtInFields()) {
     if (built == field) return field.name;
-    Json changed = differences(fieldKeys(), field, built);
+    Json changed = differences(sim::fieldParameters, field, built);
     if (!base || changed.size() < least.size()) {
       base = &built;
       least = std::move(changed);
@@ -53,7 +54,7 @@ Json noiseToJson(const sim::NoiseParameters& noise) {
     const auto preset = noisePreset(name);
     if (!preset) continue;
     if (*preset == noise) return name;
-    Json changed = differences(noiseKeys(), noise, *preset);
+    Json changed = differences(sim::noiseParameters, noise, *preset);
     if (base.empty() || changed.size() < least.size()) {
       base = name;
       least = std::move(changed);
@@ -67,8 +68,8 @@ Json noiseToJson(const sim::NoiseParameters& noise) {
 Json rigidBodyToJson(const sim::RigidBodySettings& body) {
   const sim::RigidBodySettings usual;
   Json out = Json::object();
-  if (body.falls != usual.falls) out["falls"] = body.falls;
-  out.update(differences(rigidBodyKeys(), body, usual));
+  if (body.falls != usual.falls) out[sim::fallsSwitch.key] = body.falls;
+  out.update(differences(sim::rigidBodyParameters, body, usual));
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include <base/file_target.h>
 #include <robotlink/session/row_walk.h>
@@ -91,24 +92,26 @@ telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldSt
 Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& path,
                                                              const Scenario& scenario,
                                                              const VariableCatalog& catalog,
+                                                             std::shared_ptr<MatchSampler> sampler,
                                                              const RecorderOptions& options) {
   auto writer =
       telemetry::SessionWriter::create(path, sessionInfo(scenario, options), options.writer);
   if (!writer) return tl::unexpected(writer.error());
   attachMatch(**writer, scenario, catalog);
-  return std::make_shared<MatchRecorder>(std::move(*writer), options.everyNth);
+  return std::make_shared<MatchRecorder>(std::move(*writer), std::move(sampler));
 }
 
-MatchRecorder::MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer, int everyNth)
-    : m_writer(std::move(writer)), m_sampler(m_writer, {everyNth}) {}
+MatchRecorder::MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
+                             std::shared_ptr<MatchSampler> sampler)
+    : m_writer(std::move(writer)), m_sampler(std::move(sampler)) {}
 
 MatchRecorder::~MatchRecorder() {
   (void)finish();
 }
 
-void MatchRecorder::ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) {
+void MatchRecorder::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*tickTime*/) {
   keep(m_segmenter.ticked(match));
-  m_sampler.ticked(match, tickTime);
+  if (!std::exchange(m_getsRows, true)) m_sampler->add(m_writer, match);
   const sim::WorldState& state = match.simulation().state();
   for (const sim::Event& event : m_events) m_writer->append(sessionEvent(event, state));
   m_events.clear();
@@ -126,6 +129,10 @@ void MatchRecorder::worldChanged(const SimulatedMatch& match) {
 void MatchRecorder::logged(const LogLine& line) {
   m_writer->append(
       telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+}
+
+void MatchRecorder::left() {
+  m_sampler->remove(m_writer);
 }
 
 void MatchRecorder::keep(std::optional<StateSegment> ended) {

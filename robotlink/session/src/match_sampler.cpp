@@ -9,26 +9,61 @@
 
 namespace pitchboard::link {
 
-MatchSampler::MatchSampler(std::shared_ptr<telemetry::RowSink> sink, MatchSamplerOptions options)
-    : m_sink(std::move(sink)), m_options{std::max(1, options.everyNth)} {}
+MatchSampler::MatchSampler(std::shared_ptr<telemetry::RowSink> sink, MatchSamplerOptions options) {
+  setEveryNth(options.everyNth);
+  if (sink) m_outlets.push_back({std::move(sink), {}});
+}
 
 MatchSampler::~MatchSampler() = default;
 
 void MatchSampler::ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) {
   const std::uint64_t tick = match.simulation().state().tick;
   // A moment without a tick (the first one, a change by hand) is always shown.
-  if (tickTime.count() > 0 && tick % static_cast<std::uint64_t>(m_options.everyNth) != 0) return;
+  const bool due = tickTime.count() == 0 || tick % std::uint64_t(m_options.everyNth) == 0;
+  if (m_outlets.empty() || !due) return;
+  look(match);
+  sampleInto(m_outlets, match, tickTime);
+}
+
+void MatchSampler::add(std::shared_ptr<telemetry::RowSink> sink, const SimulatedMatch& match) {
+  look(match);
+  Outlet& outlet = m_outlets.emplace_back(Outlet{std::move(sink), {}});
+  registerGroups(outlet);
+  sampleInto({&outlet, 1}, match, {});
+}
+
+void MatchSampler::remove(const std::shared_ptr<telemetry::RowSink>& sink) {
+  std::erase_if(m_outlets, [&](const Outlet& outlet) { return outlet.sink == sink; });
+}
+
+void MatchSampler::look(const SimulatedMatch& match) {
   match.simulation().snapshot(m_snapshot);
-  if (!sameRobots(match)) takeRobots(match);
+  if (sameRobots(match)) return;
+  takeRobots(match);
+  for (Outlet& outlet : m_outlets) registerGroups(outlet);
+}
+
+void MatchSampler::registerGroups(Outlet& outlet) const {
+  outlet.groups.clear();
+  for (const telemetry::GroupInfo& group : m_groups) {
+    outlet.groups.push_back(outlet.sink->addGroup(group));
+  }
+}
+
+void MatchSampler::sampleInto(std::span<const Outlet> outlets, const SimulatedMatch& match,
+                              std::chrono::nanoseconds tickTime) {
+  const auto append = [&](std::size_t group, const telemetry::RowView& row) {
+    for (const Outlet& outlet : outlets) outlet.sink->append(outlet.groups[group], row);
+  };
   readMatch(m_snapshot, std::chrono::duration<double, std::micro>(tickTime).count(), m_matchValues);
-  m_sink->append(m_match, {m_snapshot.time, {}, m_matchValues});
+  append(0, {m_snapshot.time, {}, m_matchValues});
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = m_snapshot.robots[i];
     const Blackboard* board = match.blackboard(robot.identity.id);
     if (!board) continue;
     m_board->read(*board, m_words);
     readTruth(match, m_snapshot, robot, *board, m_truth);
-    m_sink->append(m_seats[i].group, {m_snapshot.time, m_words, m_truth});
+    append(i + 1, {m_snapshot.time, m_words, m_truth});
   }
 }
 
@@ -51,8 +86,9 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   group.attributes = {{"physics", settings.physics},
                       {"seed", std::to_string(settings.seed)},
                       {"tick_rate", shortest(settings.tickRate)}};
-  m_match = m_sink->addGroup(group);
   m_matchValues.resize(group.columns.size());
+  m_groups.clear();
+  m_groups.push_back(std::move(group));
 
   auto truth = truthColumns();
   // A team's own variable keeps its name.
@@ -68,7 +104,7 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
     const sim::RobotIdentity& identity = robot.identity;
     const Blackboard* board = match.blackboard(identity.id);
-    Seat seat{identity, board ? board->key() : 0, std::string(match.behaviour(identity.id)), 0};
+    Seat seat{identity, board ? board->key() : 0, std::string(match.behaviour(identity.id))};
     telemetry::GroupInfo info{groupName(identity), m_board->columns(), {}};
     info.columns.insert(info.columns.end(), truth.begin(), truth.end());
     info.attributes = {{"robot", std::to_string(identity.id.value)},
@@ -77,7 +113,7 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
                        {"key", std::to_string(seat.key)},
                        {"imu180", identity.imuStartsAt180 ? "1" : "0"},
                        {"behaviour", seat.behaviour}};
-    seat.group = m_sink->addGroup(info);
+    m_groups.push_back(std::move(info));
     m_seats.push_back(std::move(seat));
   }
 }

@@ -11,6 +11,7 @@
 #include <robotlink/frame/belief.h>
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/session/live_recorder.h>
+#include <simcore/world/parameters.h>
 #include <simcore/world/published_frame.h>
 
 #include "recorded_layout.h"
@@ -216,7 +217,9 @@ void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {
   double rate = 0.0;
   const std::string_view text = attribute(info, "tick_rate");
   std::from_chars(text.data(), text.data() + text.size(), rate);
-  if (rate >= 1.0 && rate <= 10000.0) frame.tickRate = rate;
+  if (rate >= sim::tickRateParameter.least && rate <= sim::tickRateParameter.most) {
+    frame.tickRate = rate;
+  }
 }
 
 void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame) {

@@ -8,7 +8,7 @@
 
 #include <base/lined_json.h>
 
-namespace pitchboard::link {
+namespace pitchboard {
 namespace {
 
 constexpr std::size_t mostListed = 24;
@@ -85,13 +85,16 @@ std::string shortest(double value) {
   return {buffer.data(), end.ptr};
 }
 
-JsonObject::JsonObject(JsonReport& report, const JsonNode& node, std::string path,
-                       std::span<const std::string_view> keys)
+JsonObject::JsonObject(JsonReport& report, const JsonNode& node, std::string path)
     : m_report(&report), m_node(&node), m_path(std::move(path)) {
   if (node.kind != JsonNode::Kind::Object) {
     report.fail(node.line, m_path, "must be an object in braces");
-    return;
   }
+}
+
+JsonObject::JsonObject(JsonReport& report, const JsonNode& node, std::string path,
+                       std::span<const std::string_view> keys)
+    : JsonObject(report, node, std::move(path)) {
   for (const auto& [name, value] : node.members) {
     if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
       report.fail(value.line, pathOf(shortened(name)), "unknown key; " + hint(name, keys));
@@ -102,6 +105,10 @@ JsonObject::JsonObject(JsonReport& report, const JsonNode& node, std::string pat
 
 std::string JsonObject::pathOf(std::string_view key) const {
   return m_path.empty() ? std::string(key) : m_path + '.' + std::string(key);
+}
+
+std::string JsonObject::pathOf(std::string_view key, std::size_t entry) const {
+  return pathOf(key) + '[' + std::to_string(entry) + ']';
 }
 
 void JsonObject::fail(std::string_view key, const std::string& text) const {
@@ -208,4 +215,4 @@ const std::vector<JsonNode>* JsonObject::array(std::string_view key, std::size_t
   return &value->items;
 }
 
-}  // namespace pitchboard::link
+}  // namespace pitchboard

@@ -6,10 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <unordered_set>
 
-namespace pitchboard::link {
+namespace pitchboard {
 namespace {
 
-constexpr std::size_t mostBytes = 1024 * 1024;
 constexpr std::size_t mostDepth = 64;
 
 /// How far the lexer has read.
@@ -194,15 +193,17 @@ const JsonNode* JsonNode::find(std::string_view key) const {
   return nullptr;
 }
 
-void JsonReport::fail(int line, const std::string& path, const std::string& text) {
+void JsonReport::fail(int line, const std::string& path, const std::string& text, ErrorCode code) {
   if (m_error) return;
-  m_error = Error{ErrorCode::ParseError, path.empty() ? text : path + ": " + text,
-                  m_source + ':' + std::to_string(line)};
+  m_error =
+      Error{code, path.empty() ? text : path + ": " + text, m_source + ':' + std::to_string(line)};
 }
 
-std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report) {
+std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report,
+                                  std::size_t mostBytes) {
   if (text.size() > mostBytes) {
-    report.fail(1, "", "larger than 1 MiB, the most that is read");
+    report.fail(1, "",
+                "larger than " + std::to_string(mostBytes >> 20) + " MiB, the most that is read");
     return {};
   }
   ReadPosition position;
@@ -218,4 +219,4 @@ std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report) {
   return builder.takeRoot();
 }
 
-}  // namespace pitchboard::link
+}  // namespace pitchboard

@@ -6,85 +6,12 @@
 #include <cmath>
 #include <string>
 
+#include <simcore/world/parameters.h>
+
 #include "physics_model.h"
 
 namespace pitchboard::sim {
 namespace {
-
-constexpr double leastTickRate = 1.0;
-constexpr double mostTickRate = 10000.0;
-
-Result<void> validateTickRate(double rate) {
-  if (std::isfinite(rate) && rate >= leastTickRate && rate <= mostTickRate) return {};
-  return failure(ErrorCode::InvalidArgument,
-                 "The tick rate must lie between 1 and 10000 ticks per second.", "tick_rate");
-}
-
-Result<void> validate(const NoiseParameters& n) {
-  struct Value {
-    const char* name;
-    double value, most;
-  };
-  const Value values[] = {{"forward", n.forward, 10},
-                          {"sideways", n.sideways, 10},
-                          {"rotation", n.rotation, 10},
-                          {"kick_speed", n.kickSpeed, 100},
-                          {"kick_angle", n.kickAngle, 10},
-                          {"vision_distance", n.visionDistance, 10},
-                          {"vision_bearing", n.visionBearing, 10},
-                          {"robot_distance", n.robotDistance, 100},
-                          {"robot_bearing", n.robotBearing, 10},
-                          {"landmark_bearing", n.landmarkBearing, 10},
-                          {"landmark_probability", n.landmarkProbability, 1},
-                          {"missed_detection", n.missedDetection, 1},
-                          {"vision_delay", n.visionDelay, 2},
-                          {"imu_white", n.imuWhite, 10},
-                          {"imu_drift", n.imuDrift, 10}};
-  for (const Value& v : values) {
-    if (!std::isfinite(v.value) || v.value < 0 || v.value > v.most) {
-      return failure(ErrorCode::InvalidArgument,
-                     "Noise must lie between 0 and " + std::to_string(v.most) + ".",
-                     std::string("noise.") + v.name);
-    }
-  }
-  return {};
-}
-
-Result<void> validate(const RigidBodySettings& s) {
-  struct Value {
-    const char* name;
-    double value, least, most;
-  };
-  const Value values[] = {{"max_acceleration", s.maxAcceleration, 0.01, 1000},
-                          {"max_yaw_acceleration", s.maxYawAcceleration, 0.01, 10000},
-                          {"robot_mass", s.robotMass, 0.1, 200},
-                          {"ball_mass", s.ballMass, 0.01, 5},
-                          {"ball_friction", s.ballFriction, 0, 1},
-                          {"post_restitution", s.postRestitution, 0, 1},
-                          {"robot_restitution", s.robotRestitution, 0, 1},
-                          {"fall_impulse", s.fallImpulse, 0, 1000},
-                          {"get_up_time", s.getUpTime, 0, 600},
-                          {"head_speed", s.headSpeed, 0, 100},
-                          {"field_of_view", s.fieldOfView, 0.01, 6.2832},
-                          {"pan_limit", s.panLimit, 0, 3.1416},
-                          {"vision_range", s.visionRange, 0, 100}};
-  for (const Value& v : values) {
-    if (!std::isfinite(v.value) || v.value < v.least || v.value > v.most) {
-      return failure(ErrorCode::InvalidArgument,
-                     "The value must lie between " + std::to_string(v.least) + " and " +
-                         std::to_string(v.most) + ".",
-                     std::string("rigid_body.") + v.name);
-    }
-  }
-  return {};
-}
-
-Result<void> validate(const SimulationSettings& settings) {
-  return validateTickRate(settings.tickRate)
-      .and_then([&] { return validate(settings.field); })
-      .and_then([&] { return validate(settings.noise); })
-      .and_then([&] { return validate(settings.rigidBody); });
-}
 
 bool isFinite(const Pose& pose) {
   return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&

@@ -2,7 +2,8 @@
 #include <simcore/world/field.h>
 
 #include <array>
-#include <cmath>
+
+#include "parameter_check.h"
 
 namespace pitchboard::sim {
 namespace {
@@ -65,33 +66,8 @@ Result<void> validate(const FieldSpec& f) {
     return failure(ErrorCode::InvalidArgument, "This field cannot be played on: " + why + ".",
                    "field \"" + f.name + "\"");
   };
-  struct Length {
-    const char* name;
-    double value, least, most;
-  };
-  const Length lengths[] = {
-      {"length", f.length, 1, 200},
-      {"width", f.width, 1, 200},
-      {"border", f.border, 0.1, 20},
-      {"goal_width", f.goalWidth, 0.2, 100},
-      {"goal_depth", f.goalDepth, 0.1, 20},
-      {"goal_height", f.goalHeight, 0, 20},
-      {"goal_post_radius", f.goalPostRadius, 0.005, 1},
-      {"goal_area_length", f.goalAreaLength, 0, 100},
-      {"goal_area_width", f.goalAreaWidth, 0, 200},
-      {"penalty_area_length", f.penaltyAreaLength, 0, 100},
-      {"penalty_area_width", f.penaltyAreaWidth, 0, 200},
-      {"penalty_mark_distance", f.penaltyMarkDistance, 0, 100},
-      {"centre_circle_diameter", f.centreCircleDiameter, 0, 100},
-      {"line_width", f.lineWidth, 0.001, 1},
-      {"ball_radius", f.ballRadius, 0.01, 0.5},
-      {"robot_radius", f.robotRadius, 0.02, 1},
-  };
-  for (const Length& l : lengths) {
-    if (!std::isfinite(l.value) || l.value < l.least || l.value > l.most) {
-      return refuse(std::string(l.name) + " is " + std::to_string(l.value) + " m, allowed are " +
-                    std::to_string(l.least) + " to " + std::to_string(l.most) + " m");
-    }
+  if (const auto bad = firstBad<FieldSpec>(f, fieldParameters); !bad.key.empty()) {
+    return refuse(bad.key + ' ' + bad.text);
   }
   if (f.goalWidth > f.width) return refuse("the goal is wider than the field");
   if (f.goalDepth > f.border + 1e-9) return refuse("the goal is deeper than the border");

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include <base/lined_json.h>
 #include <base/read_file.h>
 #include <resources/resources.h>
 
@@ -24,106 +24,23 @@ constexpr std::array<std::string_view, 3> types{"int", "float", "flag"};
 constexpr std::size_t maxNameBytes = 60;
 constexpr std::size_t maxFileBytes = 1024 * 1024;
 
-/// Walks through text and counts lines on the way, so that a message can name the line.
-struct CountingIterator {
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-  const char* at;
-  int* line;
-  reference operator*() const { return *at; }
-  CountingIterator& operator++() {
-    if (*at == '\n') ++*line;
-    ++at;
-    return *this;
-  }
-  CountingIterator operator++(int) {
-    CountingIterator old = *this;
-    ++*this;
-    return old;
-  }
-  bool operator==(const CountingIterator& other) const { return at == other.at; }
-  bool operator!=(const CountingIterator& other) const { return at != other.at; }
-};
-
-template <std::size_t N>
-std::string list(const std::array<std::string_view, N>& names) {
-  std::string out;
-  for (const std::string_view name : names) out += (out.empty() ? "" : ", ") + std::string(name);
-  return out;
-}
-
-template <std::size_t N>
-std::optional<std::size_t> place(const std::array<std::string_view, N>& names,
-                                 const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 bool isWord(std::string_view text) {
   return !text.empty() && text.size() <= maxNameBytes &&
          std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
 }
 
-/// Reads the members of one JSON object, and remembers the first thing that was wrong.
-class ObjectReader {
- public:
-  ObjectReader(const Json& object, std::string where, std::vector<std::string> keys)
-      : m_object(object), m_where(std::move(where)) {
-    if (!object.is_object()) {
-      fail("This must be an object in { }.", "");
-      return;
-    }
-    for (const auto& item : object.items()) {
-      if (std::find(keys.begin(), keys.end(), item.key()) == keys.end()) {
-        std::string known;
-        for (const std::string& key : keys) known += (known.empty() ? "" : ", ") + key;
-        fail("This key is not known; the keys are " + known + ".", item.key());
-        return;
-      }
-    }
-  }
-
-  std::string text(const char* key, bool required) {
-    if (m_error) return {};
-    const auto found = m_object.find(key);
-    if (found == m_object.end()) {
-      if (required) fail("This key is missing.", key);
-      return {};
-    }
-    if (!found->is_string()) {
-      fail("This must be text in quotation marks.", key);
-      return {};
-    }
-    return found->get<std::string>();
-  }
-
-  template <std::size_t N>
-  std::size_t choice(const char* key, const std::array<std::string_view, N>& names,
-                     std::optional<std::size_t> otherwise) {
-    const std::string word = text(key, !otherwise);
-    if (m_error) return 0;
-    if (!m_object.contains(key)) return *otherwise;
-    const auto found = place(names, word);
-    if (!found) fail("\"" + word + "\" is not one of " + list(names) + ".", key);
-    return found.value_or(0);
-  }
-
-  void fail(std::string message, const std::string& key) {
-    if (m_error) return;
-    m_error = Error{ErrorCode::ParseError, std::move(message),
-                    key.empty() ? m_where : m_where + ": " + key};
-  }
-  const std::optional<Error>& error() const { return m_error; }
-
- private:
-  const Json& m_object;
-  std::string m_where;
-  std::optional<Error> m_error;
-};
+ProfileField fieldFrom(const JsonObject& object) {
+  ProfileField field;
+  object.require("name");
+  field.name = object.text("name", {}, maxFileBytes);
+  object.require("type");
+  field.type = static_cast<FieldType>(object.choice("type", types, "type of a field").value_or(0));
+  field.unit = object.text("unit", {}, maxFileBytes);
+  field.group = object.text("group", {}, maxFileBytes);
+  field.meaning =
+      static_cast<FieldMeaning>(object.choice("meaning", meanings, "meaning").value_or(0));
+  return field;
+}
 
 }  // namespace
 
@@ -200,49 +117,25 @@ Result<void> validate(const Profile& profile) {
 }
 
 Result<Profile> parseProfile(std::string_view text, const std::string& file) {
-  int line = 1;
-  std::vector<int> fieldLines;
-  const auto noteLines = [&](int depth, Json::parse_event_t event, Json&) {
-    if (depth == 2 && event == Json::parse_event_t::object_start) fieldLines.push_back(line);
-    return true;
-  };
-  Json json;
-  try {
-    json = Json::parse(CountingIterator{text.data(), &line},
-                       CountingIterator{text.data() + text.size(), &line}, noteLines);
-  } catch (const Json::exception& error) {
-    const std::string what = error.what();
-    const auto colon = what.rfind(": ");
-    return failure(
-        ErrorCode::ParseError,
-        "This is not JSON: " + (colon == what.npos ? what : what.substr(colon + 2)) + ".",
-        file + ":" + std::to_string(line));
-  }
-  ObjectReader top(json, file + ":1", {"name", "end", "fields"});
+  JsonReport report(file);
+  const auto root = parseJson(text, report, maxFileBytes);
+  if (!root) return tl::unexpected(report.error());
+  const JsonObject top(report, *root, "", {"name", "end", "fields"});
   Profile profile;
-  profile.name = top.text("name", true);
-  if (json.is_object() && json.contains("end")) profile.end = top.text("end", true);
-  if (!top.error() && (!json.contains("fields") || !json["fields"].is_array())) {
-    top.fail("This must be a list in [ ] of the fields, in the order of the message.", "fields");
-  }
-  if (top.error()) return tl::unexpected(*top.error());
-
+  top.require("name");
+  profile.name = top.text("name", {}, maxFileBytes);
+  profile.end = top.text("end", profile.end, maxFileBytes);
+  top.require("fields");
   std::vector<std::string> where;
-  for (const Json& item : json["fields"]) {
-    const std::size_t i = where.size();
-    const int at = i < fieldLines.size() ? fieldLines[i] : line;
-    where.push_back(file + ":" + std::to_string(at) + ": fields[" + std::to_string(i) + "]");
-    ObjectReader object(item, where.back(), {"name", "type", "unit", "group", "meaning"});
-    ProfileField field;
-    field.name = object.text("name", true);
-    field.type = static_cast<FieldType>(object.choice("type", types, std::nullopt));
-    field.unit = object.text("unit", false);
-    field.group = object.text("group", false);
-    field.meaning = static_cast<FieldMeaning>(object.choice("meaning", meanings, 0));
-    if (object.error()) return tl::unexpected(*object.error());
-    profile.fields.push_back(std::move(field));
-    if (profile.fields.size() > Profile::maxFields) break;
+  const auto* fields = top.array("fields", Profile::maxFields);
+  for (std::size_t i = 0; fields && i < fields->size(); ++i) {
+    const JsonNode& item = (*fields)[i];
+    const std::string path = top.pathOf("fields", i);
+    where.push_back(file + ":" + std::to_string(item.line) + ": " + path);
+    profile.fields.push_back(
+        fieldFrom(JsonObject(report, item, path, {"name", "type", "unit", "group", "meaning"})));
   }
+  if (report.failed()) return tl::unexpected(report.error());
   if (const auto valid = validateAt(profile, where, file); !valid) {
     return tl::unexpected(valid.error());
   }

@@ -5,8 +5,10 @@
 #include <QComboBox>
 #include <QScrollArea>
 #include <QVBoxLayout>
-#include <numbers>
+#include <array>
+#include <functional>
 
+#include <simcore/world/parameters.h>
 #include <ui/base/parameter_rows.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -14,47 +16,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double degrees = 180.0 / std::numbers::pi;
 using Noise = sim::NoiseParameters;
 using Body = sim::RigidBodySettings;
-
-constexpr Parameter<Noise> noiseParameters[] = {
-    {"Forward", &Noise::forward, 100, 0, 2, 3, " cm/frame", "σ per 1/60 s of walking"},
-    {"Sideways", &Noise::sideways, 100, 0, 2, 3, " cm/frame", "σ per 1/60 s of walking"},
-    {"Rotation", &Noise::rotation, degrees, 0, 2, 3, " °/frame", "σ per 1/60 s of walking"},
-    {"Kick speed", &Noise::kickSpeed, 1, 0, 3, 2, " m/s", "σ of the ball's speed"},
-    {"Kick angle", &Noise::kickAngle, degrees, 0, 45, 1, " °", "σ of the ball's direction"},
-    {"Ball distance", &Noise::visionDistance, 100, 0, 50, 1, " %", "σ, share of the distance"},
-    {"Ball bearing", &Noise::visionBearing, degrees, 0, 20, 1, " °", "σ"},
-    {"Robot distance", &Noise::robotDistance, 100, 0, 100, 0, " cm", "σ, other robots"},
-    {"Robot bearing", &Noise::robotBearing, degrees, 0, 20, 1, " °", "σ, other robots"},
-    {"Landmark bearing", &Noise::landmarkBearing, degrees, 0, 30, 1, " °", "σ, field corners"},
-    {"Landmark seen", &Noise::landmarkProbability, 100, 0, 100, 0, " %",
-     "Probability that a landmark in view is seen in a frame"},
-    {"Missed", &Noise::missedDetection, 100, 0, 100, 0, " %",
-     "Probability that a ball or robot in view is not seen"},
-    {"Vision delay", &Noise::visionDelay, 1000, 0, 1000, 0, " ms",
-     "From the moment seen to the moment on the blackboard"},
-    {"IMU yaw", &Noise::imuWhite, degrees, 0, 10, 2, " °", "σ, anew each tick"},
-    {"IMU drift", &Noise::imuDrift, degrees, 0, 1, 3, " °/frame", "σ per 1/60 s, accumulating"},
-};
-
-constexpr Parameter<Body> bodyParameters[] = {
-    {"Acceleration", &Body::maxAcceleration, 1, 0.05, 10, 2, " m/s²", "Largest of the gait"},
-    {"Yaw acceleration", &Body::maxYawAcceleration, degrees, 10, 2000, 0, " °/s²",
-     "Largest of the gait"},
-    {"Robot mass", &Body::robotMass, 1, 0.1, 50, 1, " kg", ""},
-    {"Ball mass", &Body::ballMass, 1, 0.01, 2, 2, " kg", ""},
-    {"Ball keeps", &Body::ballFriction, 100, 0, 100, 1, " %", "Share of its speed kept in 1/60 s"},
-    {"Bounce off posts", &Body::postRestitution, 100, 0, 100, 0, " %", "Also off walls and nets"},
-    {"Bounce off robots", &Body::robotRestitution, 100, 0, 100, 0, " %", ""},
-    {"Fall impulse", &Body::fallImpulse, 1, 0.05, 20, 2, " N·s", "Throws a robot down"},
-    {"Time to get up", &Body::getUpTime, 1, 0.1, 30, 1, " s", ""},
-    {"Head speed", &Body::headSpeed, degrees, 1, 720, 0, " °/s", ""},
-    {"Field of view", &Body::fieldOfView, degrees, 1, 360, 0, " °", "In all"},
-    {"Head pan limit", &Body::panLimit, degrees, 0, 180, 0, " °", "To either side"},
-    {"Vision range", &Body::visionRange, 1, 0.1, 20, 1, " m", ""},
-};
 
 QLabel* heading(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
@@ -123,17 +86,12 @@ class NoiseDock : public QScrollArea {
     auto* grid = new QGridLayout;
     grid->setVerticalSpacing(scaled(this, 4));
     grid->setColumnStretch(1, 1);
-    int row = 0;
-    for (const auto& p : noiseParameters) {
-      m_noiseRows.push_back(new ParameterRow(
-          grid, row++, tr(p.name), QString::fromUtf8(p.unit), tr(p.tip), p.minimum, p.maximum,
-          p.decimals,
-          [this, &p](double shown) {
-            m_noise.*p.member = shown / p.factor;
-            showPreset();
-            m_controller->edits()->setNoise(m_noise);
-          },
-          form));
+    for (const auto& p : sim::noiseParameters) {
+      m_noiseRows.push_back(rowOf(grid, p, form, [this, &p](double stored) {
+        m_noise.*p.member = stored;
+        showPreset();
+        m_controller->edits()->setNoise(m_noise);
+      }));
     }
     column->addLayout(grid);
   }
@@ -165,24 +123,40 @@ class NoiseDock : public QScrollArea {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setVerticalSpacing(scaled(this, 4));
     grid->setColumnStretch(1, 1);
-    int row = 0;
-    for (const auto& p : bodyParameters) {
-      m_bodyRows.push_back(new ParameterRow(
-          grid, row++, tr(p.name), QString::fromUtf8(p.unit), tr(p.tip), p.minimum, p.maximum,
-          p.decimals,
-          [this, &p](double shown) {
-            m_constants.*p.member = shown / p.factor;
-            m_controller->edits()->setRigidBody(m_constants);
-          },
-          m_body));
+    for (const auto& p : sim::rigidBodyParameters) {
+      m_bodyRows.push_back(rowOf(grid, p, m_body, [this, &p](double stored) {
+        m_constants.*p.member = stored;
+        m_controller->edits()->setRigidBody(m_constants);
+      }));
     }
-    m_falls = new QCheckBox(tr("Robots fall when hit hard"), m_body);
+    m_falls = new QCheckBox(tr(sim::fallsSwitch.name), m_body);
     connect(m_falls, &QCheckBox::toggled, this, [this](bool on) {
       m_constants.falls = on;
       m_controller->edits()->setRigidBody(m_constants);
     });
-    grid->addWidget(m_falls, row, 0, 1, 3);
+    grid->addWidget(m_falls, grid->rowCount(), 0, 1, 3);
     column->addWidget(m_body);
+  }
+
+  /// Below the rows that the grid has. `edited` gets the value as it is in memory.
+  template <class Values>
+  ParameterRow* rowOf(QGridLayout* grid, const sim::Parameter<Values>& p, QWidget* parent,
+                      std::function<void(double)> edited) {
+    return new ParameterRow(
+        grid, tr(p.name), tr(p.meaning), p.shown,
+        [&p, edited = std::move(edited)](double shown) {
+          edited(p.stored(shown / p.shown.factor));
+        },
+        parent);
+  }
+
+  template <class Values, std::size_t N>
+  void showRows(const std::vector<ParameterRow*>& rows,
+                const std::array<sim::Parameter<Values>, N>& parameters, const Values& values) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto& p = parameters[i];
+      rows[i]->show(p.written(values.*p.member) * p.shown.factor);
+    }
   }
 
   void choosePreset() {
@@ -207,10 +181,7 @@ class NoiseDock : public QScrollArea {
   }
 
   void showNoise() {
-    for (std::size_t i = 0; i < m_noiseRows.size(); ++i) {
-      const auto& p = noiseParameters[i];
-      m_noiseRows[i]->show(m_noise.*p.member * p.factor);
-    }
+    showRows(m_noiseRows, sim::noiseParameters, m_noise);
     showPreset();
   }
 
@@ -219,10 +190,7 @@ class NoiseDock : public QScrollArea {
     m_noise = m_shown = settings.noise;
     m_constants = settings.rigidBody;
     showNoise();
-    for (std::size_t i = 0; i < m_bodyRows.size(); ++i) {
-      const auto& p = bodyParameters[i];
-      m_bodyRows[i]->show(m_constants.*p.member * p.factor);
-    }
+    showRows(m_bodyRows, sim::rigidBodyParameters, m_constants);
     const QSignalBlocker quiet(m_falls);
     m_falls->setChecked(m_constants.falls);
     const QString model = QString::fromStdString(settings.physics);

@@ -2,43 +2,57 @@
 #include <ui/plots/plot_layout.h>
 
 #include <QJsonArray>
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
+#include <limits>
+#include <string_view>
+
+#include <base/lined_json.h>
 
 namespace pitchboard::ui {
 namespace {
 
 // Words in files: never change them.
-constexpr std::array<const char*, 8> curveKinds{"variable",   "derivative", "integral",
-                                                "average",    "difference", "wrap",
-                                                "conversion", "expression"};
-constexpr std::array<const char*, 4> styles{"line", "steps", "points", "line-and-points"};
-constexpr std::array<const char*, 3> paneKinds{"chart", "lane", "xy"};
+constexpr std::array<std::string_view, 8> curveKinds{"variable",   "derivative", "integral",
+                                                     "average",    "difference", "wrap",
+                                                     "conversion", "expression"};
+constexpr std::array<std::string_view, 4> styles{"line", "steps", "points", "line-and-points"};
+constexpr std::array<std::string_view, 3> paneKinds{"chart", "lane", "xy"};
+constexpr const char* versionKey = "pitchboardPlots";
 constexpr int formatVersion = 1;
-constexpr int mostOfAnything = 200;  // pages, plots, curves: a file with more is not one of ours
+constexpr std::size_t mostLayoutBytes = 4 << 20;  // a layout has some kilobytes
+constexpr std::size_t mostOfAnything =
+    200;  // pages, plots, curves: a file with more is not one of ours
 
-using Words = std::span<const char* const>;
+/// A missing word is the first one; `what` as in "there is no style of curve ...".
+template <class Enum, std::size_t N>
+Enum readWord(const JsonObject& object, std::string_view key,
+              const std::array<std::string_view, N>& words, std::string_view what) {
+  return static_cast<Enum>(object.choice(key, words, what).value_or(0));
+}
 
-/// A missing word is the first one.
-template <class Enum>
-bool readWord(Words words, const QJsonValue& value, Enum& out) {
-  const QString found = value.toString(QLatin1String(words.front()));
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (found != QLatin1String(words[i])) continue;
-    out = static_cast<Enum>(i);
-    return true;
+QString textOf(const JsonObject& object, std::string_view key) {
+  return QString::fromStdString(object.text(key, {}, mostLayoutBytes));
+}
+
+int wholeOf(const JsonObject& object, std::string_view key, int fallback, int least, int most) {
+  constexpr int limit = std::numeric_limits<int>::max();
+  return std::clamp(object.integer(key, fallback, -limit, limit), least, most);
+}
+
+/// Reads the entries of an array of objects, as long as nothing was wrong.
+template <class Read>
+void forEach(JsonReport& report, const JsonObject& object, std::string_view key, Read read) {
+  const auto* items = object.array(key, mostOfAnything);
+  for (std::size_t i = 0; items && i < items->size() && !report.failed(); ++i) {
+    read(JsonObject(report, (*items)[i], object.pathOf(key, i)));
   }
-  return false;
 }
 
-template <class Enum>
-QString word(Words words, Enum value) {
-  return QLatin1String(words[static_cast<std::size_t>(value)]);
-}
-
-tl::unexpected<Error> wrong(const QString& where, const QString& sentence) {
-  return failure(ErrorCode::ParseError, sentence.toStdString(), where.toStdString());
+template <class Enum, std::size_t N>
+QString word(const std::array<std::string_view, N>& words, Enum value) {
+  const std::string_view found = words[static_cast<std::size_t>(value)];
+  return QLatin1String(found.data(), qsizetype(found.size()));
 }
 
 QJsonObject curveToJson(const CurveSpec& curve) {
@@ -56,34 +70,31 @@ QJsonObject curveToJson(const CurveSpec& curve) {
   return o;
 }
 
-Result<CurveSpec> curveFromJson(const QJsonObject& o, const QString& where) {
+CurveSpec curveFrom(const JsonObject& o) {
   CurveSpec curve;
-  if (!readWord(curveKinds, o["kind"], curve.kind)) {
-    return wrong(where + ".kind", QStringLiteral("'%1' is not a kind of curve that this version "
-                                                 "knows")
-                                      .arg(o["kind"].toString()));
+  curve.kind = readWord<CurveKind>(o, "kind", curveKinds, "kind of curve");
+  curve.style = readWord<CurveStyle>(o, "style", styles, "style of curve");
+  if (const auto* inputs = o.array("inputs", mostOfAnything)) {
+    for (const JsonNode& input : *inputs) {
+      if (input.kind != JsonNode::Kind::Text) o.fail("inputs", "must be names in quotes");
+      curve.inputs << QString::fromStdString(input.text);
+    }
   }
-  if (!readWord(styles, o["style"], curve.style)) {
-    return wrong(where + ".style",
-                 QStringLiteral("'%1' is not a style of curve").arg(o["style"].toString()));
-  }
-  for (const QJsonValue& input : o["inputs"].toArray()) curve.inputs << input.toString();
-  curve.expression = o["expression"].toString();
+  curve.expression = textOf(o, "expression");
   const qsizetype wanted = curve.kind == CurveKind::Expression   ? 0
                            : curve.kind == CurveKind::Difference ? 2
                                                                  : 1;
-  if (curve.inputs.size() < wanted || curve.inputs.size() > mostOfAnything) {
-    return wrong(
-        where + ".inputs",
-        QStringLiteral("needs %1 variable name(s), not %2").arg(wanted).arg(curve.inputs.size()));
+  if (curve.inputs.size() < wanted) {
+    o.fail("inputs", "needs " + std::to_string(wanted) + " variable name(s), not " +
+                         std::to_string(curve.inputs.size()));
   }
-  curve.parameter = o["parameter"].toDouble();
-  curve.offset = o["offset"].toDouble();
-  curve.unit = o["unit"].toString();
-  curve.title = o["title"].toString();
-  curve.colorNumber = qMax(0, o["colorNumber"].toInt());
-  if (o.contains("color")) curve.color = QColor(o["color"].toString());
-  curve.width = qBound(0.5, o["width"].toDouble(1.5), 10.0);
+  curve.parameter = o.number("parameter", 0.0, anyNumber);
+  curve.offset = o.number("offset", 0.0, anyNumber);
+  curve.unit = textOf(o, "unit");
+  curve.title = textOf(o, "title");
+  curve.colorNumber = wholeOf(o, "colorNumber", 0, 0, std::numeric_limits<int>::max());
+  if (o.find("color")) curve.color = QColor(textOf(o, "color"));
+  curve.width = std::clamp(o.number("width", 1.5, anyNumber), 0.5, 10.0);
   return curve;
 }
 
@@ -98,35 +109,26 @@ QJsonObject paneToJson(const PaneSpec& pane) {
   return o;
 }
 
-Result<PaneSpec> paneFromJson(const QJsonObject& o, const QString& where) {
+PaneSpec paneFrom(JsonReport& report, const JsonObject& o) {
   PaneSpec pane;
-  if (!readWord(paneKinds, o["kind"], pane.kind)) {
-    return wrong(where + ".kind", QStringLiteral("'%1' is not a kind of plot that this version "
-                                                 "knows")
-                                      .arg(o["kind"].toString()));
-  }
-  pane.title = o["title"].toString();
-  pane.valueTitle = o["valueTitle"].toString();
-  pane.share = qBound(1, o["share"].toInt(100), 100'000);
-  pane.equalScales = o["equalScales"].toBool();
-  if (const QJsonArray values = o["values"].toArray(); !values.isEmpty()) {
+  pane.kind = readWord<PaneKind>(o, "kind", paneKinds, "kind of plot");
+  pane.title = textOf(o, "title");
+  pane.valueTitle = textOf(o, "valueTitle");
+  pane.share = wholeOf(o, "share", 100, 1, 100'000);
+  pane.equalScales = o.boolean("equalScales", false);
+  if (const auto* values = o.array("values", mostOfAnything); values && !values->empty()) {
     pane.autoValues = false;
-    pane.values = {values.at(0).toDouble(), values.at(1).toDouble()};
-    if (values.size() != 2 || !(pane.values.low < pane.values.high)) {
-      return wrong(where + ".values", QStringLiteral("needs two numbers, the smaller one first"));
+    pane.values = {values->front().number, values->back().number};
+    if (values->size() != 2 || !(pane.values.low < pane.values.high)) {
+      o.fail("values", "needs two numbers, the smaller one first");
     }
   }
-  const QJsonArray curves = o["curves"].toArray();
-  if (curves.size() > mostOfAnything) return wrong(where, QStringLiteral("has too many curves"));
-  for (qsizetype i = 0; i < curves.size(); ++i) {
-    auto curve =
-        curveFromJson(curves[i].toObject(), QStringLiteral("%1.curves[%2]").arg(where).arg(i));
-    if (!curve) return tl::unexpected<Error>(curve.error());
-    if (pane.kind == PaneKind::Xy && curve->inputs.size() != 2) {
-      return wrong(where, QStringLiteral("an XY plot needs two variables for each curve"));
+  forEach(report, o, "curves", [&](const JsonObject& entry) {
+    pane.curves << curveFrom(entry);
+    if (pane.kind == PaneKind::Xy && pane.curves.back().inputs.size() != 2) {
+      entry.fail("inputs", "an XY plot needs two variables for each curve");
     }
-    pane.curves << *curve;
-  }
+  });
   return pane;
 }
 
@@ -139,40 +141,31 @@ QJsonObject toJson(const PlotLayout& layout) {
     for (const PaneSpec& pane : page.panes) panes.append(paneToJson(pane));
     pages.append(QJsonObject{{"name", page.name}, {"plots", panes}});
   }
-  return {{"pitchboardPlots", formatVersion}, {"current", layout.current}, {"tabs", pages}};
+  return {{versionKey, formatVersion}, {"current", layout.current}, {"tabs", pages}};
 }
 
-Result<PlotLayout> layoutFromJson(const QJsonObject& object) {
-  const int version = object["pitchboardPlots"].toInt();
-  if (version != formatVersion) {
-    return wrong(QStringLiteral("pitchboardPlots"),
-                 version == 0 ? QStringLiteral("this is not a layout of plots")
-                              : QStringLiteral("this layout has version %1, this program reads "
-                                               "version %2")
-                                    .arg(version)
-                                    .arg(formatVersion));
-  }
+Result<PlotLayout> layoutFromText(std::string_view text, std::string_view source) {
+  JsonReport report(source);
   PlotLayout layout;
-  const QJsonArray pages = object["tabs"].toArray();
-  if (pages.size() > mostOfAnything) {
-    return wrong(QStringLiteral("tabs"), QStringLiteral("there are too many tabs"));
-  }
-  for (qsizetype i = 0; i < pages.size(); ++i) {
-    const QJsonObject o = pages[i].toObject();
-    PageSpec page{o["name"].toString(), {}};
-    const QJsonArray panes = o["plots"].toArray();
-    if (panes.size() > mostOfAnything) {
-      return wrong(QStringLiteral("tabs[%1]").arg(i), QStringLiteral("there are too many plots"));
+  if (const auto root = parseJson(text, report, mostLayoutBytes)) {
+    const JsonObject object(report, *root, "");
+    if (!object.find(versionKey)) {
+      report.fail(root->line, {}, "this is not a layout of plots");
     }
-    for (qsizetype p = 0; p < panes.size(); ++p) {
-      auto pane =
-          paneFromJson(panes[p].toObject(), QStringLiteral("tabs[%1].plots[%2]").arg(i).arg(p));
-      if (!pane) return tl::unexpected<Error>(pane.error());
-      page.panes << *pane;
+    const int version = object.integer(versionKey, formatVersion, 0, 1'000'000);
+    if (version != formatVersion) {
+      object.fail(versionKey, "this layout has version " + std::to_string(version) +
+                                  ", this program reads version " + std::to_string(formatVersion));
     }
-    layout.pages << page;
+    forEach(report, object, "tabs", [&](const JsonObject& tab) {
+      PageSpec page{textOf(tab, "name"), {}};
+      forEach(report, tab, "plots",
+              [&](const JsonObject& plot) { page.panes << paneFrom(report, plot); });
+      layout.pages << page;
+    });
+    layout.current = wholeOf(object, "current", 0, 0, qMax(0, int(layout.pages.size()) - 1));
   }
-  layout.current = qBound(0, object["current"].toInt(), qMax(0, int(layout.pages.size()) - 1));
+  if (report.failed()) return tl::unexpected<Error>(report.error());
   return layout;
 }
 

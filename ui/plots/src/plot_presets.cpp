@@ -34,7 +34,8 @@ Result<PlotLayout> PlotPresets::load(const QString& name) const {
   if (!presets.contains(name)) {
     return failure(ErrorCode::NotFound, "There is no layout of this name.", name.toStdString());
   }
-  return layoutFromJson(presets[name].toObject());
+  const QByteArray text = QJsonDocument(presets[name].toObject()).toJson();
+  return layoutFromText({text.data(), std::size_t(text.size())}, name.toStdString());
 }
 
 void PlotPresets::remove(const QString& name) {
@@ -58,21 +59,7 @@ Result<void> PlotPresets::writeFile(const QString& path, const PlotLayout& layou
 Result<PlotLayout> PlotPresets::readFile(const QString& path) {
   const auto text = pitchboard::readFile(path.toStdString(), largestFile, "The layout");
   if (!text) return tl::unexpected(text.error());
-  QJsonParseError error;
-  const QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(*text), &error);
-  if (!document.isObject()) {
-    return failure(ErrorCode::ParseError,
-                   "The file is not a layout of plots: " + error.errorString().toStdString() +
-                       " at byte " + std::to_string(error.offset) + ".",
-                   path.toStdString());
-  }
-  auto layout = layoutFromJson(document.object());
-  if (!layout) {
-    Error where = layout.error();
-    where.context = path.toStdString() + ", " + where.context;
-    return tl::unexpected<Error>(where);
-  }
-  return layout;
+  return layoutFromText(*text, path.toStdString());
 }
 
 }  // namespace pitchboard::ui

@@ -90,9 +90,9 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   }
   PlotLayout layout;
   if (context.settings != nullptr) {
-    const auto saved = QJsonDocument::fromJson(context.settings->value(layoutKey).toByteArray());
+    const std::string saved = context.settings->value(layoutKey).toByteArray().toStdString();
     // A layout that cannot be read is not worth a message at every start: the plots begin empty.
-    if (const auto read = layoutFromJson(saved.object())) layout = *read;
+    if (const auto read = layoutFromText(saved, "settings")) layout = *read;
     const double window = context.settings->value(windowKey).toDouble();
     if (window > 0.0) context.time->setWindow(window);
   }

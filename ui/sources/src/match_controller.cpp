@@ -181,15 +181,6 @@ void MatchController::take(Opening& opening) {
   if (m_runner) {
     m_runner->setSpeed(m_speed);
     m_runner->setPaused(m_paused);
-    // Another sampling may have been chosen meanwhile.
-    const auto wanted = m_memory->observers();
-    const auto without = [](const auto& observers, const auto& others, const auto& act) {
-      for (const auto& one : observers) {
-        if (std::find(others.begin(), others.end(), one) == others.end()) act(one);
-      }
-    };
-    without(opening.observers, wanted, [this](const auto& old) { m_runner->stopObserving(old); });
-    without(wanted, opening.observers, [this](const auto& added) { m_runner->observe(added); });
     if (m_runTo) m_runner->runTo(*m_runTo);
     for (link::MatchRunner::Command& command : m_whenOpen) m_runner->post(std::move(command));
     m_timer->start();

@@ -49,12 +49,10 @@ std::shared_ptr<telemetry::RowSink> MatchMemory::rowsBeside() const {
 void MatchMemory::setSampling(int everyNth) {
   if (everyNth == m_everyNth || everyNth < 1) return;
   m_everyNth = everyNth;
-  if (!m_rows) return;
-  const auto old = std::exchange(
-      m_sampler, std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{everyNth}));
-  // A match that is being opened gets it when it is there.
-  m_match->stopObserving(old);
-  m_match->observe(m_sampler);
+  if (!m_sampler) return;
+  m_match->post([sampler = m_sampler, everyNth](link::SimulatedMatch&) {
+    sampler->setEveryNth(everyNth);
+  });
 }
 
 FramePtr MatchMemory::frameAt(double time) const {

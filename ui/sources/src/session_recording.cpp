@@ -145,9 +145,10 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
   link::RecorderOptions options;
   options.program = programName();
   options.writer = m_writing;
-  options.everyNth = m_controller->memory()->sampling();
-  auto made = link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
-                                          m_controller->catalog(), options);
+  auto made =
+      link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
+                                  m_controller->catalog(), m_controller->memory()->sampler(),
+                                  options);
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::MatchRecorder> recorder = *made;
   m_controller->observe(recorder);

@@ -3,10 +3,11 @@
 
 // JSON written by people, read so that every complaint can name file, line and key: a small tree
 // that remembers the line of each value, and an object reader that refuses whatever it was not told
-// to expect. The first error wins; after it, reads return their fallbacks. Private to robotlink.
+// to expect. The first error wins; after it, reads return their fallbacks.
 
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@
 
 #include <base/result.h>
 
-namespace pitchboard::link {
+namespace pitchboard {
 
 struct JsonNode {
   enum class Kind { Null, Boolean, Number, Text, Array, Object };
@@ -39,7 +40,8 @@ class JsonReport {
   explicit JsonReport(std::string_view source) : m_source(source) {}
 
   /// Remembers the first error as "source:line: path: text".
-  void fail(int line, const std::string& path, const std::string& text);
+  void fail(int line, const std::string& path, const std::string& text,
+            ErrorCode code = ErrorCode::ParseError);
   bool failed() const { return m_error.has_value(); }
   const Error& error() const { return *m_error; }
 
@@ -48,9 +50,10 @@ class JsonReport {
   std::optional<Error> m_error;
 };
 
-/// Refuses more than 1 MiB, nesting deeper than 64, a key that occurs twice in an object, and
+/// Refuses more than `mostBytes`, nesting deeper than 64, a key that occurs twice in an object, and
 /// anything that is not JSON. Nothing is returned exactly when `report` has an error.
-std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report);
+std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report,
+                                  std::size_t mostBytes = std::size_t{1} << 20);
 
 /// What a number may be. `unit` in the plural, for people; empty for plain numbers.
 struct NumberRange {
@@ -59,9 +62,15 @@ struct NumberRange {
   std::string_view unit = {};
 };
 
-/// One object of the file. Keys that are not in `keys` are errors.
+inline constexpr NumberRange anyNumber{std::numeric_limits<double>::lowest(),
+                                       std::numeric_limits<double>::max()};
+
+/// One object of the file.
 class JsonObject {
  public:
+  /// Keys that it is not asked for are left alone.
+  JsonObject(JsonReport& report, const JsonNode& node, std::string path);
+  /// Keys that are not in `keys` are errors.
   JsonObject(JsonReport& report, const JsonNode& node, std::string path,
              std::span<const std::string_view> keys);
   JsonObject(JsonReport& report, const JsonNode& node, std::string path,
@@ -69,6 +78,9 @@ class JsonObject {
       : JsonObject(report, node, std::move(path), std::span(keys.begin(), keys.size())) {}
 
   const JsonNode* find(std::string_view key) const { return m_node->find(key); }
+  std::span<const std::pair<std::string, JsonNode>> members() const { return m_node->members; }
+  int line() const { return m_node->line; }
+  const std::string& path() const { return m_path; }
   std::string pathOf(std::string_view key) const;
   /// Complains about one of its keys, or about the object when the key is not there.
   void fail(std::string_view key, const std::string& text) const;
@@ -85,6 +97,8 @@ class JsonObject {
   std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> known,
                                     std::string_view what) const;
   const std::vector<JsonNode>* array(std::string_view key, std::size_t most) const;
+  /// "robots[3]": the path of an entry of an array.
+  std::string pathOf(std::string_view key, std::size_t entry) const;
 
  private:
   JsonReport* m_report;
@@ -99,4 +113,4 @@ std::string unknownName(std::string_view what, std::string_view name,
 /// Shortest decimal form that reads back as the same double.
 std::string shortest(double value);
 
-}  // namespace pitchboard::link
+}  // namespace pitchboard

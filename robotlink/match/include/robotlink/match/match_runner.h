@@ -16,30 +16,15 @@
 #include <vector>
 
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/match/match_player.h>
 #include <robotlink/match/simulated_match.h>
+#include <robotlink/match/tick_observer.h>
 
 namespace pitchboard::link {
 
-/// Sees every tick of a match, for sampling and recording. Called on the match's thread: must not
-/// wait, and what it allocates makes the match slower.
-class TickObserver {
- public:
-  virtual ~TickObserver() = default;
-  /// At the first moment, after every tick, and after a command changed a match that stands still.
-  /// `tickTime`: what the tick took; zero where there was none.
-  virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
-  /// Before ticked() of the tick in which they happened.
-  virtual void happened(std::span<const sim::Event> /*events*/) {}
-  /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on
-  /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
-  /// still.
-  virtual void worldChanged(const SimulatedMatch& /*match*/) {}
-  virtual void logged(const LogLine& /*line*/) {}
-};
-
 class MatchRunner {
  public:
-  static constexpr double unlimitedSpeed = 0.0;
+  static constexpr double unlimitedSpeed = MatchPlayer::unlimitedSpeed;
 
   /// Makes the match on the runner's thread (its processes must belong to that thread) and starts
   /// paused or playing. Fails with the reason when the match cannot be made. `observers` see the

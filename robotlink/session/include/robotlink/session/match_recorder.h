@@ -25,7 +25,6 @@ inline constexpr const char* profileAttachment = "profile.json";
 
 struct RecorderOptions {
   telemetry::SessionWriterOptions writer;
-  int everyNth = 1;  ///< ticks per row
   /// Version of the program, for the file: "pitchboard 0.1.0".
   std::string program = "pitchboard";
 };
@@ -48,13 +47,15 @@ class MatchRecorder : public TickObserver {
  public:
   /// Error Conflict when the file exists, SystemError when it cannot be made. Hand it to
   /// MatchRunner::observe() (or make it one of the first observers); it records from that moment
-  /// on.
+  /// on. Its rows are those of `sampler`, which observes the same match before it.
   static Result<std::shared_ptr<MatchRecorder>> create(const std::string& path,
                                                        const Scenario& scenario,
                                                        const VariableCatalog& catalog,
+                                                       std::shared_ptr<MatchSampler> sampler,
                                                        const RecorderOptions& options = {});
   /// Into a session that was made and described by the caller.
-  explicit MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer, int everyNth = 1);
+  MatchRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
+                std::shared_ptr<MatchSampler> sampler);
   ~MatchRecorder() override;
 
   // The match's thread.
@@ -62,6 +63,7 @@ class MatchRecorder : public TickObserver {
   void happened(std::span<const sim::Event> events) override;
   void worldChanged(const SimulatedMatch& match) override;
   void logged(const LogLine& line) override;
+  void left() override;
 
   // Any thread.
   telemetry::SessionStatus status() const { return m_writer->status(); }
@@ -76,7 +78,8 @@ class MatchRecorder : public TickObserver {
   void noteProcesses(const SimulatedMatch& match, double time);
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
-  MatchSampler m_sampler;
+  std::shared_ptr<MatchSampler> m_sampler;
+  bool m_getsRows = false;
   StateSegmenter m_segmenter;
   std::vector<sim::Event> m_events;    // of the tick that ticked() is about to show
   std::vector<ChildState> m_children;  // as last seen

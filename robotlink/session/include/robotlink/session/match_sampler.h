@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Samples a simulated match: after each tick one row for every robot (its whole blackboard, truth,
-// belief errors) and one for the match. The groups are named like the robots ("B1") and "match"; a
-// robot's attributes hold its identity: "robot" (number of its blackboard), "team", "number" (on
-// the shirt), "key" (System V, 0: heap), "imu180" (0 or 1), "behaviour". The match's attributes:
-// "physics", "seed", "tick_rate". Columns: docs/PLOTS.md.
+// Samples a simulated match, once for all who want its rows: after each tick one row for every
+// robot (its whole blackboard, truth, belief errors) and one for the match. The groups are named
+// like the robots ("B1") and "match"; a robot's attributes hold its identity: "robot" (number of
+// its blackboard), "team", "number" (on the shirt), "key" (System V, 0: heap), "imu180" (0 or 1),
+// "behaviour". The match's attributes: "physics", "seed", "tick_rate". Columns: docs/PLOTS.md.
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <robotlink/match/match_runner.h>
+#include <robotlink/match/tick_observer.h>
 #include <robotlink/session/board_columns.h>
 #include <telemetry/series/row_sink.h>
 
@@ -21,34 +23,50 @@ struct MatchSamplerOptions {
   int everyNth = 1;  ///< ticks per row; at least 1
 };
 
-/// One for each match. Called on the match's thread. Allocates when robots come, go or change;
-/// otherwise only what the sink needs (the series store: once in 64 rows of a group).
+/// One for each match, before the other observers. Called on the match's thread. Allocates when
+/// robots come, go or change; otherwise only what the sinks need (the series store: once in 64 rows
+/// of a group).
 class MatchSampler : public TickObserver {
  public:
   static constexpr const char* matchGroup = "match";
 
-  explicit MatchSampler(std::shared_ptr<telemetry::RowSink> sink, MatchSamplerOptions options = {});
+  /// Without a sink it waits for the first to be added.
+  explicit MatchSampler(std::shared_ptr<telemetry::RowSink> sink = {},
+                        MatchSamplerOptions options = {});
   ~MatchSampler() override;
 
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
+
+  // The match's thread, as all of this.
+  /// Gives it the row of the present moment, and from now on the same rows as the others.
+  void add(std::shared_ptr<telemetry::RowSink> sink, const SimulatedMatch& match);
+  void remove(const std::shared_ptr<telemetry::RowSink>& sink);
+  void setEveryNth(int ticks) { m_options.everyNth = std::max(1, ticks); }
 
  private:
   struct Seat {
     sim::RobotIdentity identity;
     int key = 0;
     std::string behaviour;
-    telemetry::GroupId group = 0;
   };
+  struct Outlet {
+    std::shared_ptr<telemetry::RowSink> sink;
+    std::vector<telemetry::GroupId> groups;  // its ids, in the order of m_groups
+  };
+  void look(const SimulatedMatch& match);
+  void sampleInto(std::span<const Outlet> outlets, const SimulatedMatch& match,
+                  std::chrono::nanoseconds tickTime);
+  void registerGroups(Outlet& outlet) const;
   bool sameRobots(const SimulatedMatch& match) const;
   void takeRobots(const SimulatedMatch& match);
   std::string groupName(const sim::RobotIdentity& robot) const;
 
-  std::shared_ptr<telemetry::RowSink> m_sink;
-  const MatchSamplerOptions m_options;
+  std::vector<Outlet> m_outlets;
+  MatchSamplerOptions m_options;
   std::unique_ptr<BoardColumns> m_board;
   const VariableCatalog* m_catalog = nullptr;  // of which m_board is
-  telemetry::GroupId m_match = 0;
-  std::vector<Seat> m_seats;  // in the order of the snapshot's robots
+  std::vector<telemetry::GroupInfo> m_groups;  // of the match, then of each seat
+  std::vector<Seat> m_seats;                   // in the order of the snapshot's robots
   sim::Snapshot m_snapshot;
   std::vector<std::uint32_t> m_words;
   std::vector<double> m_truth, m_matchValues;

@@ -9,30 +9,19 @@
 #include <QSlider>
 #include <functional>
 
+#include <simcore/world/parameters.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 
-/// One number of a settings value `Values`, and how people see it.
-template <class Values>
-struct Parameter {
-  const char* name;
-  double Values::*member;
-  double factor;   ///< shown = stored × factor
-  double minimum;  ///< shown
-  double maximum;  ///< shown
-  int decimals;
-  const char* unit;  ///< " cm", with its leading space
-  const char* tip;
-};
-
 /// Slider and spin box of one number, kept equal. `edited` is called for changes by hand only.
 class ParameterRow : public QObject {
  public:
-  ParameterRow(QGridLayout* grid, int row, const QString& name, const QString& unit,
-               const QString& tip, double minimum, double maximum, int decimals,
-               std::function<void(double)> edited, QWidget* parent)
+  /// Below what the grid has. `edited` gets the value as it is shown.
+  ParameterRow(QGridLayout* grid, const QString& name, const QString& tip,
+               const sim::ShownParameter& shown, std::function<void(double)> edited,
+               QWidget* parent)
       : QObject(parent),
         m_slider(new QSlider(Qt::Horizontal, parent)),
         m_box(new NumberBox(parent)),
@@ -40,10 +29,10 @@ class ParameterRow : public QObject {
     auto* label = new QLabel(name, parent);
     label->setToolTip(tip);
     label->setBuddy(m_box);
-    m_box->setDecimals(decimals);
-    m_box->setRange(minimum, maximum);
-    m_box->setSuffix(unit);
-    m_box->setSingleStep((maximum - minimum) / 50);
+    m_box->setDecimals(shown.decimals);
+    m_box->setRange(shown.least, shown.most);
+    m_box->setSuffix(QString::fromUtf8(shown.unit));
+    m_box->setSingleStep((shown.most - shown.least) / 50);
     m_box->setAlignment(Qt::AlignRight);
     m_box->setKeyboardTracking(false);
     m_box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is the quick way
@@ -54,6 +43,7 @@ class ParameterRow : public QObject {
     m_slider->setMinimumWidth(scaled(parent, 60));
     m_slider->setToolTip(tip);
     m_slider->setFocusPolicy(Qt::NoFocus);
+    const int row = grid->rowCount();
     grid->addWidget(label, row, 0);
     grid->addWidget(m_slider, row, 1);
     grid->addWidget(m_box, row, 2);

@@ -9,6 +9,7 @@
 #include <QList>
 #include <QString>
 #include <QStringList>
+#include <string_view>
 
 #include <base/result.h>
 #include <ui/plots/axis_ticks.h>
@@ -74,9 +75,9 @@ struct PlotLayout {
 };
 
 QJsonObject toJson(const PlotLayout& layout);
-/// Refuses what is not a layout, with the place; unknown members are ignored so that layouts of
-/// later versions can be read.
-Result<PlotLayout> layoutFromJson(const QJsonObject& object);
+/// Refuses what is not a layout, with line and key in `source`; unknown members are ignored so that
+/// layouts of later versions can be read.
+Result<PlotLayout> layoutFromText(std::string_view text, std::string_view source);
 
 /// "VISION_BALL_DIST B1", "d/dt VISION_BALL_DIST B1", or the title.
 QString curveName(const CurveSpec& curve);

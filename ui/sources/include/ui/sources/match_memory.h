@@ -46,6 +46,8 @@ class MatchMemory : public QObject {
   /// Rows are kept of every n-th tick (1: each), from now on. Waits for the tick in progress.
   void setSampling(int everyNth);
   int sampling() const { return m_everyNth; }
+  /// Of the match that is open: whoever wants its rows is added to it, on the match's thread.
+  std::shared_ptr<link::MatchSampler> sampler() const { return m_sampler; }
   /// Where other blackboards of this computer are sampled to: their rows get the match's time.
   /// Another one after the controller's `restarted`; null while there is no match.
   std::shared_ptr<telemetry::RowSink> rowsBeside() const;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Plays a SimulatedMatch: the one loop of ticks, for the runner's thread, for programs that play a
+// match in their own, and for recording. Keeps the pace, measures the ticks and shows them to the
+// observers. For the thread that made the match; owns the match.
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <robotlink/match/pacer.h>
+#include <robotlink/match/tick_observer.h>
+
+namespace pitchboard::link {
+
+class MatchPlayer {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double unlimitedSpeed = 0.0;
+  static constexpr std::uint64_t noLastTick = std::numeric_limits<std::uint64_t>::max();
+
+  /// Plays as fast as possible until setSpeed().
+  explicit MatchPlayer(SimulatedMatch match) : m_match(std::move(match)) {}
+
+  SimulatedMatch& match() { return m_match; }
+  const SimulatedMatch& match() const { return m_match; }
+  std::uint64_t currentTick() const { return m_match.simulation().state().tick; }
+
+  /// Shows it the present moment and every tick from now on. They are called in this order.
+  void observe(std::shared_ptr<TickObserver> observer);
+  void stopObserving(const std::shared_ptr<TickObserver>& observer);
+  std::span<const std::shared_ptr<TickObserver>> observers() const { return m_observers; }
+
+  /// 1 = real time, from `now` on.
+  void setSpeed(double timesRealTime, Clock::time_point now);
+
+  struct Played {
+    std::uint64_t ticks = 0;
+    Clock::duration busy{};
+    Clock::time_point next{};  ///< when to play on; in the past: at once
+  };
+  /// Plays what is due at `now`, for some milliseconds at most and not past `lastTick`.
+  Played play(Clock::time_point now, std::uint64_t lastTick = noLastTick);
+  /// One tick, whatever the pace.
+  void tick();
+  /// Shows the observers a moment without a tick.
+  void showMoment();
+  /// Tells them that the next tick does not go on from what they have seen.
+  void worldChanged();
+
+ private:
+  SimulatedMatch m_match;
+  Pacer m_pacer;
+  double m_speed = unlimitedSpeed;
+  std::vector<std::shared_ptr<TickObserver>> m_observers;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The one table of the numbers that people may set: noise, the robot's body, the field, the tick
+// rate. Scenario files, the simulation's own checks, the rows of the Noise and physics dock and the
+// tables of docs/SCENARIOS.md are all made from it. Ranges are in the unit in which people write a
+// value; the only one that differs from the unit in memory is the degree. Defaults are those of the
+// structs. Constant data, for any thread.
+
+#include <array>
+
+#include <base/angles.h>
+#include <base/result.h>
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::sim {
+
+/// As people write a value.
+struct Unit {
+  const char* words = "";   ///< in the plural, for sentences; empty: a plain number
+  const char* symbol = "";  ///< for tables
+  bool angle = false;       ///< degrees where people write it, radians in memory
+};
+
+/// A value as a slider with a box. Not shown at all when `decimals` is negative.
+struct ShownParameter {
+  const char* unit = "";  ///< behind the number, with its leading space
+  double factor = 1.0;    ///< shown = written × factor
+  double least = 0.0;     ///< what is useful, in the unit shown; more may be allowed
+  double most = 0.0;
+  int decimals = -1;
+};
+
+/// One number of `Values`.
+template <class Values>
+struct Parameter {
+  const char* key;  ///< in files
+  double Values::*member;
+  Unit unit;
+  double least;         ///< allowed, in `unit`
+  double most;          ///< allowed, in `unit`
+  const char* name;     ///< as a row or a column is called
+  const char* meaning;  ///< more about it; empty where the name says all
+  ShownParameter shown = {};
+
+  double stored(double written) const { return unit.angle ? radiansFromDegrees(written) : written; }
+  double written(double value) const { return unit.angle ? degreesFromRadians(value) : value; }
+};
+
+namespace units {
+inline constexpr Unit plain{};
+inline constexpr Unit metres{"metres", "m"};
+inline constexpr Unit metresPerFrame{"metres per 1/60 s", "m per 1/60 s"};
+inline constexpr Unit metresPerSecond{"metres per second", "m/s"};
+inline constexpr Unit metresPerSecondSquared{"metres per second squared", "m/s²"};
+inline constexpr Unit degrees{"degrees", "degrees", true};
+inline constexpr Unit degreesPerFrame{"degrees per 1/60 s", "degrees per 1/60 s", true};
+inline constexpr Unit degreesPerSecond{"degrees per second", "degrees/s", true};
+inline constexpr Unit degreesPerSecondSquared{"degrees per second squared", "degrees/s²", true};
+inline constexpr Unit seconds{"seconds", "s"};
+inline constexpr Unit kilograms{"kilograms", "kg"};
+inline constexpr Unit newtonSeconds{"newton seconds", "N·s"};
+inline constexpr Unit ticksPerSecond{"ticks per second", "ticks/s"};
+}  // namespace units
+
+// Standard deviations (σ) are of zero-mean normal noise. What holds for 1/60 s is scaled with the
+// square root of the tick. Tables, with two lines for each number:
+// clang-format off
+inline constexpr auto noiseParameters = std::to_array<Parameter<NoiseParameters>>({
+    {"forward", &NoiseParameters::forward, units::metresPerFrame, 0, 1,
+     "Forward", "σ per 1/60 s of walking", {" cm/frame", 100, 0, 2, 3}},
+    {"sideways", &NoiseParameters::sideways, units::metresPerFrame, 0, 1,
+     "Sideways", "σ per 1/60 s of walking", {" cm/frame", 100, 0, 2, 3}},
+    {"rotation", &NoiseParameters::rotation, units::degreesPerFrame, 0, 180,
+     "Rotation", "σ per 1/60 s of walking", {" °/frame", 1, 0, 2, 3}},
+    {"kick_speed", &NoiseParameters::kickSpeed, units::metresPerSecond, 0, 20,
+     "Kick speed", "σ of the ball's speed", {" m/s", 1, 0, 3, 2}},
+    {"kick_angle", &NoiseParameters::kickAngle, units::degrees, 0, 180,
+     "Kick angle", "σ of the ball's direction", {" °", 1, 0, 45, 1}},
+    {"vision_distance", &NoiseParameters::visionDistance, units::plain, 0, 1,
+     "Ball distance", "σ, share of the distance", {" %", 100, 0, 50, 1}},
+    {"vision_bearing", &NoiseParameters::visionBearing, units::degrees, 0, 180,
+     "Ball bearing", "σ", {" °", 1, 0, 20, 1}},
+    {"robot_distance", &NoiseParameters::robotDistance, units::metres, 0, 10,
+     "Robot distance", "σ, other robots", {" cm", 100, 0, 100, 0}},
+    {"robot_bearing", &NoiseParameters::robotBearing, units::degrees, 0, 180,
+     "Robot bearing", "σ, other robots", {" °", 1, 0, 20, 1}},
+    {"landmark_bearing", &NoiseParameters::landmarkBearing, units::degrees, 0, 180,
+     "Landmark bearing", "σ, field corners", {" °", 1, 0, 30, 1}},
+    {"landmark_probability", &NoiseParameters::landmarkProbability, units::plain, 0, 1,
+     "Landmark seen", "Probability that a landmark in view is seen in a frame", {" %", 100, 0, 100, 0}},
+    {"missed_detection", &NoiseParameters::missedDetection, units::plain, 0, 1,
+     "Missed", "Probability that a ball or robot in view is not seen", {" %", 100, 0, 100, 0}},
+    {"vision_delay", &NoiseParameters::visionDelay, units::seconds, 0, 2,
+     "Vision delay", "From the moment seen to the moment on the blackboard", {" ms", 1000, 0, 1000, 0}},
+    {"imu_white", &NoiseParameters::imuWhite, units::degrees, 0, 180,
+     "IMU yaw", "σ, anew each tick", {" °", 1, 0, 10, 2}},
+    {"imu_drift", &NoiseParameters::imuDrift, units::degreesPerFrame, 0, 180,
+     "IMU drift", "σ per 1/60 s, accumulating", {" °/frame", 1, 0, 1, 3}},
+});
+
+inline constexpr auto rigidBodyParameters = std::to_array<Parameter<RigidBodySettings>>({
+    {"max_acceleration", &RigidBodySettings::maxAcceleration, units::metresPerSecondSquared, 0.01, 1000,
+     "Acceleration", "Largest of the gait", {" m/s²", 1, 0.05, 10, 2}},
+    {"max_yaw_acceleration", &RigidBodySettings::maxYawAcceleration, units::degreesPerSecondSquared, 1, 500000,
+     "Yaw acceleration", "Largest of the gait", {" °/s²", 1, 10, 2000, 0}},
+    {"robot_mass", &RigidBodySettings::robotMass, units::kilograms, 0.1, 200,
+     "Robot mass", "", {" kg", 1, 0.1, 50, 1}},
+    {"ball_mass", &RigidBodySettings::ballMass, units::kilograms, 0.01, 5,
+     "Ball mass", "", {" kg", 1, 0.01, 2, 2}},
+    {"ball_friction", &RigidBodySettings::ballFriction, units::plain, 0, 1,
+     "Ball keeps", "Share of its speed kept in 1/60 s", {" %", 100, 0, 100, 1}},
+    {"post_restitution", &RigidBodySettings::postRestitution, units::plain, 0, 1,
+     "Bounce off posts", "Also off walls and nets", {" %", 100, 0, 100, 0}},
+    {"robot_restitution", &RigidBodySettings::robotRestitution, units::plain, 0, 1,
+     "Bounce off robots", "", {" %", 100, 0, 100, 0}},
+    {"fall_impulse", &RigidBodySettings::fallImpulse, units::newtonSeconds, 0, 1000,
+     "Fall impulse", "Throws a robot down", {" N·s", 1, 0.05, 20, 2}},
+    {"get_up_time", &RigidBodySettings::getUpTime, units::seconds, 0, 600,
+     "Time to get up", "", {" s", 1, 0.1, 30, 1}},
+    {"head_speed", &RigidBodySettings::headSpeed, units::degreesPerSecond, 0, 5000,
+     "Head speed", "", {" °/s", 1, 1, 720, 0}},
+    {"field_of_view", &RigidBodySettings::fieldOfView, units::degrees, 1, 360,
+     "Field of view", "In all", {" °", 1, 1, 360, 0}},
+    {"pan_limit", &RigidBodySettings::panLimit, units::degrees, 0, 180,
+     "Head pan limit", "To either side", {" °", 1, 0, 180, 0}},
+    {"vision_range", &RigidBodySettings::visionRange, units::metres, 0, 100,
+     "Vision range", "", {" m", 1, 0.1, 20, 1}},
+});
+
+inline constexpr auto fieldParameters = std::to_array<Parameter<FieldSpec>>({
+    {"length", &FieldSpec::length, units::metres, 1, 200,
+     "Length", "Goal line to goal line, outer edges"},
+    {"width", &FieldSpec::width, units::metres, 1, 200,
+     "Width", "Touch line to touch line"},
+    {"border", &FieldSpec::border, units::metres, 0.1, 20,
+     "Border", "From a line to the wall round the field"},
+    {"goal_width", &FieldSpec::goalWidth, units::metres, 0.2, 100,
+     "Goal width", "Between the centres of the posts; at most the width"},
+    {"goal_depth", &FieldSpec::goalDepth, units::metres, 0.1, 20,
+     "Goal depth", "From the goal line to the back of the goal; at most the border"},
+    {"goal_height", &FieldSpec::goalHeight, units::metres, 0, 20,
+     "Goal height", "For the record; the simulation is flat"},
+    {"goal_post_radius", &FieldSpec::goalPostRadius, units::metres, 0.005, 1,
+     "Goal post radius", ""},
+    {"goal_area_length", &FieldSpec::goalAreaLength, units::metres, 0, 100,
+     "Goal area length", "Along x; 0 = none"},
+    {"goal_area_width", &FieldSpec::goalAreaWidth, units::metres, 0, 200,
+     "Goal area width", "Along y"},
+    {"penalty_area_length", &FieldSpec::penaltyAreaLength, units::metres, 0, 100,
+     "Penalty area length", "Along x; 0 = none"},
+    {"penalty_area_width", &FieldSpec::penaltyAreaWidth, units::metres, 0, 200,
+     "Penalty area width", "Along y"},
+    {"penalty_mark_distance", &FieldSpec::penaltyMarkDistance, units::metres, 0, 100,
+     "Penalty mark", "From the goal line; 0 = none"},
+    {"centre_circle_diameter", &FieldSpec::centreCircleDiameter, units::metres, 0, 100,
+     "Centre circle", "Its diameter"},
+    {"line_width", &FieldSpec::lineWidth, units::metres, 0.001, 1,
+     "Line width", ""},
+    {"ball_radius", &FieldSpec::ballRadius, units::metres, 0.01, 0.5,
+     "Ball radius", ""},
+    {"robot_radius", &FieldSpec::robotRadius, units::metres, 0.02, 1,
+     "Robot radius", ""},
+});
+
+inline constexpr Parameter<SimulationSettings> tickRateParameter{
+    "tick_rate", &SimulationSettings::tickRate, units::ticksPerSecond, 1, 10000,
+    "Tick rate", "Ticks per simulated second"};
+// clang-format on
+
+/// Whether robots can fall: the one switch among the constants of the body.
+struct FallsSwitch {
+  const char* key = "falls";
+  const char* name = "Robots fall when hit hard";
+};
+inline constexpr FallsSwitch fallsSwitch;
+
+// Each refuses a value that is not finite or out of its range: InvalidArgument, with the key as the
+// context ("noise.forward"). A field has more that can be wrong: validate() of field.h.
+Result<void> validate(const NoiseParameters& noise);
+Result<void> validate(const RigidBodySettings& body);
+Result<void> validate(const SimulationSettings& settings);
+
+}  // namespace pitchboard::sim
