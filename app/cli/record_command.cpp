@@ -100,11 +100,18 @@ int recordMatch(const Options& options) {
   {
     Health health(options.progress);
     recorder.ticked(*match, {});
+    std::vector<link::MatchEvent> events;
+    const auto tell = [&] {
+      events.clear();
+      match->takeEvents(events);
+      if (!events.empty()) recorder.happened(events);
+    };
+    tell();
     while (!interrupted && !match->finished() && writer->status().recording) {
       const auto begin = Clock::now();
       match->tick();
       const auto spent = Clock::now() - begin;
-      if (!match->simulation().events().empty()) recorder.happened(match->simulation().events());
+      tell();
       recorder.ticked(*match, spent);
       health.say(writer->status());
     }

@@ -150,7 +150,7 @@ tl::unexpected<Error> cannotWrite(Error error, const Arguments& arguments) {
   return tl::unexpected(std::move(error));
 }
 
-/// Plays the match to its end, tells children that died, writes the trace.
+/// Plays the match to its end, tells processes that ended, writes the trace.
 class Player {
  public:
   Player(link::SimulatedMatch& match, double speed, TraceWriter* trace)
@@ -222,13 +222,12 @@ class Player {
     link::ProcessSupervisor& supervisor = m_match.supervisor();
     supervisor.poll();
     (void)supervisor.takeLines();
-    for (const link::ChildStatus& child : supervisor.children()) {
-      if (child.state == link::ChildState::Running) continue;
-      if (std::find(m_told.begin(), m_told.end(), child.handle) != m_told.end()) continue;
-      m_told.push_back(child.handle);
-      std::fprintf(stderr, "warning: %s of robot %d ended: %s%s%s\n", child.spec.name.c_str(),
-                   child.spec.robot.value, child.detail.c_str(),
-                   child.lastOutput.empty() ? "" : "; it said: ", child.lastOutput.c_str());
+    m_events.clear();
+    m_match.takeEvents(m_events);
+    for (const link::MatchEvent& event : m_events) {
+      const bool died = event.kind == link::MatchEventKind::ProcessDied;
+      if (!died && event.kind != link::MatchEventKind::ProcessEnded) continue;
+      std::fprintf(stderr, "%s%s\n", died ? "warning: " : "", link::sentenceOf(event).c_str());
     }
   }
 
@@ -237,7 +236,7 @@ class Player {
   TraceWriter* m_trace;
   Clock::time_point m_begin, m_lastPoll, m_lastProgress;
   sim::Snapshot m_snapshot;
-  std::vector<int> m_told;
+  std::vector<link::MatchEvent> m_events;
   bool m_showsProgress = ::isatty(STDERR_FILENO) == 1;
 };
 

@@ -100,9 +100,12 @@ std::string recorded(const char* name, double seconds) {
   link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
   link::MatchRecorder recorder(writer);
   recorder.ticked(match, {});
+  std::vector<link::MatchEvent> events;
   for (int tick = 0; tick < static_cast<int>(seconds * 60); ++tick) {
     match.tick();
-    recorder.happened(match.simulation().events());
+    events.clear();
+    match.takeEvents(events);
+    recorder.happened(events);
     recorder.ticked(match, std::chrono::microseconds(20));
   }
   (void)recorder.finish();

@@ -90,6 +90,7 @@ bool MatchLoop::carryOutCommands() {
   if (m_match.simulation().hash() != before) {
     for (const auto& observer : m_observers) observer->worldChanged(m_match);
   }
+  tellEvents();
   // Otherwise the next tick shows what they did.
   if (m_still) showObservers({});
   return true;
@@ -115,7 +116,6 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   }
   m_still = still;
   lock.unlock();
-  noteFinish();
 
   if (singleSteps > 0) {
     for (int i = 0; i < singleSteps && !m_match.finished(); ++i) tickOnce();
@@ -143,11 +143,7 @@ void MatchLoop::tickOnce() {
   const auto begin = Clock::now();
   m_match.tick();
   const auto tickTime = Clock::now() - begin;
-  const auto events = m_match.simulation().events();
-  m_newEvents.insert(m_newEvents.end(), events.begin(), events.end());
-  if (!events.empty()) {
-    for (const auto& observer : m_observers) observer->happened(events);
-  }
+  tellEvents();
   showObservers(tickTime);
 }
 
@@ -179,19 +175,20 @@ std::uint64_t MatchLoop::playBatch(Clock::time_point until, std::uint64_t lastTi
   return done;
 }
 
+void MatchLoop::tellEvents() {
+  const std::size_t known = m_newEvents.size();
+  m_match.takeEvents(m_newEvents);
+  if (m_newEvents.size() == known) return;
+  const auto events = std::span(m_newEvents).subspan(known);
+  for (const auto& observer : m_observers) observer->happened(events);
+}
+
 void MatchLoop::collectEvents() {
+  tellEvents();
   if (m_newEvents.empty()) return;
-  for (const sim::Event& event : m_newEvents) {
-    if (event.kind != sim::EventKind::UnknownAction) continue;
-    const auto& robots = m_match.simulation().state().robots;
-    const auto index = m_match.simulation().indexOf(event.robot);
-    if (!index) continue;
-    log(std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number),
-        "unknown action " + std::to_string(event.value) + " in DECISION_ACTION_A; it stops", true);
-  }
   const std::lock_guard lock(m_shared.mutex);
-  for (const sim::Event& event : m_newEvents) {
-    pushBounded(m_shared.events, event, m_shared.droppedEvents);
+  for (MatchEvent& event : m_newEvents) {
+    pushBounded(m_shared.events, std::move(event), m_shared.droppedEvents);
   }
   m_newEvents.clear();
 }
@@ -214,17 +211,7 @@ void MatchLoop::pollChildren() {
                                     [&](const auto& c) { return c.handle == line.handle; });
     if (child != children.end()) log(nameOf(child->spec), line.text, false);
   }
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    if (i >= m_childStates.size()) m_childStates.push_back(ChildState::Running);
-    if (std::exchange(m_childStates[i], children[i].state) == children[i].state) continue;
-    const bool failed = children[i].state == ChildState::Failed;
-    std::string text = failed ? "ended unexpectedly: " : "ended: ";
-    text += children[i].detail;
-    if (failed && !children[i].lastOutput.empty()) {
-      text += "; its last words: " + children[i].lastOutput;
-    }
-    log(nameOf(children[i].spec), text, failed);
-  }
+  tellEvents();
 }
 
 std::string MatchLoop::nameOf(const ChildSpec& child) const {
@@ -234,14 +221,6 @@ std::string MatchLoop::nameOf(const ChildSpec& child) const {
       index ? std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number)
             : "robot " + std::to_string(child.robot.value);
   return robot + ' ' + child.name;
-}
-
-void MatchLoop::noteFinish() {
-  const bool finished = m_match.finished();
-  if (finished && !m_finishLogged) {
-    log("simulation", "the match is over (" + std::string(m_match.finishedBy()) + ")", false);
-  }
-  m_finishLogged = finished;
 }
 
 void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {

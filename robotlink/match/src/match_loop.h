@@ -44,7 +44,7 @@ struct MatchRunner::Shared {
   double speed = 1.0;
   std::optional<std::uint64_t> runTo;
   std::shared_ptr<const MatchFrame> latest;
-  std::deque<sim::Event> events;
+  std::deque<MatchEvent> events;
   std::deque<LogLine> log;
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
@@ -71,11 +71,12 @@ class MatchLoop {
   void tickOnce();
   std::uint64_t playBatch(Clock::time_point until, std::uint64_t lastTick);
   void showObservers(std::chrono::nanoseconds tickTime);
+  /// Shows observers what has happened, and keeps it for collectEvents().
+  void tellEvents();
   void collectEvents();
   void pollChildren();
   void log(const std::string& origin, const std::string& text, bool warning);
   std::string nameOf(const ChildSpec& child) const;
-  void noteFinish();
   bool refreshesWhileStill() const;
 
   MatchRunner::Shared& m_shared;
@@ -84,14 +85,12 @@ class MatchLoop {
   FrameBuilder m_builder;
   std::shared_ptr<FramePool> m_pool = std::make_shared<FramePool>();
   std::vector<std::shared_ptr<TickObserver>> m_observers;
-  std::vector<sim::Event> m_newEvents;
-  std::vector<ChildState> m_childStates;  // as last seen
+  std::vector<MatchEvent> m_newEvents;
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;
   std::uint64_t m_serial = 0;
   bool m_still = false;
   bool m_publishWanted = false;
-  bool m_finishLogged = false;
 };
 
 }  // namespace pitchboard::link

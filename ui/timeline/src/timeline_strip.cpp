@@ -307,7 +307,8 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
 void TimelineStrip::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   if (const EventMark* mark = markAt(event->position())) {
-    if (m_timeline->events()->event(mark->row).type == EventType::Bookmark) editNote(mark->row);
+    if (m_timeline->events()->event(mark->row).kind == link::MatchEventKind::Bookmark)
+      editNote(mark->row);
     return;
   }
   if (event->position().y() > bandRect().bottom()) showAll();
@@ -402,8 +403,10 @@ QString TimelineStrip::tipAt(QPointF at) {
   QStringList lines;
   constexpr int most = 8;
   for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
-    const TimelineEvent& e = m_timeline->events()->event(row);
-    lines << momentText(e.time, 2) + QStringLiteral("  ") + sentenceOf(e).toHtmlEscaped();
+    const link::MatchEvent& e = m_timeline->events()->event(row);
+    if (!link::isMarked(e)) continue;
+    lines << momentText(e.time, 2) + QStringLiteral("  ") +
+                 QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }
   if (mark->merged > most) lines << tr("and %1 more; zoom in to see them").arg(mark->merged - most);
   return QStringLiteral("<p style='white-space:pre'>") + lines.join(QStringLiteral("<br>")) +

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -28,8 +29,8 @@ class TickObserver {
   /// At the first moment, after every tick, and after a command changed a match that stands still.
   /// `tickTime`: what the tick took; zero where there was none.
   virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
-  /// Before ticked() of the tick in which they happened.
-  virtual void happened(std::span<const sim::Event> /*events*/) {}
+  /// Before ticked() of the tick in which they happened; also between ticks.
+  virtual void happened(std::span<const MatchEvent> /*events*/) {}
   /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on
   /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
   /// still.
@@ -74,7 +75,7 @@ class MatchRunner {
   /// The newest frame, or nothing when `knownSerial` is already the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0) const;
   /// Both give what came since the last call, at most the newest 10 000.
-  std::vector<sim::Event> takeEvents();
+  std::vector<MatchEvent> takeEvents();
   std::vector<LogLine> takeLog();
 
   struct Shared;  ///< between the thread and the callers; private to the library
