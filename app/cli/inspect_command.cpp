@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/session/session_reader.h>
+#include <robotlink/session/session_events.h>
 
 #include <array>
 #include <cstdio>
@@ -73,11 +73,8 @@ Json toJson(const SessionReader& session, const Options& options) {
   }
   if (options.events) {
     out["events"] = Json::array();
-    for (const SessionEvent& event : session.events()) {
-      out["events"].push_back({{"time", event.time},
-                               {"kind", event.kind},
-                               {"group", event.group},
-                               {"text", event.text}});
+    for (const link::MatchEvent& event : link::eventsOf(session)) {
+      out["events"].push_back(Json::parse(sessionEventJson(link::sessionEvent(event))));
     }
   }
   out["notes"] = session.notes();
@@ -116,9 +113,10 @@ void printText(const SessionReader& session, const Options& options) {
                 static_cast<unsigned long long>(attachment.dataSize));
   }
   if (options.events) {
-    for (const SessionEvent& event : session.events()) {
-      std::printf("%10.3f %-10s %-4s %s\n", event.time, event.kind.c_str(), event.group.c_str(),
-                  event.text.c_str());
+    for (const link::MatchEvent& event : link::eventsOf(session)) {
+      const SessionEvent shown = link::sessionEvent(event);
+      std::printf("%10.3f %-10s %-4s %s\n", shown.time, shown.kind.c_str(), shown.group.c_str(),
+                  shown.text.c_str());
     }
   }
   for (const std::string& note : session.notes()) std::printf("%s\n", note.c_str());

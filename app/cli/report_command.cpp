@@ -7,6 +7,7 @@
 #include <robotlink/report/field_svg.h>
 #include <robotlink/report/report.h>
 #include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/session_events.h>
 
 namespace pitchboard::cli {
 
@@ -25,7 +26,7 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Se
   content.session = session.info();
   content.title = session.info().title;
   content.statistics = link::statisticsOf(session, part);
-  content.events = session.events();
+  content.events = link::eventsOf(session);
   content.notes = session.notes();
   if (!session.complete()) content.notes.push_back("The recording broke off.");
 

@@ -167,7 +167,20 @@ class TraceRows : public link::TickObserver {
   Result<void> m_written;
 };
 
-/// Plays the match to its end and tells of children that died.
+/// Says which processes ended before the match did.
+class ProcessNews : public link::TickObserver {
+ public:
+  void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
+  void happened(std::span<const link::MatchEvent> events) override {
+    for (const link::MatchEvent& event : events) {
+      const bool died = event.kind == link::MatchEventKind::ProcessDied;
+      if (!died && event.kind != link::MatchEventKind::ProcessEnded) continue;
+      std::fprintf(stderr, "%s%s\n", died ? "warning: " : "", link::sentenceOf(event).c_str());
+    }
+  }
+};
+
+/// Plays the match to its end and looks after its processes.
 class Playing {
  public:
   Playing(link::MatchPlayer& player, double speed)
@@ -214,20 +227,12 @@ class Playing {
     link::ProcessSupervisor& supervisor = m_match.supervisor();
     supervisor.poll();
     (void)supervisor.takeLines();
-    for (const link::ChildStatus& child : supervisor.children()) {
-      if (child.state == link::ChildState::Running) continue;
-      if (std::find(m_told.begin(), m_told.end(), child.handle) != m_told.end()) continue;
-      m_told.push_back(child.handle);
-      std::fprintf(stderr, "warning: %s of robot %d ended: %s%s%s\n", child.spec.name.c_str(),
-                   child.spec.robot.value, child.detail.c_str(),
-                   child.lastOutput.empty() ? "" : "; it said: ", child.lastOutput.c_str());
-    }
+    m_player.tellEvents();
   }
 
   link::MatchPlayer& m_player;
   link::SimulatedMatch& m_match;
   Clock::time_point m_begin, m_lastPoll, m_lastProgress;
-  std::vector<int> m_told;
   bool m_showsProgress = ::isatty(STDERR_FILENO) == 1;
 };
 
@@ -263,6 +268,7 @@ Result<void> simulate(const Arguments& arguments) {
   }
 
   link::MatchPlayer player(std::move(*match));
+  player.observe(std::make_shared<ProcessNews>());
   const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
   std::shared_ptr<TraceRows> trace;
   if (!arguments.trace.empty()) {

@@ -36,7 +36,7 @@ class Notes : public TickObserver {
     if (tickTime.count() > 0) ++timed;
     ball = match.simulation().snapshot().ball;
   }
-  void happened(std::span<const sim::Event> events) override { happenings += events.size(); }
+  void happened(std::span<const MatchEvent> events) override { happenings += events.size(); }
   void logged(const LogLine& line) override { lines.push_back(line.text); }
 
   std::vector<std::uint64_t> ticks;
@@ -108,10 +108,14 @@ class TestMatchRunner : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->finished, 10000);
     QCOMPARE(runner->latest()->snapshot.tick, std::uint64_t{120});
     QCOMPARE(runner->latest()->finishedBy, std::string("duration"));
-    const auto log = runner->takeLog();
-    QVERIFY(!log.empty());
-    QCOMPARE(log.back().text, std::string("the match is over (duration)"));
-    QVERIFY(runner->takeLog().empty());
+    const auto events = runner->takeEvents();
+    QVERIFY(!events.empty());
+    QCOMPARE(events.front().kind, MatchEventKind::GameState);
+    QCOMPARE(events.front().detail, std::string("PLAYING"));
+    QCOMPARE(events.back().kind, MatchEventKind::MatchOver);
+    QCOMPARE(events.back().time, 2.0);
+    QCOMPARE(sentenceOf(events.back()), std::string("the match is over (duration)"));
+    QVERIFY(runner->takeEvents().empty());
   }
 
   void eventsArrive() {
@@ -120,7 +124,7 @@ class TestMatchRunner : public QObject {
     QVERIFY(runner->waitUntilStill(20s));
     const auto events = runner->takeEvents();
     QVERIFY(std::any_of(events.begin(), events.end(),
-                        [](const auto& event) { return event.kind == sim::EventKind::Kick; }));
+                        [](const auto& event) { return event.kind == MatchEventKind::Kick; }));
   }
 
   void observersSeeEveryTickOnce() {

@@ -437,7 +437,11 @@ class TestMoments : public QObject {
     frame.referee->secondsLeft = 432;
     frame.referee->teams[1].score = 3;
     recorder->frameMade(frame);
-    recorder->logged({2.0, "network", "port 1241 is taken", true});
+    MatchEvent taken;
+    taken.kind = MatchEventKind::PortLost;
+    taken.time = 2.0;
+    taken.value = 1241;
+    recorder->happened(taken);
     QVERIFY(recorder->finish());
 
     const auto session = telemetry::SessionReader::open(path).value();

@@ -100,10 +100,19 @@ class TestReport : public QObject {
         std::chrono::sys_days(std::chrono::year{2026} / 7 / 4) + std::chrono::hours(12);
     content.session.program = "pitchboard";
     content.statistics = m_statistics;
-    content.events = {{12.34, "goal", "", "goal for the left side"},
-                      {20.0, "kick", "B1", "B1: kick left"},
-                      {30.0, "bookmark", "", "<b>look</b>"},
-                      {999.0, "goal", "", "after the end"}};
+    const auto event = [](MatchEventKind kind, double time, const char* detail = "") {
+      MatchEvent made;
+      made.kind = kind;
+      made.time = time;
+      made.detail = detail;
+      return made;
+    };
+    content.events = {event(MatchEventKind::Goal, 12.34), event(MatchEventKind::Kick, 20.0),
+                      event(MatchEventKind::Bookmark, 30.0, "<b>look</b>"),
+                      event(MatchEventKind::Goal, 999.0)};
+    content.events.front().side = Side::Left;
+    content.events.back().side = Side::Right;
+    content.events[1].name = "B1";
     content.picture =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 104 74\"><rect width=\"104\" "
         "height=\"74\" fill=\"#33453a\"/></svg>";
@@ -112,7 +121,7 @@ class TestReport : public QObject {
     const QString html = QString::fromStdString(reportHtml(content));
     QVERIFY(!html.contains("<script") && !html.contains("<b>look"));
     QVERIFY(html.contains("0:12.3") && html.contains("goal for the left side"));
-    QVERIFY(!html.contains("after the end"));
+    QVERIFY(!html.contains("goal for the right side"));
     QVERIFY(html.contains("1 kick</summary>"));
     QVERIFY(html.contains("data:image/svg+xml;base64,"));
     QVERIFY(html.contains("seed 7") && html.contains("The recording broke off."));

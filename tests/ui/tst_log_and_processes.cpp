@@ -60,12 +60,14 @@ class TestLogAndProcesses : public QObject {
   }
 
   void eventsInWords() {
-    sim::Event event;
-    event.kind = sim::EventKind::UnknownAction;
-    event.tick = 120;
+    link::MatchEvent event;
+    event.kind = link::MatchEventKind::UnknownAction;
+    event.time = 2.0;
+    event.name = "R3";
     event.value = 42;
-    const link::LogLine line = eventLine(event, QStringLiteral("R3"), 60);
+    const link::LogLine line = logLineOf(event);
     QCOMPARE(line.time, 2.0);
+    QCOMPARE(line.origin, std::string("R3"));
     QVERIFY(line.warning);
     QVERIFY(QString::fromStdString(line.text).contains(QStringLiteral("42")));
   }

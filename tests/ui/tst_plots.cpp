@@ -535,9 +535,9 @@ class TestPlots : public QObject {
   }
 
   void eventsBetweenTheMarksAreNamed() {
-    std::deque<TimelineEvent> events;
+    std::deque<link::MatchEvent> events;
     for (const double time : {1.0, 2.0, 3.0, 4.0, 9.0}) {
-      events.push_back({time, EventType::Kick, "B1", {}});
+      events.push_back({link::MatchEventKind::Kick, time, RobotId{1}, "B1"});
     }
     PlotBench bench;
     PlotFeed feed(&bench.source, &bench.time);

@@ -43,8 +43,11 @@ class TestSource : public FrameSource {
     m_frame = made(time);
     emit frameReceived(m_frame);
   }
-  void happen(double time, sim::EventKind kind, int value = 0) {
-    emit eventsReceived({{kind, static_cast<std::uint64_t>(time * 60), RobotId{7}, value}});
+  void happen(double time, link::MatchEventKind kind) {
+    link::MatchEvent event{kind, time, RobotId{7}, "R2"};
+    if (kind == link::MatchEventKind::Goal)
+      event = {kind, time, {}, {}, link::Side::Right, 0, "red"};
+    emit eventsReceived({event});
   }
   SourceKind kind() const override { return SourceKind::Live; }
   FramePtr frame() const override { return m_frame; }
@@ -156,11 +159,11 @@ class TestTimeline : public QObject {
 
   void eventsAreMarkedAndJumpedTo() {
     Bench b;
-    b.source.happen(30, sim::EventKind::Goal, 1);
-    b.source.happen(60, sim::EventKind::Fall);
-    QCOMPARE(b.timeline.events()->rowCount(), 3);  // the first is the state of the game
-    QCOMPARE(b.strip->marks().size(), std::size_t(3));
-    QCOMPARE(b.strip->marks()[1].label, QStringLiteral("goal RED"));
+    b.source.happen(30, link::MatchEventKind::Goal);
+    b.source.happen(60, link::MatchEventKind::Fall);
+    QCOMPARE(b.timeline.events()->rowCount(), 2);
+    QCOMPARE(b.strip->marks().size(), std::size_t(2));
+    QCOMPARE(b.strip->marks()[0].label, QStringLiteral("goal RED"));
     // On the mark's icon: exactly its time.
     QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.above(30) + QPoint(3, -6));
     QCOMPARE(b.x(), 30.0);
@@ -182,9 +185,9 @@ class TestTimeline : public QObject {
     QTest::keyClicks(note, QStringLiteral("slipped turn"));
     QTest::keyClick(note, Qt::Key_Return);
     const EventList* list = b.timeline.events();
-    QCOMPARE(list->event(1).text, QStringLiteral("slipped turn"));
-    QCOMPARE(list->event(1).time, 50.0);
-    QCOMPARE(told.last().at(1).toString(), QStringLiteral("slipped turn"));
+    QCOMPARE(list->event(0).detail, std::string("slipped turn"));
+    QCOMPARE(list->event(0).time, 50.0);
+    QCOMPARE(told.last().at(0).value<link::MatchEvent>().detail, std::string("slipped turn"));
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     // Again by double-click; Escape keeps what was.
     QTest::mouseDClick(b.strip, Qt::LeftButton, {}, b.above(50) - QPoint(0, 8));
@@ -192,7 +195,7 @@ class TestTimeline : public QObject {
     QVERIFY(note);
     QTest::keyClicks(note, QStringLiteral("x"));
     QTest::keyClick(note, Qt::Key_Escape);
-    QCOMPARE(list->event(1).text, QStringLiteral("slipped turn"));
+    QCOMPARE(list->event(0).detail, std::string("slipped turn"));
   }
 
   void theWindowOfThePlotsIsDragged() {
@@ -296,7 +299,7 @@ class TestTimeline : public QObject {
 
   void anotherMatchForgetsThePast() {
     Bench b;
-    b.source.happen(30, sim::EventKind::Goal, 1);
+    b.source.happen(30, link::MatchEventKind::Goal);
     b.timeline.seek(40);
     b.timeline.setSelection(telemetry::TimeRange{10, 20});
     emit b.source.restarted();
@@ -311,16 +314,16 @@ class TestTimeline : public QObject {
     b.timeline.watch(&other);
     b.shown.choose(&other);
     QCOMPARE(b.timeline.events()->rowCount(), 0);
-    b.source.happen(70, sim::EventKind::Kick);
+    b.source.happen(70, link::MatchEventKind::Kick);
     QCOMPARE(b.timeline.events()->rowCount(), 0);
     b.shown.choose(&b.source);
-    QCOMPARE(b.timeline.events()->rowCount(), 2);
+    QCOMPARE(b.timeline.events()->rowCount(), 1);
   }
 
   void aSecondSessionHasARowOfItsOwn() {
     Bench b;
     EventList other;
-    other.add({5, EventType::Goal, QStringLiteral("RED"), {}});
+    other.add({link::MatchEventKind::Goal, 5.0, {}, "RED"});
     const int before = b.strip->sizeHint().height();
     b.strip->setCompared(&other, 20.0, QStringLiteral("other"));
     QVERIFY(b.strip->sizeHint().height() > before);

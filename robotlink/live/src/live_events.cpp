@@ -1,36 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_events.h"
 
-#include <cstdio>
+#include <utility>
 
 namespace pitchboard::link {
 namespace {
 
-/// Events have their time in ticks; a live frame counts sixty a second.
-std::uint64_t liveTick(double time) {
-  return static_cast<std::uint64_t>(time * 60.0 + 0.5);
-}
+using Kind = MatchEventKind;
 
-std::string clockWords(int seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%s%02d:%02d", seconds < 0 ? "-" : "", std::abs(seconds) / 60,
-                std::abs(seconds) % 60);
-  return text;
+MatchEvent made(Kind kind, double time, std::string detail = {}, std::optional<int> value = {}) {
+  MatchEvent event;
+  event.kind = kind;
+  event.time = time;
+  event.detail = std::move(detail);
+  event.value = value;
+  return event;
 }
 
 std::string teamWords(const RefereeTeamView& team) {
   return "team " + std::to_string(team.number) +
          (team.colour == "unknown" ? std::string() : " (" + team.colour + ")");
-}
-
-/// All that a spectator would call the state of the game.
-std::string stateWords(const RefereeView& view) {
-  std::string out = view.state;
-  if (!view.setPlay.empty()) out += ", " + view.setPlay;
-  if (!view.phase.empty()) out += ", " + view.phase;
-  out += view.firstHalf ? ", first half" : ", second half";
-  if (view.stopped) out += ", stopped";
-  return out;
 }
 
 const RefereeTeamView* team(const RefereeView& view, int number) {
@@ -40,91 +29,82 @@ const RefereeTeamView* team(const RefereeView& view, int number) {
   return nullptr;
 }
 
-std::string nameOf(const sim::RobotIdentity& identity) {
-  return std::string(info(identity.team).letter) + std::to_string(identity.number);
-}
-
-std::string penaltyText(const Penalty& penalty) {
-  return penalty.words +
-         (penalty.secondsLeft > 0 ? ", " + std::to_string(penalty.secondsLeft) + " s" : "");
-}
-
 }  // namespace
 
-void LiveEvents::compareReferee(const RefereeView& now, double time, LiveHappenings& out) {
-  const auto say = [&](std::string text, bool warning = false) {
-    out.lines.push_back({time, "referee", std::move(text), warning});
-  };
-  if (!m_referee) {
-    say("heard: " + now.sender + ", version " + std::to_string(now.version) + ", " +
-        teamWords(now.teams[0]) + " against " + teamWords(now.teams[1]));
-    say(stateWords(now));
-    return;
+void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out) {
+  // What a game begins with is nothing to tell.
+  RefereeView before;
+  const bool isFirst = !m_referee;
+  if (m_referee) before = *m_referee;
+  if (isFirst || now.sender != before.sender || now.version != before.version) {
+    std::string who = now.sender;
+    if (isFirst) who += ", " + teamWords(now.teams[0]) + " against " + teamWords(now.teams[1]);
+    out.push_back(made(Kind::RefereeHeard, time, std::move(who), now.version));
   }
-  const RefereeView& before = *m_referee;
-  if (now.sender != before.sender || now.version != before.version) {
-    say("now " + now.sender + ", version " + std::to_string(now.version));
+  if (now.state != before.state) {
+    out.push_back(made(Kind::GameState, time, now.state, now.secondsLeft));
   }
-  if (stateWords(now) != stateWords(before)) {
-    say(stateWords(now) + " at " + clockWords(now.secondsLeft));
+  if (now.setPlay != before.setPlay) out.push_back(made(Kind::SetPlay, time, now.setPlay));
+  if (now.phase != before.phase) out.push_back(made(Kind::GamePhase, time, now.phase));
+  if (now.firstHalf != before.firstHalf) {
+    out.push_back(made(Kind::Half, time, {}, now.firstHalf ? 1 : 2));
+  }
+  if (now.stopped != before.stopped) {
+    out.push_back(made(now.stopped ? Kind::PlayStopped : Kind::PlayGoesOn, time));
   }
   if (now.timedOut != before.timedOut) {
-    if (now.timedOut)
-      say("not heard for 10 s: the last state is shown", true);
-    else
-      say("is heard again");
+    out.push_back(made(now.timedOut ? Kind::RefereeSilent : Kind::RefereeBack, time));
   }
   if (now.conflict && !before.conflict) {
-    say("a second referee program is heard; " + now.sender + " is shown", true);
+    out.push_back(made(Kind::SecondReferee, time, now.sender));
   }
-  for (std::size_t side = 0; side < now.teams.size(); ++side) {
+  if (isFirst) return;
+  for (std::size_t i = 0; i < now.teams.size(); ++i) {
     // Teams change sides at half-time: by number, not by place.
-    const RefereeTeamView* was = team(before, now.teams[side].number);
-    if (was == nullptr || was->score == now.teams[side].score) continue;
-    const bool scored = now.teams[side].score > was->score;
-    say((scored ? "goal for " : "score corrected for ") + teamWords(now.teams[side]) + ": " +
-        std::to_string(now.teams[0].score) + " : " + std::to_string(now.teams[1].score));
-    if (scored)
-      out.events.push_back({sim::EventKind::Goal, liveTick(time), {}, static_cast<int>(side)});
+    const RefereeTeamView& team = now.teams[i];
+    const RefereeTeamView* was = link::team(before, team.number);
+    if (was == nullptr || was->score == team.score) continue;
+    MatchEvent event = made(team.score > was->score ? Kind::Goal : Kind::ScoreCorrected, time);
+    event.side = i == 0 ? Side::Left : Side::Right;
+    event.team = team.number;
+    event.colour = team.colour;
+    event.score = sim::Score{now.teams[0].score, now.teams[1].score};
+    out.push_back(std::move(event));
   }
 }
 
-void LiveEvents::compareRobot(const RobotHealth& robot, const std::string& name, double time,
-                              LiveHappenings& out) {
-  const auto say = [&](std::string text, bool warning = false) {
-    out.lines.push_back({time, name, std::move(text), warning});
+void LiveEvents::compareRobot(const RobotHealth& health, const sim::RobotIdentity& robot,
+                              double time, std::vector<MatchEvent>& out) {
+  const auto say = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
+    MatchEvent event = eventOf(kind, time, robot);
+    event.detail = std::move(detail);
+    event.value = value;
+    out.push_back(std::move(event));
   };
-  const auto [entry, isNew] = m_robots.try_emplace(robot.id);
+  const auto [entry, isNew] = m_robots.try_emplace(health.id);
   Known& known = entry->second;
-  if (isNew) say("is heard from " + robot.sender);
-  if (robot.timedOut != known.timedOut) {
-    if (robot.timedOut) {
-      say("is not heard any more (TIMEOUT)", true);
-    } else if (!isNew) {
-      say("is heard again");
-    }
+  if (isNew) say(Kind::RobotHeard, health.sender);
+  if (health.timedOut != known.timedOut) {
+    say(health.timedOut ? Kind::RobotSilent : Kind::RobotBack);
   }
-  if (robot.conflict && !known.conflict) {
-    say("number " + std::to_string(robot.number) +
-            " is also sent by another program; this one is " + robot.sender,
-        true);
+  if (health.conflict && !known.conflict) say(Kind::SecondSender, health.sender);
+  const auto& penalty = health.penalty;
+  if (penalty && (!known.penalty || known.penalty->words != penalty->words)) {
+    say(Kind::Penalised, penalty->words, penalty->secondsLeft);
+  } else if (!penalty && known.penalty) {
+    say(Kind::PenaltyOver);
   }
-  if (robot.penalty && (!known.penalty || known.penalty->words != robot.penalty->words)) {
-    say("penalised: " + penaltyText(*robot.penalty), true);
-  } else if (!robot.penalty && known.penalty) {
-    say("may play again");
-  }
-  known = {robot.timedOut, robot.conflict, robot.penalty};
+  known = {health.timedOut, health.conflict, penalty};
 }
 
-LiveHappenings LiveEvents::compare(const MatchFrame& now) {
-  LiveHappenings out;
+std::vector<MatchEvent> LiveEvents::compare(const MatchFrame& now) {
+  std::vector<MatchEvent> out;
   if (now.referee) {
     compareReferee(*now.referee, now.snapshot.time, out);
     m_referee = now.referee;
   }
   for (std::size_t i = 0; i < now.health.size(); ++i) {
-    compareRobot(now.health[i], nameOf(now.snapshot.robots[i].identity), now.snapshot.time, out);
+    compareRobot(now.health[i], now.snapshot.robots[i].identity, now.snapshot.time, out);
   }
   std::erase_if(m_robots, [&now](const auto& known) {
     for (const RobotHealth& robot : now.health) {
@@ -135,22 +115,17 @@ LiveHappenings LiveEvents::compare(const MatchFrame& now) {
   return out;
 }
 
-std::vector<LogLine> LiveEvents::comparePorts(const telemetry::ReceiverStatus& network,
-                                              double time) {
-  std::vector<LogLine> lines;
+std::vector<MatchEvent> LiveEvents::comparePorts(const telemetry::ReceiverStatus& network,
+                                                 double time) {
+  std::vector<MatchEvent> out;
   for (const telemetry::PortStatus& port : network.ports) {
     std::string& known = m_ports[port.port];
     if (port.problem == known) continue;
-    if (port.bound) {
-      lines.push_back(
-          {time, "network", "port " + std::to_string(port.port) + " is received now", false});
-    } else {
-      lines.push_back(
-          {time, "network", port.problem + " It is tried again; the other ports work.", true});
-    }
+    out.push_back(
+        made(port.bound ? Kind::PortBack : Kind::PortLost, time, port.problem, int{port.port}));
     known = port.problem;
   }
-  return lines;
+  return out;
 }
 
 }  // namespace pitchboard::link

@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What happened between two live frames, in words: game states, goals, penalties, robots that fall
-// silent or come back. Private to robotlink.
+// Makes the events of a live match by comparing each frame with the one before: game states, goals,
+// penalties, robots that fall silent or come back, ports. Private to robotlink; used by LiveWatch
+// under its lock. Times are those of the frames, s.
 
 #include <map>
+#include <string>
+#include <vector>
 
 #include <robotlink/live/live_watch.h>
 
 namespace pitchboard::link {
 
-struct LiveHappenings {
-  std::vector<sim::Event> events;
-  std::vector<LogLine> lines;
-};
-
-/// Compares with the frame given before; the first frame gives what is there to tell.
 class LiveEvents {
  public:
-  LiveHappenings compare(const MatchFrame& now);
+  /// What has happened since the frame given before; the first frame gives what is there to tell.
+  std::vector<MatchEvent> compare(const MatchFrame& now);
   /// Ports that cannot be bound, and those that now can.
-  std::vector<LogLine> comparePorts(const telemetry::ReceiverStatus& network, double time);
+  std::vector<MatchEvent> comparePorts(const telemetry::ReceiverStatus& network, double time);
   void clear() { *this = {}; }
 
  private:
@@ -29,13 +27,13 @@ class LiveEvents {
     bool conflict = false;
     std::optional<Penalty> penalty;
   };
-  void compareReferee(const RefereeView& now, double time, LiveHappenings& out);
-  void compareRobot(const RobotHealth& robot, const std::string& name, double time,
-                    LiveHappenings& out);
+  void compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out);
+  void compareRobot(const RobotHealth& health, const sim::RobotIdentity& robot, double time,
+                    std::vector<MatchEvent>& out);
 
   std::optional<RefereeView> m_referee;
   std::map<RobotId, Known> m_robots;
-  std::map<std::uint16_t, std::string> m_ports;
+  std::map<std::uint16_t, std::string> m_ports;  // what was wrong with each
 };
 
 }  // namespace pitchboard::link

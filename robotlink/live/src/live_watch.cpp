@@ -39,8 +39,7 @@ telemetry::ReceiverOptions receiverOptions(const LiveOptions& options) {
   return made;
 }
 
-template <class T>
-void queueUp(std::vector<T>& queue, const std::vector<T>& items) {
+void queueUp(std::vector<MatchEvent>& queue, const std::vector<MatchEvent>& items) {
   queue.insert(queue.end(), items.begin(), items.end());
   if (queue.size() > maxQueued) {
     queue.erase(queue.begin(), queue.end() - static_cast<std::ptrdiff_t>(maxQueued));
@@ -161,11 +160,10 @@ struct LiveWatch::Impl {
     auto made =
         std::make_shared<MatchFrame>(liveFrame(options, team, referee, identities, since(now)));
     made->serial = ++serial;
-    tell(happened.compare(*made), made->snapshot.time);
+    tell(happened.compare(*made));
     if (receiver && now >= nextPorts) {
       nextPorts = now + portsPeriod;
-      tell({{}, happened.comparePorts(receiver->status(), made->snapshot.time)},
-           made->snapshot.time);
+      tell(happened.comparePorts(receiver->status(), made->snapshot.time));
     }
     for (const auto& observer : observers) {
       observer->frameMade(*made);
@@ -176,12 +174,10 @@ struct LiveWatch::Impl {
     if (!std::exchange(announced, true) && onFrame) onFrame();
   }
 
-  void tell(const LiveHappenings& what, double time) {
-    queueUp(events, what.events);
-    queueUp(lines, what.lines);
+  void tell(const std::vector<MatchEvent>& what) {
+    queueUp(events, what);
     for (const auto& observer : observers) {
-      for (const sim::Event& event : what.events) observer->happened(event, time);
-      for (const LogLine& line : what.lines) observer->logged(line);
+      for (const MatchEvent& event : what) observer->happened(event);
     }
   }
 
@@ -239,8 +235,7 @@ struct LiveWatch::Impl {
   std::string networkProblem, unknownReason, unknownSample, monitorProblem;
   std::shared_ptr<const MatchFrame> frame;
   bool announced = false;
-  std::vector<sim::Event> events;
-  std::vector<LogLine> lines;
+  std::vector<MatchEvent> events;
   std::vector<std::shared_ptr<LiveObserver>> observers;
   std::jthread thread;  // last: it uses all of the above
 };
@@ -287,14 +282,9 @@ LiveDetails LiveWatch::details() const {
   return details;
 }
 
-std::vector<sim::Event> LiveWatch::takeEvents() {
+std::vector<MatchEvent> LiveWatch::takeEvents() {
   const std::lock_guard lock(m_impl->mutex);
   return std::exchange(m_impl->events, {});
-}
-
-std::vector<LogLine> LiveWatch::takeLog() {
-  const std::lock_guard lock(m_impl->mutex);
-  return std::exchange(m_impl->lines, {});
 }
 
 telemetry::WallTime LiveWatch::began() const {

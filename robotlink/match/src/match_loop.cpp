@@ -86,6 +86,7 @@ bool MatchLoop::carryOutCommands() {
   const std::uint64_t before = m_match.simulation().hash();
   for (const auto& command : commands) command(m_match);
   if (m_match.simulation().hash() != before) m_player.worldChanged();
+  m_player.tellEvents();
   // Otherwise the next tick shows what they did.
   if (m_still) m_player.showMoment();
   return true;
@@ -110,7 +111,6 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   }
   m_still = still;
   lock.unlock();
-  noteFinish();
 
   if (singleSteps > 0) {
     for (int i = 0; i < singleSteps && !m_match.finished(); ++i) m_player.tick();
@@ -133,18 +133,11 @@ MatchLoop::Clock::time_point MatchLoop::playBatch(Clock::time_point now, std::ui
 }
 
 void MatchLoop::collectEvents() {
+  m_player.tellEvents();
   if (m_newEvents->list.empty()) return;
-  for (const sim::Event& event : m_newEvents->list) {
-    if (event.kind != sim::EventKind::UnknownAction) continue;
-    const auto& robots = m_match.simulation().state().robots;
-    const auto index = m_match.simulation().indexOf(event.robot);
-    if (!index) continue;
-    log(std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number),
-        "unknown action " + std::to_string(event.value) + " in DECISION_ACTION_A; it stops", true);
-  }
   const std::lock_guard lock(m_shared.mutex);
-  for (const sim::Event& event : m_newEvents->list) {
-    pushBounded(m_shared.events, event, m_shared.droppedEvents);
+  for (MatchEvent& event : m_newEvents->list) {
+    pushBounded(m_shared.events, std::move(event), m_shared.droppedEvents);
   }
   m_newEvents->list.clear();
 }
@@ -167,17 +160,7 @@ void MatchLoop::pollChildren() {
                                     [&](const auto& c) { return c.handle == line.handle; });
     if (child != children.end()) log(nameOf(child->spec), line.text, false);
   }
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    if (i >= m_childStates.size()) m_childStates.push_back(ChildState::Running);
-    if (std::exchange(m_childStates[i], children[i].state) == children[i].state) continue;
-    const bool failed = children[i].state == ChildState::Failed;
-    std::string text = failed ? "ended unexpectedly: " : "ended: ";
-    text += children[i].detail;
-    if (failed && !children[i].lastOutput.empty()) {
-      text += "; its last words: " + children[i].lastOutput;
-    }
-    log(nameOf(children[i].spec), text, failed);
-  }
+  m_player.tellEvents();
 }
 
 std::string MatchLoop::nameOf(const ChildSpec& child) const {
@@ -187,14 +170,6 @@ std::string MatchLoop::nameOf(const ChildSpec& child) const {
       index ? std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number)
             : "robot " + std::to_string(child.robot.value);
   return robot + ' ' + child.name;
-}
-
-void MatchLoop::noteFinish() {
-  const bool finished = m_match.finished();
-  if (finished && !m_finishLogged) {
-    log("simulation", "the match is over (" + std::string(m_match.finishedBy()) + ")", false);
-  }
-  m_finishLogged = finished;
 }
 
 void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {

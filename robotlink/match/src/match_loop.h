@@ -44,7 +44,7 @@ struct MatchRunner::Shared {
   double speed = 1.0;
   std::optional<std::uint64_t> runTo;
   std::shared_ptr<const MatchFrame> latest;
-  std::deque<sim::Event> events;
+  std::deque<MatchEvent> events;
   std::deque<LogLine> log;
   std::uint64_t droppedEvents = 0;
   std::uint64_t droppedLogLines = 0;
@@ -56,10 +56,10 @@ struct MatchRunner::Shared {
 class NewEvents : public TickObserver {
  public:
   void ticked(const SimulatedMatch& /*match*/, std::chrono::nanoseconds /*tickTime*/) override {}
-  void happened(std::span<const sim::Event> events) override {
+  void happened(std::span<const MatchEvent> events) override {
     list.insert(list.end(), events.begin(), events.end());
   }
-  std::vector<sim::Event> list;
+  std::vector<MatchEvent> list;
 };
 
 class MatchLoop {
@@ -81,7 +81,6 @@ class MatchLoop {
   void pollChildren();
   void log(const std::string& origin, const std::string& text, bool warning);
   std::string nameOf(const ChildSpec& child) const;
-  void noteFinish();
   bool refreshesWhileStill() const;
 
   MatchRunner::Shared& m_shared;
@@ -90,13 +89,11 @@ class MatchLoop {
   FrameBuilder m_builder;
   std::shared_ptr<FramePool> m_pool = std::make_shared<FramePool>();
   const std::shared_ptr<NewEvents> m_newEvents = std::make_shared<NewEvents>();
-  std::vector<ChildState> m_childStates;  // as last seen
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;
   std::uint64_t m_serial = 0;
   bool m_still = false;
   bool m_publishWanted = false;
-  bool m_finishLogged = false;
 };
 
 }  // namespace pitchboard::link

@@ -54,10 +54,15 @@ void MatchPlayer::tick() {
   const auto begin = Clock::now();
   m_match.tick();
   const auto tickTime = Clock::now() - begin;
-  if (const auto events = m_match.simulation().events(); !events.empty()) {
-    for (const auto& observer : m_observers) observer->happened(events);
-  }
+  tellEvents();
   for (const auto& observer : m_observers) observer->ticked(m_match, tickTime);
+}
+
+void MatchPlayer::tellEvents() {
+  m_events.clear();
+  m_match.takeEvents(m_events);
+  if (m_events.empty()) return;
+  for (const auto& observer : m_observers) observer->happened(m_events);
 }
 
 void MatchPlayer::showMoment() {

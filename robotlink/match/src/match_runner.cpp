@@ -114,9 +114,10 @@ std::shared_ptr<const MatchFrame> MatchRunner::latest(std::uint64_t knownSerial)
   return frame && frame->serial != knownSerial ? frame : nullptr;
 }
 
-std::vector<sim::Event> MatchRunner::takeEvents() {
+std::vector<MatchEvent> MatchRunner::takeEvents() {
   const std::lock_guard lock(m_shared->mutex);
-  std::vector<sim::Event> events(m_shared->events.begin(), m_shared->events.end());
+  std::vector<MatchEvent> events(std::make_move_iterator(m_shared->events.begin()),
+                                 std::make_move_iterator(m_shared->events.end()));
   m_shared->events.clear();
   return events;
 }

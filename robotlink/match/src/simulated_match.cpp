@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "match_events.h"
 #include "match_seat.h"
 
 namespace pitchboard::link {
@@ -26,6 +27,7 @@ SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& opt
       m_catalog(&catalog),
       m_variables(catalog),
       m_bridge(m_variables),
+      m_events(std::make_unique<MatchEvents>()),
       m_supervisor(std::make_unique<ProcessSupervisor>()) {}
 
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
@@ -50,6 +52,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_outSeen = other.m_outSeen;
   m_teamChannels = std::move(other.m_teamChannels);
   m_thoughts = std::move(other.m_thoughts);
+  m_events = std::move(other.m_events);
   m_supervisor = std::move(other.m_supervisor);
   return *this;
 }
@@ -144,6 +147,7 @@ void SimulatedMatch::tick() {
   applyDueWrites();
   for (std::size_t i = 0; i < m_seats.size(); ++i) m_commands[i] = m_bridge.read(m_seats[i]->board);
   m_simulation.step(m_commands, m_percepts);
+  m_events->stepped(m_simulation);
   for (const sim::Event& event : m_simulation.events()) {
     m_goalSeen = m_goalSeen || event.kind == sim::EventKind::Goal;
     m_outSeen = m_outSeen || event.kind == sim::EventKind::BallOut;
@@ -186,6 +190,11 @@ std::string_view SimulatedMatch::finishedBy() const {
     return "duration";
   }
   return {};
+}
+
+void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
+  m_events->look(m_simulation.state(), finishedBy(), *m_supervisor);
+  m_events->take(out);
 }
 
 std::vector<RobotThoughts> SimulatedMatch::thoughts() {

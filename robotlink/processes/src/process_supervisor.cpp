@@ -79,6 +79,7 @@ void ProcessSupervisor::collect(ChildStatus& child, Output& output) {
   if (!output.partial.empty()) endLine(child, output);
   ::close(output.fd);
   child.detail = unknown ? "ended, and the system did not say how" : describe(end);
+  child.asked = output.asked;
   const bool wellEnded = !unknown && end.si_code == CLD_EXITED && end.si_status == 0;
   child.state = wellEnded || output.asked ? ChildState::Ended : ChildState::Failed;
 }

@@ -16,8 +16,6 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::size_t mostEvents = 5000;
-// Kicks are many; without them the list shows how the match went.
-constexpr std::string_view kickKind = "kick";
 constexpr double lowUptime = 0.9;
 
 std::string escaped(std::string_view text) {
@@ -199,22 +197,24 @@ std::string tenths(double seconds) {
   return '.' + std::to_string(static_cast<int>(std::fmod(std::abs(seconds), 1.0) * 10.0));
 }
 
-std::string eventTable(const std::vector<const telemetry::SessionEvent*>& events) {
+std::string eventTable(const std::vector<const MatchEvent*>& events) {
   std::string out =
       "<div class=\"scroll\"><table><thead><tr><th>Time</th><th class=\"l\">Event</th>"
       "<th class=\"l\">Robot</th><th class=\"l\">What</th></tr></thead><tbody>\n";
-  for (const telemetry::SessionEvent* e : events) {
-    out += "<tr>" + cell(clockText(e->time) + tenths(e->time)) + cell(escaped(e->kind), "l") +
-           cell(escaped(e->group), "l") + cell(escaped(e->text), "l") + "</tr>\n";
+  for (const MatchEvent* e : events) {
+    out += "<tr>" + cell(clockText(e->time) + tenths(e->time)) +
+           cell(escaped(info(e->kind).name), "l") + cell(escaped(e->name), "l") +
+           cell(escaped(sentenceOf(*e)), "l") + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }
 
 std::string events(const ReportContent& c) {
-  std::vector<const telemetry::SessionEvent*> main, kicks;
+  std::vector<const MatchEvent*> main, kicks;
   for (const auto& event : c.events) {
     if (event.time < c.statistics.range.begin || event.time > c.statistics.range.end) continue;
-    auto& list = event.kind == kickKind ? kicks : main;
+    // Kicks are many; without them the list shows how the match went.
+    auto& list = event.kind == MatchEventKind::Kick ? kicks : main;
     if (list.size() < mostEvents) list.push_back(&event);
   }
   std::string out = "<h2>Events</h2>\n";

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/session/session_events.h>
 #include <telemetry/wire/referee_json.h>
 
 namespace pitchboard::link {
@@ -143,15 +144,8 @@ void LiveRecorder::unusedHeard(double time, const telemetry::DatagramView& datag
       {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
 }
 
-void LiveRecorder::happened(const sim::Event& event, double time) {
-  telemetry::SessionEvent out = sessionEvent(event, {});
-  out.time = time;
-  m_writer->append(out);
-}
-
-void LiveRecorder::logged(const LogLine& line) {
-  m_writer->append(
-      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+void LiveRecorder::happened(const MatchEvent& event) {
+  m_writer->append(sessionEvent(event));
 }
 
 void LiveRecorder::frameMade(const MatchFrame& frame) {
@@ -160,10 +154,6 @@ void LiveRecorder::frameMade(const MatchFrame& frame) {
   const double time = frame.snapshot.time;
   m_writer->appendJson(telemetry::SessionStream::Referee, time,
                        refereeToJson(*news, *frame.referee, time));
-  if (std::exchange(m_refereeState, frame.referee->state) != frame.referee->state) {
-    m_writer->append(
-        telemetry::SessionEvent{time, "referee", {}, "referee: " + frame.referee->state});
-  }
 }
 
 void LiveRecorder::reported(const telemetry::TeamStatus& team) {

@@ -7,19 +7,12 @@
 
 #include <base/file_target.h>
 #include <robotlink/session/row_walk.h>
-#include <telemetry/wire/action_words.h>
+#include <robotlink/session/session_events.h>
 
 #include "session_checkpoint.h"
 
 namespace pitchboard::link {
 namespace {
-
-std::string robotName(const sim::WorldState& state, RobotId id) {
-  for (const sim::RobotIdentity& robot : state.robots) {
-    if (robot.id == id) return std::string(info(robot.team).letter) + std::to_string(robot.number);
-  }
-  return id.value == 0 ? std::string() : "robot " + std::to_string(id.value);
-}
 
 double timeOf(const sim::WorldState& state) {
   return static_cast<double>(state.tick) / state.settings.tickRate;
@@ -56,39 +49,6 @@ void attachMatch(telemetry::SessionWriter& writer, const Scenario& scenario,
   writer.attach(catalogAttachment, "application/json", catalog.toJson());
 }
 
-telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldState& state) {
-  telemetry::SessionEvent out;
-  out.time = static_cast<double>(event.tick) / state.settings.tickRate;
-  out.group = robotName(state, event.robot);
-  switch (event.kind) {
-    case sim::EventKind::Goal:
-      out.kind = "goal";
-      out.text = event.value == 0 ? "goal for the left side" : "goal for the right side";
-      break;
-    case sim::EventKind::BallOut:
-      out.kind = "ball-out";
-      out.text = "the ball is out";
-      break;
-    case sim::EventKind::Kick:
-      out.kind = "kick";
-      out.text = out.group + ": " + telemetry::actionWords(event.value);
-      break;
-    case sim::EventKind::Fall:
-      out.kind = "fall";
-      out.text = out.group + " fell";
-      break;
-    case sim::EventKind::GotUp:
-      out.kind = "got-up";
-      out.text = out.group + " got up";
-      break;
-    case sim::EventKind::UnknownAction:
-      out.kind = "unknown-action";
-      out.text = out.group + ": unknown action " + std::to_string(event.value);
-      break;
-  }
-  return out;
-}
-
 Result<std::shared_ptr<MatchRecorder>> MatchRecorder::create(const std::string& path,
                                                              const Scenario& scenario,
                                                              const VariableCatalog& catalog,
@@ -112,14 +72,21 @@ MatchRecorder::~MatchRecorder() {
 void MatchRecorder::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*tickTime*/) {
   keep(m_segmenter.ticked(match));
   if (!std::exchange(m_getsRows, true)) m_sampler->add(m_writer, match);
-  const sim::WorldState& state = match.simulation().state();
-  for (const sim::Event& event : m_events) m_writer->append(sessionEvent(event, state));
-  m_events.clear();
-  noteProcesses(match, timeOf(state));
+  writeEvents();
 }
 
-void MatchRecorder::happened(std::span<const sim::Event> events) {
+// Behind the row of their tick: it is the row that tells the file that the source was put back.
+void MatchRecorder::writeEvents() {
+  for (const MatchEvent& event : m_events) m_writer->append(sessionEvent(event));
+  m_events.clear();
+}
+
+void MatchRecorder::happened(std::span<const MatchEvent> events) {
   m_events.insert(m_events.end(), events.begin(), events.end());
+}
+
+void MatchRecorder::append(const MatchEvent& event) {
+  m_writer->append(sessionEvent(event));
 }
 
 void MatchRecorder::worldChanged(const SimulatedMatch& match) {
@@ -139,31 +106,8 @@ void MatchRecorder::keep(std::optional<StateSegment> ended) {
   if (ended) appendCheckpoint(*m_writer, *ended);
 }
 
-void MatchRecorder::noteProcesses(const SimulatedMatch& match, double time) {
-  const auto& children = match.supervisor().children();
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    const bool isNew = i >= m_children.size();
-    if (isNew) m_children.push_back(children[i].state);
-    const ChildState before = std::exchange(m_children[i], children[i].state);
-    if (!isNew && before == children[i].state) continue;
-    const std::string robot = robotName(match.simulation().state(), children[i].spec.robot);
-    std::string text = robot + ' ' + children[i].spec.name;
-    switch (children[i].state) {
-      case ChildState::Running:
-        text += " started (process " + std::to_string(children[i].pid) + ')';
-        break;
-      case ChildState::Ended:
-        text += " ended: " + children[i].detail;
-        break;
-      case ChildState::Failed:
-        text += " died: " + children[i].detail;
-        break;
-    }
-    m_writer->append(telemetry::SessionEvent{time, "process", robot, std::move(text)});
-  }
-}
-
 Result<void> MatchRecorder::finish() {
+  writeEvents();
   keep(m_segmenter.finish());
   return m_writer->finish();
 }
@@ -205,7 +149,7 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
                (*writer)->append(known->second, row);
              });
   for (const auto& event : past.events) {
-    if (event.time >= begin) (*writer)->append(event);
+    if (event.time >= begin) (*writer)->append(sessionEvent(event));
   }
   for (const auto& line : past.log) {
     if (line.time >= begin) (*writer)->append(line);

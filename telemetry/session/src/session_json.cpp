@@ -4,6 +4,7 @@
 #include <zlib.h>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include <telemetry/wire/base64.h>
 
@@ -16,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> typeNames{"int32", "float32", "float64"};
 constexpr std::array<const char*, 3> kindNames{"number", "flag", "enumeration"};
+// Of a typed event this is always there; events before 0.2 have none.
+constexpr const char* typedEventKey = "detail";
 
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -50,6 +53,17 @@ std::optional<double> number(const Json& object, const char* key) {
   return found->get<double>();
 }
 
+std::optional<int> asWhole(const Json& value) {
+  if (!value.is_number_integer()) return std::nullopt;
+  const auto number = value.get<std::int64_t>();
+  return std::in_range<int>(number) ? std::optional(static_cast<int>(number)) : std::nullopt;
+}
+
+std::optional<int> wholeNumber(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() ? std::nullopt : asWhole(*found);
+}
+
 template <class T>
 std::optional<T> whole(std::string_view digits) {
   T value{};
@@ -79,18 +93,17 @@ std::optional<Json> objectWithTime(std::string_view text) {
 
 const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/events", "pitchboard.Event",
-     R"({"type":"object","title":"pitchboard.Event","properties":{"time":{"type":"number","description":"seconds of the source"},"kind":{"type":"string"},"group":{"type":"string"},"text":{"type":"string"}},"required":["time","kind"]})"},
+     R"({"type":"object","title":"pitchboard.Event","properties":{"time":{"type":"number","description":"seconds of the source"},"kind":{"type":"string"},"group":{"type":"string","description":"name of the robot"},"text":{"type":"string","description":"for people"},"robot":{"type":"integer"},"side":{"type":"string","description":"left, right"},"team":{"type":"integer"},"colour":{"type":"string"},"value":{"type":"integer"},"score":{"type":"array","items":{"type":"integer"}},"process":{"type":"string"},"detail":{"type":"string"}},"required":["time","kind"]})"},
     // The fields of foxglove.Log, so that Foxglove's and Lichtblick's log panels show it.
     {"/log", "foxglove.Log",
      R"({"type":"object","title":"foxglove.Log","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},"level":{"type":"integer","description":"1 debug, 2 info, 3 warning, 4 error"},"message":{"type":"string"},"name":{"type":"string"},"file":{"type":"string"},"line":{"type":"integer"},"time":{"type":"number","description":"seconds of the source"}},"required":["time","message"]})"},
     {"/telemetry", "pitchboard.Datagram",
      R"({"type":"object","title":"pitchboard.Datagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer","description":"port at which it was received"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64","description":"the bytes, where they are not UTF-8 text"}},"required":["time","sender","port"]})"},
-    {"/referee/raw", "pitchboard.RefereeDatagram",
-     R"({"type":"object","title":"pitchboard.RefereeDatagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64"}},"required":["time","sender","port"]})"},
+    {"/referee/raw", "pitchboard.RefereeDatagram", R"({"type":"object","title":"pitchboard.RefereeDatagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64"}},"required":["time","sender","port"]})"},
     {"/referee", "pitchboard.Referee",
      R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
-    {"/checkpoints",
-     "pitchboard.Checkpoint", R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
+    {"/checkpoints", "pitchboard.Checkpoint",
+     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/SESSIONS.md"}},"required":["time"]})"},
 }};
 
 /// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all
@@ -208,8 +221,19 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
 }
 
 std::string toJson(const SessionEvent& event) {
-  return dump(Json{
-      {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}});
+  Json json{
+      {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}};
+  if (!event.facts) return dump(json);
+  const EventFacts& facts = *event.facts;
+  if (facts.robot != 0) json["robot"] = facts.robot;
+  if (!facts.side.empty()) json["side"] = facts.side;
+  if (facts.team != 0) json["team"] = facts.team;
+  if (!facts.colour.empty()) json["colour"] = facts.colour;
+  if (facts.value) json["value"] = *facts.value;
+  if (facts.score) json["score"] = {facts.score->first, facts.score->second};
+  if (!facts.process.empty()) json["process"] = facts.process;
+  json[typedEventKey] = facts.detail;
+  return dump(json);
 }
 
 std::string toJson(const SessionLogLine& line, std::uint64_t wallNanoseconds) {
@@ -237,8 +261,23 @@ std::string toJson(const SessionDatagram& datagram) {
 std::optional<SessionEvent> eventFromJson(std::string_view json) {
   const auto object = objectWithTime(json);
   if (!object) return std::nullopt;
-  return SessionEvent{*number(*object, "time"), text(*object, "kind"), text(*object, "group"),
-                      text(*object, "text")};
+  SessionEvent event{*number(*object, "time"), text(*object, "kind"), text(*object, "group"),
+                     text(*object, "text")};
+  if (!object->contains(typedEventKey)) return event;
+  EventFacts& facts = event.facts.emplace();
+  facts.robot = wholeNumber(*object, "robot").value_or(0);
+  facts.side = text(*object, "side");
+  facts.team = wholeNumber(*object, "team").value_or(0);
+  facts.colour = text(*object, "colour");
+  facts.value = wholeNumber(*object, "value");
+  if (const auto score = object->find("score");
+      score != object->end() && score->is_array() && score->size() == 2) {
+    const auto left = asWhole((*score)[0]), right = asWhole((*score)[1]);
+    if (left && right) facts.score.emplace(*left, *right);
+  }
+  facts.process = text(*object, "process");
+  facts.detail = text(*object, typedEventKey);
+  return event;
 }
 
 std::optional<SessionLogLine> logLineFromJson(std::string_view json) {

@@ -253,4 +253,8 @@ std::optional<SessionDatagram> sessionDatagram(std::string_view json) {
   return session::datagramFromJson(json);
 }
 
+std::string sessionEventJson(const SessionEvent& event) {
+  return session::toJson(event);
+}
+
 }  // namespace pitchboard::telemetry

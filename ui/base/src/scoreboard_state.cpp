@@ -101,19 +101,10 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
 ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   if (frame.origin == link::FrameOrigin::Live || frame.referee) return refereeScoreboard(frame);
   ScoreboardState state;
-  TeamColor leftTeam = TeamColor::Blue, rightTeam = TeamColor::Red;
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
-    if (!info(robot.identity.team).facesLeft) {
-      leftTeam = robot.identity.team;
-      break;
-    }
-  }
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
-    if (info(robot.identity.team).facesLeft) {
-      rightTeam = robot.identity.team;
-      break;
-    }
-  }
+  std::vector<sim::RobotIdentity> robots;
+  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) robots.push_back(robot.identity);
+  const TeamColor leftTeam = link::teamOn(link::Side::Left, robots);
+  const TeamColor rightTeam = link::teamOn(link::Side::Right, robots);
   state.leftName = teamName(leftTeam);
   state.rightName = teamName(rightTeam);
   state.leftColour = theme().team(leftTeam);

@@ -80,10 +80,8 @@ class LogDock : public QWidget {
     for (FrameSource* source : shown->sources()) {
       connect(source, &FrameSource::logReceived, this,
               [this](const std::vector<link::LogLine>& lines) { append(lines); });
+      connect(source, &FrameSource::eventsReceived, this, &LogDock::appendEvents);
     }
-    // What happens in a live match comes as lines already.
-    connect(m_controller, &MatchController::eventsReceived, this,
-            [this](const std::vector<sim::Event>& events) { appendEvents(events); });
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
       append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(), true}});
@@ -108,14 +106,9 @@ class LogDock : public QWidget {
     if (follows) m_table->scrollToBottom();
   }
 
-  void appendEvents(const std::vector<sim::Event>& events) {
-    const FramePtr frame = m_controller->frame();
+  void appendEvents(const std::vector<link::MatchEvent>& events) {
     std::vector<link::LogLine> lines;
-    for (const sim::Event& event : events) {
-      const link::ScenarioRobot* robot = m_controller->edits()->robot(event.robot);
-      lines.push_back(eventLine(event, robot ? robotName(robot->identity) : QString(),
-                                frame ? frame->tickRate : 60.0));
-    }
+    for (const link::MatchEvent& event : events) lines.push_back(logLineOf(event));
     append(lines);
   }
 

@@ -74,35 +74,4 @@ QVariant LogModel::headerData(int section, Qt::Orientation orientation, int role
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 
-link::LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate) {
-  link::LogLine line;
-  line.time = static_cast<double>(event.tick) / tickRate;
-  line.origin = robot.isEmpty() ? "simulation" : robot.toStdString();
-  switch (event.kind) {
-    case sim::EventKind::Goal:
-      line.text =
-          event.value == 0 ? "goal for the team on the left" : "goal for the team on the right";
-      break;
-    case sim::EventKind::BallOut:
-      line.text = "the ball is out";
-      break;
-    case sim::EventKind::Kick:
-      line.text = "kicks the ball";
-      break;
-    case sim::EventKind::Fall:
-      line.text = "falls";
-      line.warning = true;
-      break;
-    case sim::EventKind::GotUp:
-      line.text = "is up again";
-      break;
-    case sim::EventKind::UnknownAction:
-      line.text =
-          "chose the unknown action code " + std::to_string(event.value) + ", which counts as stop";
-      line.warning = true;
-      break;
-  }
-  return line;
-}
-
 }  // namespace pitchboard::ui

@@ -34,7 +34,4 @@ class LogModel : public QAbstractTableModel {
   quint64 m_dropped = 0;
 };
 
-/// An event of the simulation in words; `robot` is the name of the robot concerned, or empty.
-link::LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate);
-
 }  // namespace pitchboard::ui

@@ -22,20 +22,23 @@ namespace {
 constexpr int mostEventsNamed = 3;
 }
 
-QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
+QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, double b,
                       const PlotFeed& feed) {
   if (a > b) std::swap(a, b);
-  const auto first = std::lower_bound(events.begin(), events.end(), a,
-                                      [](const TimelineEvent& e, double t) { return e.time < t; });
-  const auto last = std::upper_bound(first, events.end(), b,
-                                     [](double t, const TimelineEvent& e) { return t < e.time; });
-  if (first == last) return {};
+  const auto first =
+      std::lower_bound(events.begin(), events.end(), a,
+                       [](const link::MatchEvent& e, double t) { return e.time < t; });
+  const auto last = std::upper_bound(
+      first, events.end(), b, [](double t, const link::MatchEvent& e) { return t < e.time; });
   QStringList named;
-  for (auto event = first; event != last && named.size() < mostEventsNamed; ++event) {
+  std::ptrdiff_t marked = 0;
+  for (auto event = first; event != last; ++event) {
+    if (!link::isMarked(*event) || ++marked > mostEventsNamed) continue;
     named << QCoreApplication::translate("MarksPanel", "%1 at %2")
-                 .arg(sentenceOf(*event), feed.timeText(event->time, 2));
+                 .arg(QString::fromStdString(sentenceOf(*event)), feed.timeText(event->time, 2));
   }
-  const auto more = (last - first) - named.size();
+  if (marked == 0) return {};
+  const auto more = marked - named.size();
   const QString all = named.join(QStringLiteral(", "));
   return more > 0 ? QCoreApplication::translate("MarksPanel", "Between A and B: %1 and %2 more.")
                         .arg(all)

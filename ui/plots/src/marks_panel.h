@@ -6,8 +6,6 @@
 #include <QWidget>
 #include <deque>
 
-#include <ui/sources/timeline_event.h>
-
 #include "plot_feed.h"
 
 class QLabel;
@@ -44,7 +42,7 @@ class MarksPanel : public QWidget {
 /// "Between A and B: B1 kicks at 05:04.60, goal for BLUE at 05:06.10 and 2 more." Events in order
 /// of time, written as the feed writes it; the marks (s) in either order. Empty when there are
 /// none.
-QString eventsBetween(const std::deque<TimelineEvent>& events, double a, double b,
+QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, double b,
                       const PlotFeed& feed);
 
 }  // namespace pitchboard::ui

@@ -5,6 +5,7 @@
 #include <QtGlobal>
 
 #include <robotlink/report/report.h>
+#include <robotlink/session/session_events.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -34,9 +35,7 @@ Result<std::uint64_t> writeReport(const telemetry::SessionReader& session,
   content.session = session.info();
   content.title = content.session.title;
   content.statistics = link::statisticsOf(session, {range.begin, range.end});
-  for (telemetry::SessionEvent& event : session.events()) {
-    if (event.time >= range.begin && event.time <= range.end) content.events.push_back(event);
-  }
+  content.events = link::eventsOf(session);
   content.picture = picture.toStdString();
   content.notes = session.notes();
   const auto done = link::writeReport(request.path.toStdString(), content, IfExists::Replace,

@@ -3,14 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <ui/base/time_axis.h>
 
 namespace pitchboard::ui {
 namespace {
 
-bool earlier(const TimelineEvent& a, const TimelineEvent& b) {
+bool earlier(const link::MatchEvent& a, const link::MatchEvent& b) {
   return a.time < b.time;
+}
+
+bool isBookmark(const link::MatchEvent& event) {
+  return event.kind == link::MatchEventKind::Bookmark;
+}
+
+void shorten(link::MatchEvent& event) {
+  if (event.detail.size() <= EventList::maxNote) return;
+  event.detail = QString::fromStdString(event.detail).left(EventList::maxNote).toStdString();
 }
 
 }  // namespace
@@ -26,9 +36,7 @@ void EventList::touch() {
 // A flood of kicks must not push out what a person wrote.
 void EventList::makeRoom() {
   if (m_events.size() < m_most) return;
-  auto oldest = std::find_if(m_events.begin(), m_events.end(), [](const TimelineEvent& event) {
-    return event.type != EventType::Bookmark;
-  });
+  auto oldest = std::find_if_not(m_events.begin(), m_events.end(), isBookmark);
   if (oldest == m_events.end()) oldest = m_events.begin();
   const int row = static_cast<int>(oldest - m_events.begin());
   beginRemoveRows({}, row, row);
@@ -37,9 +45,9 @@ void EventList::makeRoom() {
   endRemoveRows();
 }
 
-int EventList::add(TimelineEvent event) {
+int EventList::add(link::MatchEvent event) {
   if (!std::isfinite(event.time)) return -1;
-  event.text.truncate(maxNote);
+  shorten(event);
   makeRoom();
   const auto place = std::upper_bound(m_events.begin(), m_events.end(), event, earlier);
   const int row = static_cast<int>(place - m_events.begin());
@@ -50,24 +58,24 @@ int EventList::add(TimelineEvent event) {
   return row;
 }
 
-void EventList::add(std::vector<TimelineEvent> events) {
-  std::erase_if(events, [](const TimelineEvent& event) { return !std::isfinite(event.time); });
+void EventList::add(std::vector<link::MatchEvent> events) {
+  std::erase_if(events, [](const link::MatchEvent& event) { return !std::isfinite(event.time); });
   if (events.empty()) return;
   if (events.size() == 1) {
     add(std::move(events.front()));
     return;
   }
   beginResetModel();
-  for (TimelineEvent& event : events) {
-    event.text.truncate(maxNote);
+  for (link::MatchEvent& event : events) {
+    shorten(event);
     m_events.push_back(std::move(event));
   }
   std::stable_sort(m_events.begin(), m_events.end(), earlier);
   if (m_events.size() > m_most) {
     std::size_t surplus = m_events.size() - m_most;
     m_dropped += surplus;
-    std::erase_if(m_events, [&surplus](const TimelineEvent& event) {
-      return surplus > 0 && event.type != EventType::Bookmark && surplus-- > 0;
+    std::erase_if(m_events, [&surplus](const link::MatchEvent& event) {
+      return surplus > 0 && !isBookmark(event) && surplus-- > 0;
     });
     if (m_events.size() > m_most)
       m_events.erase(m_events.begin(), m_events.end() - static_cast<std::ptrdiff_t>(m_most));
@@ -77,8 +85,9 @@ void EventList::add(std::vector<TimelineEvent> events) {
 }
 
 void EventList::rewind(double time) {
-  const auto from = std::find_if(m_events.begin(), m_events.end(),
-                                 [time](const TimelineEvent& event) { return event.time > time; });
+  const auto from =
+      std::find_if(m_events.begin(), m_events.end(),
+                   [time](const link::MatchEvent& event) { return event.time > time; });
   if (from == m_events.end()) return;
   beginRemoveRows({}, static_cast<int>(from - m_events.begin()), rowCount() - 1);
   m_events.erase(from, m_events.end());
@@ -107,17 +116,23 @@ void EventList::setNote(int row, const QString& note) {
 }
 
 std::optional<int> EventList::next(double time) const {
+  link::MatchEvent moment;
+  moment.time = time;
   const auto found =
-      std::upper_bound(m_events.begin(), m_events.end(), TimelineEvent{time, {}, {}, {}}, earlier);
+      std::find_if(std::upper_bound(m_events.begin(), m_events.end(), moment, earlier),
+                   m_events.end(), link::isMarked);
   if (found == m_events.end()) return {};
   return static_cast<int>(found - m_events.begin());
 }
 
 std::optional<int> EventList::previous(double time) const {
+  link::MatchEvent moment;
+  moment.time = time;
+  const auto before = std::lower_bound(m_events.begin(), m_events.end(), moment, earlier);
   const auto found =
-      std::lower_bound(m_events.begin(), m_events.end(), TimelineEvent{time, {}, {}, {}}, earlier);
-  if (found == m_events.begin()) return {};
-  return static_cast<int>(found - m_events.begin()) - 1;
+      std::find_if(std::make_reverse_iterator(before), m_events.rend(), link::isMarked);
+  if (found == m_events.rend()) return {};
+  return static_cast<int>(m_events.rend() - found) - 1;
 }
 
 int EventList::rowCount(const QModelIndex& parent) const {
@@ -130,19 +145,17 @@ int EventList::columnCount(const QModelIndex& parent) const {
 
 QVariant EventList::data(const QModelIndex& index, int role) const {
   if (!index.isValid() || index.row() >= rowCount()) return {};
-  const TimelineEvent& e = event(index.row());
-  if (role == Qt::ToolTipRole) return sentenceOf(e);
+  const link::MatchEvent& e = event(index.row());
+  if (role == Qt::ToolTipRole) return QString::fromStdString(sentenceOf(e));
   if (role != Qt::DisplayRole && role != Qt::EditRole) return {};
   switch (index.column()) {
     case Time:
       return role == Qt::EditRole ? QVariant(e.time) : QVariant(momentText(e.time, 3));
-    case What: {
-      TimelineEvent bare = e;
-      bare.text.clear();
-      return sentenceOf(bare);
-    }
+    case What:
+      return isBookmark(e) ? QString::fromUtf8(link::info(e.kind).words)
+                           : QString::fromStdString(sentenceOf(e));
     case Note:
-      return e.text;
+      return isBookmark(e) ? QString::fromStdString(e.detail) : QString();
     default:
       return {};
   }
@@ -153,9 +166,9 @@ bool EventList::setData(const QModelIndex& index, const QVariant& value, int rol
       role != Qt::EditRole) {
     return false;
   }
-  TimelineEvent& e = m_events[static_cast<std::size_t>(index.row())];
-  if (e.type != EventType::Bookmark) return false;
-  e.text = value.toString().simplified().left(maxNote);
+  link::MatchEvent& e = m_events[static_cast<std::size_t>(index.row())];
+  if (!isBookmark(e)) return false;
+  e.detail = value.toString().simplified().left(maxNote).toStdString();
   emit dataChanged(index, index);
   touch();
   return true;
@@ -163,7 +176,7 @@ bool EventList::setData(const QModelIndex& index, const QVariant& value, int rol
 
 Qt::ItemFlags EventList::flags(const QModelIndex& index) const {
   Qt::ItemFlags all = QAbstractTableModel::flags(index);
-  if (index.isValid() && index.column() == Note && event(index.row()).type == EventType::Bookmark) {
+  if (index.isValid() && index.column() == Note && isBookmark(event(index.row()))) {
     all |= Qt::ItemIsEditable;
   }
   return all;

@@ -167,17 +167,15 @@ void LiveController::deliver() {
   }
   // A receiver may have stopped it.
   if (!m_watch) return;
-  if (const auto events = m_watch->takeEvents(); !events.empty()) emit eventsReceived(events);
-  if (!m_watch) return;
-  const auto lines = m_watch->takeLog();
-  if (lines.empty()) return;
-  emit logReceived(lines);
-  std::vector<const link::LogLine*> ports;
-  for (const link::LogLine& line : lines) {
-    if (line.warning && line.origin == "network") ports.push_back(&line);
+  const auto events = m_watch->takeEvents();
+  if (events.empty()) return;
+  emit eventsReceived(events);
+  std::vector<const link::MatchEvent*> ports;
+  for (const link::MatchEvent& event : events) {
+    if (event.kind == link::MatchEventKind::PortLost) ports.push_back(&event);
   }
   if (ports.empty()) return;
-  const QString first = QString::fromStdString(ports.front()->text);
+  const QString first = QString::fromStdString(sentenceOf(*ports.front()));
   emit errorOccurred(
       ports.size() == 1
           ? first

@@ -2,9 +2,11 @@
 #include <ui/sources/replay_controller.h>
 
 #include <QFileInfo>
+#include <algorithm>
 
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/session_events.h>
 #include <ui/sources/playback.h>
 
 namespace pitchboard::ui {
@@ -43,6 +45,13 @@ QStringList readRows(const QString& path, telemetry::SeriesStore& store,
   return damage;
 }
 
+/// Events as lines of the log, in their place by time.
+void addEvents(const std::vector<link::MatchEvent>& events, std::vector<link::LogLine>& log) {
+  for (const link::MatchEvent& event : events) log.push_back(logLineOf(event));
+  std::stable_sort(log.begin(), log.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+}
+
 }  // namespace
 
 // The reader is used by the seeking thread only, once the file is open; the rest does not change.
@@ -53,7 +62,7 @@ struct ReplayController::File {
   link::RecordedFrames frames;
   link::RecordedFrames memoryFrames;  // UI thread
   std::shared_ptr<telemetry::SeriesStore> rows;
-  std::vector<telemetry::SessionEvent> events;
+  std::vector<link::MatchEvent> events;
   std::vector<link::LogLine> log;
   std::string scenario;
   double tickRate = 60.0;
@@ -130,7 +139,7 @@ void ReplayController::open(const QString& path) {
       }
       file->first =
           std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, range->begin));
-      file->events = file->session.events();
+      file->events = link::eventsOf(file->session);
       constexpr std::size_t maxLines = 10'000;
       file->session.messages(
           telemetry::SessionStream::Log, *range, [&file](double time, std::string_view json) {
@@ -139,6 +148,7 @@ void ReplayController::open(const QString& path) {
             }
             return file->log.size() < maxLines;
           });
+      addEvents(file->events, file->log);
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
         file->scenario = std::move(*scenario);
       }

@@ -16,8 +16,6 @@
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
-#include "session_events.h"
-
 namespace pitchboard::ui {
 namespace {
 
@@ -87,9 +85,9 @@ SessionRecording::SessionRecording(MatchController* controller, LiveController* 
               if (m_log.size() > maxLogLines) m_log.pop_front();
             }
           });
-  connect(timeline, &Timeline::bookmarked, this, [this](double time, const QString& note) {
+  connect(timeline, &Timeline::bookmarked, this, [this](const link::MatchEvent& event) {
     if (!m_recorder || m_recorder->live != (m_source->kind() == SourceKind::Live)) return;
-    m_recorder->append({time, info(EventType::Bookmark).name, {}, note.toStdString()});
+    m_recorder->append(event);
   });
 }
 
@@ -153,7 +151,7 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
   const std::shared_ptr<link::MatchRecorder> recorder = *made;
   m_controller->observe(recorder);
   return Recorder{false, [recorder] { return recorder->status(); },
-                  [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
+                  [recorder](const link::MatchEvent& event) { recorder->append(event); },
                   [controller = m_controller, recorder] {
                     if (controller) controller->stopObserving(recorder);
                   },
@@ -175,7 +173,7 @@ Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& p
   const std::shared_ptr<link::LiveRecorder> recorder = *made;
   m_live->observe(recorder);
   return Recorder{true, [recorder] { return recorder->status(); },
-                  [recorder](const telemetry::SessionEvent& event) { recorder->append(event); },
+                  [recorder](const link::MatchEvent& event) { recorder->append(event); },
                   [live = m_live, recorder] {
                     if (live) live->stopObserving(recorder);
                   },
@@ -278,9 +276,8 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
   const bool live = m_source->kind() == SourceKind::Live;
   if (!rows || !rows->range() || m_source->kind() == SourceKind::Replay) return {};
   link::RecentPast past;
-  for (const TimelineEvent& event : m_timeline->events()->events()) {
-    past.events.push_back(sessionEventOf(event));
-  }
+  const auto& events = m_timeline->events()->events();
+  past.events.assign(events.begin(), events.end());
   std::shared_ptr<const link::StateArchive> archive;
   telemetry::SessionInfo about;
   if (live) {

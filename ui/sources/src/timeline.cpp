@@ -171,18 +171,24 @@ bool Timeline::goToPreviousEvent() {
 
 int Timeline::addBookmark(const QString& note) {
   const double time = shownTime();
-  const int row = events()->add({time, EventType::Bookmark, {}, note});
-  emit bookmarked(time, note);
+  link::MatchEvent bookmark;
+  bookmark.kind = link::MatchEventKind::Bookmark;
+  bookmark.time = time;
+  bookmark.detail = note.toStdString();
+  const int row = events()->add(bookmark);
+  emit bookmarked(bookmark);
   return row;
 }
 
 void Timeline::setNote(double time, const QString& note) {
   EventList* list = events();
   for (int row = list->previous(time).value_or(-1) + 1;
-       row < list->rowCount() && list->event(row).time == time; ++row) {
-    if (list->event(row).type != EventType::Bookmark || list->event(row).text == note) continue;
+       row < list->rowCount() && list->event(row).time <= time; ++row) {
+    const link::MatchEvent& event = list->event(row);
+    if (event.kind != link::MatchEventKind::Bookmark || event.time != time) continue;
+    if (event.detail == note.toStdString()) continue;
     list->setNote(row, note);
-    emit bookmarked(time, list->event(row).text);
+    emit bookmarked(list->event(row));
     return;
   }
 }

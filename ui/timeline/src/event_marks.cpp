@@ -78,8 +78,11 @@ struct Look {
   Draw draw;
   QColor ThemeColors::*color;
 };
-// In the order of EventType. Every kind has a shape of its own: no meaning rests on colour alone.
-constexpr std::array<Look, eventTypeCount> looks{{
+void nothing(QPainter&, QPointF, double) {}
+
+// In the order of EventShape: no meaning rests on colour alone.
+constexpr std::array<Look, link::eventShapeCount> looks{{
+    {nothing, &ThemeColors::text},
     {disc, &ThemeColors::text},
     {smallUp, &ThemeColors::secondaryText},
     {down, &ThemeColors::warningText},
@@ -95,22 +98,22 @@ constexpr std::array<Look, eventTypeCount> looks{{
 
 }  // namespace
 
-QColor markColor(EventType type) {
-  return theme().*looks[static_cast<std::size_t>(type)].color;
+QColor markColor(link::EventShape shape) {
+  return theme().*looks[static_cast<std::size_t>(shape)].color;
 }
 
-void drawMark(QPainter& painter, EventType type, QPointF centre, double size) {
+void drawMark(QPainter& painter, link::EventShape shape, QPointF centre, double size) {
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);
-  painter.setBrush(markColor(type));
-  looks[static_cast<std::size_t>(type)].draw(painter, centre, size);
+  painter.setBrush(markColor(shape));
+  looks[static_cast<std::size_t>(shape)].draw(painter, centre, size);
   painter.restore();
 }
 
-std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, const TimeAxis& axis,
+std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, const TimeAxis& axis,
                                    const MarkSizes& sizes, const QFontMetrics& font) {
-  const auto before = [](const TimelineEvent& event, double time) { return event.time < time; };
+  const auto before = [](const link::MatchEvent& event, double time) { return event.time < time; };
   const double margin = sizes.spacing * axis.secondsPerPixel();
   auto at = std::lower_bound(events.begin(), events.end(), axis.shown.begin - margin, before);
   const auto end = std::lower_bound(at, events.end(), axis.shown.end + margin, before);
@@ -118,14 +121,15 @@ std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, cons
   // One candidate a pixel: what follows costs the width, not the number of events.
   std::vector<EventMark> marks;
   for (; at != end; ++at) {
+    if (!link::isMarked(*at)) continue;
     const int row = static_cast<int>(at - events.begin());
     const double x = axis.pixel(at->time);
     if (!marks.empty() && std::floor(marks.back().x) == std::floor(x)) {
       EventMark& same = marks.back();
       same.last = row;
       ++same.merged;
-      if (info(at->type).importance >
-          info(events[static_cast<std::size_t>(same.row)].type).importance) {
+      if (link::info(at->kind).importance >
+          link::info(events[static_cast<std::size_t>(same.row)].kind).importance) {
         same.row = row;
         same.x = x;
       }
@@ -134,7 +138,7 @@ std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, cons
     marks.push_back({x, row, row, row, 1, {}});
   }
   const auto importance = [&events](const EventMark& mark) {
-    return info(events[static_cast<std::size_t>(mark.row)].type).importance;
+    return link::info(events[static_cast<std::size_t>(mark.row)].kind).importance;
   };
   // The more important one of two neighbours that overlap takes the other in, until none overlap.
   std::vector<EventMark> kept;
@@ -154,7 +158,8 @@ std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, cons
     if (mark.merged > 0) kept.push_back(std::move(mark));
   }
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    const QString words = labelOf(events[static_cast<std::size_t>(kept[i].row)]);
+    const QString words =
+        QString::fromStdString(labelOf(events[static_cast<std::size_t>(kept[i].row)]));
     if (words.isEmpty()) continue;
     const double stop =
         i + 1 < kept.size() ? kept[i + 1].x - sizes.spacing * 0.6 : axis.left + axis.width;

@@ -9,8 +9,8 @@
 #include <deque>
 #include <vector>
 
+#include <robotlink/frame/match_event.h>
 #include <ui/base/time_axis.h>
-#include <ui/sources/timeline_event.h>
 
 namespace pitchboard::ui {
 
@@ -18,7 +18,7 @@ struct EventMark {
   double x = 0.0;           ///< pixel of the event that is drawn
   int row = 0;              ///< its row in the list
   int first = 0, last = 0;  ///< rows of the events that it stands for (closed)
-  int merged = 1;           ///< how many that are
+  int merged = 1;           ///< how many of those have a mark
   QString label;            ///< elided to its room; empty without room
 };
 
@@ -28,12 +28,12 @@ struct MarkSizes {
 };
 
 /// Marks in order of x for events in order of time.
-std::vector<EventMark> layOutMarks(const std::deque<TimelineEvent>& events, const TimeAxis& axis,
+std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, const TimeAxis& axis,
                                    const MarkSizes& sizes, const QFontMetrics& font);
 
-/// Draws the shape of this kind around `centre`, `size` px high.
-void drawMark(QPainter& painter, EventType type, QPointF centre, double size);
+/// Draws the shape around `centre`, `size` px high.
+void drawMark(QPainter& painter, link::EventShape shape, QPointF centre, double size);
 /// Colour of shape and stem.
-QColor markColor(EventType type);
+QColor markColor(link::EventShape shape);
 
 }  // namespace pitchboard::ui

@@ -43,7 +43,7 @@ class TimelineDock : public QWidget {
     connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
             &TimelineStrip::editNote);
     connect(m_strip, &TimelineStrip::menuRequested, this,
-            [this, context](QPoint at, const TimelineEvent* event, bool compared) {
+            [this, context](QPoint at, const link::MatchEvent* event, bool compared) {
               QMenu menu(this);
               menu.setObjectName(QStringLiteral("timelineMenu"));
               addAlignment(&menu, context.compared, event, compared);
@@ -60,18 +60,19 @@ class TimelineDock : public QWidget {
   }
 
  private:
-  static void addAlignment(QMenu* menu, ComparedSession* session, const TimelineEvent* event,
+  static void addAlignment(QMenu* menu, ComparedSession* session, const link::MatchEvent* event,
                            bool compared) {
     if (!session->isOn()) return;
     if (event != nullptr) {
       const double time = event->time;
-      QAction* align = menu->addAction(tr("&Align at this event: %1").arg(sentenceOf(*event)),
-                                       session, [session, time, compared] {
-                                         if (compared)
-                                           session->alignThere(time);
-                                         else
-                                           session->alignHere(time);
-                                       });
+      QAction* align = menu->addAction(
+          tr("&Align at this event: %1").arg(QString::fromStdString(sentenceOf(*event))), session,
+          [session, time, compared] {
+            if (compared)
+              session->alignThere(time);
+            else
+              session->alignHere(time);
+          });
       align->setObjectName(QStringLiteral("alignHere"));
     }
     QAction* byTime = menu->addAction(tr("Align by &time"), session, &ComparedSession::alignByTime);

@@ -17,7 +17,7 @@ void TimelineStrip::editNote(int row) {
   const EventList* list = m_timeline->events();
   if (row < 0 || row >= list->rowCount()) return;
   m_noteTime = list->event(row).time;
-  m_note = new QLineEdit(list->event(row).text, this);
+  m_note = new QLineEdit(QString::fromStdString(list->event(row).detail), this);
   m_note->setObjectName(QStringLiteral("bookmarkNote"));
   m_note->setFont(themeFont(TypeRole::Secondary));
   m_note->setMaxLength(EventList::maxNote);

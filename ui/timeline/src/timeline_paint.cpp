@@ -111,13 +111,15 @@ void TimelineStrip::paintMarks(QPainter& painter) {
   painter.setFont(small);
   const double size = scaled(this, markSize);
   const double gap = scaled(this, 9);
-  const auto row = [&](const std::vector<EventMark>& all, const std::deque<TimelineEvent>& events,
-                       double centre, double bottom, double strength) {
+  const auto row = [&](const std::vector<EventMark>& all,
+                       const std::deque<link::MatchEvent>& events, double centre, double bottom,
+                       double strength) {
     painter.setOpacity(strength);
     for (const EventMark& mark : all) {
-      const TimelineEvent& e = events[static_cast<std::size_t>(mark.row)];
-      stem(painter, mark.x, centre + size * 0.5, bottom, markColor(e.type), 1.4);
-      drawMark(painter, e.type, {mark.x, centre}, size);
+      const link::EventShape shape =
+          link::info(events[static_cast<std::size_t>(mark.row)].kind).shape;
+      stem(painter, mark.x, centre + size * 0.5, bottom, markColor(shape), 1.4);
+      drawMark(painter, shape, {mark.x, centre}, size);
       if (mark.label.isEmpty()) continue;
       painter.setPen(theme().secondaryText);
       painter.drawText(QRectF(mark.x + gap, centre - size, width(), 2 * size),

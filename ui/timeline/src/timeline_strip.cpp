@@ -200,8 +200,10 @@ QString TimelineStrip::tipAt(QPointF at) {
   QStringList lines;
   constexpr int most = 8;
   for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
-    const TimelineEvent& e = m_timeline->events()->event(row);
-    lines << momentText(e.time, 2) + QStringLiteral("  ") + sentenceOf(e).toHtmlEscaped();
+    const link::MatchEvent& e = m_timeline->events()->event(row);
+    if (!link::isMarked(e)) continue;
+    lines << momentText(e.time, 2) + QStringLiteral("  ") +
+                 QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }
   if (mark->merged > most) lines << tr("and %1 more; zoom in to see them").arg(mark->merged - most);
   return QStringLiteral("<p style='white-space:pre'>") + lines.join(QStringLiteral("<br>")) +

@@ -68,7 +68,7 @@ class TimelineStrip : public QWidget {
 
  signals:
   /// On this event, of the compared session or not; null: on none.
-  void menuRequested(QPoint global, const pitchboard::ui::TimelineEvent* event, bool compared);
+  void menuRequested(QPoint global, const pitchboard::link::MatchEvent* event, bool compared);
 
  private:
   enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View };

@@ -2,7 +2,7 @@
 #pragma once
 
 // Watches a match of real robots: receives, decodes and keeps the books on threads of its own, and
-// hands out frames (the newest wins), events and log lines as values. It sends nothing, except the
+// hands out frames (the newest wins) and events as values. It sends nothing, except the
 // monitor request to a referee when that is turned on. All public functions may be called from any
 // thread.
 
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
 #include <simcore/physics/simulation.h>
 #include <telemetry/wire/monitor_request.h>
@@ -69,8 +70,7 @@ class LiveObserver {
                             const telemetry::RefereeState&) {}
   /// A datagram of an allowed sender that was not used: it could not be decoded, or is no state.
   virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
-  virtual void happened(const sim::Event&, double /*time*/) {}
-  virtual void logged(const LogLine&) {}
+  virtual void happened(const MatchEvent&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
   /// Whenever a frame was made.
@@ -95,9 +95,8 @@ class LiveWatch {
   /// The newest frame; calling it asks for the next `onFrame`. Null before the first.
   std::shared_ptr<const MatchFrame> latest();
   LiveDetails details() const;
-  /// Both give what came since the last call, at most the newest 10 000.
-  std::vector<sim::Event> takeEvents();
-  std::vector<LogLine> takeLog();
+  /// What came since the last call, at most the newest 10 000.
+  std::vector<MatchEvent> takeEvents();
 
   /// The time of day at 0 s.
   telemetry::WallTime began() const;

@@ -47,6 +47,8 @@ class MatchPlayer {
   Played play(Clock::time_point now, std::uint64_t lastTick = noLastTick);
   /// One tick, whatever the pace.
   void tick();
+  /// Tells the observers what has happened between ticks: processes that ended, orders by hand.
+  void tellEvents();
   /// Shows the observers a moment without a tick.
   void showMoment();
   /// Tells them that the next tick does not go on from what they have seen.
@@ -57,6 +59,7 @@ class MatchPlayer {
   Pacer m_pacer;
   double m_speed = unlimitedSpeed;
   std::vector<std::shared_ptr<TickObserver>> m_observers;
+  std::vector<MatchEvent> m_events;  // scratch of tellEvents()
 };
 
 }  // namespace pitchboard::link

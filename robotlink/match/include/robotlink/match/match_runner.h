@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/match/simulated_match.h>
@@ -59,7 +60,7 @@ class MatchRunner {
   /// The newest frame, or nothing when `knownSerial` is already the newest.
   std::shared_ptr<const MatchFrame> latest(std::uint64_t knownSerial = 0) const;
   /// Both give what came since the last call, at most the newest 10 000.
-  std::vector<sim::Event> takeEvents();
+  std::vector<MatchEvent> takeEvents();
   std::vector<LogLine> takeLog();
 
   struct Shared;  ///< between the thread and the callers; private to the library

@@ -18,6 +18,7 @@
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
+#include <robotlink/frame/match_event.h>
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/processes/process_supervisor.h>
 #include <robotlink/scenario/scenario.h>
@@ -40,6 +41,7 @@ struct MatchOptions {
   bool thoughts = false;     ///< hear particles and paths, for display
 };
 
+class MatchEvents;
 struct Moment;
 
 class SimulatedMatch {
@@ -61,6 +63,10 @@ class SimulatedMatch {
   bool finished() const { return !finishedBy().empty(); }
   /// "goal", "ball_out" or "duration"; empty while none is met.
   std::string_view finishedBy() const;
+
+  /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
+  /// to the clock, to processes (as the supervisor knows them), and the end of the match.
+  void takeEvents(std::vector<MatchEvent>& out);
 
   const Scenario& scenario() const { return m_scenario; }
   sim::Simulation& simulation() { return m_simulation; }
@@ -148,6 +154,7 @@ class SimulatedMatch {
   bool m_goalSeen = false, m_outSeen = false;
   std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
   std::optional<ThoughtsReceiver> m_thoughts;
+  std::unique_ptr<MatchEvents> m_events;
   std::unique_ptr<ProcessSupervisor> m_supervisor;
 };
 

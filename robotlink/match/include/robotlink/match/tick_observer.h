@@ -9,6 +9,7 @@
 #include <chrono>
 #include <span>
 
+#include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -20,8 +21,8 @@ class TickObserver {
   /// At the first moment, after every tick, and after a command changed a match that stands still.
   /// `tickTime`: what the tick took; zero where there was none.
   virtual void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) = 0;
-  /// Before ticked() of the tick in which they happened.
-  virtual void happened(std::span<const sim::Event> /*events*/) {}
+  /// Before ticked() of the tick in which they happened; also between ticks.
+  virtual void happened(std::span<const MatchEvent> /*events*/) {}
   /// Commands changed the world (not only blackboards) between two ticks: the next tick goes on
   /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
   /// still.

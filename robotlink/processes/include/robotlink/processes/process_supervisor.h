@@ -39,6 +39,7 @@ struct ChildStatus {
   ChildState state = ChildState::Running;
   std::string detail;      ///< "exit code 2", "killed by signal 9 (Killed)"; empty while running
   std::string lastOutput;  ///< last line that it wrote to stdout or stderr
+  bool asked = false;      ///< it ended because it was stopped by us
   bool operator==(const ChildStatus&) const = default;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <base/file_target.h>
+#include <robotlink/frame/match_event.h>
 #include <robotlink/report/session_statistics.h>
 #include <telemetry/session/session_types.h>
 
@@ -17,7 +18,7 @@ struct ReportContent {
   std::string title;               ///< of the match
   telemetry::SessionInfo session;  ///< source, seed, wall time; an empty program is left out
   SessionStatistics statistics;
-  std::vector<telemetry::SessionEvent> events;
+  std::vector<MatchEvent> events;
   /// The field at a moment of the caller's choice: SVG text, or the bytes of a PNG. Empty: none.
   std::string picture;
   std::string pictureCaption;

@@ -2,7 +2,7 @@
 #pragma once
 
 // Records what is heard of real robots into a session file: rows, every message and referee packet
-// as it arrived, referee packets decoded, events and log lines; the profile is attached. Nothing
+// as it arrived, referee packets decoded, events; the profile is attached. Nothing
 // waits for the disk (SessionWriter).
 
 #include <memory>
@@ -43,15 +43,14 @@ class LiveRecorder : public LiveObserver {
   void refereeHeard(double time, const telemetry::DatagramView& datagram,
                     const telemetry::RefereeState& state) override;
   void unusedHeard(double time, const telemetry::DatagramView& datagram) override;
-  void happened(const sim::Event& event, double time) override;
-  void logged(const LogLine& line) override;
+  void happened(const MatchEvent& event) override;
   void reported(const telemetry::TeamStatus& team) override;
   void frameMade(const MatchFrame& frame) override;
 
   // Any thread.
   telemetry::SessionStatus status() const { return m_writer->status(); }
   const std::string& path() const { return m_writer->path(); }
-  void append(const telemetry::SessionEvent& event) { m_writer->append(event); }
+  void append(const MatchEvent& event) { happened(event); }
   /// Call after LiveWatch::stopObserving().
   Result<void> finish() { return m_writer->finish(); }
 
@@ -63,7 +62,6 @@ class LiveRecorder : public LiveObserver {
   const int m_refereePort;
   telemetry::LiveRows m_rows;
   std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
-  std::string m_refereeState;                            // as last recorded, for events
 };
 
 }  // namespace pitchboard::link

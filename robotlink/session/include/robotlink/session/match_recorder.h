@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Records a simulated match into a session file while it is played: rows, events, log lines,
-// process starts and deaths, and pieces that can be entered again exactly; the scenario and the
+// Records a simulated match into a session file while it is played: rows, events, log lines, and
+// pieces that can be entered again exactly; the scenario and the
 // catalog are attached. The match never waits: the file has a thread of its own (SessionWriter).
 
 #include <memory>
@@ -40,9 +40,6 @@ telemetry::SessionInfo sessionInfo(const SimulatedMatch& match, std::string_view
 void attachMatch(telemetry::SessionWriter& writer, const Scenario& scenario,
                  const VariableCatalog& catalog);
 
-/// A line for the timeline; the robot's name is looked up in `state`.
-telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldState& state);
-
 class MatchRecorder : public TickObserver {
  public:
   /// Error Conflict when the file exists, SystemError when it cannot be made. Hand it to
@@ -60,7 +57,7 @@ class MatchRecorder : public TickObserver {
 
   // The match's thread.
   void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
-  void happened(std::span<const sim::Event> events) override;
+  void happened(std::span<const MatchEvent> events) override;
   void worldChanged(const SimulatedMatch& match) override;
   void logged(const LogLine& line) override;
   void left() override;
@@ -69,20 +66,19 @@ class MatchRecorder : public TickObserver {
   telemetry::SessionStatus status() const { return m_writer->status(); }
   const std::string& path() const { return m_writer->path(); }
   /// A bookmark or another event of the user's.
-  void append(const telemetry::SessionEvent& event) { m_writer->append(event); }
+  void append(const MatchEvent& event);
   /// Call after MatchRunner::stopObserving(): writes the last piece and the summary.
   Result<void> finish();
 
  private:
   void keep(std::optional<StateSegment> ended);
-  void noteProcesses(const SimulatedMatch& match, double time);
+  void writeEvents();
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
   std::shared_ptr<MatchSampler> m_sampler;
   bool m_getsRows = false;
   StateSegmenter m_segmenter;
-  std::vector<sim::Event> m_events;    // of the tick that ticked() is about to show
-  std::vector<ChildState> m_children;  // as last seen
+  std::vector<MatchEvent> m_events;  // since the last tick
 };
 
 /// What has just happened, from memory into a new session file: the rows of the last `seconds` of
@@ -91,7 +87,7 @@ class MatchRecorder : public TickObserver {
 struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
   const StateArchive* archive = nullptr;  ///< null: a live source
-  std::vector<telemetry::SessionEvent> events;
+  std::vector<MatchEvent> events;
   std::vector<telemetry::SessionLogLine> log;
   std::string scenario, catalog, profile;  ///< JSON texts; empty: there is none
 };

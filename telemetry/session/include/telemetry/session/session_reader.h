@@ -112,5 +112,7 @@ class SessionReader {
 /// A message of the streams Log, and Telemetry or RefereeRaw. Nothing when it is not of that form.
 std::optional<SessionLogLine> sessionLogLine(std::string_view json);
 std::optional<SessionDatagram> sessionDatagram(std::string_view json);
+/// As it stands in a file.
+std::string sessionEventJson(const SessionEvent& event);
 
 }  // namespace pitchboard::telemetry

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <telemetry/series/series_types.h>
 #include <telemetry/wire/datagram.h>
@@ -40,13 +41,27 @@ enum class SessionStream : std::uint8_t {
 };
 inline constexpr std::size_t sessionStreamCount = 6;
 
-/// Something that a timeline marks: a goal, a fall, a bookmark.
+/// What is known of an event besides its time and kind, for programs. Empty or 0: does not apply.
+struct EventFacts {
+  int robot = 0;                             ///< number of its blackboard and port
+  std::string side;                          ///< "left" or "right"
+  int team = 0;                              ///< the referee's number
+  std::string colour;                        ///< of the team: "blue"
+  std::optional<int> value;                  ///< what it counts depends on the kind
+  std::optional<std::pair<int, int>> score;  ///< left, right
+  std::string process;                       ///< "decision"
+  std::string detail;
+  bool operator==(const EventFacts&) const = default;
+};
+
+/// Something that happened: a goal, a fall, a bookmark.
 struct SessionEvent {
   double time = 0.0;
-  std::string
-      kind;  ///< "goal", "kick", "fall", "ball-out", "referee", "process", "timeout", "bookmark"
+  std::string kind;   ///< "goal", "kick", ...: docs/SESSIONS.md
   std::string group;  ///< the robot's name, or empty
-  std::string text;   ///< for people
+  std::string text;   ///< for people; programs read the facts
+  /// Nothing in sessions before 0.2.
+  std::optional<EventFacts> facts = {};
   bool operator==(const SessionEvent&) const = default;
 };
 

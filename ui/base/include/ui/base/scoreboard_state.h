@@ -21,8 +21,7 @@ struct ScoreboardState {
   bool operator==(const ScoreboardState&) const = default;
 };
 
-/// Of a live frame: what the referee says. Else: the team that defends the left goal is the first
-/// whose robots face right.
+/// Of a live frame: what the referee says.
 ScoreboardState scoreboardOf(const link::MatchFrame& frame);
 
 }  // namespace pitchboard::ui

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include <ui/sources/timeline_event.h>
+#include <robotlink/frame/match_event.h>
 
 namespace pitchboard::ui {
 
@@ -25,9 +25,9 @@ class EventList : public QAbstractTableModel {
 
   /// In its place by time, behind those of the same time. Returns its row. A time that is not
   /// finite is not taken: -1.
-  int add(TimelineEvent event);
+  int add(link::MatchEvent event);
   /// The same for many, with one reset of the model when they are not simply later ones.
-  void add(std::vector<TimelineEvent> events);
+  void add(std::vector<link::MatchEvent> events);
   /// The source was put back: what came after this time has not happened.
   void rewind(double time);
   void clear();
@@ -35,9 +35,9 @@ class EventList : public QAbstractTableModel {
   /// Only a bookmark has a note of one's own; others are left alone.
   void setNote(int row, const QString& note);
 
-  const std::deque<TimelineEvent>& events() const { return m_events; }
-  const TimelineEvent& event(int row) const { return m_events[static_cast<std::size_t>(row)]; }
-  /// Row of the first event after / last event before this time, whatever its kind.
+  const std::deque<link::MatchEvent>& events() const { return m_events; }
+  const link::MatchEvent& event(int row) const { return m_events[static_cast<std::size_t>(row)]; }
+  /// Row of the first event after / last event before this time, of those that have a mark.
   std::optional<int> next(double time) const;
   std::optional<int> previous(double time) const;
   /// Events that had to leave.
@@ -59,7 +59,7 @@ class EventList : public QAbstractTableModel {
   void makeRoom();
   void touch();
 
-  std::deque<TimelineEvent> m_events;
+  std::deque<link::MatchEvent> m_events;
   std::size_t m_most;
   std::size_t m_dropped = 0;
   std::uint64_t m_revision = 0;

@@ -12,9 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
-#include <simcore/physics/simulation.h>
-#include <telemetry/session/session_types.h>
 
 namespace pitchboard::telemetry {
 class SeriesStore;
@@ -50,10 +49,10 @@ class FrameSource : public QObject {
 
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);
-  void eventsReceived(const std::vector<pitchboard::sim::Event>& events);
+  void eventsReceived(const std::vector<pitchboard::link::MatchEvent>& events);
   void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
   /// What a recording holds of events, once for each recording.
-  void eventsRecorded(const std::vector<pitchboard::telemetry::SessionEvent>& events);
+  void eventsRecorded(const std::vector<pitchboard::link::MatchEvent>& events);
   /// Another match or session, or none: what was remembered of the old one is void.
   void restarted();
 };

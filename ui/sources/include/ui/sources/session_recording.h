@@ -88,7 +88,7 @@ class SessionRecording : public QObject {
   struct Recorder {
     bool live = false;
     std::function<telemetry::SessionStatus()> status;
-    std::function<void(const telemetry::SessionEvent&)> append;
+    std::function<void(const link::MatchEvent&)> append;
     std::function<void()> detach;          ///< nothing reaches it any more
     std::function<Result<void>()> finish;  ///< any thread, once detached
   };

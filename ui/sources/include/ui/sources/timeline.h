@@ -76,7 +76,8 @@ class Timeline : public QObject {
   void moved();          ///< shownTime() or now()
   void lookingBackChanged(bool on);
   void selectionChanged();
-  void bookmarked(double time, const QString& note);  ///< for recordings; also when a note changed
+  /// For recordings; also when a note changed.
+  void bookmarked(const pitchboard::link::MatchEvent& event);
 
  private:
   void follow();

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/frame/match_event.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include <robotlink/frame/match_frame.h>
+#include <telemetry/wire/action_words.h>
+
+namespace pitchboard::link {
+namespace {
+
+using Kind = MatchEventKind;
+using Shape = EventShape;
+
+constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
+    {Kind::Goal, "goal", "goal", Shape::Goal, 9, true, false, "simulation"},
+    {Kind::ScoreCorrected, "score-corrected", "score corrected", Shape::None, 0, false, false,
+     "referee"},
+    {Kind::BallOut, "ball-out", "the ball is out", Shape::BallOut, 3, false, false, "simulation"},
+    {Kind::Kick, "kick", "kicks the ball", Shape::Kick, 1, false, false, ""},
+    {Kind::Fall, "fall", "falls", Shape::Fall, 4, false, true, ""},
+    {Kind::GotUp, "got-up", "is up again", Shape::None, 0, false, false, ""},
+    {Kind::UnknownAction, "unknown-action", "chose an unknown action, which counts as stop",
+     Shape::None, 0, false, true, ""},
+    {Kind::GameState, "referee", "", Shape::GameState, 6, true, false, "referee"},
+    {Kind::MatchOver, "match-over", "the match is over", Shape::GameState, 6, true, false,
+     "simulation"},
+    {Kind::Half, "half", "half", Shape::None, 0, false, false, "referee"},
+    {Kind::SetPlay, "set-play", "normal play", Shape::None, 0, false, false, "referee"},
+    {Kind::GamePhase, "game-phase", "normal time", Shape::None, 0, false, false, "referee"},
+    {Kind::PlayStopped, "play-stopped", "play is stopped", Shape::None, 0, false, false, "referee"},
+    {Kind::PlayGoesOn, "play-goes-on", "play goes on", Shape::None, 0, false, false, "referee"},
+    {Kind::RefereeHeard, "referee-heard", "heard", Shape::None, 0, false, false, "referee"},
+    {Kind::RefereeSilent, "referee-silent", "not heard any more: the last state is shown",
+     Shape::None, 0, false, true, "referee"},
+    {Kind::RefereeBack, "referee-back", "is heard again", Shape::None, 0, false, false, "referee"},
+    {Kind::SecondReferee, "second-referee", "a second referee program is heard", Shape::None, 0,
+     false, true, "referee"},
+    {Kind::RobotHeard, "robot-heard", "is heard", Shape::None, 0, false, false, ""},
+    {Kind::RobotSilent, "timeout", "is not heard any more", Shape::Silent, 7, false, true, ""},
+    {Kind::RobotBack, "recovery", "is heard again", Shape::Back, 2, false, false, ""},
+    {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
+     true, ""},
+    {Kind::Penalised, "penalty", "penalised", Shape::Warning, 5, false, true, ""},
+    {Kind::PenaltyOver, "penalty-over", "may play again", Shape::None, 0, false, false, ""},
+    {Kind::ProcessStarted, "process-started", "started", Shape::None, 0, false, false, ""},
+    {Kind::ProcessRestarted, "process-restarted", "started again", Shape::Started, 2, false, false,
+     ""},
+    {Kind::ProcessEnded, "process-ended", "ended", Shape::None, 0, false, false, ""},
+    {Kind::ProcessDied, "process-died", "died", Shape::Died, 8, false, true, ""},
+    {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
+    {Kind::PortBack, "port-back", "is received now", Shape::None, 0, false, false, "network"},
+    {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
+    {Kind::Other, "warning", "warning", Shape::Warning, 5, false, true, "session"},
+}};
+
+constexpr bool inOrder() {
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].kind != static_cast<Kind>(i)) return false;
+  }
+  return true;
+}
+static_assert(inOrder());
+
+std::string nameOf(const sim::RobotIdentity& robot) {
+  return std::string(info(robot.team).letter) + std::to_string(robot.number);
+}
+
+std::string clockWords(int seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%s%02d:%02d", seconds < 0 ? "-" : "", std::abs(seconds) / 60,
+                std::abs(seconds) % 60);
+  return text;
+}
+
+/// "BLUE", "TEAM 12", "the left side".
+std::string teamWords(const MatchEvent& event) {
+  if (!event.colour.empty() && event.colour != "unknown") {
+    std::string out = event.colour;
+    for (char& c : out) {
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    }
+    return out;
+  }
+  if (event.team != 0) return "TEAM " + std::to_string(event.team);
+  return event.side ? "the " + std::string(sideName(*event.side)) + " side" : std::string();
+}
+
+/// The words of the kind, and behind them what is known more closely.
+std::string wordsAnd(const MatchEvent& event, std::string_view join = ": ") {
+  std::string out(info(event.kind).words);
+  if (event.detail.empty()) return out;
+  if (!out.empty()) out += join;
+  return out + event.detail;
+}
+
+/// What is said, without the robot or process of which it is said.
+std::string predicateOf(const MatchEvent& event) {
+  switch (event.kind) {
+    case Kind::Goal:
+    case Kind::ScoreCorrected: {
+      std::string out(info(event.kind).words);
+      if (const std::string team = teamWords(event); !team.empty()) out += " for " + team;
+      if (event.score) {
+        out +=
+            ", " + std::to_string(event.score->left) + " : " + std::to_string(event.score->right);
+      }
+      return out;
+    }
+    case Kind::Kick:
+      return event.value
+                 ? std::string(info(event.kind).words) + ": " + telemetry::actionWords(*event.value)
+                 : wordsAnd(event);
+    case Kind::UnknownAction:
+      return event.value ? "chose the unknown action code " + std::to_string(*event.value) +
+                               ", which counts as stop"
+                         : wordsAnd(event);
+    case Kind::GameState:
+      return event.detail + (event.value ? " at " + clockWords(*event.value) : std::string());
+    case Kind::MatchOver:
+      return wordsAnd(event, " (") + (event.detail.empty() ? "" : ")");
+    case Kind::Half:
+      return event.value == 2 ? "second half" : "first half";
+    case Kind::SetPlay:
+    case Kind::GamePhase:
+      return event.detail.empty() ? std::string(info(event.kind).words) : event.detail;
+    case Kind::RefereeHeard:
+      return wordsAnd(event) +
+             (event.value ? ", version " + std::to_string(*event.value) : std::string());
+    case Kind::SecondReferee:
+      return wordsAnd(event, "; shown is ");
+    case Kind::RobotHeard:
+      return wordsAnd(event, " from ");
+    case Kind::SecondSender:
+      return wordsAnd(event, "; this one is ");
+    case Kind::Penalised:
+      return wordsAnd(event) + (event.value.value_or(0) > 0
+                                    ? ", " + std::to_string(*event.value) + " s"
+                                    : std::string());
+    case Kind::ProcessStarted:
+    case Kind::ProcessRestarted:
+      return std::string(info(event.kind).words) +
+             (event.value ? " (process " + std::to_string(*event.value) + ')' : std::string());
+    case Kind::PortLost:
+      return event.detail + " It is tried again; the other ports work.";
+    case Kind::PortBack:
+      return "port " + std::to_string(event.value.value_or(0)) + ' ' +
+             std::string(info(event.kind).words);
+    default:
+      return wordsAnd(event);
+  }
+}
+
+/// "B1", "B1 decision"; empty where nobody is concerned.
+std::string subjectOf(const MatchEvent& event) {
+  std::string out = event.name;
+  if (!event.process.empty()) out += (out.empty() ? "" : " ") + event.process;
+  return out;
+}
+
+}  // namespace
+
+const MatchEventInfo& info(MatchEventKind kind) {
+  return infos[static_cast<std::size_t>(kind)];
+}
+
+std::optional<MatchEventKind> matchEventKind(std::string_view name) {
+  const auto found =
+      std::find_if(infos.begin(), infos.end(), [name](const auto& i) { return i.name == name; });
+  return found == infos.end() ? std::nullopt : std::optional(found->kind);
+}
+
+std::string_view sideName(Side side) {
+  return side == Side::Left ? "left" : "right";
+}
+
+std::optional<Side> sideNamed(std::string_view name) {
+  if (name == sideName(Side::Left)) return Side::Left;
+  if (name == sideName(Side::Right)) return Side::Right;
+  return {};
+}
+
+MatchEvent eventOf(MatchEventKind kind, double time, const sim::RobotIdentity& robot) {
+  MatchEvent event;
+  event.kind = kind;
+  event.time = time;
+  event.robot = robot.id;
+  event.name = nameOf(robot);
+  return event;
+}
+
+TeamColor teamOn(Side side, std::span<const sim::RobotIdentity> robots) {
+  for (const sim::RobotIdentity& robot : robots) {
+    if (info(robot.team).facesLeft == (side == Side::Right)) return robot.team;
+  }
+  return side == Side::Left ? TeamColor::Blue : TeamColor::Red;
+}
+
+MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
+  MatchEvent out;
+  const auto robot = std::find_if(state.robots.begin(), state.robots.end(),
+                                  [&](const auto& r) { return r.id == event.robot; });
+  const double time = static_cast<double>(event.tick) / state.settings.tickRate;
+  if (robot != state.robots.end()) out = eventOf(Kind::Other, time, *robot);
+  out.time = time;
+  switch (event.kind) {
+    case sim::EventKind::Goal:
+      out.kind = Kind::Goal;
+      out.side = event.value == 0 ? Side::Left : Side::Right;
+      out.colour = info(teamOn(*out.side, state.robots)).name;
+      out.score = state.score;
+      break;
+    case sim::EventKind::BallOut:
+      out.kind = Kind::BallOut;
+      break;
+    case sim::EventKind::Kick:
+      out.kind = Kind::Kick;
+      out.value = event.value;
+      break;
+    case sim::EventKind::Fall:
+      out.kind = Kind::Fall;
+      break;
+    case sim::EventKind::GotUp:
+      out.kind = Kind::GotUp;
+      break;
+    case sim::EventKind::UnknownAction:
+      out.kind = Kind::UnknownAction;
+      out.value = event.value;
+      break;
+  }
+  return out;
+}
+
+std::string sentenceOf(const MatchEvent& event) {
+  const std::string subject = subjectOf(event);
+  return subject.empty() ? predicateOf(event) : subject + ' ' + predicateOf(event);
+}
+
+std::string labelOf(const MatchEvent& event) {
+  if (!info(event.kind).labelled) return {};
+  switch (event.kind) {
+    case Kind::Goal: {
+      const std::string team = event.colour.empty() && event.team == 0 && event.side
+                                   ? std::string(sideName(*event.side))
+                                   : teamWords(event);
+      return team.empty() ? "goal" : "goal " + team;
+    }
+    case Kind::MatchOver:
+      return "FINISHED";
+    default:
+      return event.detail;
+  }
+}
+
+LogLine logLineOf(const MatchEvent& event) {
+  const std::string subject = subjectOf(event);
+  const MatchEventInfo& kind = info(event.kind);
+  return {event.time, subject.empty() ? std::string(kind.origin) : subject, predicateOf(event),
+          kind.warning};
+}
+
+}  // namespace pitchboard::link

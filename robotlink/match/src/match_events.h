@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Makes the events of a simulated match: those of each step, and what has changed since it last
+// looked (clock, end of the match, processes). Private to the room; used by SimulatedMatch on its
+// thread.
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <robotlink/frame/match_event.h>
+#include <robotlink/processes/process_supervisor.h>
+#include <simcore/physics/simulation.h>
+
+namespace pitchboard::link {
+
+class MatchEvents {
+ public:
+  MatchEvents() { m_events.reserve(mostKept); }  // ticks allocate nothing
+  /// Right after a step.
+  void stepped(const sim::Simulation& simulation);
+  /// `finishedBy`: as SimulatedMatch::finishedBy().
+  void look(const sim::WorldState& state, std::string_view finishedBy,
+            const ProcessSupervisor& supervisor);
+  /// Appends what came since the last call, at most the newest 1000.
+  void take(std::vector<MatchEvent>& out);
+
+ private:
+  static constexpr std::size_t mostKept = 1000;
+  enum class Game { Unknown, Playing, ClockStopped, Over };
+
+  void add(MatchEvent event);
+  void lookAtGame(const sim::WorldState& state, double time, std::string_view finishedBy);
+  void lookAtProcesses(const sim::WorldState& state, double time,
+                       const ProcessSupervisor& supervisor);
+  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, double time,
+                       const ChildStatus& child);
+
+  std::vector<MatchEvent> m_events;
+  Game m_game = Game::Unknown;
+  std::vector<ChildState> m_children;                   // as last seen, in order of their start
+  std::set<std::pair<RobotId, std::string>> m_everRan;  // robot, process
+  std::map<RobotId, std::string> m_names;               // processes may outlive their robot
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Events as a session file keeps them, and back, also from sessions of before 0.2. Plain functions;
+// any thread.
+
+#include <vector>
+
+#include <robotlink/frame/match_event.h>
+#include <telemetry/session/session_reader.h>
+#include <telemetry/session/session_types.h>
+
+namespace pitchboard::link {
+
+telemetry::SessionEvent sessionEvent(const MatchEvent& event);
+/// A kind that nobody knows becomes Other, which says what it was called. An event without facts is
+/// of a session before 0.2: what it was stands in its words there.
+MatchEvent matchEvent(const telemetry::SessionEvent& event);
+
+/// All of a session in order of time. Where old events have no number of their robot, it is that of
+/// the robot's rows.
+std::vector<MatchEvent> eventsOf(const telemetry::SessionReader& session);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What two live frames differ in, as events: frames are made by hand, there is no network.
+#include <QtTest>
+
+#include "live_events.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using Kind = MatchEventKind;
+
+namespace {
+
+struct Stage {
+  LiveEvents events;
+  MatchFrame frame;
+
+  std::vector<MatchEvent> at(double time) {
+    frame.snapshot.time = time;
+    return events.compare(frame);
+  }
+  RobotHealth& robot(int id, TeamColor team = TeamColor::Blue) {
+    sim::RobotSnapshot seen;
+    seen.identity = {RobotId{id}, team, id, false};
+    frame.snapshot.robots.push_back(seen);
+    RobotHealth health;
+    health.id = RobotId{id};
+    health.number = id;
+    health.sender = "192.168.0." + std::to_string(id) + ":4000";
+    frame.health.push_back(health);
+    return frame.health.back();
+  }
+  RefereeView& referee() {
+    RefereeView& view = frame.referee.emplace();
+    view.sender = "192.168.0.99:3838";
+    view.version = 17;
+    view.state = "INITIAL";
+    view.secondsLeft = 600;
+    view.teams[0] = {12, "blue", 0, 4};
+    view.teams[1] = {5, "unknown", 0, 4};
+    return view;
+  }
+};
+
+std::vector<Kind> kindsOf(const std::vector<MatchEvent>& events) {
+  std::vector<Kind> kinds;
+  for (const MatchEvent& event : events) kinds.push_back(event.kind);
+  return kinds;
+}
+
+using Kinds = std::vector<Kind>;
+
+}  // namespace
+
+class TestLiveEvents : public QObject {
+  Q_OBJECT
+ private slots:
+  void nothingHappensWhileNothingChanges() {
+    Stage s;
+    QVERIFY(s.at(0.1).empty());
+    s.robot(1);
+    s.referee();
+    QVERIFY(!s.at(0.2).empty());
+    QVERIFY(s.at(0.3).empty());
+    s.frame.referee->secondsLeft = 599;
+    s.frame.health[0].age = 0.5;
+    QVERIFY(s.at(0.4).empty());
+  }
+
+  void aRobotFallsSilentAndComesBack() {
+    Stage s;
+    s.robot(3, TeamColor::Red);
+    auto told = s.at(1.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotHeard}));
+    QCOMPARE(told[0].detail, std::string("192.168.0.3:4000"));
+    s.frame.health[0].timedOut = true;
+    told = s.at(7.5);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RobotSilent}));
+    QCOMPARE(told[0].time, 7.5);
+    QCOMPARE(told[0].robot, RobotId{3});
+    QCOMPARE(told[0].name, std::string("R3"));
+    QCOMPARE(sentenceOf(told[0]), std::string("R3 is not heard any more"));
+    s.frame.health[0].timedOut = false;
+    QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::RobotBack}));
+  }
+
+  void aRobotThatWasForgottenIsHeardAnew() {
+    Stage s;
+    s.robot(1);
+    (void)s.at(1.0);
+    s.frame.health.clear();
+    s.frame.snapshot.robots.clear();
+    QVERIFY(s.at(2.0).empty());
+    s.robot(1).timedOut = true;
+    QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotHeard, Kind::RobotSilent}));
+  }
+
+  void aSecondSenderIsToldOnce() {
+    Stage s;
+    s.robot(1);
+    (void)s.at(1.0);
+    s.frame.health[0].conflict = true;
+    const auto told = s.at(2.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::SecondSender}));
+    QCOMPARE(told[0].detail, std::string("192.168.0.1:4000"));
+    QVERIFY(s.at(3.0).empty());
+    s.frame.health[0].conflict = false;
+    QVERIFY(s.at(4.0).empty());
+    s.frame.health[0].conflict = true;
+    QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::SecondSender}));
+  }
+
+  void aPenaltyBeginsChangesAndEnds() {
+    Stage s;
+    s.robot(1);
+    (void)s.at(1.0);
+    s.frame.health[0].penalty = Penalty{"pushing", 30};
+    auto told = s.at(2.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::Penalised}));
+    QCOMPARE(told[0].detail, std::string("pushing"));
+    QCOMPARE(told[0].value, 30);
+    QCOMPARE(sentenceOf(told[0]), std::string("B1 penalised: pushing, 30 s"));
+    s.frame.health[0].penalty->secondsLeft = 12;  // counting down is no event
+    QVERIFY(s.at(3.0).empty());
+    s.frame.health[0].penalty->words = "pickup";
+    QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::Penalised}));
+    s.frame.health[0].penalty.reset();
+    QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PenaltyOver}));
+  }
+
+  void theGameGoesOn() {
+    Stage s;
+    s.referee();
+    auto told = s.at(1.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeHeard, Kind::GameState}));
+    QCOMPARE(told[0].value, 17);
+    QCOMPARE(told[1].detail, std::string("INITIAL"));
+    s.frame.referee->state = "PLAYING";
+    s.frame.referee->secondsLeft = 595;
+    told = s.at(2.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::GameState}));
+    QCOMPARE(sentenceOf(told[0]), std::string("PLAYING at 09:55"));
+    QCOMPARE(labelOf(told[0]), std::string("PLAYING"));
+    s.frame.referee->setPlay = "corner";
+    told = s.at(3.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::SetPlay}));
+    QCOMPARE(sentenceOf(told[0]), std::string("corner"));
+    s.frame.referee->setPlay.clear();
+    QCOMPARE(sentenceOf(s.at(4.0).at(0)), std::string("normal play"));
+    s.frame.referee->stopped = true;
+    QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PlayStopped}));
+    s.frame.referee->stopped = false;
+    QCOMPARE(kindsOf(s.at(6.0)), (Kinds{Kind::PlayGoesOn}));
+    s.frame.referee->firstHalf = false;
+    told = s.at(7.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::Half}));
+    QCOMPARE(told[0].value, 2);
+    s.frame.referee->phase = "overtime";
+    QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::GamePhase}));
+  }
+
+  void whatAGameHadBegunWithIsToldToWhoComesLater() {
+    Stage s;
+    RefereeView& view = s.referee();
+    view.firstHalf = false;
+    view.setPlay = "goal kick";
+    view.teams[0].score = 2;  // no goal: nobody saw it
+    QCOMPARE(kindsOf(s.at(1.0)),
+             (Kinds{Kind::RefereeHeard, Kind::GameState, Kind::SetPlay, Kind::Half}));
+  }
+
+  void aGoalBelongsToItsTeamOnBothSides() {
+    Stage s;
+    s.referee();
+    (void)s.at(1.0);
+    s.frame.referee->teams[0].score = 1;
+    auto told = s.at(2.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::Goal}));
+    QVERIFY(told[0].side == Side::Left);
+    QCOMPARE(told[0].team, 12);
+    QCOMPARE(told[0].colour, std::string("blue"));
+    QCOMPARE(told[0].score, (sim::Score{1, 0}));
+    QCOMPARE(sentenceOf(told[0]), std::string("goal for BLUE, 1 : 0"));
+    // At half-time the teams change sides: nobody scored.
+    std::swap(s.frame.referee->teams[0], s.frame.referee->teams[1]);
+    QVERIFY(s.at(3.0).empty());
+    s.frame.referee->teams[0].score = 1;
+    told = s.at(4.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::Goal}));
+    QVERIFY(told[0].side == Side::Left);
+    QCOMPARE(told[0].team, 5);
+    QCOMPARE(labelOf(told[0]), std::string("goal TEAM 5"));
+    s.frame.referee->teams[0].score = 0;
+    told = s.at(5.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::ScoreCorrected}));
+    QCOMPARE(told[0].score, (sim::Score{0, 1}));
+  }
+
+  void theRefereeFallsSilentAndAnotherOneSpeaks() {
+    Stage s;
+    s.referee();
+    (void)s.at(1.0);
+    s.frame.referee->timedOut = true;
+    QCOMPARE(kindsOf(s.at(2.0)), (Kinds{Kind::RefereeSilent}));
+    s.frame.referee->timedOut = false;
+    QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RefereeBack}));
+    s.frame.referee->conflict = true;
+    QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::SecondReferee}));
+    s.frame.referee->sender = "192.168.0.98:3838";
+    const auto told = s.at(5.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::RefereeHeard}));
+    QCOMPARE(told[0].detail, std::string("192.168.0.98:3838"));
+  }
+
+  void portsAreLostAndFoundAgain() {
+    LiveEvents events;
+    telemetry::ReceiverStatus network;
+    network.ports.resize(2);
+    network.ports[0].port = 1241;
+    network.ports[0].bound = true;
+    network.ports[1].port = 1242;
+    network.ports[1].problem = "Port 1242 is taken by another program.";
+    auto told = events.comparePorts(network, 1.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::PortLost}));
+    QCOMPARE(told[0].value, 1242);
+    QCOMPARE(told[0].detail, network.ports[1].problem);
+    QVERIFY(events.comparePorts(network, 2.0).empty());
+    network.ports[1].bound = true;
+    network.ports[1].problem.clear();
+    told = events.comparePorts(network, 3.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::PortBack}));
+    QCOMPARE(sentenceOf(told[0]), std::string("port 1242 is received now"));
+  }
+
+  void afterClearEverythingIsNewAgain() {
+    Stage s;
+    s.robot(1);
+    s.referee();
+    const auto first = s.at(1.0);
+    s.events.clear();
+    QCOMPARE(kindsOf(s.at(2.0)), kindsOf(first));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveEvents)
+#include "tst_live_events.moc"

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Events as values: their table, how a simulated match makes them, and how files keep them.
+#include <QTemporaryDir>
+#include <QtTest>
+#include <set>
+
+#include <robotlink/frame/match_frame.h>
+#include <robotlink/match/simulated_match.h>
+#include <robotlink/session/session_events.h>
+#include <telemetry/session/session_writer.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using Kind = MatchEventKind;
+
+namespace {
+
+std::vector<MatchEvent> taken(SimulatedMatch& match) {
+  std::vector<MatchEvent> events;
+  match.takeEvents(events);
+  return events;
+}
+
+/// Everything that a robot's process did until this one; its exit is waited for.
+const MatchEvent* find(const std::vector<MatchEvent>& events, Kind kind) {
+  for (const MatchEvent& event : events) {
+    if (event.kind == kind) return &event;
+  }
+  return nullptr;
+}
+
+MatchEvent full(Kind kind) {
+  MatchEvent event;
+  event.kind = kind;
+  event.time = 12.25;
+  event.robot = RobotId{7};
+  event.name = "R2";
+  event.side = Side::Right;
+  event.team = 5;
+  event.colour = "red";
+  event.value = -30;
+  event.score = sim::Score{2, 3};
+  event.process = "decision";
+  event.detail = "died: \"left\" started\n";
+  return event;
+}
+
+}  // namespace
+
+class TestMatchEvents : public QObject {
+  Q_OBJECT
+ private slots:
+  void everyKindHasItsNameAndReads() {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < matchEventKindCount; ++i) {
+      const auto kind = static_cast<Kind>(i);
+      names.insert(info(kind).name);
+      QVERIFY(matchEventKind(info(kind).name) == kind);
+      QVERIFY(!sentenceOf(full(kind)).empty());
+      QVERIFY(!logLineOf(full(kind)).origin.empty());
+      MatchEvent bare;
+      bare.kind = kind;
+      bare.detail = info(kind).words.empty() ? "PLAYING" : "";
+      QVERIFY2(!sentenceOf(bare).empty(), info(kind).name.data());
+    }
+    QCOMPARE(names.size(), matchEventKindCount);
+    QVERIFY(!matchEventKind("of tomorrow"));
+  }
+
+  void theDocumentNamesEveryKind() {
+    QFile file(QStringLiteral(PITCHBOARD_SOURCE_DIR "/docs/SESSIONS.md"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString text = QString::fromUtf8(file.readAll());
+    for (std::size_t i = 0; i < matchEventKindCount; ++i) {
+      const std::string name(info(static_cast<Kind>(i)).name);
+      QVERIFY2(text.contains(QStringLiteral("`%1`").arg(QString::fromStdString(name))),
+               name.c_str());
+    }
+  }
+
+  void aMatchTellsEachThingOnce() {
+    Scenario scenario = loadScenario("one-robot").value();
+    scenario.stop.duration = 60.0;
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    std::vector<MatchEvent> all = taken(match);
+    QCOMPARE(all.size(), std::size_t{1});
+    QCOMPARE(all[0].kind, Kind::GameState);
+    std::vector<sim::Event> raw;
+    while (!match.finished()) {
+      match.tick();
+      raw.insert(raw.end(), match.simulation().events().begin(), match.simulation().events().end());
+      match.takeEvents(all);
+    }
+    QCOMPARE(all.size(), raw.size() + 2);  // the beginning and the end
+    QVERIFY(find(all, Kind::Kick));
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      const MatchEvent& event = all[i + 1];
+      QCOMPARE(event.time, static_cast<double>(raw[i].tick) / 60.0);
+      QCOMPARE(event.robot, raw[i].robot);
+      if (raw[i].robot == RobotId{1}) QCOMPARE(event.name, std::string("B1"));
+    }
+    QCOMPARE(all.back().kind, Kind::MatchOver);
+    QCOMPARE(all.back().detail, std::string("duration"));
+    QCOMPARE(all.back().time, 60.0);
+    QVERIFY(taken(match).empty());
+  }
+
+  void aStoppedClockIsToldBetweenTicks() {
+    auto match = SimulatedMatch::create(loadScenario("one-robot").value(), {}).value();
+    (void)taken(match);
+    match.simulation().setClockRunning(false);
+    auto events = taken(match);
+    QCOMPARE(events.size(), std::size_t{1});
+    QCOMPARE(events[0].detail, std::string("CLOCK STOPPED"));
+    match.simulation().setClockRunning(true);
+    QCOMPARE(taken(match).at(0).detail, std::string("PLAYING"));
+  }
+
+  void aGoalHasItsTeamAndTheScore() {
+    sim::WorldState state;
+    state.score = {0, 1};
+    state.robots = {{RobotId{1}, TeamColor::Yellow, 1, false},
+                    {RobotId{2}, TeamColor::Orange, 1, true}};
+    const MatchEvent goal = matchEvent({sim::EventKind::Goal, 120, {}, 1}, state);
+    QVERIFY(goal.side == Side::Right);
+    QCOMPARE(goal.colour, std::string("orange"));
+    QCOMPARE(sentenceOf(goal), std::string("goal for ORANGE, 0 : 1"));
+    QCOMPARE(labelOf(goal), std::string("goal ORANGE"));
+    QCOMPARE(logLineOf(goal).origin, std::string("simulation"));
+  }
+
+  void aProcessThatEndsAsItShouldHasNotDied() {
+    auto match = SimulatedMatch::create(loadScenario("one-robot").value(), {}).value();
+    (void)taken(match);
+    ProcessSupervisor& supervisor = match.supervisor();
+    std::vector<MatchEvent> events;
+    const auto run = [&](const char* script, Kind until) {
+      events.clear();
+      const auto handle = supervisor.start({RobotId{1}, "decision", {"/bin/sh", "-c", script}});
+      if (!handle) return false;
+      return QTest::qWaitFor(
+          [&] {
+            supervisor.poll();
+            match.takeEvents(events);
+            return find(events, until) != nullptr;
+          },
+          20'000);
+    };
+    QVERIFY(run("exit 0", Kind::ProcessEnded));
+    QCOMPARE(events[0].kind, Kind::ProcessStarted);
+    QCOMPARE(events[0].name, std::string("B1"));
+    QCOMPARE(events[0].process, std::string("decision"));
+    QVERIFY(!find(events, Kind::ProcessDied));
+
+    QVERIFY(run("echo ouch; exit 2", Kind::ProcessDied));
+    QCOMPARE(events[0].kind, Kind::ProcessRestarted);
+    QCOMPARE(find(events, Kind::ProcessDied)->detail,
+             std::string("exit code 2; its last words: ouch"));
+
+    QVERIFY(run("exec sleep 600", Kind::ProcessRestarted));
+    supervisor.stop(RobotId{1});
+    const auto stopped = taken(match);
+    QCOMPARE(stopped.size(), std::size_t{1});
+    QCOMPARE(stopped[0].kind, Kind::ProcessEnded);
+    QCOMPARE(sentenceOf(stopped[0]), std::string("B1 decision ended: it was asked to"));
+
+    QVERIFY(run("kill -9 $$", Kind::ProcessDied));
+    QCOMPARE(logLineOf(*find(events, Kind::ProcessDied)).origin, std::string("B1 decision"));
+  }
+
+  void aFileGivesBackEveryFact() {
+    const QTemporaryDir folder;
+    const std::string path = folder.filePath("events.mcap").toStdString();
+    auto writer = telemetry::SessionWriter::create(path, {});
+    QVERIFY(writer);
+    std::vector<MatchEvent> all;
+    for (std::size_t i = 0; i < matchEventKindCount; ++i) {
+      all.push_back(full(static_cast<Kind>(i)));
+      all.back().time += static_cast<double>(i);
+      MatchEvent bare;
+      bare.kind = static_cast<Kind>(i);
+      bare.time = all.back().time + 0.5;
+      all.push_back(bare);
+    }
+    for (const MatchEvent& event : all) (*writer)->append(sessionEvent(event));
+    QVERIFY((*writer)->finish());
+    const auto read = eventsOf(telemetry::SessionReader::open(path).value());
+    QCOMPARE(read.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      MatchEvent wanted = all[i];
+      QVERIFY(std::abs(read[i].time - wanted.time) < 1e-6);
+      wanted.time = read[i].time;
+      QVERIFY2(read[i] == wanted, info(wanted.kind).name.data());
+    }
+  }
+
+  void aKindOfALaterVersionSaysWhatItWasCalled() {
+    telemetry::SessionEvent later{3.0, "throw-in", "B1", "B1 throws in"};
+    later.facts.emplace();
+    const MatchEvent event = matchEvent(later);
+    QCOMPARE(event.kind, Kind::Other);
+    QCOMPARE(event.detail, std::string("throw-in: B1 throws in"));
+  }
+
+  void sessionsOfBeforeAreRead_data() {
+    QTest::addColumn<QString>("file");
+    for (const char* file : {"small.mcap", "plain_broken_off.mcap"}) QTest::newRow(file) << file;
+  }
+  void sessionsOfBeforeAreRead() {
+    QFETCH(QString, file);
+    const QString path = QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/sessions/") + file;
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    QVERIFY(session);
+    const auto raw = session->events();
+    const auto events = eventsOf(*session);
+    QVERIFY(session->count(telemetry::SessionStream::Events) > 0);
+    QCOMPARE(events.size(), raw.size());
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      QVERIFY(!raw[i].facts);
+      QVERIFY2(events[i].kind != Kind::Other, raw[i].kind.c_str());
+      QCOMPARE(std::string(info(events[i].kind).name), raw[i].kind);
+      QCOMPARE(events[i].time, raw[i].time);
+      QCOMPARE(events[i].name, raw[i].group);
+      QCOMPARE(events[i].robot.value != 0, !raw[i].group.empty());
+    }
+  }
+
+  void theOldFormIsUnderstood_data() {
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<QString>("group");
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<int>("wanted");
+    QTest::addColumn<QString>("sentence");
+    const auto row = [](const char* name, const char* kind, const char* group, const char* text,
+                        Kind wanted, const char* sentence) {
+      QTest::newRow(name) << kind << group << text << int(wanted) << sentence;
+    };
+    row("goal, recorded", "goal", "", "goal for the left side", Kind::Goal,
+        "goal for the left side");
+    row("goal, saved", "goal", "RED", "", Kind::Goal, "goal for RED");
+    row("kick", "kick", "B1", "B1: kick left", Kind::Kick, "B1 kicks the ball: kick left");
+    row("fall", "fall", "R2", "R2 fell", Kind::Fall, "R2 falls");
+    row("got up", "got-up", "R2", "R2 got up", Kind::GotUp, "R2 is up again");
+    row("ball", "ball-out", "", "the ball is out", Kind::BallOut, "the ball is out");
+    row("unknown action", "unknown-action", "B1", "B1: unknown action 42", Kind::UnknownAction,
+        "B1 chose the unknown action code 42, which counts as stop");
+    row("started", "process", "B1", "B1 decision started (process 71)", Kind::ProcessStarted,
+        "B1 decision started (process 71)");
+    row("ended", "process", "B1", "B1 decision ended: exit code 0", Kind::ProcessEnded,
+        "B1 decision ended: exit code 0");
+    row("died", "process", "B1", "B1 decision died: exit code 2", Kind::ProcessDied,
+        "B1 decision died: exit code 2");
+    row("died, saved", "process", "B1 decision", "exit code 2", Kind::ProcessDied,
+        "B1 decision died: exit code 2");
+    row("referee, recorded", "referee", "", "referee: SET", Kind::GameState, "SET");
+    row("referee, saved", "referee", "", "SET", Kind::GameState, "SET");
+    row("penalty, saved", "warning", "B1", "penalised: pushing", Kind::Penalised,
+        "B1 penalised: pushing");
+    row("silent", "timeout", "B1", "", Kind::RobotSilent, "B1 is not heard any more");
+    row("bookmark", "bookmark", "", "look here", Kind::Bookmark, "bookmark: look here");
+  }
+  void theOldFormIsUnderstood() {
+    QFETCH(QString, kind);
+    QFETCH(QString, group);
+    QFETCH(QString, text);
+    QFETCH(int, wanted);
+    const MatchEvent event = matchEvent(
+        telemetry::SessionEvent{1.5, kind.toStdString(), group.toStdString(), text.toStdString()});
+    QCOMPARE(int(event.kind), wanted);
+    QCOMPARE(event.time, 1.5);
+    QTEST(QString::fromStdString(sentenceOf(event)), "sentence");
+  }
+};
+
+QTEST_GUILESS_MAIN(TestMatchEvents)
+#include "tst_match_events.moc"
