@@ -5,14 +5,18 @@
 set -euo pipefail
 export LC_ALL=C TZ=UTC
 gzip -9nc "$1" >"$3/changelog.gz"
-while IFS= read -r line; do
-  if [[ $line =~ ^##\ ([0-9.]+)\ \((.*)\)$ ]]; then
-    [ -z "${end:-}" ] || printf '\n%s\n\n' "$end"
-    end=" -- $2  $(date -R -d "${BASH_REMATCH[2]}")"
-    printf 'pitchboard (%s-1) unstable; urgency=medium\n\n' "${BASH_REMATCH[1]}"
-  elif [[ $line == "- "* ]]; then
-    echo "  * ${line#- }"
-  elif [[ $line == "  "* ]]; then
-    echo "  $line"
-  fi
-done <"$1" | gzip -9nc >"$3/changelog.Debian.gz"
+{
+  end=''
+  while IFS= read -r line; do
+    if [[ $line =~ ^##\ ([0-9.]+)\ \((.*)\)$ ]]; then
+      [ -z "$end" ] || printf '\n%s\n\n' "$end"
+      end=" -- $2  $(date -R -d "${BASH_REMATCH[2]}")"
+      printf 'pitchboard (%s-1) unstable; urgency=medium\n\n' "${BASH_REMATCH[1]}"
+    elif [[ $line == "- "* ]]; then
+      fold -s -w 75 <<<"${line#- }" | sed '1s/^/  * /; 2,$s/^/    /; s/ *$//'
+    elif [[ $line == "  "* ]]; then
+      fold -s -w 75 <<<"${line#  }" | sed 's/^/    /; s/ *$//'
+    fi
+  done
+  printf '\n%s\n' "$end"
+} <"$1" | gzip -9nc >"$3/changelog.Debian.gz"
