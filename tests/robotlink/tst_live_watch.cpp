@@ -46,7 +46,7 @@ std::uint16_t portOf(const LiveOptions& options, int robot) {
   return static_cast<std::uint16_t>(options.portBase + robot);
 }
 
-std::string message(int robot, float x = 300.0F) {
+std::string message(int robot, int x = 300) {
   telemetry::TextMessage m;
   m.robot = robot;
   m.x = x;
@@ -136,7 +136,7 @@ class TestLiveWatch : public QObject {
     QCOMPARE(team.robots[0].number, 1);
     QCOMPARE(team.robots[1].number, 3);
     QCOMPARE(team.robots[1].sender.port, three.port());
-    QCOMPARE(team.robots[1].errors.total(), std::uint64_t{1});
+    QCOMPARE(team.errors.total(), std::uint64_t{1});
     const std::lock_guard lock(witness->mutex);
     QCOMPARE(witness->numbers, (std::vector<int>{1, 3}));
     QCOMPARE(witness->payloads, (std::vector<std::string>{message(1, 310), message(3, 330)}));
@@ -272,7 +272,7 @@ class TestLiveWatch : public QObject {
     auto watch = std::make_unique<LiveWatch>(options);
     QTRY_COMPARE(bound(*watch), std::size_t{4});
     for (int i = 0; i < 2000; ++i) {
-      QVERIFY(robot.send(portOf(options, 1), message(1, static_cast<float>(i))));
+      QVERIFY(robot.send(portOf(options, 1), message(1, i)));
       if (i == 1000) watch.reset();
     }
     QVERIFY(!watch);
