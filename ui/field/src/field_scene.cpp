@@ -383,8 +383,9 @@ void FieldScene::setTrailShown(RobotId id, bool shown) {
 }
 
 void FieldScene::setFollowed(std::optional<RobotId> id) {
-  if (id && !m_robots.contains(*id)) id.reset();
-  if (id == m_followed) return;
+  const bool there = !id || m_robots.contains(*id);
+  if (!there) id.reset();
+  if (id == m_followed && there) return;
   m_followed = id;
   if (m_frame) showFrame(m_frame);
   emit followedChanged(id);
