@@ -231,7 +231,7 @@ class TestMoments : public QObject {
     past.events = {{1.0, "bookmark", "", "too old"}, {18.0, "bookmark", "", "kept"}};
     past.scenario = scenarioToJson(m_match->scenario);
     const std::string path = m_folder.filePath("recent.mcap").toStdString();
-    const auto saved = saveRecent(path, 5.0, past, sessionInfo(m_match->scenario, {}));
+    const auto saved = saveRecent(path, 5.0, past, sessionInfo(m_match->scenario, recording));
     QVERIFY2(saved, saved ? "" : saved.error().text().c_str());
     QCOMPARE(saved->dropped, std::uint64_t{0});
     const auto session = telemetry::SessionReader::open(path).value();
