@@ -268,17 +268,17 @@ class TestVariablesDock : public QObject {
     }
   }
 
-  void wordsFilterRobotsHeadingsNamesAndUnits_data() {
+  void wordsFilterRobotsCategoriesNamesAndUnits_data() {
     QTest::addColumn<QString>("words");
     QTest::addColumn<int>("expected");
     QTest::newRow("robot") << "b2" << 4;
-    QTest::newRow("heading") << "decision" << 2;
+    QTest::newRow("category") << "decision" << 2;
     QTest::newRow("name and robot") << "DIST b1" << 1;
     QTest::newRow("unit") << "cm" << 2;
     QTest::newRow("path") << "b1/decision" << 1;
     QTest::newRow("nothing") << "b1 nonsense" << 0;
   }
-  void wordsFilterRobotsHeadingsNamesAndUnits() {
+  void wordsFilterRobotsCategoriesNamesAndUnits() {
     QFETCH(const QString, words);
     QFETCH(const int, expected);
     Bench bench;
