@@ -160,6 +160,12 @@ class TestMatchSampler : public QObject {
       QCOMPARE(column.labels.size(), std::size_t{23});
       QCOMPARE(column.labels.at(22), actionWords(22));
     }
+    // What a team-mate told is its intention, not its action.
+    const auto& told = rig.column("B1", "COM_ACTION_ROBOT1");
+    QVERIFY(told.kind == ColumnKind::Enumeration);
+    QCOMPARE(told.labels, rig.column("B1", "DECISION_STATE").labels);
+    QCOMPARE(told.labels.size(), std::size_t{7});
+    QCOMPARE(told.labels.at(3), std::string("at the ball"));
     QCOMPARE(rig.column("B1", "TRUE_X").category, std::string("Truth"));
     QCOMPARE(rig.column("B1", "BELIEF_ERROR").category, std::string("Belief error"));
     for (const auto& column : rig.store->view(*rig.store->findGroup("B1"))->info().columns) {

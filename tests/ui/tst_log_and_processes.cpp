@@ -66,7 +66,7 @@ class TestLogAndProcesses : public QObject {
     event.value = 42;
     const LogLine line = eventLine(event, QStringLiteral("R3"), 60);
     QCOMPARE(line.time, 2.0);
-    QVERIFY(line.warning);
+    QVERIFY(line.isWarning());
     QVERIFY(QString::fromStdString(line.text).contains(QStringLiteral("42")));
   }
 

@@ -6,6 +6,7 @@
 #include <QMimeData>
 #include <QtTest>
 
+#include <base/actions.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 
@@ -318,7 +319,7 @@ class TestPlots : public QObject {
       QCOMPARE(stretch.value, double(i % 3));
       QVERIFY(!stretch.mixed);
     }
-    QCOMPARE(lane->curves()[0].codeText(1), QStringLiteral("walk forward, fast"));
+    QCOMPARE(lane->curves()[0].codeText(1), QString::fromStdString(actionWords(1)));
     QCOMPARE(lane->curves()[0].codeText(99), QStringLiteral("99"));
     // Far out the changes are too close to be told apart, which is said.
     s.time.setRange({-5000.0, 5000.0});
