@@ -17,7 +17,7 @@ class TestLogAndProcesses : public QObject {
   static std::vector<LogLine> lines(int count, int first = 0) {
     std::vector<LogLine> made;
     for (int i = 0; i < count; ++i) {
-      made.push_back({double(i), "B1 decision", "line " + std::to_string(first + i), false});
+      made.push_back({double(i), "B1 decision", "line " + std::to_string(first + i)});
     }
     return made;
   }
@@ -50,7 +50,7 @@ class TestLogAndProcesses : public QObject {
     WordsFilter filter;
     filter.setSourceModel(&model);
     const QAbstractItemModelTester tester(&filter, Mode::QtTest);
-    model.append({{0, "B1 decision", "kicks", false}, {1, "R1 decision", "kicks", false}});
+    model.append({{0, "B1 decision", "kicks"}, {1, "R1 decision", "kicks"}});
     filter.setWords(QStringLiteral("KICK b1"));
     QCOMPARE(filter.rowCount(), 1);
     filter.setWords(QStringLiteral("nothing"));

@@ -10,19 +10,12 @@
 #include <QToolButton>
 #include <QtTest>
 
-#include <session/compared_session.h>
-#include <session/session_files.h>
-#include <session/session_recording.h>
-#include <shell/notice_bar.h>
-#include <timeline/event_list.h>
-#include <timeline/playback.h>
-#include <timeline/timeline.h>
-
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/session/session_files.h>
+#include <ui/sources/compared_session.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>

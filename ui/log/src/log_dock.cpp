@@ -92,7 +92,8 @@ class LogDock : public QWidget {
             [this](const std::vector<sim::Event>& events) { appendEvents(events); });
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
-      append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(), true}});
+      append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
+               LogLevel::Warning}});
     });
   }
 

@@ -35,7 +35,7 @@ void TimeRuler::paintEvent(QPaintEvent*) {
   painter.setPen(theme().secondaryText);
   const TimeAxis axis = m_axis();
   const double half = scaled(this, pixelsPerStep);
-  for (const AxisTick& tick : ticksOf(scale, *m_feed, this)) {
+  for (const AxisTick& tick : ticksOf(axis, *m_feed, this)) {
     const double x = axis.pixel(tick.time);
     painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }

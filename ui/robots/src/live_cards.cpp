@@ -30,8 +30,11 @@ QString tipOf(const link::RobotHealth& robot) {
       QStringLiteral("Last message %1 s ago, %2 per second, jitter %3 ms")
           .arg(secondsText(telemetry::secondsOf(robot.age)), numberText(robot.rate, 1),
                numberText(robot.jitter * 1000, 0)),
-      QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
-          .arg(countText(robot.messages), countText(robot.bytes), countText(robot.errorCount)),
+      // A recording counts the bad ones only.
+      robot.messages > 0
+          ? QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
+                .arg(countText(robot.messages), countText(robot.bytes), countText(robot.errorCount))
+          : QStringLiteral("%1 bad messages").arg(countText(robot.errorCount)),
       robot.loss ? QStringLiteral("%1 % lost").arg(numberText(*robot.loss * 100, 1))
                  : QStringLiteral("Loss is not known: the messages have no sequence number")};
   if (robot.recoveries > 0) tip << QStringLiteral("Came back %1 times").arg(robot.recoveries);
