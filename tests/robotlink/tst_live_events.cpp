@@ -19,15 +19,11 @@ struct Stage {
     return events.compare(frame);
   }
   RobotHealth& robot(int id, TeamColor team = TeamColor::Blue) {
-    sim::RobotSnapshot seen;
+    RobotFrame& seen = frame.robots.emplace_back();
     seen.identity = {RobotId{id}, team, id, false};
-    frame.snapshot.robots.push_back(seen);
-    RobotHealth health;
-    health.id = RobotId{id};
-    health.number = id;
-    health.sender = "192.168.0." + std::to_string(id) + ":4000";
-    frame.health.push_back(health);
-    return frame.health.back();
+    RobotHealth& health = seen.health.emplace();
+    health.sender = {*telemetry::parseAddress("192.168.0." + std::to_string(id)), 4000};
+    return health;
   }
   RefereeView& referee() {
     RefereeView& view = frame.referee.emplace();
@@ -62,7 +58,7 @@ class TestLiveEvents : public QObject {
     QVERIFY(!s.at(0.2).empty());
     QVERIFY(s.at(0.3).empty());
     s.frame.referee->secondsLeft = 599;
-    s.frame.health[0].age = 0.5;
+    s.frame.robots[0].health->age = 0.5;
     QVERIFY(s.at(0.4).empty());
   }
 
@@ -72,14 +68,14 @@ class TestLiveEvents : public QObject {
     auto told = s.at(1.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::RobotHeard}));
     QCOMPARE(told[0].detail, std::string("192.168.0.3:4000"));
-    s.frame.health[0].timedOut = true;
+    s.frame.robots[0].health->timedOut = true;
     told = s.at(7.5);
     QCOMPARE(kindsOf(told), (Kinds{Kind::RobotSilent}));
     QCOMPARE(told[0].time, 7.5);
     QCOMPARE(told[0].robot, RobotId{3});
     QCOMPARE(told[0].name, std::string("R3"));
     QCOMPARE(sentenceOf(told[0]), std::string("R3 is not heard any more"));
-    s.frame.health[0].timedOut = false;
+    s.frame.robots[0].health->timedOut = false;
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::RobotBack}));
   }
 
@@ -87,8 +83,7 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
-    s.frame.health.clear();
-    s.frame.snapshot.robots.clear();
+    s.frame.robots.clear();
     QVERIFY(s.at(2.0).empty());
     s.robot(1).timedOut = true;
     QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotHeard, Kind::RobotSilent}));
@@ -98,14 +93,14 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
-    s.frame.health[0].conflict = true;
+    s.frame.robots[0].health->conflict = true;
     const auto told = s.at(2.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::SecondSender}));
     QCOMPARE(told[0].detail, std::string("192.168.0.1:4000"));
     QVERIFY(s.at(3.0).empty());
-    s.frame.health[0].conflict = false;
+    s.frame.robots[0].health->conflict = false;
     QVERIFY(s.at(4.0).empty());
-    s.frame.health[0].conflict = true;
+    s.frame.robots[0].health->conflict = true;
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::SecondSender}));
   }
 
@@ -113,17 +108,17 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
-    s.frame.health[0].penalty = Penalty{"pushing", 30};
+    s.frame.robots[0].health->penalty = Penalty{"pushing", 30};
     auto told = s.at(2.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::Penalised}));
     QCOMPARE(told[0].detail, std::string("pushing"));
     QCOMPARE(told[0].value, 30);
     QCOMPARE(sentenceOf(told[0]), std::string("B1 penalised: pushing, 30 s"));
-    s.frame.health[0].penalty->secondsLeft = 12;  // counting down is no event
+    s.frame.robots[0].health->penalty->secondsLeft = 12;  // counting down is no event
     QVERIFY(s.at(3.0).empty());
-    s.frame.health[0].penalty->words = "pickup";
+    s.frame.robots[0].health->penalty->words = "pickup";
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::Penalised}));
-    s.frame.health[0].penalty.reset();
+    s.frame.robots[0].health->penalty.reset();
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PenaltyOver}));
   }
 

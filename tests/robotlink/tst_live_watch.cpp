@@ -127,7 +127,7 @@ class TestLiveWatch : public QObject {
     QVERIFY(three.send(portOf(options, 3), "nonsense"));
     QTRY_COMPARE(witness->unused.load(), 1);
 
-    QTRY_VERIFY(watch.latest() && watch.latest()->snapshot.robots.size() == 2);
+    QTRY_VERIFY(watch.latest() && watch.latest()->robots.size() == 2);
     const auto frame = watch.latest();
     QCOMPARE(frame->origin, FrameOrigin::Live);
     QVERIFY(!frame->truthKnown);
@@ -245,7 +245,7 @@ class TestLiveWatch : public QObject {
     watch.clear();
     QTRY_VERIFY(watch.details().team.robots.empty());
     QCOMPARE(watch.details().unknownReferee, std::uint64_t{0});
-    QTRY_VERIFY(watch.latest()->snapshot.robots.empty());
+    QTRY_VERIFY(watch.latest()->robots.empty());
     QVERIFY(robot.send(portOf(options, 1), message(1)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
   }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/action_words.h>
+#include <base/actions.h>
 
 namespace pitchboard::link {
 namespace {
@@ -112,7 +112,7 @@ std::string predicateOf(const MatchEvent& event) {
     }
     case Kind::Kick:
       return event.value
-                 ? std::string(info(event.kind).words) + ": " + telemetry::actionWords(*event.value)
+                 ? std::string(info(event.kind).words) + ": " + actionWords(*event.value)
                  : wordsAnd(event);
     case Kind::UnknownAction:
       return event.value ? "chose the unknown action code " + std::to_string(*event.value) +
@@ -259,7 +259,7 @@ LogLine logLineOf(const MatchEvent& event) {
   const std::string subject = subjectOf(event);
   const MatchEventInfo& kind = info(event.kind);
   return {event.time, subject.empty() ? std::string(kind.origin) : subject, predicateOf(event),
-          kind.warning};
+          logLevel(kind.warning)};
 }
 
 }  // namespace pitchboard::link

@@ -73,21 +73,21 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
   }
 }
 
-void LiveEvents::compareRobot(const RobotHealth& health, const sim::RobotIdentity& robot,
-                              double time, std::vector<MatchEvent>& out) {
+void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out) {
+  const RobotHealth& health = *heard.health;
   const auto say = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
-    MatchEvent event = eventOf(kind, time, robot);
+    MatchEvent event = eventOf(kind, time, heard.identity);
     event.detail = std::move(detail);
     event.value = value;
     out.push_back(std::move(event));
   };
-  const auto [entry, isNew] = m_robots.try_emplace(health.id);
+  const auto [entry, isNew] = m_robots.try_emplace(heard.id());
   Known& known = entry->second;
-  if (isNew) say(Kind::RobotHeard, health.sender);
+  if (isNew) say(Kind::RobotHeard, health.sender.text());
   if (health.timedOut != known.timedOut) {
     say(health.timedOut ? Kind::RobotSilent : Kind::RobotBack);
   }
-  if (health.conflict && !known.conflict) say(Kind::SecondSender, health.sender);
+  if (health.conflict && !known.conflict) say(Kind::SecondSender, health.sender.text());
   const auto& penalty = health.penalty;
   if (penalty && (!known.penalty || known.penalty->words != penalty->words)) {
     say(Kind::Penalised, penalty->words, penalty->secondsLeft);
@@ -103,15 +103,10 @@ std::vector<MatchEvent> LiveEvents::compare(const MatchFrame& now) {
     compareReferee(*now.referee, now.snapshot.time, out);
     m_referee = now.referee;
   }
-  for (std::size_t i = 0; i < now.health.size(); ++i) {
-    compareRobot(now.health[i], now.snapshot.robots[i].identity, now.snapshot.time, out);
+  for (const RobotFrame& robot : now.robots) {
+    if (robot.health) compareRobot(robot, now.snapshot.time, out);
   }
-  std::erase_if(m_robots, [&now](const auto& known) {
-    for (const RobotHealth& robot : now.health) {
-      if (robot.id == known.first) return false;
-    }
-    return true;
-  });
+  std::erase_if(m_robots, [&now](const auto& known) { return now.robot(known.first) == nullptr; });
   return out;
 }
 

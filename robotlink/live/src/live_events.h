@@ -28,8 +28,7 @@ class LiveEvents {
     std::optional<Penalty> penalty;
   };
   void compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out);
-  void compareRobot(const RobotHealth& health, const sim::RobotIdentity& robot, double time,
-                    std::vector<MatchEvent>& out);
+  void compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out);
 
   std::optional<RefereeView> m_referee;
   std::map<RobotId, Known> m_robots;

@@ -167,14 +167,14 @@ std::string MatchLoop::nameOf(const ChildSpec& child) const {
   const auto& robots = m_match.simulation().state().robots;
   const auto index = m_match.simulation().indexOf(child.robot);
   const std::string robot =
-      index ? std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number)
-            : "robot " + std::to_string(child.robot.value);
+      index ? robots[*index].name() : "robot " + std::to_string(child.robot.value);
   return robot + ' ' + child.name;
 }
 
 void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {
   const sim::WorldState& state = m_match.simulation().state();
-  LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text, warning};
+  LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text,
+               logLevel(warning)};
   for (const auto& observer : m_player.observers()) observer->logged(line);
   const std::lock_guard lock(m_shared.mutex);
   pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);

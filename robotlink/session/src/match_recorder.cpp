@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include <base/actions.h>
 #include <base/file_target.h>
 #include <robotlink/session/row_walk.h>
 #include <robotlink/session/session_events.h>
@@ -94,8 +95,7 @@ void MatchRecorder::worldChanged(const SimulatedMatch& match) {
 }
 
 void MatchRecorder::logged(const LogLine& line) {
-  m_writer->append(
-      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+  m_writer->append(line);
 }
 
 void MatchRecorder::left() {

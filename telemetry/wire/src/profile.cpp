@@ -67,8 +67,8 @@ std::string fieldProblem(const ProfileField& field, std::set<std::string>& names
     return "Names that begin with OTHER_ are kept for fields without a name.";
   }
   if (!names.insert(field.name).second) return "Two fields are called \"" + field.name + "\".";
-  if (field.unit.size() > maxNameBytes || field.group.size() > maxNameBytes) {
-    return "A unit or group has at most 60 characters.";
+  if (field.unit.size() > maxNameBytes || field.category.size() > maxNameBytes) {
+    return "A unit or category has at most 60 characters.";
   }
   if (field.meaning != FieldMeaning::None && !used.insert(field.meaning).second) {
     return "Two fields have the meaning \"" + std::string(meaningName(field.meaning)) + "\".";
@@ -133,7 +133,7 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
     const std::string path = top.pathOf("fields", i);
     where.push_back(file + ":" + std::to_string(item.line) + ": " + path);
     profile.fields.push_back(
-        fieldFrom(JsonObject(report, item, path, {"name", "type", "unit", "group", "meaning"})));
+        fieldFrom(JsonObject(report, item, path, {"name", "type", "unit", "category", "group", "meaning"})));
   }
   if (report.failed()) return tl::unexpected(report.error());
   if (const auto valid = validateAt(profile, where, file); !valid) {
@@ -154,7 +154,7 @@ std::string profileText(const Profile& profile) {
     fields.push_back({{"name", field.name},
                       {"type", types[static_cast<std::size_t>(field.type)]},
                       {"unit", field.unit},
-                      {"group", field.group},
+                      {"category", field.category},
                       {"meaning", meaningName(field.meaning)}});
   }
   const Json json{{"name", profile.name}, {"end", profile.end}, {"fields", fields}};

@@ -79,12 +79,13 @@ class LogDock : public QWidget {
     // Simulated and live lines stand in one log: both go on while the other is looked at.
     for (FrameSource* source : shown->sources()) {
       connect(source, &FrameSource::logReceived, this,
-              [this](const std::vector<link::LogLine>& lines) { append(lines); });
+              [this](const std::vector<LogLine>& lines) { append(lines); });
       connect(source, &FrameSource::eventsReceived, this, &LogDock::appendEvents);
     }
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
-      append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(), true}});
+      append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
+               LogLevel::Warning}});
     });
   }
 
@@ -99,7 +100,7 @@ class LogDock : public QWidget {
                               "processes print appear here."));
   }
 
-  void append(const std::vector<link::LogLine>& lines) {
+  void append(const std::vector<LogLine>& lines) {
     const QScrollBar* bar = m_table->verticalScrollBar();
     const bool follows = bar->value() >= bar->maximum();
     m_model->append(lines);
@@ -107,7 +108,7 @@ class LogDock : public QWidget {
   }
 
   void appendEvents(const std::vector<link::MatchEvent>& events) {
-    std::vector<link::LogLine> lines;
+    std::vector<LogLine> lines;
     for (const link::MatchEvent& event : events) lines.push_back(logLineOf(event));
     append(lines);
   }

@@ -107,9 +107,9 @@ void LiveController::remember() {
   constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
   if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
   m_past.push_back(m_frame);
-  m_pastRobots += m_frame->health.size() + 1;
+  m_pastRobots += m_frame->robots.size() + 1;
   while (m_pastRobots > mostRobots) {
-    m_pastRobots -= m_past.front()->health.size() + 1;
+    m_pastRobots -= m_past.front()->robots.size() + 1;
     m_past.pop_front();
   }
 }

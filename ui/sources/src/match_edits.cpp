@@ -97,9 +97,7 @@ void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
     if (known == nullptr) continue;
     leaving.push_back(*known);
     if (!newest) continue;
-    for (const sim::RobotSnapshot& seen : newest->snapshot.robots) {
-      if (seen.identity.id == id) leaving.back().pose = seen.pose;
-    }
+    if (const link::RobotFrame* seen = newest->robot(id)) leaving.back().pose = seen->pose;
   }
   if (!leaving.empty())
     m_undoStack->push(new RemoveRobotsCommand(m_roster.get(), std::move(leaving)));

@@ -69,7 +69,7 @@ FramePtr MatchMemory::frameAt(double time) const {
     m_past = std::make_unique<link::RecordedFrames>(std::move(backdrop));
   }
   auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
-  if (past->snapshot.robots.empty() && !newest->snapshot.robots.empty() &&
+  if (past->robots.empty() && !newest->robots.empty() &&
       time < rows->range()->begin) {
     return nullptr;
   }

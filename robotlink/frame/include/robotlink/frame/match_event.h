@@ -13,12 +13,11 @@
 #include <string_view>
 
 #include <base/ids.h>
+#include <base/log_line.h>
 #include <simcore/world/event.h>
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::link {
-
-struct LogLine;
 
 enum class MatchEventKind : std::uint8_t {
   Goal,              ///< side, team, score

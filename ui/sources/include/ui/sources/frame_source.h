@@ -50,7 +50,7 @@ class FrameSource : public QObject {
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);
   void eventsReceived(const std::vector<pitchboard::link::MatchEvent>& events);
-  void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
+  void logReceived(const std::vector<pitchboard::LogLine>& lines);
   /// What a recording holds of events, once for each recording.
   void eventsRecorded(const std::vector<pitchboard::link::MatchEvent>& events);
   /// Another match or session, or none: what was remembered of the old one is void.
