@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <robotlink/frame/match_frame.h>
 #include <base/actions.h>
+#include <robotlink/frame/match_frame.h>
 
 namespace pitchboard::link {
 namespace {
@@ -111,9 +111,8 @@ std::string predicateOf(const MatchEvent& event) {
       return out;
     }
     case Kind::Kick:
-      return event.value
-                 ? std::string(info(event.kind).words) + ": " + actionWords(*event.value)
-                 : wordsAnd(event);
+      return event.value ? std::string(info(event.kind).words) + ": " + actionWords(*event.value)
+                         : wordsAnd(event);
     case Kind::UnknownAction:
       return event.value ? "chose the unknown action code " + std::to_string(*event.value) +
                                ", which counts as stop"

@@ -132,8 +132,8 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
     const JsonNode& item = (*fields)[i];
     const std::string path = top.pathOf("fields", i);
     where.push_back(file + ":" + std::to_string(item.line) + ": " + path);
-    profile.fields.push_back(
-        fieldFrom(JsonObject(report, item, path, {"name", "type", "unit", "category", "group", "meaning"})));
+    profile.fields.push_back(fieldFrom(
+        JsonObject(report, item, path, {"name", "type", "unit", "category", "group", "meaning"})));
   }
   if (report.failed()) return tl::unexpected(report.error());
   if (const auto valid = validateAt(profile, where, file); !valid) {

@@ -261,16 +261,16 @@ void MatchController::post(MatchOrder order) {
     const QString sentence = done ? QString()
                                   : order.whatFailed + QStringLiteral(": ") +
                                         QString::fromStdString(done.error().text());
-    m_toUi.post([this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess,
-                 generation] {
-      if (generation != m_generation) return;
-      if (sentence.isEmpty()) {
-        onSuccess();
-        return;
-      }
-      if (onFailure) onFailure();
-      emit errorOccurred(sentence);
-    });
+    m_toUi.post(
+        [this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess, generation] {
+          if (generation != m_generation) return;
+          if (sentence.isEmpty()) {
+            onSuccess();
+            return;
+          }
+          if (onFailure) onFailure();
+          emit errorOccurred(sentence);
+        });
   });
 }
 

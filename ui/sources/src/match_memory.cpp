@@ -50,9 +50,8 @@ void MatchMemory::setSampling(int everyNth) {
   if (everyNth == m_everyNth || everyNth < 1) return;
   m_everyNth = everyNth;
   if (!m_sampler) return;
-  m_match->post([sampler = m_sampler, everyNth](link::SimulatedMatch&) {
-    sampler->setEveryNth(everyNth);
-  });
+  m_match->post(
+      [sampler = m_sampler, everyNth](link::SimulatedMatch&) { sampler->setEveryNth(everyNth); });
 }
 
 FramePtr MatchMemory::frameAt(double time) const {
@@ -69,8 +68,7 @@ FramePtr MatchMemory::frameAt(double time) const {
     m_past = std::make_unique<link::RecordedFrames>(std::move(backdrop));
   }
   auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
-  if (past->robots.empty() && !newest->robots.empty() &&
-      time < rows->range()->begin) {
+  if (past->robots.empty() && !newest->robots.empty() && time < rows->range()->begin) {
     return nullptr;
   }
   return past;

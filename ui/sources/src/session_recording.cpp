@@ -143,10 +143,9 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
   link::RecorderOptions options;
   options.program = programName();
   options.writer = m_writing;
-  auto made =
-      link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
-                                  m_controller->catalog(), m_controller->memory()->sampler(),
-                                  options);
+  auto made = link::MatchRecorder::create(path.toStdString(), m_controller->scenario(),
+                                          m_controller->catalog(),
+                                          m_controller->memory()->sampler(), options);
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::MatchRecorder> recorder = *made;
   m_controller->observe(recorder);

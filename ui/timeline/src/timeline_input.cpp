@@ -130,7 +130,8 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
 void TimelineStrip::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   if (const EventMark* mark = markAt(event->position())) {
-    if (m_timeline->events()->event(mark->row).kind == link::MatchEventKind::Bookmark) editNote(mark->row);
+    if (m_timeline->events()->event(mark->row).kind == link::MatchEventKind::Bookmark)
+      editNote(mark->row);
     return;
   }
   if (event->position().y() > bandRect().bottom()) showAll();
