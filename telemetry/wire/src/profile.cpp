@@ -36,7 +36,8 @@ ProfileField fieldFrom(const JsonObject& object) {
   object.require("type");
   field.type = static_cast<FieldType>(object.choice("type", types, "type of a field").value_or(0));
   field.unit = object.text("unit", {}, maxFileBytes);
-  field.group = object.text("group", {}, maxFileBytes);
+  // Profiles of version 0.1 call it "group".
+  field.category = object.text(object.find("category") ? "category" : "group", {}, maxFileBytes);
   field.meaning =
       static_cast<FieldMeaning>(object.choice("meaning", meanings, "meaning").value_or(0));
   return field;
