@@ -420,6 +420,7 @@ class TestMoments : public QObject {
       recorder->heard(RobotId{1}, time, datagram, monitor.decoder(), monitor.decoded());
     };
     hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
+    recorder->reported(monitor.status(zero + std::chrono::milliseconds(1500)));
     hear(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
     telemetry::DatagramView packet;
     packet.payload = std::string_view("RGme\0\xff", 6);
