@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <telemetry/wire/action_words.h>
+#include <base/actions.h>
 
 namespace pitchboard::cli {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace pitchboard::cli {
 
-Result<void> exportReport(const telemetry::SessionReader& session, telemetry::SessionRange range,
+Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
                           const std::string& output) {
   if (output.empty()) {
     return failure(ErrorCode::InvalidArgument, "a report needs a file; add -o FILE.html");
@@ -31,7 +31,7 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Se
 
   link::RecordedFrames frames(link::backdropOf(session));
   const link::MatchFrame frame = frames.frameAt(session, part.end);
-  if (!frame.snapshot.robots.empty()) {
+  if (!frame.robots.empty()) {
     content.picture = link::fieldSvg(frame);
     char caption[96];
     std::snprintf(

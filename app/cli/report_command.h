@@ -12,7 +12,7 @@ namespace pitchboard::cli {
 
 /// The part of the session in the closed range (s; may reach beyond it) as an HTML page. Never over
 /// an existing file.
-Result<void> exportReport(const telemetry::SessionReader& session, telemetry::SessionRange range,
+Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
                           const std::string& output);
 
 }  // namespace pitchboard::cli

@@ -19,10 +19,6 @@ double speedOf(const Outcome& outcome) {
   return outcome.wallSeconds > 0 ? outcome.simulatedSeconds / outcome.wallSeconds : 0.0;
 }
 
-std::string nameOf(const sim::RobotIdentity& robot) {
-  return std::string(info(robot.team).letter) + std::to_string(robot.number);
-}
-
 const char* reasonText(const std::string& finishedBy) {
   if (finishedBy == "goal") return "a goal was scored";
   if (finishedBy == "ball_out") return "the ball left the field";
@@ -54,7 +50,7 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   if (now.robots.empty()) return;
   std::printf("  Robot   walked   kicks  falls  unknown actions\n");
   for (const sim::RobotSnapshot& robot : now.robots) {
-    std::printf("  %-5s %7.2f m  %5u  %5u  %15u\n", nameOf(robot.identity).c_str(),
+    std::printf("  %-5s %7.2f m  %5u  %5u  %15u\n", robot.identity.name().c_str(),
                 robot.statistics.distanceWalked, robot.statistics.kicks, robot.statistics.falls,
                 robot.statistics.unknownActions);
   }
@@ -67,7 +63,7 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
   Json robots = Json::array();
   for (const sim::RobotSnapshot& robot : now.robots) {
     robots.push_back({{"id", robot.identity.id.value},
-                      {"name", nameOf(robot.identity)},
+                      {"name", robot.identity.name()},
                       {"distance_m", robot.statistics.distanceWalked},
                       {"kicks", robot.statistics.kicks},
                       {"falls", robot.statistics.falls},

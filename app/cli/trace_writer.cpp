@@ -30,8 +30,7 @@ Result<TraceWriter> TraceWriter::create(const std::string& path, IfExists ifExis
   TraceWriter writer(std::move(*target), std::move(*file));
   writer.m_line = "tick,time_s,ball_x,ball_y,ball_vx,ball_vy,score_left,score_right";
   for (const sim::RobotSnapshot& robot : first.robots) {
-    const std::string name =
-        std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number) + '_';
+    const std::string name = robot.identity.name() + '_';
     for (const char* column : {"x", "y", "heading_deg", "head_deg", "action"}) {
       writer.m_line += ',' + name + column;
     }

@@ -31,19 +31,17 @@ FramePtr movingFrame(int serial) {
   frame->snapshot.ball = {std::sin(serial * 0.02), 0.3};
   for (int i = 0; i < 22; ++i) {
     const double phase = serial * 0.01 + i;
-    sim::RobotSnapshot robot;
+    link::RobotFrame robot;
     robot.identity = {RobotId{i + 1}, i < 11 ? TeamColor::Blue : TeamColor::Red, i % 11 + 1, false};
     robot.pose = {{-4.0 + 0.38 * i + 0.3 * std::cos(phase), 2.4 * std::sin(phase * 0.7)}, phase};
     robot.headYaw = phase + 0.2;
-    frame->snapshot.robots.push_back(robot);
-    link::RobotBoardView board;
-    board.id = robot.identity.id;
+    link::RobotBoardView& board = robot.board.emplace();
     board.localizationX = static_cast<int>(100 * (robot.pose.position.x + 4.5)) + 10;
     board.localizationY = static_cast<int>(100 * (3.0 - robot.pose.position.y)) + 10;
     board.belief = 25.0F;
     board.localizationWorking = board.visionWorking = true;
     board.ballDistCm = 150.0F;
-    frame->boards.push_back(board);
+    frame->robots.push_back(robot);
   }
   return frame;
 }

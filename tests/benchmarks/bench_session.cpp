@@ -120,7 +120,7 @@ void openAndFirstFrame(benchmark::State& state) {
     const auto session = SessionReader::open(path);
     link::RecordedFrames frames(link::backdropOf(*session));
     const link::MatchFrame frame = frames.frameAt(*session, session->range()->begin);
-    if (frame.snapshot.robots.size() != 6) state.SkipWithError("not six robots");
+    if (frame.robots.size() != 6) state.SkipWithError("not six robots");
   }
   state.counters["MB of an hour"] = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
 }

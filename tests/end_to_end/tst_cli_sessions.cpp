@@ -22,7 +22,7 @@ using namespace pitchboard::telemetry;
 namespace {
 
 const QString program = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
-constexpr SessionRange always{-1e9, 1e9};
+constexpr TimeRange always{-1e9, 1e9};
 
 struct Run {
   int exitCode = -1;
@@ -81,8 +81,7 @@ std::size_t columnOf(const GroupInfo& info, const std::string& name) {
 /// By time, robot and variable.
 using Values = std::map<std::tuple<double, std::string, std::string>, double>;
 
-Values valuesOf(const QString& path, SessionRange range,
-                const std::vector<std::string>& robots = {},
+Values valuesOf(const QString& path, TimeRange range, const std::vector<std::string>& robots = {},
                 const std::vector<std::string>& variables = {}) {
   Values out;
   const auto session = SessionReader::open(path.toStdString());

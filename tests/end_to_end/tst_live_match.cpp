@@ -61,31 +61,31 @@ class TestLiveMatch : public QObject {
     options.portBase = m_portBase;
     options.refereePort = m_portBase + 18;
     link::LiveWatch live(options);
-    QTRY_VERIFY_WITH_TIMEOUT(live.latest() && live.latest()->health.size() == 6, 30000);
+    QTRY_VERIFY_WITH_TIMEOUT(live.latest() && live.latest()->robots.size() == 6, 30000);
     // Where the telemetry says that a robot believes to be is what stands on its blackboard: robots
     // move on between the message and the look, so a step of a second is allowed.
     int agree = 0;
     const auto compare = [&] {
       agree = 0;
       const auto frame = live.latest();
-      for (std::size_t i = 0; i < frame->health.size(); ++i) {
-        const int key = m_keyBase + 100 * frame->health[i].id.value;
+      for (const link::RobotFrame& robot : frame->robots) {
+        const int key = m_keyBase + 100 * robot.id().value;
         const auto board = link::SystemVSegments::open(key, link::AttachMode::ReadOnly);
         if (!board) continue;
         const link::RobotVariables variables;
         const int x = board->read(variables.localizationX);
         const int y = board->read(variables.localizationY);
         const double away =
-            std::hypot(x - frame->boards[i].localizationX, y - frame->boards[i].localizationY);
-        if (away < 60.0 && frame->health[i].poseKnown) ++agree;
+            std::hypot(x - robot.board->localizationX, y - robot.board->localizationY);
+        if (away < 60.0 && robot.poseKnown()) ++agree;
       }
       return agree == 6;
     };
     QTRY_VERIFY2_WITH_TIMEOUT(compare(), qPrintable(QString::number(agree)), 20000);
     const auto details = live.details();
     QCOMPARE(details.team.errors.total(), std::uint64_t(0));
-    QTRY_VERIFY_WITH_TIMEOUT(live.latest()->health[0].messages >= 3, 20000);
-    QVERIFY(live.latest()->health[0].rate > 0.3);
+    QTRY_VERIFY_WITH_TIMEOUT(live.latest()->robots[0].health->messages >= 3, 20000);
+    QVERIFY(live.latest()->robots[0].health->rate > 0.3);
     match.terminate();
     QVERIFY(match.waitForFinished(15000));
   }

@@ -97,7 +97,7 @@ class TestMcapReaders : public QObject {
     QVERIFY(writer);
     m_rows = record(**writer, 600);
     (*writer)->append(SessionStream::Telemetry, {0.5, {{0x7f000001}, 4711}, 1241, "RBT|\xff"});
-    (*writer)->append(SessionLogLine{1.0, 2, "B1/decision", "hello"});
+    (*writer)->append(pitchboard::LogLine{1.0, "B1/decision", "hello"});
     (*writer)->attach("scenario.json", "application/json", "{}");
     QVERIFY((*writer)->finish());
   }

@@ -3,9 +3,9 @@
 
 #include <QtTest>
 
+#include <base/actions.h>
 #include <robotlink/live/live_rows.h>
 #include <telemetry/series/series_store.h>
-#include <telemetry/wire/action_words.h>
 
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
@@ -64,10 +64,10 @@ class TestLiveRows : public QObject {
     QCOMPARE(rig.latest("Robot 3", "AGE"), 0.0);
     const GroupInfo& info = view->info();
     QCOMPARE(info.columns[1].unit, std::string("cm"));
-    QCOMPARE(info.columns[1].heading, std::string("Localization"));
+    QCOMPARE(info.columns[1].category, std::string("Localization"));
     QVERIFY(info.columns[7].kind == ColumnKind::Flag);
     QVERIFY(info.columns[12].kind == ColumnKind::Enumeration);
-    QCOMPARE(info.columns[12].labels.at(8), actionWords(8));
+    QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionWords(8));
     QCOMPARE(info.attributes.at("number"), std::string("3"));
     QCOMPARE(info.attributes.at("sender"), std::string("10.0.0.1"));
   }

@@ -6,12 +6,12 @@
 #include <bit>
 #include <numbers>
 
+#include <base/actions.h>
 #include <base/angles.h>
 #include <resources/resources.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/session/match_sampler.h>
 #include <telemetry/series/series_store.h>
-#include <telemetry/wire/action_words.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -70,8 +70,7 @@ class TestMatchSampler : public QObject {
     QCOMPARE(rig.latest("match", "CLOCK"), now.clock);
     QCOMPARE(rig.latest("match", "TICK_TIME"), 12.0);
     for (const sim::RobotSnapshot& robot : now.robots) {
-      const std::string name =
-          std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
+      const std::string name = robot.identity.name();
       QCOMPARE(rig.latest(name.c_str(), "TRUE_X"), robot.pose.position.x);
       QCOMPARE(rig.latest(name.c_str(), "TRUE_Y"), robot.pose.position.y);
       QCOMPARE(rig.latest(name.c_str(), "TRUE_YAW"), degreesFromRadians(robot.pose.yaw));
@@ -105,9 +104,7 @@ class TestMatchSampler : public QObject {
   void errorsOfBeliefAndVision() {
     Rig rig("one-robot");
     const RobotId id = rig.match.simulation().state().robots.front().id;
-    const std::string group =
-        std::string(info(rig.match.simulation().state().robots.front().team).letter) +
-        std::to_string(rig.match.simulation().state().robots.front().number);
+    const std::string group = rig.match.simulation().state().robots.front().name();
     const char* const name = group.c_str();
     Blackboard& board = *rig.match.blackboard(id);
     const RobotVariables& v = rig.match.variables();
@@ -148,35 +145,41 @@ class TestMatchSampler : public QObject {
     near("BALL_ANGLE_ERROR", 90.0);
   }
 
-  void unitsHeadingsAndWords() {
+  void unitsCategoriesAndWords() {
     Rig rig;
     QCOMPARE(rig.column("B1", "VISION_BALL_DIST").unit, std::string("cm"));
-    QCOMPARE(rig.column("B1", "VISION_BALL_DIST").heading, std::string("Vision"));
+    QCOMPARE(rig.column("B1", "VISION_BALL_DIST").category, std::string("Vision"));
     QCOMPARE(rig.column("B1", "IMU_EULER_Z").unit, std::string("rad"));
-    QCOMPARE(rig.column("B1", "LOCALIZATION_RBT01_X").heading, std::string("Localization"));
+    QCOMPARE(rig.column("B1", "LOCALIZATION_RBT01_X").category, std::string("Localization"));
     QCOMPARE(rig.column("B1", "VOLTAGE").unit, std::string("0.1 V"));
     QVERIFY(rig.column("B1", "VISION_WORKING").kind == ColumnKind::Flag);
-    QCOMPARE(rig.column("B1", "VISION_WORKING").heading, std::string("Processes"));
+    QCOMPARE(rig.column("B1", "VISION_WORKING").category, std::string("Processes"));
     for (const char* name : {"DECISION_ACTION_A", "CONTROL_ACTION", "ACTION"}) {
       const auto& column = rig.column("B1", name);
       QVERIFY(column.kind == ColumnKind::Enumeration);
       QCOMPARE(column.labels.size(), std::size_t{23});
-      QCOMPARE(column.labels.at(22), telemetry::actionWords(22));
+      QCOMPARE(column.labels.at(22), actionWords(22));
     }
-    QCOMPARE(rig.column("B1", "TRUE_X").heading, std::string("Truth"));
-    QCOMPARE(rig.column("B1", "BELIEF_ERROR").heading, std::string("Belief error"));
+    // What a team-mate told is its intention, not its action.
+    const auto& told = rig.column("B1", "COM_ACTION_ROBOT1");
+    QVERIFY(told.kind == ColumnKind::Enumeration);
+    QCOMPARE(told.labels, rig.column("B1", "DECISION_STATE").labels);
+    QCOMPARE(told.labels.size(), std::size_t{7});
+    QCOMPARE(told.labels.at(3), std::string("at the ball"));
+    QCOMPARE(rig.column("B1", "TRUE_X").category, std::string("Truth"));
+    QCOMPARE(rig.column("B1", "BELIEF_ERROR").category, std::string("Belief error"));
     for (const auto& column : rig.store->view(*rig.store->findGroup("B1"))->info().columns) {
-      QVERIFY2(!column.heading.empty() && column.heading != "Other", column.name.c_str());
+      QVERIFY2(!column.category.empty() && column.category != "Other", column.name.c_str());
     }
     // Variables of a team's own map go by their beginning.
     telemetry::ColumnInfo own;
     own.name = "VISION_NEW_THING";
     VariableMeanings::published().describe(own);
-    QCOMPARE(own.heading, std::string("Vision"));
+    QCOMPARE(own.category, std::string("Vision"));
     own = {};
     own.name = "SOMETHING";
     VariableMeanings::published().describe(own);
-    QCOMPARE(own.heading, std::string("Other"));
+    QCOMPARE(own.category, std::string("Other"));
   }
 
   void theResourceIsSound() {

@@ -102,14 +102,11 @@ void compareFrame(const MatchFrame& frame, const Witness::Seen& seen) {
   QVERIFY(frame.snapshot.ball == seen.snapshot.ball);
   QVERIFY(frame.snapshot.score == seen.snapshot.score);
   QCOMPARE(frame.snapshot.clock, seen.snapshot.clock);
-  QCOMPARE(frame.snapshot.robots.size(), seen.snapshot.robots.size());
-  QCOMPARE(frame.boards.size(), frame.snapshot.robots.size());
-  QVERIFY(frame.health.empty());
+  QCOMPARE(frame.robots.size(), seen.snapshot.robots.size());
   for (const sim::RobotSnapshot& robot : seen.snapshot.robots) {
-    const auto found =
-        std::find_if(frame.snapshot.robots.begin(), frame.snapshot.robots.end(),
-                     [&](const auto& other) { return other.identity == robot.identity; });
-    QVERIFY(found != frame.snapshot.robots.end());
+    const RobotFrame* found = frame.robot(robot.identity.id);
+    QVERIFY(found != nullptr && found->identity == robot.identity);
+    QVERIFY(found->board && !found->health);
     QVERIFY(found->pose.position == robot.pose.position);
     QVERIFY(std::abs(std::remainder(found->pose.yaw - robot.pose.yaw, 6.283185307179586)) < 1e-12);
     QVERIFY(found->statistics == robot.statistics);
@@ -139,8 +136,8 @@ class TestMoments : public QObject {
       const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
       compareFrame(frame, m_match->witness->seen.at(tick));
       if (tick < 60) continue;
-      QVERIFY(frame.boards[0].visionWorking && frame.boards[0].controlWorking);
-      QVERIFY(!frame.boards[0].behaviour.empty());
+      QVERIFY(frame.robots[0].board->visionWorking && frame.robots[0].board->controlWorking);
+      QVERIFY(!frame.robots[0].board->behaviour.empty());
     }
     QElapsedTimer timer;
     timer.start();
@@ -164,7 +161,7 @@ class TestMoments : public QObject {
       QCOMPARE(frame.seed, m_match->scenario.settings.seed);
     }
     // Before the first row there is nothing, and that is no error.
-    QVERIFY(frames.frameAt(session, -5).snapshot.robots.empty());
+    QVERIFY(frames.frameAt(session, -5).robots.empty());
     const auto events = session.events();
     QVERIFY(
         std::any_of(events.begin(), events.end(), [](const auto& e) { return e.kind == "kick"; }));
@@ -280,11 +277,10 @@ class TestMoments : public QObject {
     const sim::Snapshot start = match->simulation().snapshot();
     QVERIFY(start.score == (sim::Score{2, 1}));
     QVERIFY(std::abs(start.clock - frame.snapshot.clock) < 1e-9);
-    QCOMPARE(start.robots.size(), frame.snapshot.robots.size());
+    QCOMPARE(start.robots.size(), frame.robots.size());
     for (std::size_t i = 0; !believed && i < start.robots.size(); ++i) {
-      QVERIFY(std::hypot(start.robots[i].pose.position.x - frame.snapshot.robots[i].pose.position.x,
-                         start.robots[i].pose.position.y -
-                             frame.snapshot.robots[i].pose.position.y) < 0.05);
+      QVERIFY(std::hypot(start.robots[i].pose.position.x - frame.robots[i].pose.position.x,
+                         start.robots[i].pose.position.y - frame.robots[i].pose.position.y) < 0.05);
     }
     for (int i = 0; i < 600; ++i) match->tick();
     const auto text = scenarioToJson(made.scenario);
@@ -299,11 +295,11 @@ class TestMoments : public QObject {
     const std::vector<Pose> poses{{{99, 99}, 0},  {{nan, 0}, nan}, {{1, 1}, 0}, {{1, 1}, 3},
                                   {{1.05, 1}, 9}, {{-4, 0}, 1},    {{0, 0}, 0}};
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      sim::RobotSnapshot robot;
+      RobotFrame robot;
       robot.identity.id.value = i == 1 ? 70000 : static_cast<int>(i % 5);
       robot.identity.number = static_cast<int>(i % 3);
       robot.pose = poses[i];
-      frame.snapshot.robots.push_back(robot);
+      frame.robots.push_back(robot);
     }
     frame.snapshot.score = {-4, 3};
     frame.snapshot.clock = nan;
@@ -333,25 +329,23 @@ class TestMoments : public QObject {
     frame.truthKnown = frame.ballKnown = false;
     const Point ball{1.0, 0.5};
     for (int i = 0; i < 4; ++i) {
-      sim::RobotSnapshot robot;
+      RobotFrame robot;
       robot.identity = {RobotId{i + 1}, TeamColor::Blue, i + 1, false};
       robot.pose = {{-1.0 + i, -1.0}, 0.3 * i};
-      RobotBoardView board;
-      board.id = robot.identity.id;
+      RobotBoardView& board = robot.board.emplace();
       board.visionWorking = true;
       // The last one sees something else.
       const Point seen = i == 3 ? Point{-4, -2} : Point{ball.x + 0.1 * (i - 1), ball.y};
       const double dx = seen.x - robot.pose.position.x, dy = seen.y - robot.pose.position.y;
       board.ballDistCm = static_cast<float>(100 * std::hypot(dx, dy));
       board.panDeg = static_cast<float>((std::atan2(dy, dx) - robot.pose.yaw) * 57.29577951308232);
-      frame.snapshot.robots.push_back(robot);
-      frame.boards.push_back(board);
+      frame.robots.push_back(robot);
     }
     MomentScenario made = scenarioFromMoment(frame);
     QVERIFY(std::hypot(made.scenario.ball.x - ball.x, made.scenario.ball.y - ball.y) < 1e-4);
     QCOMPARE(made.notes.size(), std::size_t{1});
     QVERIFY2(made.notes[0].find("3 of the 4") != std::string::npos, made.notes[0].c_str());
-    for (auto& board : frame.boards) board.visionLost = true;
+    for (RobotFrame& robot : frame.robots) robot.board->visionLost = true;
     made = scenarioFromMoment(frame);
     QVERIFY(made.scenario.ball == Point{});
     QCOMPARE(made.notes,
@@ -382,7 +376,7 @@ class TestMoments : public QObject {
     store.append(store.addGroup(bare), {1.0, {}, {}});
     RecordedFrames frames;
     const MatchFrame frame = frames.frameAt(store, 2.0);
-    QCOMPARE(frame.snapshot.robots.size(), std::size_t{1});
+    QCOMPARE(frame.robots.size(), std::size_t{1});
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
   }
 
@@ -420,6 +414,7 @@ class TestMoments : public QObject {
       recorder->heard(RobotId{1}, time, datagram, monitor.decoder(), monitor.decoded());
     };
     hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
+    recorder->reported(monitor.status(zero + std::chrono::milliseconds(1500)));
     hear(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
     telemetry::DatagramView packet;
     packet.payload = std::string_view("RGme\0\xff", 6);
@@ -431,7 +426,7 @@ class TestMoments : public QObject {
     frame.referee->secondsLeft = 432;
     frame.referee->teams[1].score = 3;
     recorder->frameMade(frame);
-    recorder->logged({2.0, "network", "port 1241 is taken", true});
+    recorder->logged({2.0, "network", "port 1241 is taken", LogLevel::Warning});
     QVERIFY(recorder->finish());
 
     const auto session = telemetry::SessionReader::open(path).value();
@@ -441,16 +436,24 @@ class TestMoments : public QObject {
     RecordedFrames frames(backdropOf(session));
     const MatchFrame seen = frames.frameAt(session, 2.1);
     QVERIFY(!seen.truthKnown && !seen.ballKnown);
-    QCOMPARE(seen.snapshot.robots.size(), std::size_t{1});
-    QVERIFY(std::hypot(seen.snapshot.robots[0].pose.position.x - 0.1,
-                       seen.snapshot.robots[0].pose.position.y) < 1e-9);
-    QVERIFY(seen.boards[0].decisionWorking);
-    QCOMPARE(seen.boards[0].voltage, 189);
-    QCOMPARE(seen.health.size(), std::size_t{1});
-    QVERIFY(seen.health[0].ball && !seen.health[0].timedOut);
+    QCOMPARE(seen.robots.size(), std::size_t{1});
+    const RobotFrame& robot = seen.robots[0];
+    QVERIFY(std::hypot(robot.pose.position.x - 0.1, robot.pose.position.y) < 1e-9);
+    QVERIFY(robot.board->decisionWorking);
+    QCOMPARE(robot.board->voltage, 189);
+    QVERIFY(robot.health && robot.health->ball && !robot.timedOut());
+    // What it said stands in the frame as it did in Live.
+    const telemetry::TeamStatus team = monitor.status(zero + std::chrono::milliseconds(2100));
+    QVERIFY(robot.health->battery && robot.health->battery == team.robots.at(0).battery);
+    QCOMPARE(robot.health->sender.address, team.robots[0].sender.address);
+    QCOMPARE(robot.health->values.size(), team.robots[0].words.size());
+    for (std::size_t i = 0; i < robot.health->values.size(); ++i) {
+      QCOMPARE(std::stod(robot.health->values[i].text), team.robots[0].values[i]);
+      QCOMPARE(robot.health->values[i].name, team.robots[0].decoder->name(i));
+    }
     QVERIFY(seen.referee && seen.referee->state == "PLAYING");
     QVERIFY(seen.snapshot.score == (sim::Score{0, 3}));
-    QVERIFY(!frames.frameAt(session, 1.1).boards[0].decisionWorking);
+    QVERIFY(!frames.frameAt(session, 1.1).robots[0].board->decisionWorking);
     QCOMPARE(momentFromSession(session, 2.0, VariableCatalog::published()).error().code,
              ErrorCode::NotFound);
     const MomentScenario made = scenarioFromMoment(seen);

@@ -55,8 +55,7 @@ class TestReport : public QObject {
     QCOMPARE(m_statistics.robots.size(), m_end.robots.size());
     double ball = 0.0;
     for (const sim::RobotSnapshot& robot : m_end.robots) {
-      const std::string name =
-          std::string(info(robot.identity.team).letter) + std::to_string(robot.identity.number);
+      const std::string name = robot.identity.name();
       const auto found = std::find_if(m_statistics.robots.begin(), m_statistics.robots.end(),
                                       [&](const auto& one) { return one.name == name; });
       QVERIFY(found != m_statistics.robots.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 #include <cmath>
+#include <set>
 
 #include <base/angles.h>
 #include <simcore/world/action.h>
@@ -85,9 +86,14 @@ class TestPublishedFrame : public QObject {
   void codesOutsideTheTableAreUnknown() {
     for (const int code : {-1, 23, 99, std::numeric_limits<int>::max()}) {
       QVERIFY(findAction(code) == nullptr);
-      QVERIFY(actionWords(code).empty());
+      QCOMPARE(pitchboard::actionWords(code), "action " + std::to_string(code));
     }
-    for (const Action& action : actionTable()) QVERIFY(!action.words.empty());
+    std::set<std::string_view> words;
+    for (const Action& action : actionTable()) {
+      QVERIFY(words.insert(action.words).second);
+      QCOMPARE(pitchboard::actionWords(action.code), std::string(action.words));
+    }
+    QCOMPARE(pitchboard::actionLabels().size(), words.size());
   }
 };
 

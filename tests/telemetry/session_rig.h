@@ -99,7 +99,7 @@ inline std::vector<Row> record(SessionWriter& writer, int ticks) {
   return rows;
 }
 
-inline std::vector<Row> rowsOf(const SessionReader& reader, SessionRange range) {
+inline std::vector<Row> rowsOf(const SessionReader& reader, TimeRange range) {
   std::vector<Row> rows;
   reader.rows(range, {}, [&](GroupId group, const RowView& row) {
     rows.push_back({group,
@@ -111,7 +111,7 @@ inline std::vector<Row> rowsOf(const SessionReader& reader, SessionRange range) 
   return rows;
 }
 
-inline constexpr SessionRange everything{-1e9, 1e9};
+inline constexpr TimeRange everything{-1e9, 1e9};
 
 inline std::string bytesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -37,6 +37,18 @@ class TestProfile : public QObject {
     QVERIFY(*again == profile);
   }
 
+  void aProfileOfVersionOneHasGroups() {
+    std::string text = profileText(publishedProfile());
+    QVERIFY(text.find("\"group\"") == std::string::npos);
+    for (std::size_t at; (at = text.find("\"category\"")) != std::string::npos;) {
+      text.replace(at, 10, "\"group\"");
+    }
+    const auto old = parseProfile(text, "old");
+    QVERIFY2(old, old ? "" : old.error().text().c_str());
+    QVERIFY(*old == publishedProfile());
+    QCOMPARE(old->fields[1].category, std::string("Localization"));
+  }
+
   void mistakesAreNamed_data() {
     QTest::addColumn<QByteArray>("json");
     QTest::addColumn<QByteArray>("expected");

@@ -41,7 +41,8 @@ class TestSession : public QObject {
     const SessionDatagram utf8{1.5, {{0xc0a80007}, 9}, 1242, "schön\n\""};
     (*writer)->append(SessionStream::Telemetry, text);
     (*writer)->append(SessionStream::Telemetry, utf8);
-    (*writer)->append(SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""});
+    (*writer)->append(
+        pitchboard::LogLine{2.0, "B1/decision", "said \"ouch\"", pitchboard::LogLevel::Warning});
     (*writer)->appendJson(SessionStream::Checkpoints, 0.1, R"({"time":0.1})");
     QVERIFY((*writer)->finish());
     const SessionStatus status = (*writer)->status();
@@ -84,7 +85,8 @@ class TestSession : public QObject {
                        return true;
                      });
     reader->messages(SessionStream::Log, everything, [&](double, std::string_view json) {
-      seen += sessionLogLine(json) == SessionLogLine{2.0, 3, "B1/decision", "said \"ouch\""};
+      seen += sessionLogLine(json) == pitchboard::LogLine{2.0, "B1/decision", "said \"ouch\"",
+                                                          pitchboard::LogLevel::Warning};
       return true;
     });
     QCOMPARE(seen, 4);

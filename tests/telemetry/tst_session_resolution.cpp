@@ -113,6 +113,16 @@ class TestSessionResolution : public QObject {
     QCOMPARE(session::groupFromJson(json("float64")).has_value(), good);
     QVERIFY(!session::groupFromJson(json("float32")));
   }
+
+  void aFileOfVersionOneHasHeadings() {
+    GroupInfo group{"g", {{"A", ColumnType::Float64, "m", "Truth", ColumnKind::Number, {}}}, {}};
+    std::string text = session::groupToJson(group);
+    const auto at = text.find("category");
+    QVERIFY(at != std::string::npos);
+    QVERIFY(session::groupFromJson(text) == group);
+    text.replace(at, 8, "heading");
+    QVERIFY(session::groupFromJson(text) == group);
+  }
 };
 
 QTEST_GUILESS_MAIN(TestSessionResolution)

@@ -2,7 +2,7 @@
 #include <QtTest>
 #include <cmath>
 
-#include <telemetry/wire/action_words.h>
+#include <base/actions.h>
 #include <telemetry/wire/team_monitor.h>
 
 using namespace pitchboard::telemetry;
@@ -48,7 +48,7 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(give(monitor, text(3), start + 20s), Verdict::Used);
     const RobotStatus back = monitor.status(start + 20s).robots[0];
     QVERIFY(!back.timedOut);
-    QCOMPARE(back.timeouts, std::uint64_t(1));
+    QCOMPARE(back.recoveries, std::uint64_t(1));
     QCOMPARE(back.messages, std::uint64_t(2));
     QVERIFY(back.processes[0].state == ProcessState::Working);
   }
@@ -273,10 +273,10 @@ class TestTeamMonitor : public QObject {
   }
 
   void actionsInWords() {
-    QCOMPARE(actionWords(0), std::string("stop"));
-    QCOMPARE(actionWords(22), std::string("kick left weak"));
-    QCOMPARE(actionWords(23), std::string("action 23"));
-    QCOMPARE(actionWords(-1), std::string("action -1"));
+    QCOMPARE(pitchboard::actionWords(0), std::string("stop"));
+    QCOMPARE(pitchboard::actionWords(22), std::string("kick left, weak"));
+    QCOMPARE(pitchboard::actionWords(23), std::string("action 23"));
+    QCOMPARE(pitchboard::actionWords(-1), std::string("action -1"));
   }
 };
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+#include <base/actions.h>
 #include <telemetry/series/series_store.h>
 #include <ui/base/plot_target.h>
 #include <ui/sources/linked_time.h>
@@ -37,7 +38,7 @@ class PlotSource : public FrameSource {
     action.name = "ACTION";
     action.type = telemetry::ColumnType::Int32;
     action.kind = telemetry::ColumnKind::Enumeration;
-    action.labels = {{0, "stop"}, {1, "walk forward, fast"}, {2, "turn left"}};
+    action.labels = actionLabels();
     info.columns.push_back(action);
     for (const auto& [column, unit] : {std::pair{"DIST", "cm"}, {"ANGLE", "°"}, {"NOISY", ""}}) {
       telemetry::ColumnInfo made;

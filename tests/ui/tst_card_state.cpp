@@ -15,16 +15,14 @@ namespace {
 link::MatchFrame frameOf(std::uint64_t serial) {
   link::MatchFrame frame;
   frame.serial = serial;
-  sim::RobotSnapshot robot;
+  link::RobotFrame robot;
   robot.identity = {RobotId{4}, TeamColor::Red, 2, true};
   robot.action = 8;
-  frame.snapshot.robots.push_back(robot);
-  link::RobotBoardView board;
-  board.id = RobotId{4};
+  link::RobotBoardView& board = robot.board.emplace();
   board.actionA = 8;
   board.voltage = 189;
   board.visionWorking = board.decisionWorking = board.imuWorking = true;
-  frame.boards.push_back(board);
+  frame.robots.push_back(robot);
   return frame;
 }
 
@@ -50,13 +48,13 @@ class TestCardState : public QObject {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
     tracker.update(frame, 0);
-    frame.boards[0].decisionWorking = false;
+    frame.robots[0].board->decisionWorking = false;
     tracker.update(frame, 1000);
     const auto cards = tracker.update(frame, 9000);
     QCOMPARE(cards[0].lamps[3].state, LampState::Silent);
     QCOMPARE(cards[0].tag, QStringLiteral("D silent 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
-    frame.boards[0].decisionWorking = true;
+    frame.robots[0].board->decisionWorking = true;
     QCOMPARE(tracker.update(frame, 9100)[0].lamps[3].state, LampState::Working);
   }
 
@@ -65,7 +63,7 @@ class TestCardState : public QObject {
     link::MatchFrame frame = frameOf(1);
     tracker.update(frame, 0);
     frame.paused = true;
-    frame.boards[0].decisionWorking = false;
+    frame.robots[0].board->decisionWorking = false;
     QCOMPARE(tracker.update(frame, 60000)[0].lamps[3].state, LampState::Working);
   }
 
@@ -82,9 +80,14 @@ class TestCardState : public QObject {
     link::ChildStatus child;
     child.spec.robot = RobotId{4};
     child.spec.name = "communication";
-    frame.children.push_back(child);
+    const auto run = [&](link::ChildState state) {
+      child.state = state;
+      frame.robots[0].processList =
+          std::make_shared<const std::vector<link::ChildStatus>>(1, child);
+    };
+    run(link::ChildState::Running);
     QCOMPARE(tracker.update(frame, 0)[0].lamps[0].state, LampState::Working);
-    frame.children[0].state = link::ChildState::Failed;
+    run(link::ChildState::Failed);
     QCOMPARE(tracker.update(frame, 100)[0].lamps[0].state, LampState::Silent);
   }
 
@@ -106,12 +109,12 @@ class TestCardState : public QObject {
     QFETCH(int, unknown);
     QFETCH(QString, tag);
     link::MatchFrame frame = frameOf(1);
-    frame.boards[0].voltage = voltage;
-    frame.snapshot.robots[0].fallen = fallen;
+    frame.robots[0].board->voltage = voltage;
+    frame.robots[0].fallen = fallen;
     if (unknown != 0) {
-      frame.boards[0].actionA = unknown;
-      frame.snapshot.robots[0].statistics.unknownActions = 1;
-      frame.snapshot.robots[0].statistics.lastUnknownAction = unknown;
+      frame.robots[0].board->actionA = unknown;
+      frame.robots[0].statistics.unknownActions = 1;
+      frame.robots[0].statistics.lastUnknownAction = unknown;
     }
     CardTracker tracker;
     QCOMPARE(tracker.update(frame, 0)[0].tag, tag);
@@ -122,7 +125,7 @@ class TestCardState : public QObject {
     CardState silent = base;
     silent.lamps[3] = {LampState::Silent, 8};
     CardState low = base;
-    low.voltage = 151;
+    low.battery = telemetry::batteryAt(15.1, telemetry::usualBattery);
     CardState tagged = base;
     tagged.tag = QStringLiteral("fallen");
     tagged.tagKind = TagKind::Warning;

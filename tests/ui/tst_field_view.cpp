@@ -37,7 +37,7 @@ class TestFieldView : public QObject {
     m_view->show();
     QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
     m_controller->open(*scenario, true);
-    QTRY_VERIFY(m_controller->frame() && m_controller->frame()->snapshot.robots.size() == 6);
+    QTRY_VERIFY(m_controller->frame() && m_controller->frame()->robots.size() == 6);
     m_canvas = m_view->findChild<QGraphicsView*>();
     QVERIFY(m_canvas);
     m_canvas->setFocus();
@@ -185,10 +185,10 @@ class TestFieldView : public QObject {
   void deleteRemovesAndUndoBringsBack() {
     m_view->select({RobotId{4}});
     QTest::keyClick(m_canvas, Qt::Key_Delete);
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(5));
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(5));
     QVERIFY(m_view->selection().empty());
     m_controller->undoStack()->undo();
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(6));
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(6));
   }
 
   void aAddsARobot_data() {
@@ -204,8 +204,8 @@ class TestFieldView : public QObject {
     QFETCH(int, team);
     moveTo(at({1.0, 1.5}));
     QTest::keyClick(m_canvas, Qt::Key_A, modifiers);
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
-    const sim::RobotSnapshot made = m_controller->frame()->snapshot.robots.back();
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
+    const sim::RobotSnapshot made = m_controller->frame()->robots.back();
     QCOMPARE(int(made.identity.team), team);
     QVERIFY(std::abs(made.pose.position.x - 1.0) < 0.03);
     QCOMPARE(std::abs(made.pose.yaw) > 1.0, info(made.identity.team).facesLeft);
@@ -247,7 +247,7 @@ class TestFieldView : public QObject {
     const QImage with = m_view->picture(QSize(640, 455));
     QCOMPARE(with.size(), QSize(640, 455));
     m_controller->removeRobots({RobotId{1}, RobotId{2}});
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(4));
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(4));
     QVERIFY(with != m_view->picture(QSize(640, 455)));
   }
 
@@ -259,15 +259,14 @@ class TestFieldView : public QObject {
     // Not QTest::keyClick(), which would press a Shift key of its own.
     QKeyEvent a(QEvent::KeyPress, Qt::Key_A, Qt::ShiftModifier);
     QCoreApplication::sendEvent(m_canvas, &a);
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
-    QCOMPARE(int(m_controller->frame()->snapshot.robots.back().identity.team),
-             int(TeamColor::Orange));
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
+    QCOMPARE(int(m_controller->frame()->robots.back().identity.team), int(TeamColor::Orange));
   }
 
   void allAreSelectedByKey() {
     QTest::keyClick(m_canvas, Qt::Key_A, Qt::ControlModifier | Qt::ShiftModifier);
     QCOMPARE(m_view->selection().size(), std::size_t(6));
-    QCOMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(6));
+    QCOMPARE(m_controller->frame()->robots.size(), std::size_t(6));
   }
 
   void menuOfARobotCommandsIt_data() {
@@ -284,14 +283,14 @@ class TestFieldView : public QObject {
     QFETCH(int, action);
     QVERIFY(trigger(pose(1).position, text));
     QCOMPARE(m_view->selection(), std::vector{RobotId{1}});
-    QTRY_COMPARE(m_controller->frame()->boards.front().actionA, action);
+    QTRY_COMPARE(m_controller->frame()->robots.front().board->actionA, action);
   }
 
   void menuOfARobotRemovesAndFollows() {
     QVERIFY(trigger(pose(2).position, "Follow"));
     QCOMPARE(m_view->followed(), std::optional(RobotId{2}));
     QVERIFY(trigger(pose(2).position, "Remove robot"));
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(5));
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(5));
     QVERIFY(!m_view->followed());
   }
 
@@ -300,19 +299,19 @@ class TestFieldView : public QObject {
     QVERIFY(trigger(place, "Place ball here"));
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.x - 1.0) < 0.03);
     QVERIFY(trigger({-1.0, -2.0}, "Red"));
-    QTRY_COMPARE(m_controller->frame()->snapshot.robots.size(), std::size_t(7));
-    QCOMPARE(int(m_controller->frame()->snapshot.robots.back().identity.team), int(TeamColor::Red));
+    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
+    QCOMPARE(int(m_controller->frame()->robots.back().identity.team), int(TeamColor::Red));
     QCOMPARE(m_controller->undoStack()->count(), 2);
   }
 
   void menuOfARobotChangesItsBehaviour() {
     QVERIFY(trigger(pose(3).position, "Keeper"));
-    QTRY_COMPARE(m_controller->frame()->boards[2].behaviour, std::string("keeper"));
+    QTRY_COMPARE(m_controller->frame()->robots[2].board->behaviour, std::string("keeper"));
     QCOMPARE(m_controller->robot(RobotId{3})->behaviour, std::string("keeper"));
     QVERIFY(isChecked(pose(3).position, "Keeper"));
     QVERIFY(!isChecked(pose(3).position, "Striker"));
     QVERIFY(trigger(pose(3).position, "None (your own process)"));
-    QTRY_COMPARE(m_controller->frame()->boards[2].behaviour, std::string(link::noBehaviour));
+    QTRY_COMPARE(m_controller->frame()->robots[2].board->behaviour, std::string(link::noBehaviour));
   }
 
   void menuOfARobotChangesItsTeam() {
@@ -320,10 +319,8 @@ class TestFieldView : public QObject {
     QVERIFY(isChecked(before.position, "Blue"));
     QVERIFY(trigger(before.position, "Red"));
     const auto identity = [this](int id) {
-      for (const auto& robot : m_controller->frame()->snapshot.robots) {
-        if (robot.identity.id.value == id) return robot.identity;
-      }
-      return sim::RobotIdentity{};
+      const link::RobotFrame* robot = m_controller->frame()->robot(RobotId{id});
+      return robot != nullptr ? robot->identity : sim::RobotIdentity{};
     };
     QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
     QCOMPARE(identity(1).number, 4);      // 1 to 3 are worn
@@ -346,7 +343,7 @@ class TestFieldView : public QObject {
     QVERIFY(trigger(pose(1).position, "Orange"));
     const auto inOrange = [this] {
       int count = 0;
-      for (const auto& robot : m_controller->frame()->snapshot.robots) {
+      for (const auto& robot : m_controller->frame()->robots) {
         count += robot.identity.team == TeamColor::Orange;
       }
       return count;
@@ -425,7 +422,8 @@ class TestFieldView : public QObject {
     for (int i = 0; i < 200; ++i) cloud->particles.push_back({{-3.0 + 0.01 * i, 2.0}, 0.5, 0.005});
     auto path = std::make_shared<link::PlannedPath>();
     path->points = {{-1.0, -2.0}, {0.0, -2.5}, {2.0, -2.0}};
-    frame->thoughts = {{RobotId{1}, cloud, path, 0.0, 0.0}};
+    frame->robots.at(0).thoughts = {RobotId{1}, cloud, path, 0.0, 0.0};
+    QCOMPARE(frame->robots[0].id(), RobotId{1});
     FieldView view(nullptr);
     view.resize(900, 660);
     view.showFrame(frame);
@@ -445,7 +443,7 @@ class TestFieldView : public QObject {
       QCOMPARE(view.picture(size), without);
     }
     auto silent = std::make_shared<link::MatchFrame>(*frame);
-    silent->thoughts.clear();
+    silent->robots[0].thoughts.reset();
     view.layerActions()[std::size_t(FieldLayer::Particles)]->setChecked(true);
     view.layerActions()[std::size_t(FieldLayer::PlannedPath)]->setChecked(true);
     view.showFrame(silent);
@@ -514,10 +512,8 @@ class TestFieldView : public QObject {
     return checked;
   }
   Pose pose(int id) const {
-    for (const auto& robot : m_controller->frame()->snapshot.robots) {
-      if (robot.identity.id == RobotId{id}) return robot.pose;
-    }
-    return {};
+    const link::RobotFrame* robot = m_controller->frame()->robot(RobotId{id});
+    return robot != nullptr ? robot->pose : Pose{};
   }
   QPoint at(const Point& p) const {
     return m_canvas->viewportTransform().map(QPointF(p.x, p.y)).toPoint();

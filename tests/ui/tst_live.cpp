@@ -67,8 +67,10 @@ class TestLive : public QObject {
       for (const auto& port : live()->details().network.ports) count += port.bound ? 1 : 0;
       return count;
     }
-    std::size_t robots() { return live()->frame()->health.size(); }
-    const link::RobotHealth& health(std::size_t i = 0) { return live()->frame()->health.at(i); }
+    std::size_t robots() { return live()->frame()->robots.size(); }
+    const link::RobotHealth& health(std::size_t i = 0) {
+      return *live()->frame()->robots.at(i).health;
+    }
     QList<RobotCard*> cards() { return window.findChild<RobotsDock*>()->cards(); }
     QGraphicsView* canvas() { return window.field()->findChild<QGraphicsView*>(); }
     Scoreboard* scoreboard() { return window.findChild<Scoreboard*>(QStringLiteral("scoreboard")); }
@@ -90,15 +92,15 @@ class TestLive : public QObject {
     const FramePtr frame = s.live()->frame();
     QCOMPARE(frame->origin, link::FrameOrigin::Live);
     QVERIFY(!frame->truthKnown && !frame->ballKnown);
-    const sim::RobotSnapshot& shown = frame->snapshot.robots[0];
+    const sim::RobotSnapshot& shown = frame->robots[0];
     QCOMPARE(shown.identity.id, RobotId{3});
     const Pose believed = sim::published_frame::studioFromLocalization(
         s.options.field, {double(said.x), double(said.y), double(said.theta)});
     QCOMPARE(shown.pose.position.x, believed.position.x);
     QCOMPARE(shown.pose.position.y, believed.position.y);
     QCOMPARE(shown.pose.yaw, believed.yaw);
-    QCOMPARE(frame->boards[0].belief, 20.0F);
-    const link::RobotHealth& health = frame->health[0];
+    QCOMPARE(frame->robots[0].board->belief, 20.0F);
+    const link::RobotHealth& health = *frame->robots[0].health;
     QVERIFY(health.poseKnown && health.ball && health.battery);
     QVERIFY(qAbs(health.battery->volts - 16.5) < 1e-9);
     QVERIFY(qAbs(std::hypot(health.ball->x - believed.position.x,
@@ -136,8 +138,8 @@ class TestLive : public QObject {
       QElapsedTimer clock;
       bool eventFilter(QObject*, QEvent* event) override {
         const FramePtr frame = live->frame();
-        if (event->type() == QEvent::Paint && paintedAt < 0 && frame && !frame->boards.empty() &&
-            frame->boards[0].localizationX == wanted) {
+        if (event->type() == QEvent::Paint && paintedAt < 0 && frame && !frame->robots.empty() &&
+            frame->robots[0].board->localizationX == wanted) {
           paintedAt = clock.nsecsElapsed();
         }
         return false;
@@ -173,12 +175,12 @@ class TestLive : public QObject {
     Studio s;
     s.controller.open(link::loadScenario("match-3v3").value(), true);
     QTRY_VERIFY(s.controller.frame());
-    const sim::Snapshot before = s.controller.frame()->snapshot;
+    const FramePtr before = s.controller.frame();
     s.goLive();
     const Robot robot(s.options, 1);
     QVERIFY(robot.say());
     QTRY_COMPARE(s.robots(), std::size_t(1));
-    const Point at = s.live()->frame()->snapshot.robots[0].pose.position;
+    const Point at = s.live()->frame()->robots[0].pose.position;
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     auto* canvas = s.canvas();
     const QPoint here = canvas->mapFromScene(QPointF(at.x, at.y));
@@ -201,10 +203,10 @@ class TestLive : public QObject {
         QVERIFY2(!action->isEnabled(), qPrintable(text));
       }
     }
-    QCOMPARE(s.live()->frame()->snapshot.robots[0].pose.position, at);
+    QCOMPARE(s.live()->frame()->robots[0].pose.position, at);
     QVERIFY(s.controller.isPaused());
     s.window.showSource(SourceKind::Simulate);
-    QCOMPARE(s.controller.frame()->snapshot, before);
+    QCOMPARE(s.controller.frame(), before);
     QVERIFY(s.controller.undoStack() != nullptr);
     QTest::keyClick(canvas, Qt::Key_Space);
     QVERIFY(s.window.field()->isFlipped());
@@ -241,7 +243,7 @@ class TestLive : public QObject {
     }
     QTRY_COMPARE(s.robots(), std::size_t(2));
     QVERIFY(s.health(0).conflict && s.health(1).conflict);
-    QVERIFY(s.health(0).id != s.health(1).id);
+    QVERIFY(s.live()->frame()->robots[0].id() != s.live()->frame()->robots[1].id());
     QTRY_COMPARE(s.cards().size(), qsizetype(2));
     QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("number sent twice"));
   }
@@ -400,7 +402,7 @@ class TestLive : public QObject {
     // Drawn without harm, numbers beyond all bounds included.
     QTRY_COMPARE(s.cards().size(), qsizetype(64));
     QVERIFY(!s.window.grab().isNull());
-    for (const sim::RobotSnapshot& robot : s.live()->frame()->snapshot.robots) {
+    for (const sim::RobotSnapshot& robot : s.live()->frame()->robots) {
       QVERIFY(std::isfinite(robot.pose.position.x) && std::abs(robot.pose.position.x) < 200);
       QVERIFY(std::isfinite(robot.pose.yaw));
     }
@@ -433,7 +435,7 @@ class TestLive : public QObject {
     }
     QVERIFY(sent > 50);
     QTRY_COMPARE(s.robots() == 1 ? s.health().messages : 0, sent);
-    QCOMPARE(s.health().errors, std::uint64_t(0));
+    QCOMPARE(s.health().errorCount, std::uint64_t(0));
     QVERIFY(!robot.heard());
   }
 
@@ -502,7 +504,7 @@ class TestLive : public QObject {
     s.window.overlayLive(true);
     QVERIFY(s.live()->isListening());
     QTRY_COMPARE(s.bound(), std::size_t(17));
-    const sim::RobotSnapshot truth = s.controller.frame()->snapshot.robots[0];
+    const sim::RobotSnapshot truth = s.controller.frame()->robots[0];
     const auto cm = sim::published_frame::localizationFromStudio(s.options.field, truth.pose);
     telemetry::TextMessage m = live_rig::message(1);
     m.x = int(std::lround(cm.x)) + 30;

@@ -132,7 +132,7 @@ class TestLiveIsSilent : public QObject {
         const std::string bytes = live_rig::packet(QLatin1String(file));
         QVERIFY(!bytes.empty() && tell(s.options.refereePort, bytes));
       }
-      QTRY_COMPARE(live->frame()->health.size(), std::size_t(6));
+      QTRY_COMPARE(live->frame()->robots.size(), std::size_t(6));
       QTRY_VERIFY(live->frame()->referee);
       live->setOurTeam(live->frame()->referee->teams[0].number);
       for (QAction* action : s.window.findChildren<QAction*>()) {

@@ -14,10 +14,10 @@ using Mode = QAbstractItemModelTester::FailureReportingMode;
 class TestLogAndProcesses : public QObject {
   Q_OBJECT
 
-  static std::vector<link::LogLine> lines(int count, int first = 0) {
-    std::vector<link::LogLine> made;
+  static std::vector<LogLine> lines(int count, int first = 0) {
+    std::vector<LogLine> made;
     for (int i = 0; i < count; ++i) {
-      made.push_back({double(i), "B1 decision", "line " + std::to_string(first + i), false});
+      made.push_back({double(i), "B1 decision", "line " + std::to_string(first + i)});
     }
     return made;
   }
@@ -50,7 +50,7 @@ class TestLogAndProcesses : public QObject {
     WordsFilter filter;
     filter.setSourceModel(&model);
     const QAbstractItemModelTester tester(&filter, Mode::QtTest);
-    model.append({{0, "B1 decision", "kicks", false}, {1, "R1 decision", "kicks", false}});
+    model.append({{0, "B1 decision", "kicks"}, {1, "R1 decision", "kicks"}});
     filter.setWords(QStringLiteral("KICK b1"));
     QCOMPARE(filter.rowCount(), 1);
     filter.setWords(QStringLiteral("nothing"));
@@ -64,9 +64,9 @@ class TestLogAndProcesses : public QObject {
     event.kind = sim::EventKind::UnknownAction;
     event.tick = 120;
     event.value = 42;
-    const link::LogLine line = eventLine(event, QStringLiteral("R3"), 60);
+    const LogLine line = eventLine(event, QStringLiteral("R3"), 60);
     QCOMPARE(line.time, 2.0);
-    QVERIFY(line.warning);
+    QVERIFY(line.isWarning());
     QVERIFY(QString::fromStdString(line.text).contains(QStringLiteral("42")));
   }
 
@@ -74,26 +74,32 @@ class TestLogAndProcesses : public QObject {
     ProcessesModel model;
     const QAbstractItemModelTester tester(&model, Mode::QtTest);
     link::MatchFrame frame;
-    sim::RobotSnapshot robot;
+    link::RobotFrame robot;
     robot.identity = {RobotId{1}, TeamColor::Blue, 1, false};
-    frame.snapshot.robots.push_back(robot);
-    frame.children = {child(1, 1, "decision"), child(2, 1, "communication"),
-                      child(3, 7, "decision")};
-    model.update(frame);
+    frame.robots.push_back(robot);
+    std::vector<link::ChildStatus> children{child(1, 1, "decision"), child(2, 1, "communication")};
+    const auto show = [&] {
+      if (!frame.robots.empty()) {
+        frame.robots[0].processList =
+            std::make_shared<const std::vector<link::ChildStatus>>(children);
+      }
+      model.update(frame);
+    };
+    show();
     QCOMPARE(model.rowCount(), 2);
-    frame.children[0].state = link::ChildState::Failed;
-    frame.children[0].detail = "exit code 2";
+    children[0].state = link::ChildState::Failed;
+    children[0].detail = "exit code 2";
     QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
-    model.update(frame);
+    show();
     QCOMPARE(changed.count(), 1);
     QCOMPARE(model.index(0, ProcessesModel::State).data().toString(),
              QStringLiteral("failed (exit code 2)"));
-    frame.children.push_back(child(4, 1, "decision"));
-    model.update(frame);
+    children.push_back(child(4, 1, "decision"));
+    show();
     QCOMPARE(model.rowCount(), 2);
     QCOMPARE(model.index(0, ProcessesModel::State).data().toString(), QStringLiteral("running"));
-    frame.snapshot.robots.clear();
-    model.update(frame);
+    frame.robots.clear();
+    show();
     QCOMPARE(model.rowCount(), 0);
   }
 };

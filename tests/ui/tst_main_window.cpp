@@ -89,7 +89,7 @@ class TestMainWindow : public QObject {
     const int other = chooser->findData(QStringLiteral("one-robot"));
     QVERIFY(other > 0);
     emit chooser->activated(other);
-    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.robots.size() == 1);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->robots.size() == 1);
     QCOMPARE(chooser->currentData().toString(), QStringLiteral("one-robot"));
   }
 
@@ -125,11 +125,11 @@ class TestMainWindow : public QObject {
     Studio s;
     QTRY_VERIFY(s.controller.frame());
     s.controller.removeRobots({RobotId{1}});
-    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(5));
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(5));
     s.menuAction(QStringLiteral("Undo"))->trigger();
-    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(6));
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(6));
     s.menuAction(QStringLiteral("Redo"))->trigger();
-    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(5));
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(5));
   }
 
   void cardsComeGoAndSelect() {
@@ -184,8 +184,8 @@ class TestMainWindow : public QObject {
     QCOMPARE(s.window.field()->selection().size(), std::size_t(6));
     QTest::mouseMove(canvas->viewport(), canvas->viewport()->rect().center() + QPoint(40, 60));
     QTest::keyClick(canvas, Qt::Key_A, Qt::ControlModifier);
-    QTRY_COMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(7));
-    QCOMPARE(s.controller.frame()->snapshot.robots.back().identity.team, TeamColor::Red);
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(7));
+    QCOMPARE(s.controller.frame()->robots.back().identity.team, TeamColor::Red);
   }
 
   void theThemeSwitches() {

@@ -21,13 +21,11 @@ class TestMatchController : public QObject {
   }
   static double xOf(const MatchController& c, int id) {
     if (!c.frame()) return NAN;
-    for (const auto& robot : c.frame()->snapshot.robots) {
-      if (robot.identity.id.value == id) return robot.pose.position.x;
-    }
-    return NAN;
+    const link::RobotFrame* robot = c.frame()->robot(RobotId{id});
+    return robot != nullptr ? robot->pose.position.x : NAN;
   }
   static std::size_t count(const MatchController& c) {
-    return c.frame() ? c.frame()->snapshot.robots.size() : 0;
+    return c.frame() ? c.frame()->robots.size() : 0;
   }
 
  private slots:
@@ -49,8 +47,8 @@ class TestMatchController : public QObject {
     MatchController c(inside());
     c.open(match(), true);
     QTRY_VERIFY(c.frame());
-    const Pose from = c.frame()->snapshot.robots[0].pose;
-    const RobotId id = c.frame()->snapshot.robots[0].identity.id;
+    const Pose from = c.frame()->robots[0].pose;
+    const RobotId id = c.frame()->robots[0].identity.id;
     c.moveRobots({{id, from, {{1.5, 1.5}, 0.0}}});
     QTRY_COMPARE(xOf(c, id.value), 1.5);
     c.undoStack()->undo();
@@ -63,8 +61,8 @@ class TestMatchController : public QObject {
     MatchController c(inside());
     c.open(match(), true);
     QTRY_VERIFY(c.frame());
-    const Pose from = c.frame()->snapshot.robots[0].pose;
-    const RobotId id = c.frame()->snapshot.robots[0].identity.id;
+    const Pose from = c.frame()->robots[0].pose;
+    const RobotId id = c.frame()->robots[0].identity.id;
     const Pose middle{{1.0, 1.5}, 0.0}, end{{1.5, 1.5}, 0.0};
     c.moveRobots({{id, from, middle}});
     c.moveRobots({{id, middle, end}});
@@ -79,7 +77,7 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(count(c), std::size_t(6));
     c.addRobot(TeamColor::Blue, {{0, 2.5}, 0});
     QTRY_COMPARE(count(c), std::size_t(7));
-    QCOMPARE(c.frame()->snapshot.robots.back().identity.number, 4);
+    QCOMPARE(c.frame()->robots.back().identity.number, 4);
     c.removeRobots({RobotId{1}, RobotId{2}});
     QTRY_COMPARE(count(c), std::size_t(5));
     c.undoStack()->undo();

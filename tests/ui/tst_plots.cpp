@@ -6,6 +6,7 @@
 #include <QMimeData>
 #include <QtTest>
 
+#include <base/actions.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 
@@ -151,12 +152,12 @@ class TestPlots : public QObject {
     Shown s;
     auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
     s.time.setRange({0.0, 20.0});
-    const TimeScale scale = chart->timeScale();
-    const QPoint at(int(scale.left + 0.25 * (scale.right - scale.left)), 30);
-    const double anchor = scale.toTime(at.x());
+    const TimeAxis axis = chart->timeAxis();
+    const QPoint at(int(axis.left + 0.25 * axis.width), 30);
+    const double anchor = axis.time(at.x());
     wheel(chart->surface(), at, 1);
     QCOMPARE(s.time.span(), 16.0);
-    QVERIFY(std::abs(chart->timeScale().toTime(at.x()) - anchor) < 1e-9);
+    QVERIFY(std::abs(chart->timeAxis().time(at.x()) - anchor) < 1e-9);
     QVERIFY(!s.time.isFollowing());
     // With Ctrl the values, around the pointer.
     s.dock->grab();
@@ -179,17 +180,17 @@ class TestPlots : public QObject {
     Shown s;
     auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
     s.time.setRange({5.0, 15.0});
-    const TimeScale scale = chart->timeScale();
-    const double perPixel = 10.0 / (scale.right - scale.left);
+    const TimeAxis axis = chart->timeAxis();
+    const double perPixel = 10.0 / axis.width;
     drag(chart->surface(), {400, 40}, {300, 40});
     QVERIFY(std::abs(s.time.range().begin - (5.0 + 100 * perPixel)) < 1e-6);
     QVERIFY(std::abs(s.time.span() - 10.0) < 1e-9);
     s.dock->grab();
-    const TimeScale now = chart->timeScale();
+    const TimeAxis now = chart->timeAxis();
     const ValueScale values = chart->valueScale();
     drag(chart->surface(), {200, 30}, {500, 90}, Qt::ShiftModifier);
-    QVERIFY(std::abs(s.time.range().begin - now.toTime(200)) < 1e-6);
-    QVERIFY(std::abs(s.time.range().end - now.toTime(500)) < 1e-6);
+    QVERIFY(std::abs(s.time.range().begin - now.time(200)) < 1e-6);
+    QVERIFY(std::abs(s.time.range().end - now.time(500)) < 1e-6);
     QVERIFY(std::abs(chart->spec().values.low - values.toValue(90)) < 1e-6);
     QVERIFY(std::abs(chart->spec().values.high - values.toValue(30)) < 1e-6);
     // A double click shows everything again.
@@ -203,8 +204,8 @@ class TestPlots : public QObject {
     Shown s;
     auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
     s.time.setRange({0.0, 10.0});
-    const TimeScale scale = chart->timeScale();
-    const int x = int(scale.toX(4.0));
+    const TimeAxis axis = chart->timeAxis();
+    const int x = int(axis.pixel(4.0));
     QTest::mouseMove(chart->surface(), {x, 40});
     QMouseEvent move(QEvent::MouseMove, QPoint(x, 40), chart->surface()->mapToGlobal(QPoint(x, 40)),
                      Qt::NoButton, Qt::NoButton, {});
@@ -266,9 +267,9 @@ class TestPlots : public QObject {
     QVERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - (from.x() + 50)) < 1.5);
     // The line itself, over a plot.
     QWidget* surface = s.pane()->surface();
-    const int x = int(std::lround(s.pane()->timeScale().toX(*s.time.mark(TimeMark::B))));
+    const int x = int(std::lround(s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::B))));
     drag(surface, {x, 30}, {x - 60, 30});
-    QVERIFY(std::abs(s.pane()->timeScale().toX(*s.time.mark(TimeMark::B)) - (x - 60)) < 1.5);
+    QVERIFY(std::abs(s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::B)) - (x - 60)) < 1.5);
     s.time.showMarks(false);
     QVERIFY(!heads->isVisible());
   }
@@ -318,7 +319,7 @@ class TestPlots : public QObject {
       QCOMPARE(stretch.value, double(i % 3));
       QVERIFY(!stretch.mixed);
     }
-    QCOMPARE(lane->curves()[0].codeText(1), QStringLiteral("walk forward, fast"));
+    QCOMPARE(lane->curves()[0].codeText(1), QString::fromStdString(actionWords(1)));
     QCOMPARE(lane->curves()[0].codeText(99), QStringLiteral("99"));
     // Far out the changes are too close to be told apart, which is said.
     s.time.setRange({-5000.0, 5000.0});

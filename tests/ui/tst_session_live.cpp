@@ -38,7 +38,7 @@ class TestSessionLive : public QObject {
       if (!one.say() || !two.say()) return false;
       const bool heard = QTest::qWaitFor(
           [live, before] {
-            return live->frame() && live->frame()->snapshot.robots.size() == 2 &&
+            return live->frame() && live->frame()->robots.size() == 2 &&
                    live->frame()->snapshot.time > before;
           },
           10'000);
@@ -80,7 +80,7 @@ class TestSessionLive : public QObject {
     s.window.openSession(path);
     QTRY_VERIFY(s.window.timeline()->isRecording());
     s.window.timeline()->seek(s.window.timeline()->available()->end);
-    QTRY_COMPARE(s.window.replay()->frame()->snapshot.robots.size(), std::size_t(2));
+    QTRY_COMPARE(s.window.replay()->frame()->robots.size(), std::size_t(2));
   }
 
   void theRecentPastOfLiveIsSaved() {
@@ -93,7 +93,7 @@ class TestSessionLive : public QObject {
     s.window.openSession(saved.at(0).at(0).toString());
     QTRY_VERIFY(s.window.timeline()->isRecording());
     s.window.timeline()->seek(s.window.timeline()->available()->end);
-    QTRY_COMPARE(s.window.replay()->frame()->snapshot.robots.size(), std::size_t(2));
+    QTRY_COMPARE(s.window.replay()->frame()->robots.size(), std::size_t(2));
   }
 
   void withoutAnythingHeardNothingIsSaved() {

@@ -10,19 +10,12 @@
 #include <QToolButton>
 #include <QtTest>
 
-#include <session/compared_session.h>
-#include <session/session_files.h>
-#include <session/session_recording.h>
-#include <shell/notice_bar.h>
-#include <timeline/event_list.h>
-#include <timeline/playback.h>
-#include <timeline/timeline.h>
-
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/session/session_files.h>
+#include <ui/sources/compared_session.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
@@ -70,8 +63,8 @@ class TestSessions : public QObject {
     const FramePtr past = s.window.field() ? s.controller.frameAt(2.0) : nullptr;
     QVERIFY(past);
     QCOMPARE(past->snapshot.tick, std::uint64_t(120));
-    QCOMPARE(past->snapshot.robots.size(), std::size_t(6));
-    QVERIFY(!(past->snapshot.robots[0].pose.position == now->snapshot.robots[0].pose.position));
+    QCOMPARE(past->robots.size(), std::size_t(6));
+    QVERIFY(!(past->robots[0].pose.position == now->robots[0].pose.position));
     auto* sign = s.window.findChild<QWidget*>(QStringLiteral("lookingBack"));
     QVERIFY(sign->isVisible());
     // The buttons of the tool bar play the past; the match stays where it is.
@@ -83,7 +76,7 @@ class TestSessions : public QObject {
     s.window.field()->select({RobotId{1}});
     QTest::keyClick(s.window.field()->focusProxy(), Qt::Key_Delete);
     QTest::qWait(50);
-    QCOMPARE(s.controller.frame()->snapshot.robots.size(), std::size_t(6));
+    QCOMPARE(s.controller.frame()->robots.size(), std::size_t(6));
     timeline->goLive();
     QVERIFY(!sign->isVisible());
   }
@@ -133,7 +126,7 @@ class TestSessions : public QObject {
     const QString path = s.recorded(300);
     QVERIFY(QFile::exists(path));
     QVERIFY(path.startsWith(s.folder.filePath(QStringLiteral("new/recordings"))));
-    const double lastX = s.controller.frame()->snapshot.robots[0].pose.position.x;
+    const double lastX = s.controller.frame()->robots[0].pose.position.x;
     QSignalSpy opened(s.window.replay(), &ReplayController::opened);
     QElapsedTimer clock;
     clock.start();
@@ -147,8 +140,7 @@ class TestSessions : public QObject {
     // The last moment is the match's.
     timeline->seek(timeline->available()->end);
     QTRY_COMPARE(s.window.replay()->frame()->snapshot.tick, std::uint64_t(900));
-    QVERIFY(std::abs(s.window.replay()->frame()->snapshot.robots[0].pose.position.x - lastX) <
-            1e-9);
+    QVERIFY(std::abs(s.window.replay()->frame()->robots[0].pose.position.x - lastX) < 1e-9);
     QTRY_COMPARE(s.window.replay()->loaded(), 1.0);
     QVERIFY(s.window.replay()->series()->range());
     // It plays with the tool bar's buttons.

@@ -63,8 +63,10 @@ class TestStudioWork : public QObject {
     link::ChildStatus child(int robot, const std::string& name) {
       link::ChildStatus newest;
       if (!controller.frame()) return newest;
-      for (const link::ChildStatus& status : controller.frame()->children) {
-        if (status.spec.robot.value == robot && status.spec.name == name) newest = status;
+      const link::RobotFrame* seen = controller.frame()->robot(RobotId{robot});
+      if (seen == nullptr) return newest;
+      for (const link::ChildStatus& status : seen->processes()) {
+        if (status.spec.name == name) newest = status;
       }
       return newest;
     }
@@ -139,7 +141,7 @@ class TestStudioWork : public QObject {
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     gate.release();
     QTRY_VERIFY(c.frame());
-    QCOMPARE(c.frame()->snapshot.robots.size(), std::size_t(1));
+    QCOMPARE(c.frame()->robots.size(), std::size_t(1));
     QCOMPARE(opened.count(), 1);
     QCOMPARE(errors.count(), 0);
   }

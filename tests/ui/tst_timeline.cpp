@@ -29,12 +29,12 @@ class TestSource : public FrameSource {
     auto frame = std::make_shared<link::MatchFrame>();
     frame->snapshot.time = time;
     frame->snapshot.clockRunning = true;
-    sim::RobotSnapshot robot;
+    link::RobotFrame robot;
     robot.identity.id = RobotId{7};
     robot.identity.team = TeamColor::Red;
     robot.identity.number = 2;
     robot.pose.position.x = time;
-    frame->snapshot.robots.push_back(robot);
+    frame->robots.push_back(robot);
     return frame;
   }
   void goTo(double time) {
@@ -86,7 +86,7 @@ struct Bench {
   QPoint inBand(double time) const {
     return {qRound(strip->axis().pixel(time)), strip->bandRect().center().y()};
   }
-  double x() const { return shown.frame()->snapshot.robots[0].pose.position.x; }
+  double x() const { return shown.frame()->robots[0].pose.position.x; }
   void drag(QPoint from, QPoint to, Qt::MouseButton button = Qt::LeftButton,
             Qt::KeyboardModifiers keys = {}) const {
     QTest::mousePress(strip, button, keys, from);

@@ -14,6 +14,7 @@
 #include <bit>
 #include <set>
 
+#include <base/actions.h>
 #include <robotlink/blackboard/system_v.h>
 #include <telemetry/series/series_store.h>
 #include <ui/base/in_place_message.h>
@@ -43,9 +44,8 @@ telemetry::GroupInfo robotGroup(const std::string& name, int robot, int extra = 
   telemetry::GroupInfo info;
   info.name = name;
   info.attributes = {{"robot", std::to_string(robot)}, {"team", "blue"}, {"number", "1"}};
-  ColumnInfo action{
-      "DECISION_ACTION_A", ColumnType::Int32,       "",
-      "Decision",          ColumnKind::Enumeration, {{0, "stop"}, {1, "walk forward, fast"}}};
+  ColumnInfo action{"DECISION_ACTION_A", ColumnType::Int32,       "",
+                    "Decision",          ColumnKind::Enumeration, actionLabels()};
   info.columns = {
       action,
       {"VISION_LOST", ColumnType::Int32, "", "Vision", ColumnKind::Flag, {}},
@@ -212,7 +212,7 @@ class TestVariablesDock : public QObject {
     QCOMPARE(bench.text(distance, VariablesModel::Unit), QStringLiteral("cm"));
     QCOMPARE(bench.text(distance, VariablesModel::Rate), QStringLiteral("−2.0"));
     QCOMPARE(bench.text(action, VariablesModel::Value), QStringLiteral("1"));
-    QCOMPARE(bench.text(action, VariablesModel::Unit), QStringLiteral("walk forward, fast"));
+    QCOMPARE(bench.text(action, VariablesModel::Unit), QString::fromStdString(actionWords(1)));
     QCOMPARE(bench.text(action, VariablesModel::Age), QStringLiteral("1.0 s"));
     QTRY_COMPARE(bench.text(QStringLiteral("B2/VISION_LOST"), VariablesModel::Value),
                  QStringLiteral("1"));
@@ -268,17 +268,17 @@ class TestVariablesDock : public QObject {
     }
   }
 
-  void wordsFilterRobotsHeadingsNamesAndUnits_data() {
+  void wordsFilterRobotsCategoriesNamesAndUnits_data() {
     QTest::addColumn<QString>("words");
     QTest::addColumn<int>("expected");
     QTest::newRow("robot") << "b2" << 4;
-    QTest::newRow("heading") << "decision" << 2;
+    QTest::newRow("category") << "decision" << 2;
     QTest::newRow("name and robot") << "DIST b1" << 1;
     QTest::newRow("unit") << "cm" << 2;
     QTest::newRow("path") << "b1/decision" << 1;
     QTest::newRow("nothing") << "b1 nonsense" << 0;
   }
-  void wordsFilterRobotsHeadingsNamesAndUnits() {
+  void wordsFilterRobotsCategoriesNamesAndUnits() {
     QFETCH(const QString, words);
     QFETCH(const int, expected);
     Bench bench;

@@ -21,8 +21,7 @@ struct GaitSpeed {
 inline GaitSpeed gaitSpeed(int action, int b) {
   const sim::Action* entry = sim::findAction(action);
   if (entry == nullptr) return {};
-  const bool moves =
-      entry->kind == sim::ActionKind::Walk || entry->kind == sim::ActionKind::InPlace;
+  const bool moves = entry->kind == ActionKind::Walk || entry->kind == ActionKind::InPlace;
   constexpr int walkSlow = 8, fixedFrom = 10;
   constexpr double slowStep = 0.015;  // cm per frame for each unit of B
   const double front = action == walkSlow && b < fixedFrom ? slowStep * b : entry->front;

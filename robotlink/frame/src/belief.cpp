@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/frame/belief.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <base/angles.h>
@@ -15,16 +16,32 @@ std::optional<Pose> believedPose(const sim::FieldSpec& field, const RobotBoardVi
               static_cast<double>(board.localizationTheta)});
 }
 
-std::optional<Point> perceivedBall(const sim::FieldSpec& field, const RobotBoardView& board,
-                                   const Pose& origin) {
-  const double range = sim::published_frame::metresFromCm(static_cast<double>(board.ballDistCm));
-  const double bearing = radiansFromDegrees(static_cast<double>(board.panDeg));
+std::optional<Point> ballSeenFrom(const Pose& origin, double distance_cm, double bearing_deg,
+                                  const sim::FieldSpec& field) {
+  const double range = sim::published_frame::metresFromCm(distance_cm);
   // Beyond twice the field it is no ball, whatever the vision says.
-  const bool seen = board.visionWorking && !board.visionLost && range > 0.0 &&
-                    range < 2 * field.length && std::isfinite(bearing);
-  if (!seen) return {};
-  return Point{origin.position.x + range * std::cos(origin.yaw + bearing),
-               origin.position.y + range * std::sin(origin.yaw + bearing)};
+  if (!(range > 0.0) || !(range < 2 * field.length) || !std::isfinite(bearing_deg)) return {};
+  const double direction = origin.yaw + radiansFromDegrees(std::fmod(bearing_deg, 360.0));
+  return Point{origin.position.x + range * std::cos(direction),
+               origin.position.y + range * std::sin(direction)};
+}
+
+Pose perceivingPose(const sim::FieldSpec& field, const RobotFrame& robot) {
+  if (!robot.board || robot.health) return robot.pose;
+  return believedPose(field, *robot.board).value_or(robot.pose);
+}
+
+std::optional<Point> perceivedBall(const sim::FieldSpec& field, const RobotFrame& robot) {
+  if (robot.health) return robot.timedOut() ? std::nullopt : robot.health->ball;
+  if (!robot.board || !robot.board->visionWorking || robot.board->visionLost) return {};
+  return ballSeenFrom(perceivingPose(field, robot), static_cast<double>(robot.board->ballDistCm),
+                      static_cast<double>(robot.board->panDeg), field);
+}
+
+std::optional<telemetry::Battery> batteryOf(const RobotFrame& robot) {
+  if (robot.health) return robot.health->battery;
+  if (!robot.board || robot.board->voltage <= 0) return {};
+  return telemetry::batteryAt(robot.board->voltage / 10.0, telemetry::usualBattery);
 }
 
 std::optional<TeamBall> agreedBall(const std::vector<Point>& balls) {

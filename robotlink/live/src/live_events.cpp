@@ -40,10 +40,6 @@ const RefereeTeamView* team(const RefereeView& view, int number) {
   return nullptr;
 }
 
-std::string nameOf(const sim::RobotIdentity& identity) {
-  return std::string(info(identity.team).letter) + std::to_string(identity.number);
-}
-
 std::string penaltyText(const Penalty& penalty) {
   return penalty.words +
          (penalty.secondsLeft > 0 ? ", " + std::to_string(penalty.secondsLeft) + " s" : "");
@@ -53,7 +49,7 @@ std::string penaltyText(const Penalty& penalty) {
 
 void LiveEvents::compareReferee(const RefereeView& now, double time, LiveHappenings& out) {
   const auto say = [&](std::string text, bool warning = false) {
-    out.lines.push_back({time, "referee", std::move(text), warning});
+    out.lines.push_back({time, "referee", std::move(text), logLevel(warning)});
   };
   if (!m_referee) {
     say("heard: " + now.sender + ", version " + std::to_string(now.version) + ", " +
@@ -89,14 +85,15 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, LiveHappeni
   }
 }
 
-void LiveEvents::compareRobot(const RobotHealth& robot, const std::string& name, double time,
-                              LiveHappenings& out) {
+void LiveEvents::compareRobot(const RobotFrame& heard, double time, LiveHappenings& out) {
+  const std::string name = heard.identity.name();
+  const RobotHealth& robot = *heard.health;
   const auto say = [&](std::string text, bool warning = false) {
-    out.lines.push_back({time, name, std::move(text), warning});
+    out.lines.push_back({time, name, std::move(text), logLevel(warning)});
   };
-  const auto [entry, isNew] = m_robots.try_emplace(robot.id);
+  const auto [entry, isNew] = m_robots.try_emplace(heard.id());
   Known& known = entry->second;
-  if (isNew) say("is heard from " + robot.sender);
+  if (isNew) say("is heard from " + robot.sender.text());
   if (robot.timedOut != known.timedOut) {
     if (robot.timedOut) {
       say("is not heard any more (TIMEOUT)", true);
@@ -105,8 +102,8 @@ void LiveEvents::compareRobot(const RobotHealth& robot, const std::string& name,
     }
   }
   if (robot.conflict && !known.conflict) {
-    say("number " + std::to_string(robot.number) +
-            " is also sent by another program; this one is " + robot.sender,
+    say("number " + std::to_string(heard.identity.number) +
+            " is also sent by another program; this one is " + robot.sender.text(),
         true);
   }
   if (robot.penalty && (!known.penalty || known.penalty->words != robot.penalty->words)) {
@@ -123,15 +120,10 @@ LiveHappenings LiveEvents::compare(const MatchFrame& now) {
     compareReferee(*now.referee, now.snapshot.time, out);
     m_referee = now.referee;
   }
-  for (std::size_t i = 0; i < now.health.size(); ++i) {
-    compareRobot(now.health[i], nameOf(now.snapshot.robots[i].identity), now.snapshot.time, out);
+  for (const RobotFrame& robot : now.robots) {
+    if (robot.health) compareRobot(robot, now.snapshot.time, out);
   }
-  std::erase_if(m_robots, [&now](const auto& known) {
-    for (const RobotHealth& robot : now.health) {
-      if (robot.id == known.first) return false;
-    }
-    return true;
-  });
+  std::erase_if(m_robots, [&now](const auto& known) { return now.robot(known.first) == nullptr; });
   return out;
 }
 
@@ -142,11 +134,10 @@ std::vector<LogLine> LiveEvents::comparePorts(const telemetry::ReceiverStatus& n
     std::string& known = m_ports[port.port];
     if (port.problem == known) continue;
     if (port.bound) {
-      lines.push_back(
-          {time, "network", "port " + std::to_string(port.port) + " is received now", false});
+      lines.push_back({time, "network", "port " + std::to_string(port.port) + " is received now"});
     } else {
-      lines.push_back(
-          {time, "network", port.problem + " It is tried again; the other ports work.", true});
+      lines.push_back({time, "network", port.problem + " It is tried again; the other ports work.",
+                       LogLevel::Warning});
     }
     known = port.problem;
   }

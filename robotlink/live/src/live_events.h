@@ -30,8 +30,7 @@ class LiveEvents {
     std::optional<Penalty> penalty;
   };
   void compareReferee(const RefereeView& now, double time, LiveHappenings& out);
-  void compareRobot(const RobotHealth& robot, const std::string& name, double time,
-                    LiveHappenings& out);
+  void compareRobot(const RobotFrame& heard, double time, LiveHappenings& out);
 
   std::optional<RefereeView> m_referee;
   std::map<RobotId, Known> m_robots;

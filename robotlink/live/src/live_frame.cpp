@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <base/angles.h>
 #include <robotlink/frame/belief.h>
+#include <robotlink/frame/second_sender.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::link {
@@ -16,10 +16,6 @@ using telemetry::RefereePlayer;
 using telemetry::RefereeState;
 using telemetry::RefereeTeam;
 using telemetry::RobotStatus;
-
-double seconds(telemetry::Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
 
 /// Sane numbers for drawing; what was sent stays in `values`.
 constexpr double farAway_cm = 10'000.0;
@@ -46,12 +42,8 @@ std::optional<Point> ballOf(const RobotStatus& robot, const Pose& pose,
                             const sim::FieldSpec& field) {
   const auto distance = robot.value(FieldMeaning::BallDistance);
   const auto angle = robot.value(FieldMeaning::BallAngle);
-  if (!distance || !angle || *distance <= 0.0) return std::nullopt;
-  const double range = sim::published_frame::metresFromCm(*distance);
-  if (range > 2 * field.length) return std::nullopt;
-  const double direction = pose.yaw + radiansFromDegrees(std::fmod(*angle, 360.0));
-  return Point{pose.position.x + range * std::cos(direction),
-               pose.position.y + range * std::sin(direction)};
+  if (!distance || !angle) return std::nullopt;
+  return ballSeenFrom(pose, *distance, *angle, field);
 }
 
 std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
@@ -67,31 +59,14 @@ std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
 
 RobotHealth healthOf(const RobotStatus& robot) {
   RobotHealth health;
-  health.number = robot.number;
-  health.sender = robot.sender.text();
-  health.conflict = robot.conflict;
-  health.timedOut = robot.timedOut;
-  health.age = seconds(robot.age);
-  health.rate = robot.rate;
-  health.jitter = robot.jitter;
-  health.loss = robot.loss;
-  health.messages = robot.messages;
-  health.bytes = robot.bytes;
-  health.errors = robot.errors.total();
-  health.recoveries = robot.timeouts;
-  for (std::size_t i = 0; i < robot.processes.size(); ++i) {
-    health.processes[i] = robot.processes[i].state;
-    health.processSince[i] = seconds(robot.processes[i].since);
-  }
-  health.battery = robot.battery;
+  static_cast<telemetry::LinkHealth&>(health) = robot;
   if (const auto action = robot.value(FieldMeaning::Action)) health.action = asInt(action);
   health.values = valuesOf(robot);
   return health;
 }
 
-RobotBoardView boardOf(const RobotStatus& robot, RobotId id) {
+RobotBoardView boardOf(const RobotStatus& robot) {
   RobotBoardView board;
-  board.id = id;
   board.actionA = asInt(robot.value(FieldMeaning::Action));
   board.voltage = asInt(robot.value(FieldMeaning::Voltage));
   board.ballDistCm = static_cast<float>(robot.value(FieldMeaning::BallDistance).value_or(-1.0));
@@ -140,7 +115,7 @@ RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, teleme
   RefereeView view;
   view.version = state.version;
   view.sender = tracker.sender()->text();
-  view.age = seconds(*tracker.age(now));
+  view.age = telemetry::secondsOf(*tracker.age(now));
   view.timedOut = tracker.timedOut(now);
   view.conflict = tracker.conflict(now);
   view.trueData = tracker.trueData().has_value();
@@ -182,15 +157,11 @@ RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, teleme
 RobotId LiveIdentities::idOf(int number, std::uint64_t serial) {
   const auto [entry, isNew] = m_ids.try_emplace({number, serial});
   if (!isNew) return entry->second;
-  constexpr int step = 65536;
-  RobotId id{number};
-  const auto taken = [&](RobotId wanted) {
+  entry->second = idOfSender(number, [&](RobotId wanted) {
     return std::any_of(m_ids.begin(), m_ids.end(),
                        [&](const auto& known) { return known.second == wanted; });
-  };
-  while (taken(id)) id.value += step;
-  entry->second = id;
-  return id;
+  });
+  return entry->second;
 }
 
 void LiveIdentities::keepOnly(const telemetry::TeamStatus& team) {
@@ -232,28 +203,26 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     }
   }
   std::vector<Point> balls;
+  frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
-    RobotHealth health = healthOf(robot);
-    health.id = identities.idOf(robot.number, robot.serial);
-    health.penalty = penaltyOf(state, options.ourTeam, robot.number);
-    sim::RobotSnapshot snapshot;
-    snapshot.identity.id = health.id;
-    snapshot.identity.number = robot.number;
-    snapshot.identity.team =
+    RobotFrame& out = frame.robots.emplace_back();
+    out.identity.id = identities.idOf(robot.number, robot.serial);
+    out.identity.number = robot.number;
+    out.identity.team =
         options.colourByNumber
             ? teamColors[static_cast<std::size_t>(robot.number - 1) % teamColors.size()].color
             : ours;
-    snapshot.action = health.action.value_or(0);
+    RobotHealth& health = out.health.emplace(healthOf(robot));
+    health.penalty = penaltyOf(state, options.ourTeam, robot.number);
+    out.action = health.action.value_or(0);
     if (const auto pose = poseOf(robot, options.field)) {
       health.poseKnown = true;
-      snapshot.pose = *pose;
-      snapshot.headYaw = pose->yaw;
+      out.pose = *pose;
+      out.headYaw = pose->yaw;
       health.ball = ballOf(robot, *pose, options.field);
-      if (health.ball && !robot.timedOut) balls.push_back(*health.ball);
     }
-    frame.boards.push_back(boardOf(robot, health.id));
-    frame.snapshot.robots.push_back(std::move(snapshot));
-    frame.health.push_back(std::move(health));
+    out.board = boardOf(robot);
+    if (const auto ball = perceivedBall(options.field, out)) balls.push_back(*ball);
   }
   frame.teamBall = agreedBall(balls);
   return frame;

@@ -10,7 +10,7 @@
 
 namespace pitchboard::link {
 
-/// Robot n is RobotId n; a second sender of the same number gets n + 65536, the third n + 131072.
+/// Who has which id (see <robotlink/frame/second_sender.h>).
 class LiveIdentities {
  public:
   RobotId idOf(int number, std::uint64_t serial);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include <telemetry/wire/action_words.h>
+#include <base/actions.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -24,13 +24,9 @@ constexpr std::array<HealthColumn, healthColumns> health{
 // A clock that is set back a little must not cost what was recorded since.
 constexpr double smallStep = 5.0;
 
-double seconds(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 ColumnInfo columnOf(const ProfileField& field) {
-  ColumnInfo column{field.name,  ColumnType::Float64, field.unit,
-                    field.group, ColumnKind::Number,  {}};
+  ColumnInfo column{field.name,     ColumnType::Float64, field.unit,
+                    field.category, ColumnKind::Number,  {}};
   if (field.type == FieldType::Flag) column.kind = ColumnKind::Flag;
   if (field.meaning == FieldMeaning::Action) {
     column.kind = ColumnKind::Enumeration;
@@ -110,7 +106,7 @@ void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t va
       name.insert(0, "LINK_");  // a team's own field keeps its name
     }
     info.columns.push_back(
-        {name, ColumnType::Float64, column.unit, "Link", ColumnKind::Number, {}});
+        {name, ColumnType::Float64, column.unit, linkCategory, ColumnKind::Number, {}});
   }
   robot.group = m_sink->addGroup(info);
 }
@@ -138,7 +134,7 @@ void LiveRows::report(const TeamStatus& status) {
     const auto set = [&](Health column, double value) {
       robot.values[robot.fields + column] = value;
     };
-    set(Age, seconds(now.age));
+    set(Age, secondsOf(now.age));
     set(Rate, now.rate);
     set(Loss, now.loss.value_or(nothing));
     set(Errors, static_cast<double>(now.errors.total()));
@@ -150,7 +146,7 @@ void LiveRows::report(const TeamStatus& status) {
 }
 
 void LiveRows::append(Robot& robot, WallTime time) {
-  double at = seconds(time - m_options.zero);
+  double at = secondsOf(time - m_options.zero);
   if (at < robot.lastTime && robot.lastTime - at < smallStep) at = robot.lastTime;
   robot.lastTime = at;
   m_sink->append(robot.group, {at, {}, robot.values});

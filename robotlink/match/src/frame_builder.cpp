@@ -31,19 +31,29 @@ void FrameBuilder::resetSpeed(Time now, std::uint64_t tick) {
 
 void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame& out) {
   const sim::Simulation& simulation = match.simulation();
-  simulation.snapshot(out.snapshot);
+  simulation.snapshot(m_snapshot);
   const sim::WorldState& state = simulation.state();
-  out.boards.resize(state.robots.size());
+  out.snapshot = m_snapshot;
+  out.robots.resize(state.robots.size());
+  takeProcesses(match.supervisor().children());
   for (std::size_t i = 0; i < state.robots.size(); ++i) {
-    fillBoard(match, state.robots[i], now, still, out.boards[i]);
+    RobotFrame& robot = out.robots[i];
+    static_cast<sim::RobotSnapshot&>(robot) = m_snapshot.robots[i];
+    fillBoard(match, state.robots[i], now, still, robot.board.emplace());
+    const auto processes = m_processes.find(robot.id());
+    robot.processList = processes == m_processes.end() ? nullptr : processes->second;
+    robot.thoughts.reset();
   }
   std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_thoughtsTime >= thoughtsInterval) {
     m_thoughts = match.thoughts();
     m_thoughtsTime = now;
   }
-  out.thoughts = m_thoughts;
-  out.children = match.supervisor().children();
+  for (const RobotThoughts& thoughts : m_thoughts) {
+    if (const auto index = simulation.indexOf(thoughts.robot)) {
+      out.robots[*index].thoughts = thoughts;
+    }
+  }
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
   out.field = state.settings.field;
@@ -54,10 +64,20 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   fillSpeed(match, now, still, out);
 }
 
+/// Copied when something changed; the frames of a second share one copy.
+void FrameBuilder::takeProcesses(const std::vector<ChildStatus>& children) {
+  if (children == m_children) return;
+  m_children = children;
+  std::map<RobotId, std::vector<ChildStatus>> byRobot;
+  for (const ChildStatus& child : children) byRobot[child.spec.robot].push_back(child);
+  m_processes.clear();
+  for (auto& [robot, list] : byRobot) {
+    m_processes[robot] = std::make_shared<const std::vector<ChildStatus>>(std::move(list));
+  }
+}
+
 void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdentity& robot, Time now,
                              bool still, RobotBoardView& out) {
-  out = RobotBoardView{};
-  out.id = robot.id;
   const Blackboard* board = match.blackboard(robot.id);
   if (!board) return;
   const RobotVariables& v = match.variables();

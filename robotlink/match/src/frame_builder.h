@@ -8,6 +8,7 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <memory>
 
 #include <robotlink/match/match_runner.h>
 
@@ -36,12 +37,16 @@ class FrameBuilder {
 
   void fillBoard(const SimulatedMatch& match, const sim::RobotIdentity& robot, Time now, bool still,
                  RobotBoardView& out);
+  void takeProcesses(const std::vector<ChildStatus>& children);
   void fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out);
 
   std::deque<Sample> m_samples;
   std::uint64_t m_ticksDone = 0;
   double m_busy = 0.0;
   std::map<RobotId, LastSeen> m_lastSeen;
+  sim::Snapshot m_snapshot;  // keeps its memory
+  std::vector<ChildStatus> m_children;
+  std::map<RobotId, std::shared_ptr<const std::vector<ChildStatus>>> m_processes;
   std::vector<RobotThoughts> m_thoughts;  // change seldom, and cost more than the rest of a frame
   Time m_thoughtsTime{};
 };

@@ -186,7 +186,7 @@ void MatchLoop::collectEvents() {
     const auto& robots = m_match.simulation().state().robots;
     const auto index = m_match.simulation().indexOf(event.robot);
     if (!index) continue;
-    log(std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number),
+    log(robots[*index].name(),
         "unknown action " + std::to_string(event.value) + " in DECISION_ACTION_A; it stops", true);
   }
   const std::lock_guard lock(m_shared.mutex);
@@ -231,8 +231,7 @@ std::string MatchLoop::nameOf(const ChildSpec& child) const {
   const auto& robots = m_match.simulation().state().robots;
   const auto index = m_match.simulation().indexOf(child.robot);
   const std::string robot =
-      index ? std::string(info(robots[*index].team).letter) + std::to_string(robots[*index].number)
-            : "robot " + std::to_string(child.robot.value);
+      index ? robots[*index].name() : "robot " + std::to_string(child.robot.value);
   return robot + ' ' + child.name;
 }
 
@@ -246,7 +245,8 @@ void MatchLoop::noteFinish() {
 
 void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {
   const sim::WorldState& state = m_match.simulation().state();
-  LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text, warning};
+  LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text,
+               logLevel(warning)};
   for (const auto& observer : m_observers) observer->logged(line);
   const std::lock_guard lock(m_shared.mutex);
   pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);

@@ -11,13 +11,7 @@
 #include "match_seat.h"
 
 namespace pitchboard::link {
-namespace {
-
-std::string nameOf(const sim::RobotIdentity& robot) {
-  return std::string(info(robot.team).letter) + std::to_string(robot.number);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 bool SimulatedMatch::sharesBoards() const {
   return m_options.cognition != Cognition::Inline || m_options.systemV;
@@ -53,7 +47,7 @@ Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) cons
   for (const sim::RobotIdentity& other : m_simulation.state().robots) {
     if (other.id != identity.id && other.team == identity.team && other.number == identity.number) {
       return failure(ErrorCode::Conflict,
-                     "there is already a robot " + nameOf(identity) + "; choose another number");
+                     "there is already a robot " + identity.name() + "; choose another number");
     }
   }
   return {};

@@ -84,12 +84,11 @@ std::string fieldSvg(const MatchFrame& frame) {
   Drawing d(frame.field);
   drawField(d, frame.field);
   const double radius = 100 * frame.field.robotRadius;
-  for (std::size_t i = 0; i < frame.snapshot.robots.size(); ++i) {
-    const sim::RobotSnapshot& robot = frame.snapshot.robots[i];
+  for (const RobotFrame& robot : frame.robots) {
     const char* fill = teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
     const std::string stroke = std::string("stroke=\"") + fill + "\" stroke-width=\"3\"";
-    if (frame.truthKnown && i < frame.boards.size()) {
-      if (const auto belief = believedPose(frame.field, frame.boards[i])) {
+    if (frame.truthKnown && robot.board) {
+      if (const auto belief = believedPose(frame.field, *robot.board)) {
         d.line(robot.pose.position, belief->position, stroke + " stroke-opacity=\"0.6\"");
         d.circle(belief->position, radius, "fill=\"none\" stroke-dasharray=\"6 4\" " + stroke);
       }

@@ -85,7 +85,7 @@ struct Robot {
 
 bool isKick(int code) {
   const sim::Action* action = sim::findAction(code);
-  return action && action->kind == sim::ActionKind::Kick;
+  return action && action->kind == ActionKind::Kick;
 }
 
 }  // namespace

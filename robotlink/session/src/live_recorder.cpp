@@ -150,8 +150,7 @@ void LiveRecorder::happened(const sim::Event& event, double time) {
 }
 
 void LiveRecorder::logged(const LogLine& line) {
-  m_writer->append(
-      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+  m_writer->append(line);
 }
 
 void LiveRecorder::frameMade(const MatchFrame& frame) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include <base/actions.h>
 #include <base/angles.h>
 #include <simcore/world/published_frame.h>
-#include <telemetry/wire/action_words.h>
 
 namespace pitchboard::link {
 namespace {
@@ -38,7 +38,7 @@ struct Robot {
 };
 
 struct RobotColumn {
-  const char *name, *unit, *heading;
+  const char *name, *unit, *category;
   double (*read)(const Robot&);
   ColumnKind kind = ColumnKind::Number;
   double resolution = 0.0;
@@ -134,7 +134,7 @@ const std::array robotColumns{
                 ColumnKind::Number, derived}};
 
 struct MatchColumn {
-  const char *name, *unit, *heading;
+  const char *name, *unit, *category;
   double (*read)(const sim::Snapshot&);
   ColumnKind kind = ColumnKind::Number;
   double resolution = 0.0;
@@ -167,11 +167,11 @@ std::vector<ColumnInfo> truthColumns() {
     out.push_back({column.name,
                    ColumnType::Float64,
                    column.unit,
-                   column.heading,
+                   column.category,
                    column.kind,
                    {},
                    column.resolution});
-    if (column.kind == ColumnKind::Enumeration) out.back().labels = telemetry::actionLabels();
+    if (column.kind == ColumnKind::Enumeration) out.back().labels = actionLabels();
   }
   return out;
 }
@@ -206,7 +206,7 @@ std::vector<ColumnInfo> matchColumns() {
     out.push_back({column.name,
                    ColumnType::Float64,
                    column.unit,
-                   column.heading,
+                   column.category,
                    column.kind,
                    {},
                    column.resolution});

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include <base/actions.h>
 #include <base/file_target.h>
 #include <robotlink/session/row_walk.h>
-#include <telemetry/wire/action_words.h>
 
 #include "session_checkpoint.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 std::string robotName(const sim::WorldState& state, RobotId id) {
   for (const sim::RobotIdentity& robot : state.robots) {
-    if (robot.id == id) return std::string(info(robot.team).letter) + std::to_string(robot.number);
+    if (robot.id == id) return robot.name();
   }
   return id.value == 0 ? std::string() : "robot " + std::to_string(id.value);
 }
@@ -70,7 +70,7 @@ telemetry::SessionEvent sessionEvent(const sim::Event& event, const sim::WorldSt
       break;
     case sim::EventKind::Kick:
       out.kind = "kick";
-      out.text = out.group + ": " + telemetry::actionWords(event.value);
+      out.text = out.group + ": " + actionWords(event.value);
       break;
     case sim::EventKind::Fall:
       out.kind = "fall";
@@ -124,8 +124,7 @@ void MatchRecorder::worldChanged(const SimulatedMatch& match) {
 }
 
 void MatchRecorder::logged(const LogLine& line) {
-  m_writer->append(
-      telemetry::SessionLogLine{line.time, line.warning ? 3 : 2, line.origin, line.text});
+  m_writer->append(line);
 }
 
 void MatchRecorder::keep(std::optional<StateSegment> ended) {

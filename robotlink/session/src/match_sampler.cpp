@@ -83,8 +83,7 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
 }
 
 std::string MatchSampler::groupName(const sim::RobotIdentity& robot) const {
-  const std::string name =
-      std::string(pitchboard::info(robot.team).letter) + std::to_string(robot.number);
+  const std::string name = robot.name();
   // Two robots of a team may have one number by mistake; their rows must not mix.
   const bool taken = std::ranges::any_of(m_seats, [&](const Seat& seat) {
     return seat.identity.team == robot.team && seat.identity.number == robot.number;

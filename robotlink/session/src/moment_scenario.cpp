@@ -36,10 +36,6 @@ Point inside(const sim::FieldSpec& field, const Point& point, double radius) {
   return {std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
 }
 
-std::string nameOf(const sim::RobotIdentity& robot) {
-  return std::string(info(robot.team).letter) + std::to_string(robot.number);
-}
-
 class Maker {
  public:
   Maker(const MatchFrame& frame, const MomentOptions& options)
@@ -94,14 +90,8 @@ class Maker {
     }
   }
 
-  const RobotBoardView* board(RobotId id) const {
-    const auto found = std::find_if(m_frame.boards.begin(), m_frame.boards.end(),
-                                    [id](const auto& one) { return one.id == id; });
-    return found == m_frame.boards.end() ? nullptr : &*found;
-  }
-
   void takeRobots() {
-    for (const sim::RobotSnapshot& robot : m_frame.snapshot.robots) {
+    for (const RobotFrame& robot : m_frame.robots) {
       if (m_out.scenario.robots.size() == sim::Simulation::maxRobots) {
         note("More than 64 robots; the rest is left out.");
         return;
@@ -110,24 +100,22 @@ class Maker {
     }
   }
 
-  void takeRobot(const sim::RobotSnapshot& robot) {
-    const RobotBoardView* view = board(robot.identity.id);
+  void takeRobot(const RobotFrame& robot) {
     ScenarioRobot out{robot.identity, robot.pose, m_options.behaviour};
-    const std::string name = nameOf(robot.identity);
-    for (const RobotHealth& health : m_frame.health) {
-      if (health.id != robot.identity.id || health.poseKnown) continue;
+    const std::string name = robot.identity.name();
+    if (!robot.poseKnown()) {
       note(name + " never said where it is; it is left out.");
       return;
     }
     if (m_frame.truthKnown && believed()) {
-      const auto belief = view ? believedPose(m_frame.field, *view) : std::nullopt;
+      const auto belief = robot.board ? believedPose(m_frame.field, *robot.board) : std::nullopt;
       if (belief) {
         out.pose = *belief;
       } else {
         note(name + " does not know where it is; it stands where it truly was.");
       }
     }
-    if (view && !view->behaviour.empty()) out.behaviour = view->behaviour;
+    if (robot.board && !robot.board->behaviour.empty()) out.behaviour = robot.board->behaviour;
     const auto known = behaviours();
     if (out.behaviour != noBehaviour &&
         std::none_of(known.begin(), known.end(),
@@ -154,7 +142,7 @@ class Maker {
     if (id < 1 || id > highestRobotNumber || idTaken(id)) {
       id = 1;
       // Not a number that a later robot has by right.
-      const auto& all = m_frame.snapshot.robots;
+      const auto& all = m_frame.robots;
       while (idTaken(id) || std::any_of(all.begin(), all.end(), [&](const auto& other) {
                return other.identity.id.value == id;
              })) {
@@ -173,7 +161,7 @@ class Maker {
     };
     if (shirt < 1 || shirt > highestShirt || shirtTaken(shirt)) {
       for (shirt = 1; shirtTaken(shirt);) ++shirt;
-      note("Two robots were called " + name + "; one is " + nameOf(robot.identity) + " here.");
+      note("Two robots were called " + name + "; one is " + robot.identity.name() + " here.");
     }
   }
 
@@ -220,7 +208,7 @@ class Maker {
     if (moved.empty()) return;
     std::string names;
     for (const std::size_t i : moved) {
-      names += (names.empty() ? "" : ", ") + nameOf(robots[i].identity);
+      names += (names.empty() ? "" : ", ") + robots[i].identity.name();
     }
     note("Robots stood in each other and were pushed apart: " + names + '.');
   }
@@ -233,13 +221,11 @@ class Maker {
 
   std::vector<Sighting> sightings() const {
     std::vector<Sighting> out;
-    for (const sim::RobotSnapshot& robot : m_frame.snapshot.robots) {
-      const RobotBoardView* view = board(robot.identity.id);
-      if (!view) continue;
-      const Pose origin = believedPose(m_frame.field, *view).value_or(robot.pose);
-      const auto ball = perceivedBall(m_frame.field, *view, origin);
+    for (const RobotFrame& robot : m_frame.robots) {
+      const auto ball = perceivedBall(m_frame.field, robot);
       if (!ball || !isFinite({*ball, 0.0})) continue;
-      out.push_back({*ball, distance(*ball, origin.position), nameOf(robot.identity)});
+      const Point from = perceivingPose(m_frame.field, robot).position;
+      out.push_back({*ball, distance(*ball, from), robot.identity.name()});
     }
     return out;
   }
@@ -293,7 +279,7 @@ class Maker {
 
   void takeGame() {
     Scenario& scenario = m_out.scenario;
-    const sim::Snapshot& snapshot = m_frame.snapshot;
+    const sim::GameSnapshot& snapshot = m_frame.snapshot;
     scenario.score = {std::max(0, snapshot.score.left), std::max(0, snapshot.score.right)};
     double clock = snapshot.clock;
     bool running = snapshot.clockRunning;

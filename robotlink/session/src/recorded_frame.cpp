@@ -9,6 +9,8 @@
 
 #include <base/angles.h>
 #include <robotlink/frame/belief.h>
+#include <robotlink/frame/second_sender.h>
+#include <robotlink/live/live_rows.h>
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/session/live_recorder.h>
 #include <simcore/world/published_frame.h>
@@ -20,9 +22,8 @@ namespace {
 
 constexpr double flagMemory = 1.0;      // s, as in the frames of a running match
 constexpr double timeTolerance = 1e-6;  // s; files keep whole nanoseconds
+constexpr double longestAge = 1e6;      // s; beyond it no clock is right
 constexpr double refereeMemory = 5.0;   // s; it sends twice a second
-constexpr double liveTimeout = 10.0;    // s, as MonitorOptions
-constexpr int secondSender = 65536;     // added to the id, as in the frames of Live
 
 constexpr std::array<bool RobotBoardView::*, 5> flagMembers{
     &RobotBoardView::controlWorking, &RobotBoardView::visionWorking,
@@ -35,6 +36,27 @@ TeamColor teamOf(const telemetry::GroupInfo& group) {
     if (team.name == name) return team.color;
   }
   return TeamColor::Blue;
+}
+
+/// Numbers as a robot writes them: whole ones without a point.
+std::string numberWord(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+/// The fields of a robot's message: what stands before the columns of its link.
+std::vector<HeardValue> valuesOf(const telemetry::GroupInfo& group, const telemetry::RowView& row) {
+  std::vector<HeardValue> values;
+  std::size_t place = 0;
+  for (const telemetry::ColumnInfo& column : group.columns) {
+    if (column.type != telemetry::ColumnType::Float64) continue;
+    const double value = place < row.values.size() ? row.values[place] : std::nan("");
+    ++place;
+    if (column.category == telemetry::linkCategory || std::isnan(value)) continue;
+    values.push_back({column.name, numberWord(value), column.unit});
+  }
+  return values;
 }
 
 std::uint32_t counter(double value) {
@@ -192,13 +214,21 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
     }
     addRobot(i, time, known->second, frame);
   }
+  for (std::size_t a = 0; a < frame.robots.size(); ++a) {
+    for (std::size_t b = a + 1; b < frame.robots.size(); ++b) {
+      RobotFrame &one = frame.robots[a], &other = frame.robots[b];
+      if (one.health && other.health && one.identity.number == other.identity.number) {
+        noteConflict(*one.health, *other.health);
+      }
+    }
+  }
   return frame;
 }
 
 void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {
   const Layout& l = layoutOf(group);
   const telemetry::RowView row = m_rows[group].view();
-  sim::Snapshot& s = frame.snapshot;
+  sim::GameSnapshot& s = frame.snapshot;
   s.time = row.time;
   s.ball = {l.ballX.readOr(row, 0.0), l.ballY.readOr(row, 0.0)};
   frame.ballKnown = std::isfinite(l.ballX.read(row)) && std::isfinite(l.ballY.read(row));
@@ -224,13 +254,10 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   const telemetry::GroupInfo& info = *m_groups[group];
   const telemetry::RowView row = m_rows[group].view();
 
-  RobotBoardView board;
-  board.id = l.robot;
-  // A second sender of the same number, as in the frames of Live.
-  while (std::any_of(frame.boards.begin(), frame.boards.end(),
-                     [&](const auto& other) { return other.id == board.id; })) {
-    board.id.value += secondSender;
-  }
+  const RobotId id = idOfSender(
+      l.robot.value, [&frame](RobotId wanted) { return frame.robot(wanted) != nullptr; });
+  RobotFrame& robot = frame.robots.emplace_back();
+  RobotBoardView& board = robot.board.emplace();
   board.key = attributeNumber(info, "key");
   board.behaviour = attribute(info, "behaviour");
   board.actionA = l.actionA.readInt(row);
@@ -249,8 +276,7 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
     board.*flagMembers[f] = flags.seen[f] >= time - flagMemory || (l.live && set);
   }
 
-  sim::RobotSnapshot robot;
-  robot.identity = {board.id, teamOf(info), attributeNumber(info, "number", l.robot.value),
+  robot.identity = {id, teamOf(info), attributeNumber(info, "number", l.robot.value),
                     attribute(info, "imu180") == "1"};
   if (l.trueX.present() && l.trueY.present()) {
     const double yaw = l.trueYaw.readOr(row, 0.0);
@@ -269,34 +295,38 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   robot.statistics = {l.distance.readOr(row, 0.0), counter(l.kicks.readOr(row, 0.0)),
                       counter(l.falls.readOr(row, 0.0)), counter(l.unknownActions.readOr(row, 0.0)),
                       l.lastUnknown.readInt(row)};
-  if (l.live) addHealth(group, time, board, robot, frame);
-  frame.snapshot.robots.push_back(std::move(robot));
-  frame.boards.push_back(std::move(board));
+  if (l.live) addHealth(group, time, frame.field, robot);
 }
 
-void RecordedFrames::addHealth(std::size_t group, double time, const RobotBoardView& board,
-                               const sim::RobotSnapshot& robot, MatchFrame& frame) {
+void RecordedFrames::addHealth(std::size_t group, double time, const sim::FieldSpec& field,
+                               RobotFrame& robot) {
   const Layout& l = layoutOf(group);
   const telemetry::RowView row = m_rows[group].view();
-  RobotHealth health;
-  health.id = board.id;
-  health.number = robot.identity.number;
-  health.sender = attribute(*m_groups[group], "sender");
+  RobotHealth& health = robot.health.emplace();
+  if (const auto address = telemetry::parseAddress(attribute(*m_groups[group], "sender"))) {
+    health.sender.address = *address;
+  }
   health.poseKnown = std::isfinite(l.locX.read(row)) && std::isfinite(l.locY.read(row));
-  health.conflict = board.id.value >= secondSender;
-  health.age = time - row.time + l.age.readOr(row, 0.0);
-  health.timedOut = health.age > liveTimeout;
+  const double age = std::clamp(time - row.time + l.age.readOr(row, 0.0), 0.0, longestAge);
+  health.age = std::chrono::duration_cast<telemetry::Duration>(std::chrono::duration<double>(age));
+  health.timedOut = health.age >= telemetry::MonitorOptions{}.timeout;
   health.rate = l.rate.readOr(row, 0.0);
   if (std::isfinite(l.loss.read(row))) health.loss = l.loss.read(row);
-  health.errors = counter(l.errors.readOr(row, 0.0));
+  health.errorCount = counter(l.errors.readOr(row, 0.0));
+  if (const double volts = l.volts.read(row); std::isfinite(volts)) {
+    health.battery = telemetry::batteryAt(volts, telemetry::usualBattery);
+  }
   for (std::size_t f = 0; f < Layout::flagCount; ++f) {
     if (health.timedOut || !std::isfinite(l.flags[f].read(row))) continue;
-    health.processes[f] = l.flags[f].read(row) != 0.0 ? telemetry::ProcessState::Working
-                                                      : telemetry::ProcessState::Silent;
+    health.processes[f].state = l.flags[f].read(row) != 0.0 ? telemetry::ProcessState::Working
+                                                            : telemetry::ProcessState::Silent;
   }
-  if (std::isfinite(l.actionA.read(row))) health.action = board.actionA;
-  if (health.poseKnown) health.ball = perceivedBall(frame.field, board, robot.pose);
-  frame.health.push_back(std::move(health));
+  if (std::isfinite(l.actionA.read(row))) health.action = robot.board->actionA;
+  if (health.poseKnown) {
+    health.ball =
+        ballSeenFrom(robot.pose, l.ballDist.readOr(row, 0.0), l.pan.readOr(row, 0.0), field);
+  }
+  health.values = valuesOf(*m_groups[group], row);
 }
 
 }  // namespace pitchboard::link

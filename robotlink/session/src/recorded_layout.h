@@ -65,6 +65,7 @@ struct RecordedFrames::Layout {
     rate = findSlot(group, {"LINK_RATE", "RATE"});
     loss = findSlot(group, {"LINK_LOSS", "LOSS"});
     errors = findSlot(group, {"LINK_ERRORS", "ERRORS"});
+    volts = findSlot(group, {"LINK_VOLTS", "VOLTS"});
     if (!live || !profile) return;
     using telemetry::FieldMeaning;
     // A team's own names.
@@ -96,7 +97,7 @@ struct RecordedFrames::Layout {
   RowSlot trueX, trueY, trueYaw, headYaw, vx, vy, action, fallen, distance, kicks, falls,
       unknownActions, lastUnknown;
   RowSlot actionA, voltage, lost, ballDist, pan, locX, locY, locTheta, belief, age, rate, loss,
-      errors;
+      errors, volts;
   std::array<RowSlot, flagCount> flags;
 };
 

@@ -24,49 +24,54 @@ constexpr KickRule weak(KickRule rule) {
   return rule;
 }
 
-constexpr Action walk(int code, std::string_view words, double front, double turn, double drift) {
-  return {code, words, ActionKind::Walk, front, turn, drift, {}, true};
+constexpr Action walk(std::size_t code, double front, double turn, double drift) {
+  return {knownActions[code], front, turn, drift, {}, true};
 }
-constexpr Action kick(int code, std::string_view words, KickRule rule, bool published = true) {
-  return {code, words, ActionKind::Kick, 0, 0, 0, rule, published};
+constexpr Action kick(std::size_t code, KickRule rule, bool published = true) {
+  return {knownActions[code], 0, 0, 0, rule, published};
 }
-constexpr Action other(int code, std::string_view words, ActionKind kind, bool published) {
-  return {code, words, kind, 0, 0, 0, {}, published};
+constexpr Action still(std::size_t code, bool published) {
+  return {knownActions[code], 0, 0, 0, {}, published};
 }
 
-constexpr std::array<Action, 23> table{{
-    other(0, "stop", ActionKind::Stop, true),
-    walk(1, "walk forward, fast", fast, 0, 0),
-    walk(2, "turn left", 0, turning, 0),
-    walk(3, "turn right", 0, -turning, 0),
-    kick(4, "kick right", rightKick),
-    kick(5, "kick left", leftKick),
-    walk(6, "walk left", 0, 0, sidle),
-    walk(7, "walk right", 0, 0, -sidle),
-    walk(8, "walk forward, slow", slow, 0, 0),
-    walk(9, "around the ball, left", 0, -turning, aroundBall),
-    other(10, "goalkeeper defends", ActionKind::InPlace, false),
-    other(11, "gait in place", ActionKind::InPlace, true),
-    kick(12, "pass left", passLeft),
-    kick(13, "pass right", passRight),
-    walk(14, "around the ball, right", 0, turning, -aroundBall),
-    other(15, "get up from the front", ActionKind::GetUp, false),
-    other(16, "get up from the back", ActionKind::GetUp, false),
-    walk(17, "walk backward, fast", -fast, 0, 0),
-    walk(18, "walk backward, slow", -slow, 0, 0),
-    other(19, "greetings", ActionKind::InPlace, false),
-    other(20, "goodbye", ActionKind::InPlace, false),
-    kick(21, "kick right, weak", weak(rightKick), false),
-    kick(22, "kick left, weak", weak(leftKick), false),
+constexpr std::array<Action, knownActions.size()> table{{
+    still(0, true),
+    walk(1, fast, 0, 0),
+    walk(2, 0, turning, 0),
+    walk(3, 0, -turning, 0),
+    kick(4, rightKick),
+    kick(5, leftKick),
+    walk(6, 0, 0, sidle),
+    walk(7, 0, 0, -sidle),
+    walk(8, slow, 0, 0),
+    walk(9, 0, -turning, aroundBall),
+    still(10, false),
+    still(11, true),
+    kick(12, passLeft),
+    kick(13, passRight),
+    walk(14, 0, turning, -aroundBall),
+    still(15, false),
+    still(16, false),
+    walk(17, -fast, 0, 0),
+    walk(18, -slow, 0, 0),
+    still(19, false),
+    still(20, false),
+    kick(21, weak(rightKick), false),
+    kick(22, weak(leftKick), false),
 }};
 
-constexpr bool codesAreIndices() {
+constexpr bool isMadeAsItsKind(const Action& action) {
+  const bool moves = action.front != 0 || action.turn != 0 || action.drift != 0;
+  return moves == (action.kind == ActionKind::Walk) &&
+         (action.kick.strength > 0) == (action.kind == ActionKind::Kick);
+}
+
+static_assert([] {
   for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table[i].code != static_cast<int>(i)) return false;
+    if (table[i].code != static_cast<int>(i) || !isMadeAsItsKind(table[i])) return false;
   }
   return true;
-}
-static_assert(codesAreIndices());
+}());
 
 }  // namespace
 
@@ -77,11 +82,6 @@ std::span<const Action> actionTable() {
 const Action* findAction(int code) {
   const bool known = code >= 0 && code < static_cast<int>(table.size());
   return known ? &table[static_cast<std::size_t>(code)] : nullptr;
-}
-
-std::string_view actionWords(int code) {
-  const Action* action = findAction(code);
-  return action ? action->words : std::string_view{};
 }
 
 }  // namespace pitchboard::sim

@@ -53,7 +53,7 @@ std::string_view fileExtension(ExportFormat format) {
   return formats[static_cast<std::size_t>(format)].extension;
 }
 
-Result<void> checkRange(SessionRange range) {
+Result<void> checkRange(TimeRange range) {
   if (range.begin <= range.end) return {};
   char text[120];
   std::snprintf(text, sizeof text, "The range ends before it begins: from %g s until %g s.",

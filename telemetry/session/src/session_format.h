@@ -73,10 +73,10 @@ struct RowLayout {
 };
 
 std::string toJson(const SessionEvent& event);
-std::string toJson(const SessionLogLine& line, std::uint64_t wallNanoseconds);
+std::string toJson(const LogLine& line, std::uint64_t wallNanoseconds);
 std::string toJson(const SessionDatagram& datagram);
 std::optional<SessionEvent> eventFromJson(std::string_view json);
-std::optional<SessionLogLine> logLineFromJson(std::string_view json);
+std::optional<LogLine> logLineFromJson(std::string_view json);
 std::optional<SessionDatagram> datagramFromJson(std::string_view json);
 /// The "time" of any message.
 std::optional<double> timeFromJson(std::string_view json);

@@ -154,7 +154,7 @@ std::string groupToJson(const GroupInfo& group) {
               {"field", fields[i]},
               {"type", typeNames[static_cast<std::size_t>(column.type)]}};
     if (!column.unit.empty()) json["unit"] = column.unit;
-    if (!column.heading.empty()) json["heading"] = column.heading;
+    if (!column.category.empty()) json["category"] = column.category;
     if (column.kind != ColumnKind::Number) {
       json["kind"] = kindNames[static_cast<std::size_t>(column.kind)];
     }
@@ -194,7 +194,8 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
       if (!isSingle(column)) return std::nullopt;
     }
     column.unit = text(entry, "unit");
-    column.heading = text(entry, "heading");
+    // Files of version 0.1 call it "heading".
+    column.category = text(entry, entry.contains("category") ? "category" : "heading");
     column.kind = static_cast<ColumnKind>(place(kindNames, entry, "kind").value_or(0));
     if (const auto labels = entry.find("labels"); labels != entry.end() && labels->is_object()) {
       for (const auto& [code, word] : labels->items()) {
@@ -212,13 +213,13 @@ std::string toJson(const SessionEvent& event) {
       {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}});
 }
 
-std::string toJson(const SessionLogLine& line, std::uint64_t wallNanoseconds) {
+std::string toJson(const LogLine& line, std::uint64_t wallNanoseconds) {
   return dump(
       Json{{"timestamp",
             {{"sec", wallNanoseconds / 1'000'000'000}, {"nsec", wallNanoseconds % 1'000'000'000}}},
-           {"level", line.level},
+           {"level", static_cast<int>(line.level)},
            {"message", line.text},
-           {"name", line.source},
+           {"name", line.origin},
            {"file", ""},
            {"line", 0},
            {"time", line.time}});
@@ -241,13 +242,11 @@ std::optional<SessionEvent> eventFromJson(std::string_view json) {
                       text(*object, "text")};
 }
 
-std::optional<SessionLogLine> logLineFromJson(std::string_view json) {
+std::optional<LogLine> logLineFromJson(std::string_view json) {
   const auto object = objectWithTime(json);
   if (!object) return std::nullopt;
-  return SessionLogLine{
-      *number(*object, "time"),
-      static_cast<int>(std::clamp(number(*object, "level").value_or(2), 0.0, 5.0)),
-      text(*object, "name"), text(*object, "message")};
+  return LogLine{*number(*object, "time"), text(*object, "name"), text(*object, "message"),
+                 static_cast<LogLevel>(std::clamp(number(*object, "level").value_or(2), 0.0, 5.0))};
 }
 
 std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
@@ -256,10 +255,11 @@ std::optional<SessionDatagram> datagramFromJson(std::string_view json) {
   SessionDatagram out;
   out.time = *number(*object, "time");
   const std::string sender = text(*object, "sender");
-  const auto colon = sender.rfind(':');
-  if (colon == std::string::npos) return std::nullopt;
+  const auto colon = std::min(sender.rfind(':'), sender.size());
   const auto address = parseAddress(sender.substr(0, colon));
-  const auto port = whole<std::uint16_t>(std::string_view(sender).substr(colon + 1));
+  const auto port = colon == sender.size()
+                        ? std::uint16_t{0}
+                        : whole<std::uint16_t>(std::string_view(sender).substr(colon + 1));
   if (!address || !port) return std::nullopt;
   out.sender = {*address, *port};
   out.localPort =

@@ -210,10 +210,10 @@ const McapReader& SessionReader::file() const {
   return m_impl->file;
 }
 
-std::optional<SessionRange> SessionReader::range() const {
+std::optional<TimeRange> SessionReader::range() const {
   const McapStatistics& statistics = m_impl->file.statistics();
   if (statistics.messages == 0) return std::nullopt;
-  return SessionRange{seconds(statistics.start), seconds(statistics.end)};
+  return TimeRange{seconds(statistics.start), seconds(statistics.end)};
 }
 
 std::uint64_t SessionReader::count(SessionStream stream) const {
@@ -245,7 +245,7 @@ Result<std::string> SessionReader::attachment(std::string_view name) const {
   return failure(ErrorCode::NotFound, "The session has no such attachment.", std::string(name));
 }
 
-std::optional<SessionLogLine> sessionLogLine(std::string_view json) {
+std::optional<LogLine> sessionLogLine(std::string_view json) {
   return session::logLineFromJson(json);
 }
 

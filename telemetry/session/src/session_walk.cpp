@@ -106,7 +106,7 @@ bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
   return true;
 }
 
-bool SessionReader::walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+bool SessionReader::walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                          const std::function<bool(double)>& progress) const {
   std::vector<std::uint16_t> wanted;
   for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
@@ -117,8 +117,7 @@ bool SessionReader::walk(SessionRange range, const std::function<bool(const Sess
   return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
 }
 
-bool SessionReader::walkRows(SessionRange range,
-                             const std::function<bool(const SessionItem&)>& visit,
+bool SessionReader::walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                              const std::function<bool(double)>& progress) const {
   std::vector<std::uint16_t> wanted;
   for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
@@ -126,7 +125,7 @@ bool SessionReader::walkRows(SessionRange range,
   return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
 }
 
-void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
+void SessionReader::rows(TimeRange range, std::span<const GroupId> groups,
                          const std::function<bool(GroupId, const RowView&)>& visit) const {
   std::vector<std::uint16_t> wanted;
   for (std::size_t g = 0; g < m_impl->groups.size(); ++g) {
@@ -139,7 +138,7 @@ void SessionReader::rows(SessionRange range, std::span<const GroupId> groups,
                [&](const SessionItem& item) { return visit(item.group, item.row); }, {});
 }
 
-void SessionReader::messages(SessionStream stream, SessionRange range,
+void SessionReader::messages(SessionStream stream, TimeRange range,
                              const std::function<bool(double, std::string_view)>& visit) const {
   m_impl->walk(logTime(range.begin), logTime(range.end),
                m_impl->channelsOfStream[static_cast<std::size_t>(stream)],

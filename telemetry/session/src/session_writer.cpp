@@ -285,7 +285,7 @@ void SessionWriter::append(const SessionEvent& event) {
   appendJson(SessionStream::Events, event.time, session::toJson(event));
 }
 
-void SessionWriter::append(const SessionLogLine& line) {
+void SessionWriter::append(const LogLine& line) {
   appendJson(SessionStream::Log, line.time,
              session::toJson(line, session::nanoseconds(m_impl->info.start, line.time)));
 }

@@ -5,14 +5,6 @@
 #include <cmath>
 
 namespace pitchboard::telemetry {
-namespace {
-
-double seconds(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
-}  // namespace
-
 void ArrivalStats::add(WallTime time) {
   m_times[m_next] = time;
   m_next = (m_next + 1) % window;
@@ -21,9 +13,9 @@ void ArrivalStats::add(WallTime time) {
 
 double ArrivalStats::rate(WallTime now) const {
   if (m_count < 2) return 0.0;
-  const double span = seconds(at(m_count - 1) - at(0));
+  const double span = secondsOf(at(m_count - 1) - at(0));
   const double intervals = static_cast<double>(m_count - 1);
-  const double silence = seconds(now - at(m_count - 1));
+  const double silence = secondsOf(now - at(m_count - 1));
   // While the next message is not yet due the silence says nothing; after that it counts.
   const double overdue = std::max(0.0, silence - span / intervals);
   return span + overdue > 0.0 ? intervals / (span + overdue) : 0.0;
@@ -32,10 +24,10 @@ double ArrivalStats::rate(WallTime now) const {
 double ArrivalStats::jitter() const {
   if (m_count < 3) return 0.0;
   const auto intervals = static_cast<double>(m_count - 1);
-  const double mean = seconds(at(m_count - 1) - at(0)) / intervals;
+  const double mean = secondsOf(at(m_count - 1) - at(0)) / intervals;
   double sum = 0.0;
   for (std::size_t i = 1; i < m_count; ++i) {
-    const double difference = seconds(at(i) - at(i - 1)) - mean;
+    const double difference = secondsOf(at(i) - at(i - 1)) - mean;
     sum += difference * difference;
   }
   return std::sqrt(sum / intervals);

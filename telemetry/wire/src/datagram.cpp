@@ -25,7 +25,7 @@ Result<Address> parseAddress(std::string_view text) {
 }
 
 std::string Sender::text() const {
-  return address.text() + ":" + std::to_string(port);
+  return port == 0 ? address.text() : address.text() + ":" + std::to_string(port);
 }
 
 void DatagramBatch::append(const DatagramView& d) {

@@ -150,8 +150,8 @@ std::string fieldProblem(const ProfileField& field, std::set<std::string>& names
     return "Names that begin with OTHER_ are kept for fields without a name.";
   }
   if (!names.insert(field.name).second) return "Two fields are called \"" + field.name + "\".";
-  if (field.unit.size() > maxNameBytes || field.group.size() > maxNameBytes) {
-    return "A unit or group has at most 60 characters.";
+  if (field.unit.size() > maxNameBytes || field.category.size() > maxNameBytes) {
+    return "A unit or category has at most 60 characters.";
   }
   if (field.meaning != FieldMeaning::None && !used.insert(field.meaning).second) {
     return "Two fields have the meaning \"" + std::string(meaningName(field.meaning)) + "\".";
@@ -232,12 +232,14 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
     const std::size_t i = where.size();
     const int at = i < fieldLines.size() ? fieldLines[i] : line;
     where.push_back(file + ":" + std::to_string(at) + ": fields[" + std::to_string(i) + "]");
-    ObjectReader object(item, where.back(), {"name", "type", "unit", "group", "meaning"});
+    ObjectReader object(item, where.back(),
+                        {"name", "type", "unit", "category", "group", "meaning"});
     ProfileField field;
     field.name = object.text("name", true);
     field.type = static_cast<FieldType>(object.choice("type", types, std::nullopt));
     field.unit = object.text("unit", false);
-    field.group = object.text("group", false);
+    // Profiles of version 0.1 call it "group".
+    field.category = object.text(item.contains("category") ? "category" : "group", false);
     field.meaning = static_cast<FieldMeaning>(object.choice("meaning", meanings, 0));
     if (object.error()) return tl::unexpected(*object.error());
     profile.fields.push_back(std::move(field));
@@ -261,7 +263,7 @@ std::string profileText(const Profile& profile) {
     fields.push_back({{"name", field.name},
                       {"type", types[static_cast<std::size_t>(field.type)]},
                       {"unit", field.unit},
-                      {"group", field.group},
+                      {"category", field.category},
                       {"meaning", meaningName(field.meaning)}});
   }
   const Json json{{"name", profile.name}, {"end", profile.end}, {"fields", fields}};

@@ -20,21 +20,6 @@ Duration since(WallTime now, WallTime then) {
   return std::max(now - then, Duration::zero());
 }
 
-Battery batteryAt(double volts, double highest, const BatteryLimits& limits) {
-  Battery battery;
-  battery.volts = volts;
-  // A cell just charged may stand a little above full.
-  const double most = limits.fullPerCell * 1.02;
-  battery.cells = limits.cells > 0
-                      ? limits.cells
-                      : std::max(1, static_cast<int>(std::ceil(std::min(highest, 1000.0) / most)));
-  const double perCell = volts / battery.cells;
-  battery.low = perCell < limits.lowPerCell;
-  battery.fraction = std::clamp(
-      (perCell - limits.emptyPerCell) / (limits.fullPerCell - limits.emptyPerCell), 0.0, 1.0);
-  return battery;
-}
-
 }  // namespace
 
 struct TeamMonitor::Robot {
@@ -43,7 +28,7 @@ struct TeamMonitor::Robot {
   Sender sender;
   std::optional<std::uint16_t> previousPort;  ///< the one before, when it sends from a new one
   WallTime last{};
-  std::uint64_t messages = 0, bytes = 0, timeouts = 0;
+  std::uint64_t messages = 0, bytes = 0, recoveries = 0;
   ArrivalStats arrivals;
   SequenceStats sequence;
   ErrorTally errors;
@@ -192,7 +177,7 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
 
 void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
   if (robot.messages > 0 && since(datagram.time, robot.last) >= m_options.timeout) {
-    ++robot.timeouts;
+    ++robot.recoveries;
     robot.arrivals = {};
   }
   m_usedSerial = robot.serial;
@@ -232,7 +217,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   status.lastMessage = robot.last;
   status.messages = robot.messages;
   status.bytes = robot.bytes;
-  status.timeouts = robot.timeouts;
+  status.recoveries = robot.recoveries;
   status.rate = robot.arrivals.rate(now);
   status.jitter = robot.arrivals.jitter();
   if (robot.decoder->profile().indexOf(FieldMeaning::Sequence)) {
@@ -240,6 +225,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
     status.lost = robot.sequence.lost();
   }
   status.errors = robot.errors;
+  status.errorCount = robot.errors.total();
   for (std::size_t i = 0; i < processCount; ++i) {
     const Robot::Process& process = robot.processes[i];
     ProcessStatus& out = status.processes[i];
@@ -249,7 +235,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
     if (status.timedOut) continue;
     out.state = process.filter.working() ? ProcessState::Working : ProcessState::Silent;
   }
-  if (robot.volts) status.battery = batteryAt(*robot.volts, robot.highestVolts, m_options.battery);
+  if (robot.volts) status.battery = batteryAt(*robot.volts, m_options.battery, robot.highestVolts);
   status.decoder = robot.decoder;
   status.values = robot.values;
   status.words = robot.words;
@@ -268,7 +254,7 @@ TeamStatus TeamMonitor::status(WallTime now) const {
     for (std::size_t j = i + 1; j < team.robots.size(); ++j) {
       RobotStatus& a = team.robots[i];
       RobotStatus& b = team.robots[j];
-      if (a.number == b.number && !a.timedOut && !b.timedOut) a.conflict = b.conflict = true;
+      if (a.number == b.number) noteConflict(a, b);
     }
   }
   for (const SenderRecord& sender : m_senders) team.senders.push_back(sender.status);

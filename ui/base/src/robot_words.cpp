@@ -3,20 +3,20 @@
 
 #include <cmath>
 
-#include <simcore/world/action.h>
+#include <base/actions.h>
 
 namespace pitchboard::ui {
 
 QString robotName(const sim::RobotIdentity& identity) {
-  const std::string_view letter = info(identity.team).letter;
-  return QLatin1String(letter.data(), static_cast<qsizetype>(letter.size())) +
-         QString::number(identity.number);
+  return QString::fromStdString(identity.name());
+}
+
+QString robotName(TeamColor team, int number) {
+  return robotName(sim::RobotIdentity{{}, team, number, false});
 }
 
 QString actionText(int code) {
-  const std::string_view words = sim::actionWords(code);
-  if (words.empty()) return QStringLiteral("action %1 (unknown)").arg(code);
-  return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+  return QString::fromStdString(actionWords(code));
 }
 
 QString capitalised(std::string_view text) {

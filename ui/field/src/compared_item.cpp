@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -17,10 +18,8 @@ void ComparedItem::setFrame(const FramePtr& frame) {
   m_robots.clear();
   m_ball.reset();
   if (frame) {
-    for (std::size_t i = 0; i < frame->snapshot.robots.size(); ++i) {
-      const sim::RobotSnapshot& robot = frame->snapshot.robots[i];
-      const bool heard = i < frame->health.size() && frame->health[i].id == robot.identity.id;
-      if (heard && !frame->health[i].poseKnown) continue;
+    for (const link::RobotFrame& robot : frame->robots) {
+      if (!robot.poseKnown()) continue;
       m_robots.push_back({robot.pose, robot.identity.team, robot.identity.number, robot.fallen});
     }
     if (frame->ballKnown) m_ball = frame->snapshot.ball;

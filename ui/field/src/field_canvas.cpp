@@ -122,7 +122,7 @@ void FieldCanvas::drawForeground(QPainter* painter, const QRectF&) {
 
 void FieldCanvas::paintEmptyState(QPainter* painter) const {
   const FramePtr& frame = m_scene->frame();
-  const bool empty = frame && frame->snapshot.robots.empty();
+  const bool empty = frame && frame->robots.empty();
   if (frame && !empty) return;
   QString text = m_emptyText ? m_emptyText() : QString();
   if (text.isEmpty()) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include <base/actions.h>
 #include <ui/field/field_view.h>
 
 namespace pitchboard::ui {
@@ -35,6 +36,10 @@ template <int right, int up, bool coarse>
 void nudge(Target& t) {
   t.nudgeSelected(right, up, coarse);
 }
+
+/// What people read for an action everywhere.
+template <std::size_t action>
+constexpr const char* words = knownActions[action].words.data();
 
 const char* const place = "Place";
 const char* const choose = "Select";
@@ -86,22 +91,22 @@ const std::array table{
     FieldKey{Qt::Key_Up, shift, choose, "", "", nudge<0, 1, true>},
     FieldKey{Qt::Key_Down, shift, choose, "", "", nudge<0, -1, true>},
 
-    FieldKey{Qt::Key_F, none, act, "F", "walk forward, fast", command<1>},
-    FieldKey{Qt::Key_K, none, act, "K", "walk forward, slow", command<8, 10>},
-    FieldKey{Qt::Key_V, none, act, "V", "walk backward, fast", command<17>},
-    FieldKey{Qt::Key_R, none, act, "R", "walk backward, slow", command<18>},
-    FieldKey{Qt::Key_M, none, act, "M", "walk left", command<6>},
-    FieldKey{Qt::Key_N, none, act, "N", "walk right", command<7>},
-    FieldKey{Qt::Key_E, none, act, "E", "turn left", command<2>},
-    FieldKey{Qt::Key_D, none, act, "D", "turn right", command<3>},
+    FieldKey{Qt::Key_F, none, act, "F", words<1>, command<1>},
+    FieldKey{Qt::Key_K, none, act, "K", words<8>, command<8, 10>},
+    FieldKey{Qt::Key_V, none, act, "V", words<17>, command<17>},
+    FieldKey{Qt::Key_R, none, act, "R", words<18>, command<18>},
+    FieldKey{Qt::Key_M, none, act, "M", words<6>, command<6>},
+    FieldKey{Qt::Key_N, none, act, "N", words<7>, command<7>},
+    FieldKey{Qt::Key_E, none, act, "E", words<2>, command<2>},
+    FieldKey{Qt::Key_D, none, act, "D", words<3>, command<3>},
     FieldKey{Qt::Key_O, none, act, "O", "around the ball, clockwise", command<9>},
     FieldKey{Qt::Key_Q, none, act, "Q", "around the ball, anticlockwise", command<14>},
-    FieldKey{Qt::Key_L, none, act, "L", "kick left", command<5>},
-    FieldKey{Qt::Key_P, none, act, "P", "kick right", command<4>},
-    FieldKey{Qt::Key_I, none, act, "I", "pass left", command<12>},
-    FieldKey{Qt::Key_J, none, act, "J", "pass right", command<13>},
-    FieldKey{Qt::Key_S, none, act, "S", "gait in place", command<11>},
-    FieldKey{Qt::Key_T, none, act, "T", "stop", command<0>},
+    FieldKey{Qt::Key_L, none, act, "L", words<5>, command<5>},
+    FieldKey{Qt::Key_P, none, act, "P", words<4>, command<4>},
+    FieldKey{Qt::Key_I, none, act, "I", words<12>, command<12>},
+    FieldKey{Qt::Key_J, none, act, "J", words<13>, command<13>},
+    FieldKey{Qt::Key_S, none, act, "S", words<11>, command<11>},
+    FieldKey{Qt::Key_T, none, act, "T", words<0>, command<0>},
     FieldKey{Qt::Key_Y, none, act, "Y", "search the ball",
              [](Target& t) { t.searchSelected(true); }},
     FieldKey{Qt::Key_Z, none, act, "Z", "stop searching",

@@ -17,7 +17,7 @@ class FieldKeyTarget;
 struct FieldKey {
   int key = 0;                      ///< Qt::Key
   Qt::KeyboardModifiers modifiers;  ///< exactly these (the keypad's is ignored)
-  const char* group;                ///< heading in the overlay
+  const char* category;             ///< under which the overlay lists it
   const char* shown;                ///< how the overlay writes the key; empty = not listed
   const char* meaning;
   void (*act)(FieldKeyTarget& target);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <base/angles.h>
+#include <robotlink/frame/belief.h>
 #include <simcore/world/published_frame.h>
 #include <ui/sources/pose_difference.h>
 
@@ -41,43 +41,21 @@ double distance(const QPointF& a, const QPointF& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
-/// What a robot that is heard believes: its body is drawn there, so there is no ghost.
-BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView& board,
-                    const link::RobotHealth& health, const sim::FieldSpec& field) {
+/// What the robot believes and perceives. One that is heard is drawn where it believes to be: it
+/// has no ghost.
+BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) {
   BeliefLook look;
   look.team = robot.identity.team;
-  look.believed = robot.pose;
-  look.ghost = false;
-  const double sigma = sim::published_frame::metresFromCm(static_cast<double>(board.belief));
-  look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
-  look.origin = robot.pose.position;
-  if (!health.timedOut) look.ball = health.ball;
-  look.opacity = health.timedOut ? 0.45 : 1.0;
-  return look;
-}
-
-/// What the robot believes and perceives, from its blackboard.
-BeliefLook beliefOf(const sim::RobotSnapshot& robot, const link::RobotBoardView& board,
-                    const sim::FieldSpec& field) {
-  BeliefLook look;
-  look.team = robot.identity.team;
-  Pose origin = robot.pose;
-  if (board.localizationWorking) {
-    origin = sim::published_frame::studioFromLocalization(
-        field, {static_cast<double>(board.localizationX), static_cast<double>(board.localizationY),
-                static_cast<double>(board.localizationTheta)});
-    look.believed = origin;
-    const double sigma = sim::published_frame::metresFromCm(static_cast<double>(board.belief));
+  look.ghost = !robot.health;
+  look.believed = robot.health ? robot.pose : link::believedPose(field, *robot.board);
+  if (look.believed) {
+    const double sigma =
+        sim::published_frame::metresFromCm(static_cast<double>(robot.board->belief));
     look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
   }
-  look.origin = origin.position;
-  const double range = sim::published_frame::metresFromCm(static_cast<double>(board.ballDistCm));
-  const double bearing = radiansFromDegrees(static_cast<double>(board.panDeg));
-  if (board.visionWorking && !board.visionLost && range > 0.0 && range < 2 * field.length &&
-      std::isfinite(bearing)) {
-    look.ball = Point{origin.position.x + range * std::cos(origin.yaw + bearing),
-                      origin.position.y + range * std::sin(origin.yaw + bearing)};
-  }
+  look.origin = link::perceivingPose(field, robot).position;
+  look.ball = link::perceivedBall(field, robot);
+  look.opacity = robot.timedOut() ? 0.45 : 1.0;
   return look;
 }
 
@@ -169,18 +147,9 @@ void FieldScene::showFrame(const FramePtr& frame) {
     m_style.field = frame->field;
     update();
   }
-  const sim::Snapshot& snapshot = frame->snapshot;
-  matchRobots(snapshot);
-  m_ball->setBall(snapshot.ball);
-  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
-    const bool known =
-        i < frame->boards.size() && frame->boards[i].id == snapshot.robots[i].identity.id;
-    const bool heard =
-        i < frame->health.size() && frame->health[i].id == snapshot.robots[i].identity.id;
-    showRobot(*m_robots.at(snapshot.robots[i].identity.id), snapshot.robots[i],
-              known ? &frame->boards[i] : nullptr, heard ? &frame->health[i] : nullptr,
-              snapshot.time);
-  }
+  matchRobots();
+  m_ball->setBall(frame->snapshot.ball);
+  for (const link::RobotFrame& robot : frame->robots) showRobot(robot);
   showThoughts();
   showSelected();
 }
@@ -191,21 +160,20 @@ void FieldScene::showThoughts() {
   for (auto& [id, robot] : m_robots) {
     const bool chosen = m_selection.empty() ||
                         std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
-    const auto told = std::find_if(m_frame->thoughts.begin(), m_frame->thoughts.end(),
-                                   [&](const auto& one) { return one.robot == id; });
-    const bool any = chosen && told != m_frame->thoughts.end();
+    const link::RobotFrame* now = m_frame->robot(id);
+    const bool any = chosen && now != nullptr && now->thoughts;
     const TeamColor team = robot->body.look().team;
     robot->particles.setVisible(any && m_style.shows(FieldLayer::Particles));
     robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
-    if (robot->particles.isVisible()) robot->particles.setCloud(told->cloud, team);
-    if (robot->path.isVisible()) robot->path.setPath(told->path, team);
+    if (robot->particles.isVisible()) robot->particles.setCloud(now->thoughts->cloud, team);
+    if (robot->path.isVisible()) robot->path.setPath(now->thoughts->path, team);
   }
 }
 
-void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
+void FieldScene::matchRobots() {
   std::set<RobotId> present;
-  for (const sim::RobotSnapshot& robot : snapshot.robots) {
-    const RobotId id = robot.identity.id;
+  for (const link::RobotFrame& robot : m_frame->robots) {
+    const RobotId id = robot.id();
     present.insert(id);
     if (!m_robots.contains(id)) m_robots.emplace(id, std::make_unique<Robot>(this, id));
   }
@@ -215,40 +183,35 @@ void FieldScene::matchRobots(const sim::Snapshot& snapshot) {
   }
 }
 
-void FieldScene::showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
-                           const link::RobotBoardView* board, const link::RobotHealth* health,
-                           double time) {
-  const RobotId id = snapshot.identity.id;
+void FieldScene::showRobot(const link::RobotFrame& now) {
+  const RobotId id = now.id();
+  Robot& robot = *m_robots.at(id);
   RobotLook look;
-  look.pose = snapshot.pose;
-  look.team = snapshot.identity.team;
-  look.number = snapshot.identity.number;
-  look.fallen = snapshot.fallen;
+  look.pose = now.pose;
+  look.team = now.identity.team;
+  look.number = now.identity.number;
+  look.fallen = now.fallen;
   look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
   look.followed = m_followed == id;
-  if (snapshot.fallen) look.word = QStringLiteral("fallen");
-  const bool poseKnown = health == nullptr || health->poseKnown;
-  if (health != nullptr && health->timedOut) {
-    look.word = tr("timeout %1 s").arg(static_cast<int>(health->age));
+  if (now.fallen) look.word = QStringLiteral("fallen");
+  if (now.timedOut()) {
+    look.word = tr("timeout %1 s").arg(static_cast<int>(telemetry::secondsOf(now.health->age)));
     look.opacity = 0.45;
-  } else if (health != nullptr && health->penalty) {
+  } else if (now.health && now.health->penalty) {
     look.word = tr("penalised");
   }
   robot.body.setLook(look);
-  robot.body.setVisible(poseKnown);
+  robot.body.setVisible(now.poseKnown());
 
-  robot.trail.append(snapshot.pose.position, time);
-  robot.trail.setVisible(poseKnown && m_style.shows(FieldLayer::Trails) && isTrailShown(id));
+  robot.trail.append(now.pose.position, m_frame->snapshot.time);
+  robot.trail.setVisible(now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(id));
   // Where a robot that is heard looks, it does not say.
-  robot.wedge.setVisible(health == nullptr && m_style.shows(FieldLayer::FieldOfView) &&
+  robot.wedge.setVisible(!now.health && m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
-  robot.wedge.setHead(snapshot.pose.position, snapshot.headYaw);
-  robot.belief.setVisible(board != nullptr && poseKnown);
-  if (board != nullptr) {
-    robot.belief.setLook(health != nullptr ? beliefOf(snapshot, *board, *health, m_style.field)
-                                           : beliefOf(snapshot, *board, m_style.field));
-  }
-  showOtherPose(robot, snapshot, poseKnown);
+  robot.wedge.setHead(now.pose.position, now.headYaw);
+  robot.belief.setVisible(now.board && now.poseKnown());
+  if (now.board) robot.belief.setLook(beliefOf(now, m_style.field));
+  showOtherPose(robot, now);
 }
 
 void FieldScene::showOther(const FramePtr& frame) {
@@ -260,13 +223,12 @@ void FieldScene::showCompared(const FramePtr& frame) {
   m_compared->setFrame(frame);
 }
 
-void FieldScene::showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown) {
-  const auto difference =
-      m_other ? poseDifference(*m_other, snapshot.identity.id, snapshot.pose) : std::nullopt;
-  robot.other.setVisible(poseKnown && difference.has_value());
+void FieldScene::showOtherPose(Robot& robot, const link::RobotFrame& now) {
+  const auto difference = m_other ? poseDifference(*m_other, now.id(), now.pose) : std::nullopt;
+  robot.other.setVisible(now.poseKnown() && difference.has_value());
   if (!difference) return;
-  robot.other.setOther({difference->other, snapshot.pose.position, snapshot.identity.team,
-                        differenceText(*difference)});
+  robot.other.setOther(
+      {difference->other, now.pose.position, now.identity.team, differenceText(*difference)});
 }
 
 void FieldScene::showSelected() {

@@ -99,12 +99,6 @@ void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text,
             });
 }
 
-QString robotName(TeamColor team, int number) {
-  const std::string_view letter = info(team).letter;
-  return QString::fromLatin1(letter.data(), static_cast<qsizetype>(letter.size())) +
-         QString::number(number);
-}
-
 QString fieldNumber(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   const double rounded = std::round(value * scale) / scale;

@@ -12,6 +12,7 @@
 #include <array>
 #include <numbers>
 
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_picture.h>
 #include <ui/field/field_scene.h>
@@ -286,10 +287,8 @@ void FieldView::Private::moveSelectedToCursor() {
 void FieldView::Private::openPoseEditor(RobotId id) {
   const auto pose = scene->pose(id);
   if (!pose || !editor()) return;
-  QString name;
-  for (const sim::RobotSnapshot& robot : scene->frame()->snapshot.robots) {
-    if (robot.identity.id == id) name = robotName(robot.identity.team, robot.identity.number);
-  }
+  const link::RobotFrame* robot = scene->frame()->robot(id);
+  const QString name = robot != nullptr ? robotName(robot->identity) : QString();
   openEditor({tr("Pose of %1").arg(name), *pose, true,
               [this, id, from = *pose](const Pose& to) {
                 controller->previewRobots({{id, from, to}});
@@ -388,11 +387,11 @@ FieldView::~FieldView() {
 
 void FieldView::showFrame(const FramePtr& frame) {
   const bool otherField = frame && !(d->scene->style().field == frame->field);
-  const bool wasEmpty = !d->scene->frame() || d->scene->frame()->snapshot.robots.empty();
+  const bool wasEmpty = !d->scene->frame() || d->scene->frame()->robots.empty();
   d->scene->showFrame(frame);
   d->pointer->hold();
   if (otherField) d->canvas->fit();
-  if (wasEmpty || !frame || frame->snapshot.robots.empty()) d->canvas->viewport()->update();
+  if (wasEmpty || !frame || frame->robots.empty()) d->canvas->viewport()->update();
   if (const auto id = d->scene->followed()) {
     if (const auto pose = d->scene->pose(*id)) d->canvas->centreOnMetres(toScene(pose->position));
   }

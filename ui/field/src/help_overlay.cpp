@@ -21,13 +21,13 @@ struct Line {
 
 std::vector<Line> lines() {
   std::vector<Line> all;
-  const char* group = nullptr;
+  const char* category = nullptr;
   for (const FieldKey& key : fieldKeys()) {
     if (!*key.shown) continue;
-    if (group != key.group) {
-      if (group) all.push_back({});
-      group = key.group;
-      all.push_back({{}, QString::fromUtf8(group)});
+    if (category != key.category) {
+      if (category) all.push_back({});
+      category = key.category;
+      all.push_back({{}, QString::fromUtf8(category)});
     }
     all.push_back({QString::fromUtf8(key.shown), QString::fromUtf8(key.meaning)});
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
 #include "field_stamps.h"

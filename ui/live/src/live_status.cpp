@@ -24,14 +24,15 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
              (closed.size() > 4 ? QStringLiteral(", …") : QString()));
   }
   if (frame == nullptr) return {};
-  for (std::size_t i = 0; i < frame->health.size(); ++i) {
-    const link::RobotHealth& robot = frame->health[i];
-    const QString name = robotName(frame->snapshot.robots[i].identity);
-    if (robot.conflict) return QObject::tr("Number %1 is sent by two programs").arg(robot.number);
-    if (robot.timedOut) {
+  for (const link::RobotFrame& robot : frame->robots) {
+    if (!robot.health) continue;
+    if (robot.health->conflict) {
+      return QObject::tr("Number %1 is sent by two programs").arg(robot.identity.number);
+    }
+    if (robot.timedOut()) {
       return QObject::tr("%1 has not been heard for %2 s. Its card comes back by itself.")
-          .arg(name)
-          .arg(static_cast<qint64>(robot.age));
+          .arg(robotName(robot.identity))
+          .arg(static_cast<qint64>(telemetry::secondsOf(robot.health->age)));
     }
   }
   if (frame->referee && frame->referee->conflict) {

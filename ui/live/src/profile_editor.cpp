@@ -27,7 +27,7 @@ using telemetry::FieldType;
 using telemetry::Profile;
 using telemetry::ProfileField;
 
-enum Column { Name, Type, Unit, Group, Meaning, columns };
+enum Column { Name, Type, Unit, Category, Meaning, columns };
 
 constexpr const char* typeWords[] = {"int", "float", "flag"};
 
@@ -60,7 +60,7 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
   form->addRow(tr("Last word"), m_end);
 
   m_table->setHorizontalHeaderLabels(
-      {tr("Name"), tr("Type"), tr("Unit"), tr("Group"), tr("Meaning")});
+      {tr("Name"), tr("Type"), tr("Unit"), tr("Category"), tr("Meaning")});
   m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
   m_table->verticalHeader()->setDefaultSectionSize(scaled(this, 26));
   m_table->horizontalHeader()->setStretchLastSection(true);
@@ -119,7 +119,7 @@ void ProfileEditor::addRow(int row, const ProfileField& field) {
   };
   text(Name, field.name);
   text(Unit, field.unit);
-  text(Group, field.group);
+  text(Category, field.category);
   auto* type = new QComboBox(m_table);
   for (const char* word : typeWords) type->addItem(QLatin1String(word));
   type->setCurrentIndex(static_cast<int>(field.type));
@@ -141,7 +141,7 @@ ProfileField ProfileEditor::fieldAt(int row) const {
     return item == nullptr ? std::string() : item->text().trimmed().toStdString();
   };
   return {text(Name), static_cast<FieldType>(choice(m_table, row, Type)->currentIndex()),
-          text(Unit), text(Group),
+          text(Unit), text(Category),
           static_cast<FieldMeaning>(choice(m_table, row, Meaning)->currentIndex())};
 }
 

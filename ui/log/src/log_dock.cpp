@@ -85,14 +85,15 @@ class LogDock : public QWidget {
     // Simulated and live lines stand in one log: both go on while the other is looked at.
     for (FrameSource* source : context.source->sources()) {
       connect(source, &FrameSource::logReceived, this,
-              [this](const std::vector<link::LogLine>& lines) { append(lines); });
+              [this](const std::vector<LogLine>& lines) { append(lines); });
     }
     // What happens in a live match comes as lines already.
     connect(m_controller, &MatchController::eventsReceived, this,
             [this](const std::vector<sim::Event>& events) { appendEvents(events); });
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
-      append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(), true}});
+      append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
+               LogLevel::Warning}});
     });
   }
 
@@ -107,7 +108,7 @@ class LogDock : public QWidget {
                               "processes print appear here."));
   }
 
-  void append(const std::vector<link::LogLine>& lines) {
+  void append(const std::vector<LogLine>& lines) {
     const QScrollBar* bar = m_table->verticalScrollBar();
     const bool follows = bar->value() >= bar->maximum();
     m_model->append(lines);
@@ -116,7 +117,7 @@ class LogDock : public QWidget {
 
   void appendEvents(const std::vector<sim::Event>& events) {
     const FramePtr frame = m_controller->frame();
-    std::vector<link::LogLine> lines;
+    std::vector<LogLine> lines;
     for (const sim::Event& event : events) {
       const link::ScenarioRobot* robot = m_controller->robot(event.robot);
       lines.push_back(eventLine(event, robot ? robotName(robot->identity) : QString(),

@@ -9,7 +9,7 @@
 
 namespace pitchboard::ui {
 
-void LogModel::append(const std::vector<link::LogLine>& lines) {
+void LogModel::append(const std::vector<LogLine>& lines) {
   const std::size_t kept = std::min(lines.size(), maxLines);
   m_dropped += lines.size() - kept;
   if (kept == 0) return;
@@ -44,7 +44,7 @@ int LogModel::columnCount(const QModelIndex& parent) const {
 
 QVariant LogModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
-  const link::LogLine& line = m_lines[static_cast<std::size_t>(index.row())];
+  const LogLine& line = m_lines[static_cast<std::size_t>(index.row())];
   if (role == Qt::DisplayRole) {
     switch (index.column()) {
       case Time: {
@@ -62,7 +62,7 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
   }
   if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
   if (role == Qt::ForegroundRole) {
-    if (line.warning && index.column() == Text) return theme().warningText;
+    if (line.isWarning() && index.column() == Text) return theme().warningText;
     if (index.column() != Text) return theme().secondaryText;
   }
   return {};
@@ -74,8 +74,8 @@ QVariant LogModel::headerData(int section, Qt::Orientation orientation, int role
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 
-link::LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate) {
-  link::LogLine line;
+LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate) {
+  LogLine line;
   line.time = static_cast<double>(event.tick) / tickRate;
   line.origin = robot.isEmpty() ? "simulation" : robot.toStdString();
   switch (event.kind) {
@@ -91,7 +91,7 @@ link::LogLine eventLine(const sim::Event& event, const QString& robot, double ti
       break;
     case sim::EventKind::Fall:
       line.text = "falls";
-      line.warning = true;
+      line.level = LogLevel::Warning;
       break;
     case sim::EventKind::GotUp:
       line.text = "is up again";
@@ -99,7 +99,7 @@ link::LogLine eventLine(const sim::Event& event, const QString& robot, double ti
     case sim::EventKind::UnknownAction:
       line.text =
           "chose the unknown action code " + std::to_string(event.value) + ", which counts as stop";
-      line.warning = true;
+      line.level = LogLevel::Warning;
       break;
   }
   return line;

@@ -19,7 +19,7 @@ class LogModel : public QAbstractTableModel {
   static constexpr std::size_t maxLines = 10'000;
   using QAbstractTableModel::QAbstractTableModel;
 
-  void append(const std::vector<link::LogLine>& lines);
+  void append(const std::vector<LogLine>& lines);
   void clear();
   /// Lines that were removed to make room.
   quint64 dropped() const { return m_dropped; }
@@ -30,11 +30,11 @@ class LogModel : public QAbstractTableModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:
-  std::deque<link::LogLine> m_lines;
+  std::deque<LogLine> m_lines;
   quint64 m_dropped = 0;
 };
 
 /// An event of the simulation in words; `robot` is the name of the robot concerned, or empty.
-link::LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate);
+LogLine eventLine(const sim::Event& event, const QString& robot, double tickRate);
 
 }  // namespace pitchboard::ui

@@ -24,7 +24,7 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_chart(new ValueChart(this)) {
   setSurface(m_chart);
   m_chart->setMinimumHeight(scaled(this, lowestChart));
-  m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeScale(); });
+  m_gestures = new TimeGestures(m_chart->viewport(), feed->time(), [this] { return timeAxis(); });
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); },
                            ValueChart::Painting::Parts);
   connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
@@ -107,7 +107,7 @@ void ChartPane::draw() {
       std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep), 2, 12);
   NiceLimits nice{m_spec.values, niceStep(m_spec.values.high - m_spec.values.low, steps)};
   if (m_spec.autoValues) nice = any ? niceLimits(low, high, steps) : niceLimits(0.0, 1.0, steps);
-  const std::vector<AxisTick> ticks = ticksOf(timeScale(), *m_feed, this);
+  const std::vector<AxisTick> ticks = ticksOf(timeAxis(), *m_feed, this);
   const bool divided = ticks.size() > 1;
   const int before = wantedLeft();
   m_chart->setAxes({range.begin, range.end},
@@ -123,7 +123,7 @@ void ChartPane::shape() {
   std::size_t points = 0;
   for (const CurveTrace& trace : m_traces) points += trace.samples.size() + trace.columns.size();
   m_shapes.clear();
-  m_shapedFor = timeScale();
+  m_shapedFor = timeAxis();
   const ValueScale values = valueScale();
   for (const Curve& curve : m_curves) {
     const CurveSpec& spec = curve.spec();

@@ -41,7 +41,7 @@ class ChartPane : public PlotPane {
   };
   std::vector<CurveTrace> m_traces;
   std::vector<Shape> m_shapes;  // of the traces
-  TimeScale m_shapedFor;
+  TimeAxis m_shapedFor;
 };
 
 }  // namespace pitchboard::ui

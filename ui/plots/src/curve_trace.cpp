@@ -88,7 +88,7 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
   return trace;
 }
 
-std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
+std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
                                  const ValueScale& values, bool steps) {
   std::vector<QPolygonF> lines;
   QPolygonF line;
@@ -106,14 +106,14 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
       if (!std::isfinite(sample.value) || sample.time - previous > longestBridge) end();
       previous = sample.time;
       if (!std::isfinite(sample.value)) continue;
-      const double x = time.toX(sample.time);
+      const double x = time.pixel(sample.time);
       if (steps && !line.isEmpty()) line << QPointF(x, line.last().y());
       point(x, sample.value);
     }
     end();
     return lines;
   }
-  const double pixel = (time.range.end - time.range.begin) / std::max(time.right - time.left, 1.0);
+  const double pixel = (time.shown.end - time.shown.begin) / std::max(time.width, 1.0);
   for (const CurveTrace::Column& column : trace.columns) {
     if (!std::isfinite(column.min) || column.time - previous > std::max(longestBridge, 3 * pixel)) {
       end();
@@ -121,7 +121,7 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
     previous = column.time;
     if (!std::isfinite(column.min)) continue;
     if (std::isnan(column.first)) end();
-    const double x = time.toX(column.time);
+    const double x = time.pixel(column.time);
     if (std::abs(values.toY(column.min) - values.toY(column.max)) < tall) {
       point(x, (column.min + column.max) / 2);
     } else {
@@ -244,7 +244,7 @@ void paintWide(QPainter& painter, const QPolygonF& line, double left, double rig
 }  // namespace
 
 void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QPolygonF>& lines,
-                const TimeScale& time, const TraceLook& look) {
+                const TimeAxis& time, const TraceLook& look) {
   const bool dots = look.style == CurveStyle::Points || look.style == CurveStyle::LineAndPoints;
   const double radius = std::max(1.8, look.width * 1.2);
   const QRectF clip = painter.hasClipping() ? painter.clipBoundingRect()
@@ -270,8 +270,7 @@ void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QP
     }
     if (!rects.isEmpty()) paintRects(painter, rects, look.color);
   }
-  const double distance =
-      trace.samples.empty() ? 0.0 : (time.right - time.left) / double(trace.samples.size());
+  const double distance = trace.samples.empty() ? 0.0 : time.width / double(trace.samples.size());
   painter.setPen(Qt::NoPen);
   painter.setBrush(look.color);
   for (const QPolygonF& line : lines) {

@@ -7,6 +7,7 @@
 #include <QPolygonF>
 #include <vector>
 
+#include <ui/base/time_axis.h>
 #include <ui/plots/plot_layout.h>
 
 #include "plot_feed.h"
@@ -15,19 +16,6 @@ class QPainter;
 class QPen;
 
 namespace pitchboard::ui {
-
-/// Where times stand in a widget.
-struct TimeScale {
-  telemetry::TimeRange range{0.0, 1.0};
-  double left = 0.0;   ///< x of range.begin, px
-  double right = 1.0;  ///< x of range.end, px
-  double toX(double time) const {
-    return left + (time - range.begin) / (range.end - range.begin) * (right - left);
-  }
-  double toTime(double x) const {
-    return range.begin + (x - left) / (right - left) * (range.end - range.begin);
-  }
-};
 
 /// Where values stand in a widget; y grows downwards.
 struct ValueScale {
@@ -65,7 +53,7 @@ struct CurveTrace {
 CurveTrace traceOf(const ColumnView& view, telemetry::TimeRange range, int columns);
 
 /// The line in pixels, one polygon for each unbroken stretch.
-std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeScale& time,
+std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
                                  const ValueScale& values, bool steps);
 
 struct TraceLook {
@@ -80,6 +68,6 @@ inline constexpr std::size_t manyPoints = 2500;
 /// `lines`: polylines() of the trace. Only what lies in the painter's clip is painted, so parts of
 /// one picture can be painted side by side. `time` is for the distance of dots. Any thread.
 void paintTrace(QPainter& painter, const CurveTrace& trace, const std::vector<QPolygonF>& lines,
-                const TimeScale& time, const TraceLook& look);
+                const TimeAxis& time, const TraceLook& look);
 
 }  // namespace pitchboard::ui

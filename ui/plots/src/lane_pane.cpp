@@ -107,7 +107,7 @@ class LanePane::Lanes : public QWidget {
 LanePane::LanePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : PlotPane(feed, spec, parent), m_lanes(new Lanes(this)) {
   setSurface(m_lanes);
-  m_gestures = new TimeGestures(m_lanes, feed->time(), [this] { return timeScale(); });
+  m_gestures = new TimeGestures(m_lanes, feed->time(), [this] { return timeAxis(); });
   m_gestures->setHasValues(false);
   fitHeight();
 }
@@ -134,25 +134,24 @@ void LanePane::fitHeight() {
 
 void LanePane::draw() {
   fitHeight();
-  const TimeScale scale = timeScale();
-  const int columns =
-      std::max(1, static_cast<int>((scale.right - scale.left) * devicePixelRatioF()));
+  const TimeAxis axis = timeAxis();
+  const int columns = std::max(1, static_cast<int>(axis.width * devicePixelRatioF()));
   m_stretches.clear();
   for (const Curve& curve : m_curves) {
-    m_stretches.push_back(laneStretches(curve.view(), scale.range, columns));
+    m_stretches.push_back(laneStretches(curve.view(), axis.shown, columns));
   }
   m_lanes->update();
 }
 
 void LanePane::paintLanes(QPainter& painter) const {
   const ThemeColors& colors = theme();
-  const TimeScale scale = timeScale();
+  const TimeAxis axis = timeAxis();
   painter.setFont(themeFont(TypeRole::Small));
   const double padding = scaled(this, 5);
   int y = 0;
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
     const Curve& curve = m_curves[i];
-    const QRectF name(scale.left, y, scale.right - scale.left, scaled(this, nameHeight));
+    const QRectF name(axis.left, y, axis.width, scaled(this, nameHeight));
     painter.setPen(curve.isFaulty()    ? colors.errorText
                    : curve.isWaiting() ? colors.disabledText
                                        : colors.text);
@@ -166,11 +165,11 @@ void LanePane::paintLanes(QPainter& painter) const {
     }
     y += scaled(this, nameHeight);
     const double height = scaled(this, laneHeight);
-    painter.fillRect(QRectF(scale.left, y, scale.right - scale.left, height), colors.alternateRow);
+    painter.fillRect(QRectF(axis.left, y, axis.width, height), colors.alternateRow);
     if (i < m_stretches.size()) {
       for (const LaneStretch& stretch : m_stretches[i]) {
-        const double from = std::max(scale.toX(stretch.begin), scale.left);
-        const double to = std::min(scale.toX(stretch.end), scale.right);
+        const double from = std::max(axis.pixel(stretch.begin), axis.left);
+        const double to = std::min(axis.pixel(stretch.end), axis.right());
         if (to <= from) continue;
         const QRectF box(from, y, to - from, height);
         const QString word = curve.codeText(stretch.value);

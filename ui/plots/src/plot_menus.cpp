@@ -310,7 +310,7 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
     pane->extendMenu(menu);
     addKinds(menu, page, pane);
     if (pane->isOverTime()) {
-      const double moment = pane->timeScale().toTime(pane->surface()->mapFromGlobal(at).x());
+      const double moment = pane->timeAxis().time(pane->surface()->mapFromGlobal(at).x());
       menu->addAction(tr("Show the field at this moment"), dock,
                       [dock, moment] { dock->time()->requestMoment(moment); });
     }

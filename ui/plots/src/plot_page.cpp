@@ -44,10 +44,10 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
       m_marks(new MarksPanel(feed, timeline, this)) {
   setObjectName(QStringLiteral("plotPage"));
   setAcceptDrops(true);
-  const auto scale = [this] { return timeScale(); };
-  m_heads = new MarkHeads(feed->time(), scale, m_stack);
-  m_ruler = new TimeRuler(feed, scale, m_stack);
-  m_lines = new TimeLines(feed->time(), scale, m_stack);
+  const auto axis = [this] { return timeAxis(); };
+  m_heads = new MarkHeads(feed->time(), axis, m_stack);
+  m_ruler = new TimeRuler(feed, axis, m_stack);
+  m_lines = new TimeLines(feed->time(), axis, m_stack);
   m_stack->setBackgroundRole(QPalette::Base);
   m_stack->setAutoFillBackground(true);
   m_panes->setChildrenCollapsible(false);
@@ -316,9 +316,10 @@ void PlotPage::giveLanesTheirHeight() {
   m_panes->setSizes(sizes);
 }
 
-TimeScale PlotPage::timeScale() const {
+TimeAxis PlotPage::timeAxis() const {
   const int right = qMax(m_stack->width() - scaled(this, PlotPane::rightMargin), m_left + 1);
-  return {m_feed->time()->range(), static_cast<double>(m_left), static_cast<double>(right)};
+  return {m_feed->time()->range(), static_cast<double>(m_left),
+          static_cast<double>(right - m_left)};
 }
 
 void PlotPage::placeLines() {

@@ -79,7 +79,7 @@ class PlotPage : public QWidget {
   void align();
   void placeLines();
   void giveLanesTheirHeight();
-  TimeScale timeScale() const;
+  TimeAxis timeAxis() const;
 
   PlotFeed* m_feed;
   QString m_name;

@@ -99,9 +99,9 @@ void PlotPane::setLeft(int left) {
   draw();
 }
 
-TimeScale PlotPane::timeScale() const {
+TimeAxis PlotPane::timeAxis() const {
   const double right = std::max(surface()->width() - scaled(this, rightMargin), m_left + 1);
-  return {m_feed->time()->range(), static_cast<double>(m_left), right};
+  return {m_feed->time()->range(), static_cast<double>(m_left), right - m_left};
 }
 
 void PlotPane::refresh() {

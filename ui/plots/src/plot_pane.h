@@ -48,7 +48,7 @@ class PlotPane : public QWidget {
   void setLeft(int left);
   int left() const { return m_left; }
   /// In coordinates of surface().
-  TimeScale timeScale() const;
+  TimeAxis timeAxis() const;
   /// A drag without keys draws a box.
   virtual void setBoxTool(bool) {}
 

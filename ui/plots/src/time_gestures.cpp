@@ -18,8 +18,8 @@ constexpr double smallestBox = 4.0;  // px; less is a click
 constexpr double flatBox = 10.0;     // px; lower boxes choose times only
 }  // namespace
 
-TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeScale()> scale)
-    : QObject(surface), m_surface(surface), m_time(time), m_scale(std::move(scale)) {
+TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeAxis()> axis)
+    : QObject(surface), m_surface(surface), m_time(time), m_axis(std::move(axis)) {
   surface->setMouseTracking(true);
   surface->installEventFilter(this);
 }
@@ -59,8 +59,8 @@ void TimeGestures::wheel(QWheelEvent* event) {
   event->accept();
   if (turned.y() == 0) {
     // A wheel that is tilted, or two fingers sideways.
-    const TimeScale scale = m_scale();
-    m_time->pan(-turned.x() / notch * 0.1 * (scale.range.end - scale.range.begin));
+    const TimeAxis axis = m_axis();
+    m_time->pan(-turned.x() / notch * 0.1 * (axis.shown.end - axis.shown.begin));
     return;
   }
   const double factor = std::pow(stepFactor, turned.y() / notch);
@@ -68,14 +68,14 @@ void TimeGestures::wheel(QWheelEvent* event) {
     if (m_hasValues) emit valueZoomed(factor, event->position().y());
     return;
   }
-  m_time->zoom(factor, m_scale().toTime(event->position().x()));
+  m_time->zoom(factor, m_axis().time(event->position().x()));
 }
 
 std::optional<TimeMark> TimeGestures::markAt(const QPointF& position) const {
-  const TimeScale scale = m_scale();
+  const TimeAxis axis = m_axis();
   for (const TimeMark mark : {TimeMark::B, TimeMark::A}) {
     const auto at = m_time->mark(mark);
-    if (at && std::abs(scale.toX(*at) - position.x()) <= scaled(m_surface, markReach)) return mark;
+    if (at && std::abs(axis.pixel(*at) - position.x()) <= scaled(m_surface, markReach)) return mark;
   }
   return {};
 }
@@ -101,8 +101,8 @@ void TimeGestures::press(QMouseEvent* event) {
 
 void TimeGestures::move(QMouseEvent* event) {
   const QPointF at = event->position();
-  const TimeScale scale = m_scale();
-  const double time = scale.toTime(at.x());
+  const TimeAxis axis = m_axis();
+  const double time = axis.time(at.x());
   switch (m_drag) {
     case Drag::None:
       if (markAt(at))
@@ -111,8 +111,7 @@ void TimeGestures::move(QMouseEvent* event) {
         m_surface->unsetCursor();
       break;
     case Drag::Pan: {
-      m_time->pan(-(at.x() - m_last.x()) / (scale.right - scale.left) *
-                  (scale.range.end - scale.range.begin));
+      m_time->pan(-(at.x() - m_last.x()) / axis.width * (axis.shown.end - axis.shown.begin));
       if (at.y() != m_last.y()) emit valuePanned(at.y() - m_last.y());
       break;
     }
@@ -130,8 +129,8 @@ void TimeGestures::move(QMouseEvent* event) {
       break;
   }
   m_last = at;
-  const bool inside = at.x() >= scale.left && at.x() <= scale.right;
-  m_time->setCursor(inside && m_drag != Drag::Pan ? std::optional(m_scale().toTime(at.x()))
+  const bool inside = at.x() >= axis.left && at.x() <= axis.right();
+  m_time->setCursor(inside && m_drag != Drag::Pan ? std::optional(m_axis().time(at.x()))
                                                   : std::nullopt);
 }
 
@@ -142,9 +141,9 @@ void TimeGestures::release(QMouseEvent* event) {
   m_band->hide();
   const QRectF box = QRectF(m_from, event->position()).normalized();
   if (box.width() < smallestBox) return;
-  const TimeScale scale = m_scale();
-  m_time->setRange({scale.toTime(std::max(box.left(), scale.left)),
-                    scale.toTime(std::min(box.right(), scale.right))});
+  const TimeAxis axis = m_axis();
+  m_time->setRange(
+      {axis.time(std::max(box.left(), axis.left)), axis.time(std::min(box.right(), axis.right()))});
   if (m_hasValues && box.height() >= flatBox) emit boxDrawn(box);
 }
 

@@ -25,7 +25,7 @@ class TimeGestures : public QObject {
   Q_OBJECT
  public:
   /// Watches `surface`, which owns this; `scale` says where times stand in it.
-  TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeScale()> scale);
+  TimeGestures(QWidget* surface, LinkedTime* time, std::function<TimeAxis()> axis);
 
   /// A drag without keys draws a box, as Shift-drag always does.
   void setBoxTool(bool on) { m_boxTool = on; }
@@ -54,7 +54,7 @@ class TimeGestures : public QObject {
   enum class Drag { None, Pan, Box, Mark };
   QWidget* m_surface;
   LinkedTime* m_time;
-  std::function<TimeScale()> m_scale;
+  std::function<TimeAxis()> m_axis;
   QRubberBand* m_band = nullptr;
   Drag m_drag = Drag::None;
   TimeMark m_mark = TimeMark::A;

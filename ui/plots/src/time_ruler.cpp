@@ -16,13 +16,12 @@ constexpr int pixelsPerStep = 64;
 constexpr TimeMark bothMarks[] = {TimeMark::A, TimeMark::B};
 }  // namespace
 
-std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed, const QWidget* widget) {
-  return axisTicks({scale.range, scale.left, scale.right - scale.left},
-                   scaled(widget, pixelsPerStep), feed.clock());
+std::vector<AxisTick> ticksOf(const TimeAxis& axis, const PlotFeed& feed, const QWidget* widget) {
+  return axisTicks(axis, scaled(widget, pixelsPerStep), feed.clock());
 }
 
-TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWidget* parent)
-    : QWidget(parent), m_feed(feed), m_scale(std::move(scale)) {
+TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeAxis()> axis, QWidget* parent)
+    : QWidget(parent), m_feed(feed), m_axis(std::move(axis)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 }
 
@@ -34,16 +33,16 @@ void TimeRuler::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setFont(themeFont(TypeRole::Small));
   painter.setPen(theme().secondaryText);
-  const TimeScale scale = m_scale();
+  const TimeAxis axis = m_axis();
   const double half = scaled(this, pixelsPerStep);
-  for (const AxisTick& tick : ticksOf(scale, *m_feed, this)) {
-    const double x = scale.toX(tick.time);
+  for (const AxisTick& tick : ticksOf(axis, *m_feed, this)) {
+    const double x = axis.pixel(tick.time);
     painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }
 }
 
-MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent)
-    : QWidget(parent), m_time(time), m_scale(std::move(scale)) {
+MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent)
+    : QWidget(parent), m_time(time), m_axis(std::move(axis)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   setVisible(time->hasMarks());
   connect(time, &LinkedTime::marksChanged, this, [this] {
@@ -60,7 +59,7 @@ QSize MarkHeads::sizeHint() const {
 QRectF MarkHeads::headRect(TimeMark mark) const {
   const auto at = m_time->mark(mark);
   if (!at) return {};
-  const double x = m_scale().toX(*at);
+  const double x = m_axis().pixel(*at);
   const double wide = scaled(this, headWidth);
   return {x - wide / 2, 0.0, wide, static_cast<double>(height())};
 }
@@ -69,10 +68,10 @@ void MarkHeads::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setFont(themeFont(TypeRole::Small, true));
-  const TimeScale scale = m_scale();
+  const TimeAxis axis = m_axis();
   for (const TimeMark mark : bothMarks) {
     const QRectF head = headRect(mark);
-    if (head.center().x() < scale.left - 1 || head.center().x() > scale.right + 1) continue;
+    if (head.center().x() < axis.left - 1 || head.center().x() > axis.right() + 1) continue;
     painter.setPen(Qt::NoPen);
     painter.setBrush(theme().accentFill);
     painter.drawRoundedRect(head, 2, 2);
@@ -94,9 +93,9 @@ void MarkHeads::mousePressEvent(QMouseEvent* event) {
 
 void MarkHeads::mouseMoveEvent(QMouseEvent* event) {
   if (!m_dragged) return;
-  const TimeScale scale = m_scale();
+  const TimeAxis axis = m_axis();
   m_time->setMark(*m_dragged,
-                  scale.toTime(std::clamp(event->position().x(), scale.left, scale.right)));
+                  axis.time(std::clamp(event->position().x(), axis.left, axis.right())));
 }
 
 void MarkHeads::mouseReleaseEvent(QMouseEvent*) {
@@ -104,8 +103,8 @@ void MarkHeads::mouseReleaseEvent(QMouseEvent*) {
   unsetCursor();
 }
 
-TimeLines::TimeLines(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent)
-    : QWidget(parent), m_time(time), m_scale(std::move(scale)) {
+TimeLines::TimeLines(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent)
+    : QWidget(parent), m_time(time), m_axis(std::move(axis)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setAttribute(Qt::WA_NoSystemBackground);
   for (const auto moved :
@@ -115,11 +114,11 @@ TimeLines::TimeLines(LinkedTime* time, std::function<TimeScale()> scale, QWidget
 }
 
 QList<double> TimeLines::places() const {
-  const TimeScale scale = m_scale();
+  const TimeAxis axis = m_axis();
   QList<double> all;
   const auto add = [&](std::optional<double> time) {
-    const double x = time ? scale.toX(*time) : -1.0;
-    all << (x >= scale.left - 0.5 && x <= scale.right + 0.5 ? std::round(x) : -1.0);
+    const double x = time ? axis.pixel(*time) : -1.0;
+    all << (x >= axis.left - 0.5 && x <= axis.right() + 0.5 ? std::round(x) : -1.0);
   };
   for (const TimeMark mark : bothMarks) add(m_time->mark(mark));
   add(m_time->cursor());

@@ -21,7 +21,7 @@ class TimeGestures;
 class TimeRuler : public QWidget {
   Q_OBJECT
  public:
-  TimeRuler(const PlotFeed* feed, std::function<TimeScale()> scale, QWidget* parent);
+  TimeRuler(const PlotFeed* feed, std::function<TimeAxis()> axis, QWidget* parent);
   QSize sizeHint() const override;
 
  protected:
@@ -29,14 +29,14 @@ class TimeRuler : public QWidget {
 
  private:
   const PlotFeed* m_feed;
-  std::function<TimeScale()> m_scale;
+  std::function<TimeAxis()> m_axis;
 };
 
 /// Heads of A and B, which can be dragged; there is no row while there are no marks.
 class MarkHeads : public QWidget {
   Q_OBJECT
  public:
-  MarkHeads(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent);
+  MarkHeads(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent);
   QSize sizeHint() const override;
   QRectF headRect(TimeMark mark) const;
 
@@ -48,7 +48,7 @@ class MarkHeads : public QWidget {
 
  private:
   LinkedTime* m_time;
-  std::function<TimeScale()> m_scale;
+  std::function<TimeAxis()> m_axis;
   std::optional<TimeMark> m_dragged;
 };
 
@@ -60,13 +60,13 @@ struct DropHint {
 };
 
 /// Round times of the axis, for its numbers and for the grid above them.
-std::vector<AxisTick> ticksOf(const TimeScale& scale, const PlotFeed& feed, const QWidget* widget);
+std::vector<AxisTick> ticksOf(const TimeAxis& axis, const PlotFeed& feed, const QWidget* widget);
 
 /// Lines of marks and cursor over all plots; lets the mouse through.
 class TimeLines : public QWidget {
   Q_OBJECT
  public:
-  TimeLines(LinkedTime* time, std::function<TimeScale()> scale, QWidget* parent);
+  TimeLines(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent);
   void setHint(const std::optional<DropHint>& hint);
   const std::optional<DropHint>& hint() const { return m_hint; }
   /// Redraws what has moved since the last time.
@@ -79,7 +79,7 @@ class TimeLines : public QWidget {
   QList<double> places() const;
 
   LinkedTime* m_time;
-  std::function<TimeScale()> m_scale;
+  std::function<TimeAxis()> m_axis;
   QList<double> m_drawn;  // x of each line
   std::optional<DropHint> m_hint;
 };

@@ -30,10 +30,9 @@ QString stateText(const link::ChildStatus& status) {
 
 void ProcessesModel::update(const link::MatchFrame& frame) {
   std::vector<Row> rows;
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+  for (const link::RobotFrame& robot : frame.robots) {
     const std::size_t first = rows.size();
-    for (const link::ChildStatus& child : frame.children) {
-      if (child.spec.robot != robot.identity.id) continue;
+    for (const link::ChildStatus& child : robot.processes()) {
       const auto same = std::find_if(
           rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
           [&child](const Row& row) { return row.status.spec.name == child.spec.name; });

@@ -57,12 +57,12 @@ void BlackboardWindow::setRow(int row, const QString& name, const QString& value
 void BlackboardWindow::refresh() {
   const FramePtr frame = m_controller->frame();
   if (!frame) return;
-  const auto board = std::find_if(frame->boards.begin(), frame->boards.end(),
-                                  [this](const auto& view) { return view.id == m_id; });
-  if (board == frame->boards.end()) {
+  const link::RobotFrame* robot = frame->robot(m_id);
+  if (robot == nullptr || !robot->board) {
     close();
     return;
   }
+  const link::RobotBoardView* board = &*robot->board;
   m_where->setText(
       board->key == 0
           ? tr("In the studio's own memory: other programs cannot reach it. Start the studio with "

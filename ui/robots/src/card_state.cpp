@@ -3,16 +3,17 @@
 
 #include <algorithm>
 
+#include <robotlink/frame/belief.h>
 #include <ui/base/robot_words.h>
 
 namespace pitchboard::ui {
 namespace {
 
 // A communication process sets no flag on its blackboard: its child process tells.
-bool communicationRuns(const link::MatchFrame& frame, RobotId id) {
-  return std::any_of(frame.children.begin(), frame.children.end(), [id](const auto& child) {
-    return child.spec.robot == id && child.spec.name == "communication" &&
-           child.state == link::ChildState::Running;
+bool communicationRuns(const link::RobotFrame& robot) {
+  const auto processes = robot.processes();
+  return std::any_of(processes.begin(), processes.end(), [](const link::ChildStatus& child) {
+    return child.spec.name == "communication" && child.state == link::ChildState::Running;
   });
 }
 
@@ -60,38 +61,21 @@ QString ageText(double milliseconds) {
 
 }  // namespace
 
-bool CardState::operator==(const CardState& o) const {
-  const auto same = [](const auto& a, const auto& b) {
-    return a.has_value() == b.has_value() &&
-           (!a || (a->volts == b->volts && a->fraction == b->fraction && a->low == b->low));
-  };
-  return id == o.id && team == o.team && number == o.number && name == o.name &&
-         voltage == o.voltage && lamps == o.lamps && tag == o.tag && tagKind == o.tagKind &&
-         action == o.action && detail == o.detail && detailTip == o.detailTip && live == o.live &&
-         timedOut == o.timedOut && same(battery, o.battery) && values == o.values;
-}
-
 QString CardState::process(std::size_t lamp) const {
   return lamp == 0 && live ? QStringLiteral("control") : QLatin1String(processes[lamp]);
 }
 
-double CardState::charge() const {
-  if (battery) return battery->fraction;
-  constexpr double empty = 146.5, full = 191.5;
-  return std::clamp((voltage - empty) / (full - empty), 0.0, 1.0);
-}
-
-void CardTracker::updateLamps(History& history, const link::MatchFrame& frame,
-                              const link::RobotBoardView& board) {
+void CardTracker::updateLamps(History& history, const link::RobotFrame& robot, bool paused) {
+  const link::RobotBoardView& board = *robot.board;
   const std::array<bool, CardState::lampCount> working{
-      communicationRuns(frame, board.id), board.visionWorking, board.localizationWorking,
+      communicationRuns(robot), board.visionWorking, board.localizationWorking,
       board.decisionWorking, board.imuWorking};
   for (std::size_t i = 0; i < working.size(); ++i) {
     Lamp& lamp = history.lamps[i];
     if (working[i]) {
       history.seen[i] = true;
       lamp = {LampState::Working, 0};
-    } else if (history.seen[i] && !frame.paused) {
+    } else if (history.seen[i] && !paused) {
       if (lamp.state != LampState::Silent) history.silentSince[i] = m_playing;
       lamp = {LampState::Silent, static_cast<int>((m_playing - history.silentSince[i]) / 1000)};
     }
@@ -99,7 +83,9 @@ void CardTracker::updateLamps(History& history, const link::MatchFrame& frame,
 }
 
 std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64 now) {
-  if (!frame.health.empty() || frame.origin == link::FrameOrigin::Live) return liveCards(frame);
+  const bool heard = std::any_of(frame.robots.begin(), frame.robots.end(),
+                                 [](const auto& robot) { return robot.health.has_value(); });
+  if (heard || frame.origin == link::FrameOrigin::Live) return liveCards(frame);
   const qint64 passed = m_last >= 0 ? now - m_last : 0;
   if (!frame.paused) m_playing += passed;
   m_last = now;
@@ -112,8 +98,8 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
   m_age += smoothing * (age - m_age);
 
   std::vector<CardState> cards;
-  cards.reserve(frame.snapshot.robots.size());
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+  cards.reserve(frame.robots.size());
+  for (const link::RobotFrame& robot : frame.robots) {
     CardState card;
     card.id = robot.identity.id;
     card.team = robot.identity.team;
@@ -121,12 +107,10 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     card.name = robotName(robot.identity);
     int action = robot.action;
     History& history = m_robots[card.id];
-    const auto board = std::find_if(frame.boards.begin(), frame.boards.end(),
-                                    [&](const auto& view) { return view.id == card.id; });
-    if (board != frame.boards.end()) {
-      card.voltage = board->voltage;
-      updateLamps(history, frame, *board);
-      action = board->actionA;
+    card.battery = link::batteryOf(robot);
+    if (robot.board) {
+      updateLamps(history, robot, frame.paused);
+      action = robot.board->actionA;
     }
     card.lamps = history.lamps;
     card.action = actionText(action);
@@ -134,14 +118,12 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     card.detail = (frame.paused ? QStringLiteral("paused") : ageText(m_age)) +
                   QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
     card.detailTip = QStringLiteral("Age of the tick shown; distance walked");
-    if (board != frame.boards.end()) card.values = boardValues(robot, *board);
+    if (robot.board) card.values = boardValues(robot, *robot.board);
     chooseTag(card, robot.statistics, action, robot.fallen);
     cards.push_back(std::move(card));
   }
-  std::erase_if(m_robots, [&frame](const auto& entry) {
-    return std::none_of(frame.snapshot.robots.begin(), frame.snapshot.robots.end(),
-                        [&](const auto& robot) { return robot.identity.id == entry.first; });
-  });
+  std::erase_if(m_robots,
+                [&frame](const auto& entry) { return frame.robot(entry.first) == nullptr; });
   return cards;
 }
 

@@ -14,24 +14,27 @@ QString secondsText(double seconds) {
 
 QString detailOf(const link::RobotHealth& robot) {
   // A small age would only flicker: robots speak about once a second.
-  QStringList parts{QStringLiteral("%1 s").arg(secondsText(robot.age)),
+  QStringList parts{QStringLiteral("%1 s").arg(secondsText(telemetry::secondsOf(robot.age))),
                     QStringLiteral("%1/s").arg(
                         numberText(robot.timedOut ? 0.0 : robot.rate, robot.timedOut ? 0 : 1))};
   if (robot.loss && !robot.timedOut) {
     parts << QStringLiteral("%1 %").arg(numberText(*robot.loss * 100, 1));
   }
-  if (robot.errors > 0) parts << QStringLiteral("%1 bad").arg(countText(robot.errors));
+  if (robot.errorCount > 0) parts << QStringLiteral("%1 bad").arg(countText(robot.errorCount));
   return parts.join(QStringLiteral(" · "));
 }
 
 QString tipOf(const link::RobotHealth& robot) {
   QStringList tip{
-      QStringLiteral("Heard from %1").arg(QString::fromStdString(robot.sender)),
+      QStringLiteral("Heard from %1").arg(QString::fromStdString(robot.sender.text())),
       QStringLiteral("Last message %1 s ago, %2 per second, jitter %3 ms")
-          .arg(secondsText(robot.age), numberText(robot.rate, 1),
+          .arg(secondsText(telemetry::secondsOf(robot.age)), numberText(robot.rate, 1),
                numberText(robot.jitter * 1000, 0)),
-      QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
-          .arg(countText(robot.messages), countText(robot.bytes), countText(robot.errors)),
+      // A recording counts the bad ones only.
+      robot.messages > 0
+          ? QStringLiteral("%1 messages, %2 bytes, %3 bad ones")
+                .arg(countText(robot.messages), countText(robot.bytes), countText(robot.errorCount))
+          : QStringLiteral("%1 bad messages").arg(countText(robot.errorCount)),
       robot.loss ? QStringLiteral("%1 % lost").arg(numberText(*robot.loss * 100, 1))
                  : QStringLiteral("Loss is not known: the messages have no sequence number")};
   if (robot.recoveries > 0) tip << QStringLiteral("Came back %1 times").arg(robot.recoveries);
@@ -45,7 +48,8 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
     card.tag = text;
   };
   if (robot.timedOut) {
-    put(TagKind::Error, QStringLiteral("TIMEOUT %1 s").arg(static_cast<qint64>(robot.age)));
+    put(TagKind::Error,
+        QStringLiteral("TIMEOUT %1 s").arg(static_cast<qint64>(telemetry::secondsOf(robot.age))));
   } else if (robot.conflict) {
     put(TagKind::Error, QStringLiteral("number sent twice"));
   } else if (robot.penalty) {
@@ -69,9 +73,9 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
   }
 }
 
-Lamp lampOf(telemetry::ProcessState state, double since) {
-  const auto seconds = static_cast<int>(std::min(since, 1e6));
-  switch (state) {
+Lamp lampOf(const telemetry::ProcessStatus& process) {
+  const auto seconds = static_cast<int>(std::min(telemetry::secondsOf(process.since), 1e6));
+  switch (process.state) {
     case telemetry::ProcessState::Working:
       return {LampState::Working, 0};
     case telemetry::ProcessState::Silent:
@@ -86,21 +90,21 @@ Lamp lampOf(telemetry::ProcessState state, double since) {
 
 std::vector<CardState> liveCards(const link::MatchFrame& frame) {
   std::vector<CardState> cards;
-  cards.reserve(frame.health.size());
-  for (std::size_t i = 0; i < frame.health.size() && i < frame.snapshot.robots.size(); ++i) {
-    const link::RobotHealth& robot = frame.health[i];
-    const sim::RobotIdentity& identity = frame.snapshot.robots[i].identity;
+  cards.reserve(frame.robots.size());
+  for (const link::RobotFrame& heard : frame.robots) {
+    if (!heard.health) continue;
+    const link::RobotHealth& robot = *heard.health;
+    const sim::RobotIdentity& identity = heard.identity;
     CardState card;
-    card.id = robot.id;
+    card.id = identity.id;
     card.team = identity.team;
     card.number = identity.number;
     card.name = robotName(identity);
     card.live = true;
     card.timedOut = robot.timedOut;
     card.battery = robot.battery;
-    card.voltage = robot.battery ? static_cast<int>(std::lround(robot.battery->volts * 10)) : 0;
     for (std::size_t lamp = 0; lamp < card.lamps.size(); ++lamp) {
-      card.lamps[lamp] = lampOf(robot.processes[lamp], robot.processSince[lamp]);
+      card.lamps[lamp] = lampOf(robot.processes[lamp]);
     }
     card.action = robot.action ? actionText(*robot.action) : QString();
     if (robot.timedOut && !card.action.isEmpty()) {

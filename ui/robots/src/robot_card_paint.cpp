@@ -95,7 +95,7 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.drawText(chevronRect(), Qt::AlignCenter,
                    m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
 
-  if (m_state.voltage <= 0 || !m_parts.battery) return;
+  if (!m_state.battery || !m_parts.battery) return;
   painter.setOpacity(greyed);
   const bool low = m_state.batteryLow();
   const QRect bar(chevronRect().left() - scaled(this, 40), row.center().y() - scaled(this, 4),
@@ -105,14 +105,14 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.setBrush(Qt::NoBrush);
   painter.drawRoundedRect(sharp(bar), 1.5, 1.5);
   QRectF inside = QRectF(bar).adjusted(2, 2, -2, -2);
-  inside.setWidth(inside.width() * m_state.charge());
+  inside.setWidth(inside.width() * m_state.battery->fraction);
   painter.fillRect(inside, color);
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
   painter.drawText(
       QRect(row.left(), row.top(), bar.left() - scaled(this, 6) - row.left(), row.height()),
       Qt::AlignRight | Qt::AlignVCenter,
-      numberText(m_state.voltage / 10.0, 1) + QStringLiteral(" V"));
+      numberText(m_state.battery->volts, 1) + QStringLiteral(" V"));
   painter.setOpacity(1.0);
 }
 

@@ -71,10 +71,9 @@ std::vector<CardState> RobotsDock::states() {
   const FramePtr other = m_context.overlay != nullptr ? m_context.overlay->other() : nullptr;
   if (!other) return cards;
   for (CardState& card : cards) {
-    for (const sim::RobotSnapshot& robot : frame->snapshot.robots) {
-      if (robot.identity.id != card.id) continue;
-      const auto difference = poseDifference(*other, card.id, robot.pose);
-      if (!difference) break;
+    if (const link::RobotFrame* robot = frame->robot(card.id)) {
+      const auto difference = poseDifference(*other, card.id, robot->pose);
+      if (!difference) continue;
       const QString words = differenceText(*difference);
       card.detail = words + QStringLiteral(" · ") + card.detail;
       card.detailTip += tr("\nTruth and what is heard are %1 apart").arg(words);

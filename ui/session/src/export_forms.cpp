@@ -29,7 +29,7 @@ const ExportForm forms[] = {
 
 Result<std::uint64_t> writeReport(const telemetry::SessionReader& session,
                                   const ExportRequest& request, const QByteArray& picture) {
-  const telemetry::SessionRange range = request.selection.range;
+  const telemetry::TimeRange range = request.selection.range;
   link::ReportContent content;
   content.session = session.info();
   content.title = content.session.title;

@@ -145,7 +145,7 @@ bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
 
 void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   const FramePtr frame = m_source->frame();
-  if (!frame || frame->snapshot.robots.empty()) {
+  if (!frame || frame->robots.empty()) {
     m_notices->show(tr("There is no robot on the field to simulate from here."));
     return;
   }

@@ -13,9 +13,7 @@ namespace {
 
 QString nameOf(const link::MatchFrame* frame, RobotId id) {
   if (frame != nullptr) {
-    for (const sim::RobotSnapshot& robot : frame->snapshot.robots) {
-      if (robot.identity.id == id) return robotName(robot.identity);
-    }
+    if (const link::RobotFrame* robot = frame->robot(id)) return robotName(robot->identity);
   }
   return id.value > 0 ? QStringLiteral("robot %1").arg(id.value) : QString();
 }
@@ -121,9 +119,11 @@ void EventCollector::compareReferee(const link::MatchFrame& frame) {
 }
 
 void EventCollector::compareHealth(const link::MatchFrame& frame) {
-  for (const link::RobotHealth& robot : frame.health) {
-    Health& known = m_health[robot.id];
-    const QString name = nameOf(&frame, robot.id);
+  for (const link::RobotFrame& heard : frame.robots) {
+    if (!heard.health) continue;
+    const link::RobotHealth& robot = *heard.health;
+    Health& known = m_health[heard.id()];
+    const QString name = robotName(heard.identity);
     if (robot.timedOut != known.timedOut) {
       m_list->add({frame.snapshot.time,
                    robot.timedOut ? EventType::Timeout : EventType::Recovery,
@@ -139,25 +139,27 @@ void EventCollector::compareHealth(const link::MatchFrame& frame) {
 }
 
 void EventCollector::compareProcesses(const link::MatchFrame& frame) {
-  for (const link::ChildStatus& child : frame.children) {
-    const QString subject = QStringLiteral("%1 %2").arg(nameOf(&frame, child.spec.robot),
-                                                        QString::fromStdString(child.spec.name));
-    const auto known = m_children.find(child.handle);
-    const bool running = child.state == link::ChildState::Running;
-    const bool ranBefore =
-        known != m_children.end() && known->second.state == link::ChildState::Running;
-    if (running && !ranBefore) {
-      // Its first start is no event: every match begins with it.
-      if (!m_everRan.emplace(child.spec.robot, child.spec.name).second) {
-        m_list->add({frame.snapshot.time, EventType::ProcessStarted, subject, {}});
+  for (const link::RobotFrame& robot : frame.robots) {
+    for (const link::ChildStatus& child : robot.processes()) {
+      const QString subject = QStringLiteral("%1 %2").arg(robotName(robot.identity),
+                                                          QString::fromStdString(child.spec.name));
+      const auto known = m_children.find(child.handle);
+      const bool running = child.state == link::ChildState::Running;
+      const bool ranBefore =
+          known != m_children.end() && known->second.state == link::ChildState::Running;
+      if (running && !ranBefore) {
+        // Its first start is no event: every match begins with it.
+        if (!m_everRan.emplace(child.spec.robot, child.spec.name).second) {
+          m_list->add({frame.snapshot.time, EventType::ProcessStarted, subject, {}});
+        }
       }
+      if (child.state == link::ChildState::Failed &&
+          (known == m_children.end() || known->second.state != child.state)) {
+        m_list->add({frame.snapshot.time, EventType::ProcessEnded, subject,
+                     QString::fromStdString(child.detail)});
+      }
+      m_children[child.handle] = {child.state, child.pid};
     }
-    if (child.state == link::ChildState::Failed &&
-        (known == m_children.end() || known->second.state != child.state)) {
-      m_list->add({frame.snapshot.time, EventType::ProcessEnded, subject,
-                   QString::fromStdString(child.detail)});
-    }
-    m_children[child.handle] = {child.state, child.pid};
   }
 }
 

@@ -108,9 +108,9 @@ void LiveController::remember() {
   constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
   if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
   m_past.push_back(m_frame);
-  m_pastRobots += m_frame->health.size() + 1;
+  m_pastRobots += m_frame->robots.size() + 1;
   while (m_pastRobots > mostRobots) {
-    m_pastRobots -= m_past.front()->health.size() + 1;
+    m_pastRobots -= m_past.front()->robots.size() + 1;
     m_past.pop_front();
   }
 }
@@ -173,9 +173,9 @@ void LiveController::deliver() {
   const auto lines = m_watch->takeLog();
   if (lines.empty()) return;
   emit logReceived(lines);
-  std::vector<const link::LogLine*> ports;
-  for (const link::LogLine& line : lines) {
-    if (line.warning && line.origin == "network") ports.push_back(&line);
+  std::vector<const LogLine*> ports;
+  for (const LogLine& line : lines) {
+    if (line.isWarning() && line.origin == "network") ports.push_back(&line);
   }
   if (ports.empty()) return;
   const QString first = QString::fromStdString(ports.front()->text);

@@ -71,9 +71,7 @@ void MatchController::removeRobots(const std::vector<RobotId>& ids) {
     if (known == nullptr) continue;
     leaving.push_back(*known);
     if (!m_frame) continue;
-    for (const sim::RobotSnapshot& seen : m_frame->snapshot.robots) {
-      if (seen.identity.id == id) leaving.back().pose = seen.pose;
-    }
+    if (const link::RobotFrame* seen = m_frame->robot(id)) leaving.back().pose = seen->pose;
   }
   if (!leaving.empty()) m_undoStack->push(new RemoveRobotsCommand(this, std::move(leaving)));
 }

@@ -22,8 +22,7 @@ FramePtr MatchController::frameAt(double time) const {
     m_past = std::make_unique<link::RecordedFrames>(std::move(backdrop));
   }
   auto past = std::make_shared<link::MatchFrame>(m_past->frameAt(*rows, time));
-  if (past->snapshot.robots.empty() && !m_frame->snapshot.robots.empty() &&
-      time < rows->range()->begin) {
+  if (past->robots.empty() && !m_frame->robots.empty() && time < rows->range()->begin) {
     return nullptr;
   }
   return past;

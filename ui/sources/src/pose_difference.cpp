@@ -9,18 +9,12 @@ namespace pitchboard::ui {
 
 std::optional<PoseDifference> poseDifference(const link::MatchFrame& other, RobotId id,
                                              const Pose& here) {
-  for (std::size_t i = 0; i < other.snapshot.robots.size(); ++i) {
-    const sim::RobotSnapshot& robot = other.snapshot.robots[i];
-    if (robot.identity.id != id) continue;
-    if (i < other.health.size() && (!other.health[i].poseKnown || other.health[i].timedOut)) {
-      return std::nullopt;
-    }
-    return PoseDifference{robot.pose,
-                          std::hypot(robot.pose.position.x - here.position.x,
-                                     robot.pose.position.y - here.position.y),
-                          std::abs(wrapToPi(robot.pose.yaw - here.yaw))};
-  }
-  return std::nullopt;
+  const link::RobotFrame* robot = other.robot(id);
+  if (robot == nullptr || !robot->poseKnown() || robot->timedOut()) return std::nullopt;
+  return PoseDifference{robot->pose,
+                        std::hypot(robot->pose.position.x - here.position.x,
+                                   robot->pose.position.y - here.position.y),
+                        std::abs(wrapToPi(robot->pose.yaw - here.yaw))};
 }
 
 QString differenceText(const PoseDifference& difference) {

@@ -54,7 +54,7 @@ struct ReplayController::File {
   link::RecordedFrames memoryFrames;  // UI thread
   std::shared_ptr<telemetry::SeriesStore> rows;
   std::vector<telemetry::SessionEvent> events;
-  std::vector<link::LogLine> log;
+  std::vector<LogLine> log;
   std::string scenario;
   double tickRate = 60.0;
   bool broken = false;
@@ -134,13 +134,14 @@ void ReplayController::open(const QString& path) {
           std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, range->begin));
       file->events = file->session.events();
       constexpr std::size_t maxLines = 10'000;
-      file->session.messages(
-          telemetry::SessionStream::Log, *range, [&file](double time, std::string_view json) {
-            if (const auto line = telemetry::sessionLogLine(json)) {
-              file->log.push_back({time, line->source, line->text, line->level > 2});
-            }
-            return file->log.size() < maxLines;
-          });
+      file->session.messages(telemetry::SessionStream::Log, *range,
+                             [&file](double time, std::string_view json) {
+                               if (auto line = telemetry::sessionLogLine(json)) {
+                                 line->time = time;
+                                 file->log.push_back(std::move(*line));
+                               }
+                               return file->log.size() < maxLines;
+                             });
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
         file->scenario = std::move(*scenario);
       }

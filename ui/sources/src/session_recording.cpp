@@ -81,9 +81,9 @@ SessionRecording::SessionRecording(MatchController* controller, LiveController* 
   });
   connect(source, &SourceSwitch::changed, this, &SessionRecording::changed);
   connect(controller, &MatchController::logReceived, this,
-          [this](const std::vector<link::LogLine>& lines) {
-            for (const link::LogLine& line : lines) {
-              m_log.push_back({line.time, line.warning ? 3 : 2, line.origin, line.text});
+          [this](const std::vector<LogLine>& lines) {
+            for (const LogLine& line : lines) {
+              m_log.push_back(line);
               if (m_log.size() > maxLogLines) m_log.pop_front();
             }
           });

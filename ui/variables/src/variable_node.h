@@ -49,8 +49,8 @@ struct VariableNode {
 /// Calls `visit` for every variable below, in order.
 template <class Visit>
 void forEachVariable(const VariableNode& group, const Visit& visit) {
-  for (const auto& heading : group.children) {
-    for (const auto& variable : heading->children) visit(*variable);
+  for (const auto& category : group.children) {
+    for (const auto& variable : category->children) visit(*variable);
   }
 }
 

@@ -83,7 +83,7 @@ bool VariablesFilter::filterAcceptsRow(int row, const QModelIndex& parent) const
 }
 
 bool VariablesFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
-  // Robots and headings keep their order whatever their variables are sorted by.
+  // Robots and categories keep their order whatever their variables are sorted by.
   if (m_model->kindOf(left) != VariablesModel::Kind::Variable) {
     return sortOrder() == Qt::AscendingOrder ? left.row() < right.row() : left.row() > right.row();
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Which variables are listed, and in which order: those with all the words (in robot, heading, name
-// or unit), favourites only, recently changed only. A robot or heading is listed when one of its
-// variables is. Nothing moves by itself: update() and the setters do it.
+// Which variables are listed, and in which order: those with all the words (in robot, category,
+// name or unit), favourites only, recently changed only. A robot or category is listed when one of
+// its variables is. Nothing moves by itself: update() and the setters do it.
 
 #include <QSortFilterProxyModel>
 #include <QStringList>

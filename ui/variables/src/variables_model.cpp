@@ -14,13 +14,13 @@ namespace {
 using telemetry::GroupId;
 using telemetry::GroupInfo;
 
-// Headings that people look for first; the others follow as they come.
-int headingRank(const std::string& heading) {
+// Categories that people look for first; the others follow as they come.
+int categoryRank(const std::string& category) {
   static constexpr const char* order[] = {"Vision", "Localization", "Decision",     "Planning",
                                           "IMU",    "Control",      "Communication"};
   int rank = 0;
   for (const char* known : order) {
-    if (heading == known) return rank;
+    if (category == known) return rank;
     ++rank;
   }
   return rank;
@@ -60,41 +60,41 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
   const GroupInfo& info = group->view->info();
   group->name = group->path = QString::fromStdString(info.name);
   group->rank = groupRank(info);
-  const auto headingOf = [&group](const std::string& text) {
+  const auto categoryOf = [&group](const std::string& text) {
     const QString name = text.empty() ? tr("Other") : QString::fromStdString(text);
-    for (const auto& heading : group->children) {
-      if (heading->name == name) return heading.get();
+    for (const auto& category : group->children) {
+      if (category->name == name) return category.get();
     }
-    auto heading = std::make_unique<VariableNode>();
-    heading->kind = Kind::Heading;
-    heading->parent = group.get();
-    heading->rank = headingRank(text);
-    heading->name = name;
-    heading->path = group->name + QLatin1Char('\n') + name;
-    group->children.push_back(std::move(heading));
+    auto category = std::make_unique<VariableNode>();
+    category->kind = Kind::Category;
+    category->parent = group.get();
+    category->rank = categoryRank(text);
+    category->name = name;
+    category->path = group->name + QLatin1Char('\n') + name;
+    group->children.push_back(std::move(category));
     return group->children.back().get();
   };
   std::uint32_t column = 0;
   for (const telemetry::ColumnInfo& columnInfo : info.columns) {
-    VariableNode* heading = headingOf(columnInfo.heading);
+    VariableNode* category = categoryOf(columnInfo.category);
     auto variable = std::make_unique<VariableNode>();
     variable->kind = Kind::Variable;
-    variable->parent = heading;
-    variable->row = static_cast<int>(heading->children.size());
+    variable->parent = category;
+    variable->row = static_cast<int>(category->children.size());
     variable->name = QString::fromStdString(columnInfo.name);
     variable->path = group->name + QLatin1Char('/') + variable->name;
     variable->column = column++;
     variable->info = columnInfo;
     variable->searchText =
-        (group->name + QLatin1Char('\n') + heading->name + QLatin1Char('\n') + variable->name +
+        (group->name + QLatin1Char('\n') + category->name + QLatin1Char('\n') + variable->name +
          QLatin1Char('\n') + QString::fromStdString(columnInfo.unit))
             .toLower();
-    heading->children.push_back(std::move(variable));
+    category->children.push_back(std::move(variable));
   }
   std::stable_sort(group->children.begin(), group->children.end(),
                    [](const auto& a, const auto& b) { return a->rank < b->rank; });
   int row = 0;
-  for (const auto& heading : group->children) heading->row = row++;
+  for (const auto& category : group->children) category->row = row++;
   return group;
 }
 
@@ -202,7 +202,7 @@ double VariablesModel::lastChange(const QModelIndex& index) const {
 int VariablesModel::variableCount() const {
   std::size_t count = 0;
   for (const auto& group : m_groups) {
-    for (const auto& heading : group->children) count += heading->children.size();
+    for (const auto& category : group->children) count += category->children.size();
   }
   return static_cast<int>(count);
 }
@@ -221,9 +221,9 @@ QModelIndex VariablesModel::find(const QString& path) const {
   for (const auto& group : m_groups) {
     if (path == group->path) return indexOf(group.get(), Name);
     if (!path.startsWith(group->name)) continue;
-    for (const auto& heading : group->children) {
-      if (path == heading->path) return indexOf(heading.get(), Name);
-      for (const auto& variable : heading->children) {
+    for (const auto& category : group->children) {
+      if (path == category->path) return indexOf(category.get(), Name);
+      for (const auto& variable : category->children) {
         if (path == variable->path) return indexOf(variable.get(), Name);
       }
     }

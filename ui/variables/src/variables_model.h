@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The variables of a source as a tree: robot (group) → heading → variable. Values are those of the
+// The variables of a source as a tree: robot (group) → category → variable. Values are those of the
 // last refresh(), which only looks at the rows it is given, so that thousands of rows cost nothing
 // while nobody sees them. UI thread only.
 
@@ -41,7 +41,7 @@ class VariablesModel : public QAbstractItemModel {
     FavouriteRole,  ///< bool
     ColumnRole      ///< telemetry::ColumnInfo, of a variable
   };
-  enum class Kind { Group, Heading, Variable };
+  enum class Kind { Group, Category, Variable };
 
   explicit VariablesModel(QObject* parent = nullptr);
   ~VariablesModel() override;
@@ -93,7 +93,7 @@ class VariablesModel : public QAbstractItemModel {
   int variableCount() const;
 
   // For filters, without the cost of data().
-  /// Lower case: group, heading, name and unit.
+  /// Lower case: group, category, name and unit.
   const QString& searchText(const QModelIndex& index) const;
   /// Time of the last change at the last refresh; −∞ when unknown.
   double lastChange(const QModelIndex& index) const;

@@ -128,14 +128,14 @@ void VariablesModel::refreshAll() {
   takeTime();
   for (const auto& group : m_groups) {
     lookAt(*group);
-    for (const auto& heading : group->children) {
+    for (const auto& category : group->children) {
       bool changed = false;
-      for (const auto& variable : heading->children) {
+      for (const auto& variable : category->children) {
         changed = read(*variable, 0) || changed;
       }
       if (changed) {
-        emit dataChanged(indexOf(heading->children.front().get(), Value),
-                         indexOf(heading->children.back().get(), columns - 1));
+        emit dataChanged(indexOf(category->children.front().get(), Value),
+                         indexOf(category->children.back().get(), columns - 1));
       }
     }
   }
@@ -167,7 +167,7 @@ QVariant VariablesModel::display(const VariableNode& row, int column) const {
     if (column == Value && rate > 0) return QString::number(rate, 'f', rate < 10 ? 1 : 0);
     return column == Unit && rate > 0 ? tr("/s") : QString();
   }
-  if (row.kind == Kind::Heading) return {};
+  if (row.kind == Kind::Category) return {};
   switch (column) {
     case Value:
       return row.known ? valueText(row.info, row.value) : QString();
@@ -219,7 +219,7 @@ QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
 
 QString VariablesModel::toolTip(const QModelIndex& index) const {
   const VariableNode& row = *node(index);
-  if (row.kind == Kind::Heading) return {};
+  if (row.kind == Kind::Category) return {};
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
     for (const auto& [key, value] : row.view->info().attributes) {

@@ -121,8 +121,8 @@ void VariablesView::openAtFirst() {
   m_openedAtFirst = true;
   const QString first = m_model->index(0, 0).data(VariablesModel::PathRole).toString();
   m_open << first;
-  for (const char* heading : {"Vision", "Localization", "Decision"}) {
-    m_open << first + QLatin1Char('\n') + QLatin1String(heading);
+  for (const char* category : {"Vision", "Localization", "Decision"}) {
+    m_open << first + QLatin1Char('\n') + QLatin1String(category);
   }
 }
 
@@ -141,8 +141,8 @@ void VariablesView::restore() {
     const QModelIndex group = m_filter->index(g, 0);
     if (wanted(group) != isExpanded(group)) setExpanded(group, wanted(group));
     for (int h = 0; h < m_filter->rowCount(group); ++h) {
-      const QModelIndex heading = m_filter->index(h, 0, group);
-      if (wanted(heading) != isExpanded(heading)) setExpanded(heading, wanted(heading));
+      const QModelIndex category = m_filter->index(h, 0, group);
+      if (wanted(category) != isExpanded(category)) setExpanded(category, wanted(category));
     }
   }
   const auto inView = [this](const QString& path) {

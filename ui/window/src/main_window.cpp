@@ -273,7 +273,7 @@ void MainWindow::connectField() {
   connect(m_field, &FieldView::clearRequested, m_controller, [this] {
     std::vector<RobotId> all;
     if (const FramePtr frame = m_controller->frame()) {
-      for (const auto& robot : frame->snapshot.robots) all.push_back(robot.identity.id);
+      for (const auto& robot : frame->robots) all.push_back(robot.identity.id);
     }
     m_controller->removeRobots(all);
   });

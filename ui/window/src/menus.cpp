@@ -106,7 +106,7 @@ void StudioMenus::makeEdit() {
                            [source, selection] {
                              std::vector<RobotId> all;
                              if (const FramePtr frame = source->frame()) {
-                               for (const auto& robot : frame->snapshot.robots) {
+                               for (const auto& robot : frame->robots) {
                                  all.push_back(robot.identity.id);
                                }
                              }

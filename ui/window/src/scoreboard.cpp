@@ -106,13 +106,13 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   if (frame.origin == link::FrameOrigin::Live || frame.referee) return refereeScoreboard(frame);
   ScoreboardState state;
   TeamColor leftTeam = TeamColor::Blue, rightTeam = TeamColor::Red;
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+  for (const sim::RobotSnapshot& robot : frame.robots) {
     if (!info(robot.identity.team).facesLeft) {
       leftTeam = robot.identity.team;
       break;
     }
   }
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
+  for (const sim::RobotSnapshot& robot : frame.robots) {
     if (info(robot.identity.team).facesLeft) {
       rightTeam = robot.identity.team;
       break;

@@ -189,7 +189,7 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
                       : tr("Simulation %1/s, ×%2")
                             .arg(countText(static_cast<qulonglong>(frame.ticksPerSecond + 0.5)),
                                  numberText(frame.speed, 2)));
-  const auto robots = frame.snapshot.robots.size();
+  const auto robots = frame.robots.size();
   m_world->setText(tr("%1, tick %2, seed %3")
                        .arg(robots == 1 ? tr("1 robot") : tr("%1 robots").arg(robots),
                             countText(frame.snapshot.tick))
@@ -212,12 +212,11 @@ void StudioStatusBar::showSelected(const link::MatchFrame& frame) {
   QString text;
   if (selected.size() > 1) text = tr("%1 robots selected").arg(selected.size());
   if (selected.size() == 1) {
-    for (const sim::RobotSnapshot& robot : frame.snapshot.robots) {
-      if (robot.identity.id != selected.front()) continue;
+    if (const link::RobotFrame* robot = frame.robot(selected.front())) {
       text = tr("%1 selected: %2, %3 m, %4°")
-                 .arg(robotName(robot.identity), numberText(robot.pose.position.x, 2),
-                      numberText(robot.pose.position.y, 2),
-                      numberText(degreesFromRadians(wrapToPi(robot.pose.yaw)), 0));
+                 .arg(robotName(robot->identity), numberText(robot->pose.position.x, 2),
+                      numberText(robot->pose.position.y, 2),
+                      numberText(degreesFromRadians(wrapToPi(robot->pose.yaw)), 0));
     }
   }
   m_selected->setText(text);

@@ -5,9 +5,9 @@
 #include <cassert>
 #include <charconv>
 
+#include <base/actions.h>
 #include <base/lined_json.h>
 #include <resources/resources.h>
-#include <telemetry/wire/action_words.h>
 
 namespace pitchboard::link {
 namespace {
@@ -39,8 +39,7 @@ bool fits(std::string_view pattern, std::string_view name) {
 std::map<std::int32_t, std::string> readLabels(const JsonObject& rule) {
   const JsonNode* labels = rule.find("labels");
   if (!labels) return {};
-  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions")
-    return telemetry::actionLabels();
+  if (labels->kind == JsonNode::Kind::Text && labels->text == "actions") return actionLabels();
   std::map<std::int32_t, std::string> out;
   if (labels->kind != JsonNode::Kind::Object) {
     rule.fail("labels", R"(must be "actions" or an object of code and text)");
@@ -69,11 +68,11 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
     if (const auto* rules = file.array("rules", mostRules)) {
       for (std::size_t i = 0; i < rules->size(); ++i) {
         const JsonObject json(report, (*rules)[i], "rules[" + std::to_string(i) + "]",
-                              {"name", "heading", "unit", "kind", "labels"});
+                              {"name", "category", "unit", "kind", "labels"});
         json.require("name");
         Rule rule;
         rule.name = json.text("name", "", longestText);
-        if (json.find("heading")) rule.heading = json.text("heading", "", longestText);
+        if (json.find("category")) rule.category = json.text("category", "", longestText);
         if (json.find("unit")) rule.unit = json.text("unit", "", longestText);
         if (json.find("kind")) {
           const auto kind = json.choice("kind", kinds, "kind");
@@ -99,12 +98,12 @@ const VariableMeanings& VariableMeanings::published() {
 }
 
 void VariableMeanings::describe(telemetry::ColumnInfo& column) const {
-  bool heading = false, unit = false, kind = false;
+  bool category = false, unit = false, kind = false;
   for (const Rule& rule : m_rules) {
     if (!fits(rule.name, column.name)) continue;
-    if (rule.heading && !heading) {
-      column.heading = *rule.heading;
-      heading = true;
+    if (rule.category && !category) {
+      column.category = *rule.category;
+      category = true;
     }
     if (rule.unit && !unit) {
       column.unit = *rule.unit;

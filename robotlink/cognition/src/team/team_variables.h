@@ -22,7 +22,7 @@ namespace pitchboard::link {
 constexpr int mostTeamMates = 3;    // COM_*_ROBOT1..3
 constexpr int mostMatePlaces = 10;  // LOCALIZATION_RBT02_X .. _RBT11_Y
 
-/// DECISION_STATE and COM_ACTION_ROBOTn.
+/// DECISION_STATE and COM_ACTION_ROBOTn; their words are in resources/variables.json.
 enum class Intention : int {
   None = 0,
   Idle = 1,

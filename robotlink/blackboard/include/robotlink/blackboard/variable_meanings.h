@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What blackboard variables mean to a reader (unit, heading, words for codes), from
+// What blackboard variables mean to a reader (unit, category, words for codes), from
 // resources/variables.json. Private to robotlink.
 
 #include <map>
@@ -28,7 +28,7 @@ class VariableMeanings {
  private:
   struct Rule {
     std::string name;  // with * for any text
-    std::optional<std::string> heading, unit;
+    std::optional<std::string> category, unit;
     std::optional<telemetry::ColumnKind> kind;
     std::map<std::int32_t, std::string> labels;
   };

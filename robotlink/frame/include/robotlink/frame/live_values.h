@@ -11,8 +11,7 @@
 #include <vector>
 
 #include <base/geometry.h>
-#include <base/ids.h>
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/wire/link_health.h>
 
 namespace pitchboard::link {
 
@@ -31,22 +30,10 @@ struct HeardValue {
   bool operator==(const HeardValue&) const = default;
 };
 
-/// How well one robot is heard, and what it says of itself.
-struct RobotHealth {
-  RobotId id;              ///< as in the frame's snapshot
-  int number = 0;          ///< as sent
-  std::string sender;      ///< "192.168.0.7:41708"
+/// How well one robot is heard, and what it says of itself. (Its number and id are those of the
+/// frame's robot.)
+struct RobotHealth : telemetry::LinkHealth {
   bool poseKnown = false;  ///< false: its messages have no usable X, Y
-  bool conflict = false;   ///< another sender uses the same number
-  bool timedOut = false;
-  double age = 0.0;            ///< s since its last usable message
-  double rate = 0.0;           ///< messages per second
-  double jitter = 0.0;         ///< s
-  std::optional<double> loss;  ///< 0 to 1, where the profile has a sequence number
-  std::uint64_t messages = 0, bytes = 0, errors = 0, recoveries = 0;
-  std::array<telemetry::ProcessState, telemetry::processCount> processes{};
-  std::array<double, telemetry::processCount> processSince{};  ///< s in this state
-  std::optional<telemetry::Battery> battery;
   std::optional<int> action;
   std::optional<Point> ball;  ///< perceived, on the field
   std::optional<Penalty> penalty;

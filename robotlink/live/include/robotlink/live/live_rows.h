@@ -2,7 +2,7 @@
 #pragma once
 
 // What live robots send as rows: a group for each robot, the profile's fields as columns, and how
-// well the messages come (heading "Link": AGE s, RATE 1/s, LOSS share, ERRORS count, VOLTS). One
+// well the messages come (category "Link": AGE s, RATE 1/s, LOSS share, ERRORS count, VOLTS). One
 // row for each message, with its own time; while a robot is silent one row a health report, so that
 // its age is seen to grow. Times are seconds since `zero`.
 
@@ -16,6 +16,9 @@
 #include <telemetry/wire/team_monitor.h>
 
 namespace pitchboard::telemetry {
+
+/// Of the columns that say how well a robot is heard; the others are fields of its messages.
+inline constexpr const char* linkCategory = "Link";
 
 struct LiveRowsOptions {
   WallTime zero{};  ///< the moment that counts as 0 s

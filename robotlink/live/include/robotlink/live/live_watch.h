@@ -16,16 +16,13 @@
 #include <simcore/physics/simulation.h>
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/referee_tracker.h>
+#include <telemetry/wire/team_monitor.h>
 #include <telemetry/wire/udp_receiver.h>
 
 namespace pitchboard::link {
 
-/// Limits of a five-cell battery that warn and fill the bar as the cards of simulated robots do:
-/// low below 16.0 V, empty at 14.65 V, full at 19.15 V.
-inline constexpr telemetry::BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
-
 struct LiveOptions {
-  LiveOptions() { team.battery = usualBattery; }
+  LiveOptions() { team.battery = telemetry::usualBattery; }
   telemetry::Address bind{};  ///< 0.0.0.0: every interface, unicast and broadcast
   int portBase = 1240;        ///< robot n sends to portBase + n
   int robots = 16;            ///< ports after the base

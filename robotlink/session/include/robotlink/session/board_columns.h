@@ -2,7 +2,7 @@
 #pragma once
 
 // A blackboard as a row: the variables of a catalog as columns (ints by index, then floats by
-// index), with unit, heading and words from resources/variables.json.
+// index), with unit, category and words from resources/variables.json.
 
 #include <array>
 #include <cstdint>

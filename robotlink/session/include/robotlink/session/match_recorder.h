@@ -89,7 +89,7 @@ struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
   const StateArchive* archive = nullptr;  ///< null: a live source
   std::vector<telemetry::SessionEvent> events;
-  std::vector<telemetry::SessionLogLine> log;
+  std::vector<LogLine> log;
   std::string scenario, catalog, profile;  ///< JSON texts; empty: there is none
 };
 Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seconds,

@@ -53,8 +53,7 @@ class RecordedFrames {
   void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);
   void fillMatch(std::size_t group, MatchFrame& frame);
   void addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame);
-  void addHealth(std::size_t group, double time, const RobotBoardView& board,
-                 const sim::RobotSnapshot& robot, MatchFrame& frame);
+  void addHealth(std::size_t group, double time, const sim::FieldSpec& field, RobotFrame& robot);
 
   FrameBackdrop m_backdrop;
   std::uint64_t m_serial = 0;

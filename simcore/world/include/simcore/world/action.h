@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The action table: what the codes in DECISION_ACTION_A mean to control. Speeds are the published
-// ones, in centimetres and degrees per frame of 1/60 s (the gait's step factor times its length).
+// What control does for each code of <base/actions.h>. Speeds are the published ones, in
+// centimetres and degrees per frame of 1/60 s (the gait's step factor times its length).
 
 #include <span>
-#include <string_view>
+
+#include <base/actions.h>
 
 namespace pitchboard::sim {
-
-enum class ActionKind { Stop, Walk, Kick, InPlace, GetUp };
 
 /// When and how hard a kick acts. Angles in degrees from the heading, as published.
 struct KickRule {
@@ -20,10 +19,7 @@ struct KickRule {
   double share = 1.0;       ///< of that force; weak kicks take half
 };
 
-struct Action {
-  int code = 0;
-  std::string_view words;  ///< as on a robot's card
-  ActionKind kind = ActionKind::Stop;
+struct Action : ActionInfo {
   double front = 0.0;  ///< cm per frame, forward positive
   double turn = 0.0;   ///< degrees per frame, left positive
   double drift = 0.0;  ///< cm per frame, to the LEFT positive (published sign: x −= sin·d)
@@ -35,8 +31,5 @@ std::span<const Action> actionTable();
 
 /// The entry of a code, or nullptr when no robot knows it.
 const Action* findAction(int code);
-
-/// Words for any code; "action 42" for unknown ones is the caller's to write (returns empty).
-std::string_view actionWords(int code);
 
 }  // namespace pitchboard::sim

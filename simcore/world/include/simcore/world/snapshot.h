@@ -24,7 +24,8 @@ struct RobotSnapshot {
   bool operator==(const RobotSnapshot&) const = default;
 };
 
-struct Snapshot {
+/// All but the robots.
+struct GameSnapshot {
   std::uint64_t tick = 0;
   double time = 0.0;   ///< s simulated
   double clock = 0.0;  ///< s of play
@@ -32,6 +33,10 @@ struct Snapshot {
   Score score;
   Point ball;
   Velocity ballVelocity;  ///< m/s
+  bool operator==(const GameSnapshot&) const = default;
+};
+
+struct Snapshot : GameSnapshot {
   std::vector<RobotSnapshot> robots;
   bool operator==(const Snapshot&) const = default;
 };

@@ -40,6 +40,8 @@ struct RobotIdentity {
   TeamColor team = TeamColor::Blue;
   int number = 1;               ///< on the shirt
   bool imuStartsAt180 = false;  ///< yaw is relative to 180°, for robots that start facing left
+  /// "B1": letter of the team and number on the shirt.
+  std::string name() const { return std::string(info(team).letter) + std::to_string(number); }
   bool operator==(const RobotIdentity&) const = default;
 };
 

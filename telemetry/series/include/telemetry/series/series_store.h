@@ -35,12 +35,6 @@ struct Sample {
   bool operator==(const Sample&) const = default;
 };
 
-struct TimeRange {
-  double begin = 0.0;  ///< s
-  double end = 0.0;    ///< s
-  bool operator==(const TimeRange&) const = default;
-};
-
 /// What one pixel column of a curve covers. NaN samples are not counted in min and max; both are
 /// NaN where there is no other sample.
 struct SeriesBucket {

@@ -29,8 +29,8 @@ enum class ColumnKind : std::uint8_t {
 struct ColumnInfo {
   std::string name;  ///< "VISION_BALL_DIST"; unique in its group
   ColumnType type = ColumnType::Float64;
-  std::string unit;     ///< "cm", "°", "m"; empty where there is none
-  std::string heading;  ///< "Vision", "Truth": where lists put it
+  std::string unit;      ///< "cm", "°", "m"; empty where there is none
+  std::string category;  ///< "Vision", "Truth": where lists put it
   ColumnKind kind = ColumnKind::Number;
   std::map<std::int32_t, std::string> labels;  ///< words for codes: 1 → "walk forward, fast"
   /// Of a Float64 column: what is worth keeping of its values, a power of two. A session file keeps
@@ -49,6 +49,12 @@ struct GroupInfo {
 };
 
 using GroupId = std::uint32_t;
+
+/// From `begin` to `end`, both included, in seconds of the source.
+struct TimeRange {
+  double begin = 0.0, end = 0.0;
+  bool operator==(const TimeRange&) const = default;
+};
 
 /// One row: `words` for the Int32 and Float32 columns (bit patterns), `values` for the Float64
 /// columns, both in the order of the columns. Time is seconds of the source: simulated time, or

@@ -29,7 +29,7 @@ Result<ExportFormat> exportFormat(std::string_view name);
 std::string_view fileExtension(ExportFormat format);
 
 struct ExportSelection {
-  SessionRange range{-1e18, 1e18};     ///< s, both ends included
+  TimeRange range{-1e18, 1e18};        ///< s, both ends included
   std::vector<std::string> robots;     ///< names of groups; empty: all
   std::vector<std::string> variables;  ///< names, * stands for any letters; empty: all
   bool messages = true;                ///< events, log, datagrams too (JsonLines and Mcap)
@@ -44,7 +44,7 @@ struct ExportReport {
 using ExportProgress = std::function<bool(double)>;
 
 /// Error InvalidArgument when it ends before it begins.
-Result<void> checkRange(SessionRange range);
+Result<void> checkRange(TimeRange range);
 /// Error NotFound when a robot or a variable is not in the session; also as checkRange().
 Result<void> checkSelection(const SessionReader& session, const ExportSelection& selection);
 

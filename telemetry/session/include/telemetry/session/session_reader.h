@@ -72,24 +72,24 @@ class SessionReader {
   /// Index = GroupId.
   std::span<const SessionGroup> groups() const;
   /// From the first row or message to the last.
-  std::optional<SessionRange> range() const;
+  std::optional<TimeRange> range() const;
   std::uint64_t count(SessionStream stream) const;
 
   /// For each group its last row at or before `time`. `out` keeps its memory from call to call.
   void rowsAt(double time, std::vector<SessionRow>& out) const;
   /// Every row of these groups (all when empty) in the closed range, in the order of recording,
   /// until the visitor says false. The view is valid during the call.
-  void rows(SessionRange range, std::span<const GroupId> groups,
+  void rows(TimeRange range, std::span<const GroupId> groups,
             const std::function<bool(GroupId, const RowView&)>& visit) const;
   /// The messages of a stream in the closed range, with their time, until the visitor says false.
-  void messages(SessionStream stream, SessionRange range,
+  void messages(SessionStream stream, TimeRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
   /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1)
   /// now and then. Ends when one of them says false.
-  bool walk(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+  bool walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
             const std::function<bool(double)>& progress = {}) const;
   /// The same with rows only.
-  bool walkRows(SessionRange range, const std::function<bool(const SessionItem&)>& visit,
+  bool walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
   /// All events; those that are not of the form of an event are left out.
   std::vector<SessionEvent> events() const;
@@ -110,7 +110,7 @@ class SessionReader {
 };
 
 /// A message of the streams Log, and Telemetry or RefereeRaw. Nothing when it is not of that form.
-std::optional<SessionLogLine> sessionLogLine(std::string_view json);
+std::optional<LogLine> sessionLogLine(std::string_view json);
 std::optional<SessionDatagram> sessionDatagram(std::string_view json);
 
 }  // namespace pitchboard::telemetry

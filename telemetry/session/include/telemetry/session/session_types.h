@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What stands in a session file besides rows: who wrote it, events, log lines, datagrams. Times are
+// What stands in a session file besides rows: who wrote it, events, datagrams. Times are
 // seconds of the source (simulated time, or seconds since Live began). Plain values.
 // The format is told in docs/SESSIONS.md.
 
@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include <base/log_line.h>
 #include <telemetry/series/series_types.h>
 #include <telemetry/wire/datagram.h>
 
@@ -32,7 +33,7 @@ struct SessionInfo {
 /// Streams of JSON messages.
 enum class SessionStream : std::uint8_t {
   Events,      ///< SessionEvent
-  Log,         ///< SessionLogLine
+  Log,         ///< LogLine
   Telemetry,   ///< SessionDatagram from a robot
   RefereeRaw,  ///< SessionDatagram of the referee
   Referee,     ///< a referee packet decoded
@@ -50,14 +51,6 @@ struct SessionEvent {
   bool operator==(const SessionEvent&) const = default;
 };
 
-struct SessionLogLine {
-  double time = 0.0;
-  int level = 2;       ///< 1 debug, 2 info, 3 warning, 4 error
-  std::string source;  ///< who says it: "B1/decision"
-  std::string text;
-  bool operator==(const SessionLogLine&) const = default;
-};
-
 /// A datagram as it arrived, any bytes.
 struct SessionDatagram {
   double time = 0.0;
@@ -65,12 +58,6 @@ struct SessionDatagram {
   std::uint16_t localPort = 0;
   std::string payload;
   bool operator==(const SessionDatagram&) const = default;
-};
-
-/// From `begin` to `end`, both included, in seconds.
-struct SessionRange {
-  double begin = 0.0, end = 0.0;
-  bool operator==(const SessionRange&) const = default;
 };
 
 }  // namespace pitchboard::telemetry

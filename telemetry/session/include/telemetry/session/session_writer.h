@@ -66,7 +66,7 @@ class SessionWriter : public RowSink {
   GroupId addGroup(const GroupInfo& info) override;
   void append(GroupId group, const RowView& row) override;
   void append(const SessionEvent& event);
-  void append(const SessionLogLine& line);
+  void append(const LogLine& line);
   /// `stream`: Telemetry or RefereeRaw.
   void append(SessionStream stream, const SessionDatagram& datagram);
   /// `json`: an object with the source's seconds as "time".

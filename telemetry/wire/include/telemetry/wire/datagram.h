@@ -19,6 +19,10 @@ namespace pitchboard::telemetry {
 using WallTime = std::chrono::sys_time<std::chrono::nanoseconds>;
 using Duration = std::chrono::nanoseconds;
 
+constexpr double secondsOf(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
 /// An IPv4 address in host byte order, so that 127.0.0.1 is 0x7f000001.
 struct Address {
   std::uint32_t value = 0;
@@ -32,9 +36,9 @@ Result<Address> parseAddress(std::string_view text);
 /// Where a datagram came from.
 struct Sender {
   Address address;
-  std::uint16_t port = 0;
+  std::uint16_t port = 0;  ///< 0: not known
   auto operator<=>(const Sender&) const = default;
-  std::string text() const;  ///< "192.168.0.7:41708"
+  std::string text() const;  ///< "192.168.0.7:41708"; the address alone where that is all
 };
 
 /// One received datagram; the payload belongs to the batch it stands in.

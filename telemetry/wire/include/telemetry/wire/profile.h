@@ -49,8 +49,8 @@ std::string_view meaningName(FieldMeaning meaning);
 struct ProfileField {
   std::string name;  ///< e.g. "BALL_DIST"
   FieldType type = FieldType::Float;
-  std::string unit;   ///< for the screen, e.g. "cm"; may be empty
-  std::string group;  ///< heading under which it is shown
+  std::string unit;      ///< for the screen, e.g. "cm"; may be empty
+  std::string category;  ///< under which it is shown; may be empty
   FieldMeaning meaning = FieldMeaning::None;
   bool operator==(const ProfileField&) const = default;
 };

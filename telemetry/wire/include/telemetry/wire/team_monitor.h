@@ -4,36 +4,20 @@
 // The whole team as its datagrams show it: who is there, what each one last said, and how well.
 // Time is handed in, so that ten seconds of silence are tested in no time.
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <telemetry/wire/arrival_stats.h>
 #include <telemetry/wire/datagram.h>
+#include <telemetry/wire/link_health.h>
 #include <telemetry/wire/process_filter.h>
 #include <telemetry/wire/sender_filter.h>
 #include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::telemetry {
-
-/// When a battery is low. Volts of one cell (lithium polymer).
-struct BatteryLimits {
-  int cells = 0;  ///< cells in series; 0: the least that explain the highest voltage seen
-  double fullPerCell = 4.2;
-  double lowPerCell = 3.5;
-  double emptyPerCell = 3.3;
-};
-
-struct Battery {
-  double volts = 0.0;
-  int cells = 0;
-  double fraction = 0.0;  ///< 0 empty, 1 full, linear in the voltage
-  bool low = false;
-};
 
 struct MonitorOptions {
   static constexpr std::size_t maxRobots = 64;
@@ -45,39 +29,13 @@ struct MonitorOptions {
   SenderFilter senders;
 };
 
-enum class ProcessState : std::uint8_t { Unknown, Working, Silent };
-
-/// Control, vision, localization, decision, IMU: the order of the message.
-inline constexpr std::size_t processCount = 5;
-inline constexpr std::array<std::string_view, processCount> processNames{
-    "Control", "Vision", "Localization", "Decision", "IMU"};
-
-struct ProcessStatus {
-  ProcessState state = ProcessState::Unknown;  ///< Unknown: not in the message, or robot timed out
-  double probability = 0.5;
-  Duration since{};  ///< how long it has been in this state
-};
-
 /// One robot at one moment: a value that may cross threads.
-struct RobotStatus {
+struct RobotStatus : LinkHealth {
   int number = 0;
   std::uint64_t serial =
       0;  ///< of this robot as long as it is remembered, whatever port it sends from
-  Sender sender;
-  bool conflict = false;  ///< another sender uses the same number at the moment
-  bool timedOut = false;
-  Duration age{};  ///< since the last usable message
   WallTime lastMessage{};
-  std::uint64_t messages = 0;  ///< usable ones
-  std::uint64_t bytes = 0;     ///< of all, payload only
-  std::uint64_t timeouts = 0;  ///< times it came back
-  double rate = 0.0;           ///< messages per second
-  double jitter = 0.0;         ///< seconds
-  std::optional<double> loss;  ///< 0 to 1, where the profile has a sequence number
-  std::uint64_t lost = 0;
   ErrorTally errors;
-  std::array<ProcessStatus, processCount> processes{};
-  std::optional<Battery> battery;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
   std::vector<double> values;                  ///< NaN where missing; place as in the profile
   std::vector<std::string> words;              ///< as sent

@@ -12,6 +12,7 @@ namespace pitchboard::ui {
 
 /// "B1": letter of the team and number on the shirt.
 QString robotName(const sim::RobotIdentity& identity);
+QString robotName(TeamColor team, int number);
 /// "walk forward, slow", or "action 42" for a code that nobody knows.
 QString actionText(int code);
 /// "Blue" from "blue".

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include <telemetry/series/series_store.h>
+#include <telemetry/series/series_types.h>
 
 namespace pitchboard::ui {
 
@@ -18,6 +18,7 @@ struct TimeAxis {
   double left = 0.0;   ///< pixel of shown.begin
   double width = 1.0;  ///< pixels to shown.end
 
+  double right() const { return left + width; }
   double pixel(double time) const {
     return left + (time - shown.begin) / (shown.end - shown.begin) * width;
   }

@@ -80,10 +80,9 @@ class FieldScene : public QGraphicsScene {
  private:
   struct Robot;
   void styleChanged();
-  void matchRobots(const sim::Snapshot& snapshot);
-  void showRobot(Robot& robot, const sim::RobotSnapshot& snapshot,
-                 const link::RobotBoardView* board, const link::RobotHealth* health, double time);
-  void showOtherPose(Robot& robot, const sim::RobotSnapshot& snapshot, bool poseKnown);
+  void matchRobots();
+  void showRobot(const link::RobotFrame& now);
+  void showOtherPose(Robot& robot, const link::RobotFrame& now);
   void showThoughts();
   void showSelected();
   void setSelection(std::vector<RobotId> ids);

@@ -77,8 +77,6 @@ QColor onGrass(const QColor& color, double opacity);
 /// Text centred on a point in pixels, with a thin shade behind it so that it reads on any ground.
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo);
-/// B1, R2, ...
-QString robotName(TeamColor team, int number);
 /// Fixed decimals and a real minus sign.
 QString fieldNumber(double value, int decimals);
 

@@ -39,7 +39,6 @@ struct CardState {
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
-  int voltage = 0;  ///< tenths of a volt, 0 = not told
   std::array<Lamp, lampCount> lamps;
   QString tag;
   TagKind tagKind = TagKind::None;
@@ -48,18 +47,14 @@ struct CardState {
   QString detailTip;
   bool live = false;                          ///< heard by network
   bool timedOut = false;                      ///< greyed
-  std::optional<telemetry::Battery> battery;  ///< as the robot's cells have it; else from `voltage`
+  std::optional<telemetry::Battery> battery;  ///< nothing: it tells no voltage
   std::vector<CardValue> values;              ///< shown where the user asked for them
-  bool operator==(const CardState& other) const;
+  bool operator==(const CardState&) const = default;
 
-  bool batteryLow() const { return battery ? battery->low : voltage > 0 && voltage < lowVoltage; }
-  /// Charge for the bar, 0..1, between empty and full of a four-cell battery.
-  double charge() const;
+  bool batteryLow() const { return battery && battery->low; }
 
   /// What lamp i stands for: in Live the letter C is control, not communication.
   QString process(std::size_t lamp) const;
-
-  static constexpr int lowVoltage = 160;
 };
 
 /// The cards of robots that are heard: everything they say is in the frame.
@@ -84,8 +79,7 @@ class CardTracker {
     std::array<qint64, CardState::lampCount> silentSince{};
     std::array<Lamp, CardState::lampCount> lamps{};
   };
-  void updateLamps(History& history, const link::MatchFrame& frame,
-                   const link::RobotBoardView& board);
+  void updateLamps(History& history, const link::RobotFrame& robot, bool paused);
   std::map<RobotId, History> m_robots;
   qint64 m_playing = 0;  // ms of unpaused time
   qint64 m_last = -1;

@@ -51,7 +51,7 @@ class FrameSource : public QObject {
  signals:
   void frameReceived(const pitchboard::ui::FramePtr& frame);
   void eventsReceived(const std::vector<pitchboard::sim::Event>& events);
-  void logReceived(const std::vector<pitchboard::link::LogLine>& lines);
+  void logReceived(const std::vector<pitchboard::LogLine>& lines);
   /// What a recording holds of events, once for each recording.
   void eventsRecorded(const std::vector<pitchboard::telemetry::SessionEvent>& events);
   /// Another match or session, or none: what was remembered of the old one is void.

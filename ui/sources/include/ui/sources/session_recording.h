@@ -105,7 +105,7 @@ class SessionRecording : public QObject {
   std::optional<Recorder> m_recorder;
   QString m_path;
   std::set<telemetry::RecordingTrouble> m_told;  // of this recording
-  std::deque<telemetry::SessionLogLine> m_log;   // of the present match, for saveLast()
+  std::deque<LogLine> m_log;                     // of the present match, for saveLast()
   QThreadPool m_worker;
 };
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Frames of what was heard, from values made by hand: no network, no clock.
+
+#include <QtTest>
+
+#include <robotlink/frame/belief.h>
+#include <simcore/world/published_frame.h>
+
+#include "live_frame.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using namespace std::chrono_literals;
+using telemetry::RefereeState;
+using telemetry::RefereeTracker;
+using telemetry::RobotStatus;
+using telemetry::TeamStatus;
+
+namespace {
+
+const telemetry::WallTime start{std::chrono::seconds(1'700'000'000)};
+const auto decoder = std::make_shared<const telemetry::TextDecoder>();
+
+/// A robot that said this message (the published order, without the end).
+RobotStatus robotSaying(const std::string& message) {
+  RobotStatus robot;
+  const std::string text = message + " OUT";
+  telemetry::DecodedText decoded;
+  decoder->decode(text, decoded);
+  robot.number = decoded.robot;
+  robot.serial = static_cast<std::uint64_t>(decoded.robot);
+  robot.sender = {{0x0a000000U + static_cast<std::uint32_t>(decoded.robot)}, 4000};
+  robot.decoder = decoder;
+  robot.values.assign(decoded.values.begin(),
+                      decoded.values.begin() + static_cast<std::ptrdiff_t>(decoded.count));
+  for (std::size_t i = 0; i < decoded.count; ++i) robot.words.emplace_back(decoded.words[i]);
+  return robot;
+}
+
+/// n X Y THETA BELIEF BALL_DIST BALL_ANGLE, five flags, ACTION_A IMU_EULER_Z VOLTAGE
+const std::string atTheCentre = "450 300 0 20 100 90 1 1 1 0 1 8 0.5 165";
+
+struct Heard {
+  LiveOptions options;
+  TeamStatus team;
+  RefereeTracker referee;
+  LiveIdentities identities;
+
+  explicit Heard(std::vector<RobotStatus> robots) {
+    team.time = start;
+    team.robots = std::move(robots);
+  }
+  MatchFrame frame(double time = 3.0) {
+    return liveFrame(options, team, referee, identities, time);
+  }
+};
+
+RefereeState stateOfGame() {
+  RefereeState state;
+  state.version = 12;
+  state.playersPerTeam = 4;
+  state.state = 3;
+  state.firstHalf = 1;
+  state.secsRemaining = 321;
+  for (std::size_t side = 0; side < 2; ++side) {
+    telemetry::RefereeTeam& team = state.teams[side];
+    team.number = 5 + static_cast<int>(side);
+    team.colour = static_cast<int>(side);
+    team.score = 2 - static_cast<int>(side);
+    team.slotCount = 4;
+    for (int player = 0; player < 4; ++player) {
+      team.allSlots[static_cast<std::size_t>(player)].number = player + 1;
+    }
+  }
+  return state;
+}
+
+}  // namespace
+
+class TestLiveFrame : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void nobodyIsHeard() {
+    const MatchFrame frame = Heard({}).frame(7.5);
+    QVERIFY(frame.origin == FrameOrigin::Live);
+    QVERIFY(!frame.truthKnown && !frame.ballKnown);
+    QVERIFY(frame.robots.empty() && !frame.referee && !frame.teamBall);
+    QCOMPARE(frame.snapshot.time, 7.5);
+    QVERIFY(frame.robot(RobotId{1}) == nullptr);
+  }
+
+  void aRobotStandsWhereItSays() {
+    Heard heard({robotSaying("3 " + atTheCentre)});
+    const MatchFrame frame = heard.frame();
+    QCOMPARE(frame.robots.size(), std::size_t{1});
+    const RobotFrame& robot = frame.robots[0];
+    QCOMPARE(frame.robot(RobotId{3}), &robot);
+    QCOMPARE(robot.identity.number, 3);
+    QVERIFY(robot.poseKnown() && !robot.timedOut());
+    const Pose centre =
+        sim::published_frame::studioFromLocalization(heard.options.field, {450.0, 300.0, 0.0});
+    QVERIFY(robot.pose == centre);
+    QCOMPARE(robot.headYaw, centre.yaw);
+    QCOMPARE(robot.action, 8);
+    QVERIFY(robot.health && robot.health->action == std::optional(8));
+    QVERIFY(robot.board && robot.board->voltage == 165 && robot.board->belief == 20.0F);
+    // A metre away, to its left.
+    const auto ball = perceivedBall(frame.field, robot);
+    QVERIFY(ball);
+    QVERIFY(std::abs(std::hypot(ball->x - centre.position.x, ball->y - centre.position.y) - 1.0) <
+            1e-9);
+    const double direction =
+        std::atan2(ball->y - centre.position.y, ball->x - centre.position.x) - centre.yaw;
+    QVERIFY(std::abs(std::sin(direction) - 1.0) < 1e-9);
+    QCOMPARE(robot.health->values.size(), std::size_t{15});
+    QCOMPARE(robot.health->values[1].name, std::string("X"));
+    QCOMPARE(robot.health->values[1].text, std::string("450"));
+    QCOMPARE(robot.health->values[1].unit, std::string("cm"));
+  }
+
+  void howItIsHeardIsCarriedAsItIs() {
+    RobotStatus status = robotSaying("2 " + atTheCentre);
+    status.age = 1500ms;
+    status.rate = 1.25;
+    status.jitter = 0.02;
+    status.loss = 0.5;
+    status.messages = 11;
+    status.bytes = 900;
+    status.errorCount = 4;
+    status.recoveries = 2;
+    status.lost = 11;
+    status.conflict = true;
+    status.processes[3] = {telemetry::ProcessState::Silent, 0.1, 8s};
+    status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
+    const RobotHealth health = *Heard({status}).frame().robots.at(0).health;
+    QCOMPARE(health.sender, status.sender);
+    QCOMPARE(health.age, status.age);
+    QCOMPARE(health.rate, status.rate);
+    QCOMPARE(health.jitter, status.jitter);
+    QVERIFY(health.loss == status.loss && health.battery == status.battery);
+    QCOMPARE(health.messages, status.messages);
+    QCOMPARE(health.bytes, status.bytes);
+    QCOMPARE(health.errorCount, status.errorCount);
+    QCOMPARE(health.recoveries, status.recoveries);
+    QCOMPARE(health.lost, status.lost);
+    QVERIFY(health.conflict && health.battery->low);
+    QVERIFY(health.processes[3].state == telemetry::ProcessState::Silent);
+    QCOMPARE(health.processes[3].since, status.processes[3].since);
+  }
+
+  void numbersBeyondTheFieldAreDrawnSomewhere() {
+    const MatchFrame frame =
+        Heard({robotSaying("1 2000000000 -2000000000 999999999 1e30 99999 0 1 1 1 1 1 99 0 -5")})
+            .frame();
+    const RobotFrame& robot = frame.robots.at(0);
+    QVERIFY(std::abs(robot.pose.position.x) < 200 && std::abs(robot.pose.position.y) < 200);
+    QVERIFY(std::isfinite(robot.pose.yaw));
+    QVERIFY(!perceivedBall(frame.field, robot));  // a kilometre away: no ball
+    QCOMPARE(robot.health->values[1].text, std::string("2000000000"));
+  }
+
+  void withoutAPositionItIsHeardAndNotSeen() {
+    RobotStatus status = robotSaying("4 " + atTheCentre);
+    status.values[1] = std::nan("");
+    const MatchFrame frame = Heard({status}).frame();
+    QVERIFY(!frame.robots.at(0).poseKnown());
+    QVERIFY(!frame.robots[0].health->ball);
+  }
+
+  void robotsThatAgreeMakeTheTeamsBall() {
+    // The third one sees its ball elsewhere; the fourth has not been heard for long.
+    Heard heard({robotSaying("1 450 300 0 20 100 0 1 1 1 1 1 8 0 165"),
+                 robotSaying("2 450 290 0 20 100 0 1 1 1 1 1 8 0 165"),
+                 robotSaying("3 100 100 0 20 100 90 1 1 1 1 1 8 0 165"),
+                 robotSaying("4 450 300 0 20 100 0 1 1 1 1 1 8 0 165")});
+    heard.team.robots[3].timedOut = true;
+    const MatchFrame frame = heard.frame();
+    QVERIFY(frame.teamBall);
+    QCOMPARE(frame.teamBall->agree, 2);
+    QCOMPARE(frame.teamBall->see, 3);
+    QVERIFY(frame.robots[3].health->ball && !perceivedBall(frame.field, frame.robots[3]));
+  }
+
+  void twoSendersOfOneNumberAreTwoRobots() {
+    RobotStatus first = robotSaying("3 " + atTheCentre);
+    RobotStatus second = first;
+    second.serial = 77;
+    Heard heard({first, second});
+    const MatchFrame frame = heard.frame();
+    QCOMPARE(frame.robots[0].id(), RobotId{3});
+    QCOMPARE(frame.robots[1].id(), RobotId{3 + 65536});
+    QCOMPARE(frame.robots[1].identity.number, 3);
+    // Whoever was first keeps the number, also after the other one was forgotten for a while.
+    heard.team.robots = {second};
+    heard.identities.keepOnly(heard.team);
+    QCOMPARE(heard.frame().robots.at(0).id(), RobotId{3 + 65536});
+    heard.team.robots = {second, first};
+    QCOMPARE(heard.frame().robots.at(1).id(), RobotId{3});
+  }
+
+  void theRefereeGivesColourScoreAndPenalties() {
+    Heard heard({robotSaying("2 " + atTheCentre)});
+    heard.options.ourTeam = 6;
+    heard.options.colour = TeamColor::Yellow;
+    RefereeState state = stateOfGame();
+    state.teams[1].allSlots[1].penalty = 1;
+    state.teams[1].allSlots[1].secondsLeft = 30;
+    QVERIFY(heard.referee.accept(state, {{1}, 3838}, start));
+    heard.team.time = start + 2s;
+    const MatchFrame frame = heard.frame();
+    QVERIFY(frame.referee);
+    QCOMPARE(frame.referee->ourTeam, 6);
+    QCOMPARE(frame.referee->age, 2.0);
+    QCOMPARE(frame.referee->teams[1].playersLeft, 3);
+    QVERIFY(frame.snapshot.score == (sim::Score{2, 1}));
+    QCOMPARE(frame.snapshot.clock, 321.0);
+    QVERIFY(frame.snapshot.clockRunning);
+    QVERIFY(frame.robots.at(0).identity.team == TeamColor::Red);
+    QVERIFY(frame.robots[0].health->penalty);
+    QCOMPARE(frame.robots[0].health->penalty->secondsLeft, 30);
+    // A number that does not play: the colour that the user chose, and nobody's penalty.
+    heard.options.ourTeam = 9;
+    const MatchFrame other = heard.frame();
+    QCOMPARE(other.referee->ourTeam, 0);
+    QVERIFY(other.robots.at(0).identity.team == TeamColor::Yellow);
+    QVERIFY(!other.robots[0].health->penalty);
+    // Ten seconds without a word: the state is shown, the clock is not said to run.
+    heard.team.time = start + 11s;
+    const MatchFrame late = heard.frame();
+    QVERIFY(late.referee->timedOut && !late.snapshot.clockRunning);
+  }
+
+  void coloursByNumber() {
+    Heard heard({robotSaying("1 " + atTheCentre), robotSaying("2 " + atTheCentre),
+                 robotSaying("6 " + atTheCentre)});
+    heard.options.colourByNumber = true;
+    const MatchFrame frame = heard.frame();
+    QVERIFY(frame.robots[0].identity.team == teamColors[0].color);
+    QVERIFY(frame.robots[1].identity.team == teamColors[1].color);
+    QVERIFY(frame.robots[2].identity.team == teamColors[0].color);
+    QCOMPARE(frame.robots[1].identity.name(), std::string("R2"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveFrame)
+#include "tst_live_frame.moc"
