@@ -9,6 +9,7 @@
 
 class QAction;
 class QToolBar;
+class QWidget;
 
 namespace pitchboard::ui {
 

@@ -6,6 +6,7 @@
 #include <robotlink/session/recorded_frame.h>
 
 namespace pitchboard::ui {
+
 struct VideoExport::Reader {
   QString path;
   std::optional<telemetry::SessionReader> session;

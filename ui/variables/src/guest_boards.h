@@ -7,6 +7,8 @@
 #include <QObject>
 #include <set>
 
+class QWidget;
+
 namespace pitchboard::ui {
 
 class AttachForm;
