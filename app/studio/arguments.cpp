@@ -58,7 +58,8 @@ void addOptions(CLI::App& app, Arguments& a) {
                  "A session to replay, or a scenario (FILE.json) to play; a session given alone is "
                  "opened in the studio that runs already, if there is one")
       ->type_name("FILE");
-  app.add_flag("--new-window", "Open the session in a studio of its own although one runs");
+  app.add_flag("--new-window")
+      ->description("Open the session in a studio of its own although one runs");
   app.add_option(
          "--record", a.record,
          "Record from the first moment into this new file, in a match or live; when there is "

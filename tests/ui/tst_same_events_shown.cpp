@@ -37,7 +37,7 @@ QStringList inTheLog(const Studio& s) {
 QStringList logLinesOf(const std::vector<MatchEvent>& events) {
   QStringList lines;
   for (const MatchEvent& event : events) {
-    const link::LogLine line = logLineOf(event);
+    const LogLine line = logLineOf(event);
     lines << QString::fromStdString(line.origin + ": " + line.text);
   }
   return lines;

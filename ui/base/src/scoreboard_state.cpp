@@ -4,6 +4,7 @@
 #include <QObject>
 #include <cmath>
 
+#include <robotlink/frame/match_event.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
@@ -102,7 +103,7 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   if (frame.origin == link::FrameOrigin::Live || frame.referee) return refereeScoreboard(frame);
   ScoreboardState state;
   std::vector<sim::RobotIdentity> robots;
-  for (const sim::RobotSnapshot& robot : frame.snapshot.robots) robots.push_back(robot.identity);
+  for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);
   const TeamColor leftTeam = link::teamOn(link::Side::Left, robots);
   const TeamColor rightTeam = link::teamOn(link::Side::Right, robots);
   state.leftName = teamName(leftTeam);

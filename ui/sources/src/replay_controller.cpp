@@ -46,7 +46,7 @@ QStringList readRows(const QString& path, telemetry::SeriesStore& store,
 }
 
 /// Events as lines of the log, in their place by time.
-void addEvents(const std::vector<link::MatchEvent>& events, std::vector<link::LogLine>& log) {
+void addEvents(const std::vector<link::MatchEvent>& events, std::vector<LogLine>& log) {
   for (const link::MatchEvent& event : events) log.push_back(logLineOf(event));
   std::stable_sort(log.begin(), log.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });
