@@ -29,7 +29,7 @@ std::optional<Point> perceivedBall(const sim::FieldSpec& field, const RobotBoard
 
 std::optional<TeamBall> agreedBall(const std::vector<Point>& balls) {
   const auto near = [](const Point& a, const Point& b) {
-    return std::hypot(a.x - b.x, a.y - b.y) <= TeamBall::reach;
+    return distance(a, b) <= TeamBall::reach;
   };
   const Point* centre = nullptr;
   int most = 1;

@@ -15,9 +15,7 @@ std::optional<PoseDifference> poseDifference(const link::MatchFrame& other, Robo
     if (i < other.health.size() && (!other.health[i].poseKnown || other.health[i].timedOut)) {
       return std::nullopt;
     }
-    return PoseDifference{robot.pose,
-                          std::hypot(robot.pose.position.x - here.position.x,
-                                     robot.pose.position.y - here.position.y),
+    return PoseDifference{robot.pose, distance(robot.pose.position, here.position),
                           std::abs(wrapToPi(robot.pose.yaw - here.yaw))};
   }
   return std::nullopt;
