@@ -3,6 +3,7 @@
 // most.
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,6 @@
 #include <csignal>
 #include <random>
 
-#include <robotlink/processes/spawn.h>
 #include <telemetry/session/session_reader.h>
 #include <telemetry/session/session_repair.h>
 
