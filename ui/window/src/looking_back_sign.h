@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Tells that the field shows the past and not the present. Window thread; the canvas owns it.
+
 #include <QLabel>
 
 namespace pitchboard::ui {

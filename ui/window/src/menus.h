@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The menu bar. Window thread; its actions belong to the main window, whose member it is.
+
 class QAction;
 class QMenu;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Tells that a match is being opened, which can take seconds. Window thread; the canvas owns it.
+
 #include <QLabel>
 
 namespace pitchboard::ui {

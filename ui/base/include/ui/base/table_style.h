@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// How every table of the studio looks, so that none has a look of its own. Window thread.
+
 #include <QHeaderView>
 #include <QTableView>
 

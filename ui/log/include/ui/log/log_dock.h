@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The contents of the log dock. Window thread; the parent owns them.
+
 #include <ui/sources/studio_context.h>
 
 namespace pitchboard::ui {
