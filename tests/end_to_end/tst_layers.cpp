@@ -36,10 +36,13 @@ const QList<Layer>& layers() {
        {"base/", "simcore/", "telemetry/", "robotlink/", "resources/", "ui/"},
        {"Q", "Qt", "tl/", "nlohmann/", "muParser.h"}},
       {"app/cli",
-       {"base/", "simcore/", "telemetry/", "robotlink/", "resources/"},
+       {"app/", "base/", "simcore/", "telemetry/", "robotlink/", "resources/"},
        {"CLI/", "nlohmann/", "tl/"}},
-      {"app/robot", {"base/", "robotlink/"}, {"CLI/", "tl/"}},
-      {"app/studio", {"base/", "simcore/", "robotlink/", "ui/"}, {"Q", "Qt", "CLI/", "tl/"}},
+      {"app/shared", {"app/", "base/", "robotlink/"}, {"CLI/", "tl/"}},
+      {"app/robot", {"app/", "base/", "robotlink/"}, {"CLI/", "tl/"}},
+      {"app/studio",
+       {"app/", "base/", "simcore/", "robotlink/", "ui/"},
+       {"Q", "Qt", "CLI/", "tl/"}},
   };
   return all;
 }
