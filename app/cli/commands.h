@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <base/result.h>
+#include <app/command_line.h>
 
 namespace pitchboard::cli {
 
@@ -24,7 +24,6 @@ void addRepairCommand(CLI::App& parent, int& exitCode);
 void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
 
-/// Prints "error: ..." on stderr and returns 2.
-int reportError(const Error& error);
+using shared::reportError;
 
 }  // namespace pitchboard::cli

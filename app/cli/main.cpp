@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <cstdio>
 
 #include "commands.h"
-
-namespace pitchboard::cli {
-
-int reportError(const Error& error) {
-  std::fprintf(stderr, "error: %s\n", error.text().c_str());
-  return 2;
-}
-
-}  // namespace pitchboard::cli
 
 int main(int argc, char** argv) {
   using namespace pitchboard::cli;
@@ -29,13 +19,6 @@ int main(int argc, char** argv) {
       &addRepairCommand,   &addExportCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
-                 error.what());
-    return 2;
-  }
+  if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;
   return exitCode;
 }

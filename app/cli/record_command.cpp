@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include <app/scenario_options.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/session/recording_health.h>
@@ -28,9 +29,9 @@ constexpr auto pollInterval = std::chrono::milliseconds(20);
 constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
 
 struct Options {
-  std::string output, scenario = "match-3v3", noise;
+  std::string output;
+  shared::ScenarioOptions match;
   std::optional<double> duration;
-  std::optional<std::uint64_t> seed;
   bool live = false, progress = false;
   ListenOptions network;
 };
@@ -77,14 +78,8 @@ class Health {
 
 /// As fast as it can be played.
 int recordMatch(const Options& options) {
-  auto scenario = link::loadScenario(options.scenario);
+  auto scenario = shared::scenarioFrom(options.match);
   if (!scenario) return reportError(scenario.error());
-  if (options.seed) scenario->settings.seed = *options.seed;
-  if (!options.noise.empty()) {
-    const auto noise = link::noisePreset(options.noise);
-    if (!noise) return reportError(noise.error());
-    scenario->settings.noise = *noise;
-  }
   scenario->stop.duration =
       options.duration.value_or(scenario->stop.duration.value_or(defaultDuration));
   auto match = link::SimulatedMatch::create(*scenario, {});
@@ -183,13 +178,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
       ->add_option("--duration", o.duration,
                    "Seconds; without it the scenario's, else 60; live: until Ctrl+C")
       ->check(CLI::Range(0.001, 1e9));
-  command->add_option("--scenario", o.scenario, "Built-in name or a JSON file")
-      ->type_name("NAME|FILE")
-      ->capture_default_str();
-  command->add_option("--seed", o.seed, "Seed of all noise; default: the scenario's")
-      ->type_name("N");
-  command->add_option("--noise", o.noise, "none, published, paper or realistic")
-      ->type_name("PRESET");
+  shared::addScenarioOptions(*command, o.match);
   command->add_flag("--live", o.live, "Record what robots and the referee send");
   addListenOptions(*command, o.network);
   command->add_flag("--progress", o.progress,

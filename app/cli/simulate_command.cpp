@@ -2,15 +2,15 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
+#include <app/scenario_options.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/match/simulated_match.h>
+#include <robotlink/processes/own_program.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
 
@@ -30,15 +30,12 @@ constexpr auto pollInterval = 50ms;
 constexpr auto progressInterval = 500ms;
 
 struct Arguments {
-  std::string scenario = "match-3v3";
+  shared::ScenarioOptions match;
   std::string session;
   double at = 0.0;
-  std::optional<std::uint64_t> seed;
   std::optional<double> duration;
   std::string speed;
   std::string cognition = "inline";
-  std::string noise;
-  std::string physics;
   std::string trace;
   std::string moment;
   std::string robotProgram;
@@ -61,20 +58,12 @@ Result<double> speedFrom(const Arguments& arguments, link::Cognition cognition) 
   const std::string& text = arguments.speed;
   if (text.empty()) return cognition == link::Cognition::Inline ? 0.0 : 1.0;
   if (text == "max") return 0.0;
-  double speed = 0.0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  if (code != std::errc() || end != text.data() + text.size() ||
-      !(speed >= 0.001 && speed <= 1e6)) {
+  const std::optional<double> speed = shared::numberFrom(text);
+  if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
     return failure(ErrorCode::InvalidArgument,
                    "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
   }
-  return speed;
-}
-
-std::string besideThisProgram(const char* name) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::string(name) : (self.parent_path() / name).string();
+  return *speed;
 }
 
 /// A recorded match, and the moment from which it is to go on.
@@ -109,16 +98,9 @@ Result<Recorded> recordedMoment(const Arguments& arguments) {
 
 Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
                                     const std::optional<Recorded>& recorded) {
-  auto scenario = recorded ? Result<link::Scenario>(recorded->scenario)
-                           : link::loadScenario(arguments.scenario);
+  auto scenario = recorded ? shared::changed(recorded->scenario, arguments.match)
+                           : shared::scenarioFrom(arguments.match);
   if (!scenario) return scenario;
-  if (arguments.seed) scenario->settings.seed = *arguments.seed;
-  if (!arguments.physics.empty()) scenario->settings.physics = arguments.physics;
-  if (!arguments.noise.empty()) {
-    const auto noise = link::noisePreset(arguments.noise);
-    if (!noise) return tl::unexpected(noise.error());
-    scenario->settings.noise = *noise;
-  }
   if (arguments.duration) {
     if (!(*arguments.duration > 0.0 && *arguments.duration <= 1e9)) {
       return failure(ErrorCode::InvalidArgument,
@@ -258,7 +240,7 @@ Result<void> simulate(const Arguments& arguments) {
   link::MatchOptions options;
   options.cognition = cognition->cognition;
   options.keyBase = arguments.keyBase;
-  options.robotProgram = arguments.robotProgram.empty() ? besideThisProgram("pitchboard-robot")
+  options.robotProgram = arguments.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
                                                         : arguments.robotProgram;
   const InterruptGuard signals;
   auto match = link::SimulatedMatch::create(*scenario, options);
@@ -307,9 +289,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       "plays a match and prints how it ended\n"
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
       "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1");
-  command->add_option("--scenario", a.scenario, "Built-in name (see --list) or a JSON file")
-      ->type_name("NAME|FILE")
-      ->capture_default_str();
+  shared::addScenarioOptions(*command, a.match);
   CLI::Option* from =
       command
           ->add_option("--from", a.session,
@@ -319,8 +299,6 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                         ->type_name("S")
                         ->needs(from);
   from->needs(at);
-  command->add_option("--seed", a.seed, "Seed of all noise; default: the scenario's")
-      ->type_name("N");
   command
       ->add_option("--duration", a.duration,
                    "Simulated seconds; default: the scenario's stop conditions, else 60 (with "
@@ -336,9 +314,6 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                    "blackboards; none: blackboards for your own processes")
       ->type_name("inline|external|none")
       ->capture_default_str();
-  command->add_option("--noise", a.noise, "none, published, paper or realistic")
-      ->type_name("PRESET");
-  command->add_option("--physics", a.physics, "rigid-body or published")->type_name("MODEL");
   command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
   command
       ->add_option("--save-moment", a.moment,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 
+#include <app/command_line.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 
@@ -10,11 +11,6 @@
 
 namespace pitchboard::robot {
 namespace {
-
-int report(const Error& error) {
-  std::fprintf(stderr, "error: %s\n", error.text().c_str());
-  return 2;
-}
 
 // As every robot process: whoever comes first creates the segment, and nobody removes it.
 Result<link::Blackboard> joinBlackboard(int key) {
@@ -26,17 +22,18 @@ Result<link::Blackboard> joinBlackboard(int key) {
 }
 
 int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
-  if (const auto settled = settle(command, arguments); !settled) return report(settled.error());
+  if (const auto settled = settle(command, arguments); !settled)
+    return shared::reportError(settled.error());
   auto process = info.make(arguments.process);
-  if (!process) return report(process.error());
+  if (!process) return shared::reportError(process.error());
   const int key = arguments.blackboardKey();
   Result<link::Blackboard> board = joinBlackboard(key);
-  if (!board) return report(board.error());
+  if (!board) return shared::reportError(board.error());
 
   std::optional<link::ThoughtsSender> display;
   if (arguments.thoughtsPort) {
     Result<link::ThoughtsSender> sender = link::ThoughtsSender::to(*arguments.thoughtsPort);
-    if (!sender) return report(sender.error());
+    if (!sender) return shared::reportError(sender.error());
     display.emplace(std::move(*sender));
   }
 
@@ -89,14 +86,7 @@ int parseAndRun(int argc, char** argv) {
   CLI::App* list = app.add_subcommand(
       "list", "shows the processes and behaviours\nExample: pitchboard-robot list");
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
-                 error.what());
-    return 2;
-  }
+  if (const auto ended = shared::parse(app, argc, argv)) return *ended;
   CLI::App* chosen = app.get_subcommands().front();
   if (chosen == list) {
     printList();
@@ -104,7 +94,7 @@ int parseAndRun(int argc, char** argv) {
   }
   if (chosen == management) {
     const Result<void> managed = manage(*chosen, arguments);
-    return managed ? 0 : report(managed.error());
+    return managed ? 0 : shared::reportError(managed.error());
   }
   return run(*link::findProcess(chosen->get_name()), *chosen, arguments);
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/management_config.h>
+#include <robotlink/processes/own_program.h>
 
 #include "process_loop.h"
 
@@ -21,14 +21,6 @@ void replaceAll(std::string& text, std::string_view what, const std::string& wit
        at = text.find(what, at + with.size())) {
     text.replace(at, what.size(), with);
   }
-}
-
-Result<std::string> ownProgram() {
-  std::error_code error;
-  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) return path.string();
-  return failure(ErrorCode::SystemError,
-                 "cannot find out where pitchboard-robot is: " + error.message());
 }
 
 std::vector<std::string> referenceProcesses() {
@@ -51,7 +43,7 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   const Result<link::ManagementConfig> config =
       link::managementFromIni(*file, referenceProcesses());
   if (!config) return tl::unexpected<Error>(config.error());
-  const Result<std::string> program = ownProgram();
+  const Result<std::string> program = link::ownProgram();
   if (!program) return tl::unexpected<Error>(program.error());
 
   const std::string robot = std::to_string(arguments.process.robot.value);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The life of one robot process: steps at a steady rhythm until a signal asks for its end. The
+// first thread of pitchboard-robot; times are wall times.
+
 #include <chrono>
 
 #include <robotlink/cognition/cognitive_process.h>

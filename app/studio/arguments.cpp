@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include <app/command_line.h>
 #include <robotlink/match/match_runner.h>
 
 namespace pitchboard::studio {
@@ -15,28 +16,17 @@ namespace {
 
 constexpr int maxPixels = 16384;
 
-bool isNumber(const std::string& text, double& value) {
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end;
-}
-
 void addOptions(CLI::App& app, Arguments& a) {
-  app.add_option("--scenario", a.scenario, "Built-in scenario or file")
-      ->type_name("NAME|FILE")
-      ->capture_default_str();
+  shared::addScenarioOptions(app, a.match);
   app.add_option("--cognition", a.cognition,
                  "Who decides for the robots: separate processes on System V blackboards, the "
                  "studio itself, or none but yours")
       ->type_name("external|inline|none")
       ->capture_default_str()
       ->check(CLI::IsMember({"external", "inline", "none"}));
-  app.add_option("--seed", a.seed, "Seed of all noise")->type_name("N");
   app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
       ->type_name("X|max")
       ->capture_default_str();
-  app.add_option("--noise", a.noise, "Preset instead of the scenario's noise")->type_name("PRESET");
-  app.add_option("--physics", a.physics, "Model of motion and collisions")->type_name("MODEL");
   app.add_option("--key-base", a.keyBase, "Added to 100 x robot number for a blackboard's key")
       ->type_name("B")
       ->capture_default_str()
@@ -102,7 +92,7 @@ bool takeFile(const CLI::App& app, Arguments& a) {
   if (a.file.empty()) return true;
   const bool scenario = a.file.ends_with(".json");
   if (app.count(scenario ? "--scenario" : "--session") > 0) return false;
-  (scenario ? a.scenario : a.session) = a.file;
+  (scenario ? a.match.scenario : a.session) = a.file;
   return true;
 }
 
@@ -117,11 +107,6 @@ bool onlyGiven(const CLI::App& app, const std::vector<std::string>& names) {
 
 }  // namespace
 
-int report(const Error& error) {
-  std::fprintf(stderr, "error: %s\n", error.text().c_str());
-  return 2;
-}
-
 std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app{
       "Pitchboard: simulate humanoid soccer robots and watch what they believe.\n"
@@ -130,51 +115,46 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
   app.name("pitchboard");
   app.set_version_flag("--version", PITCHBOARD_VERSION);
   addOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\nRun with --help for the options and an example.\n",
-                 error.what());
-    return 2;
-  }
+  if (const auto ended = shared::parse(app, argc, argv)) return ended;
   if (!takeFile(app, arguments)) {
-    return report({ErrorCode::InvalidArgument,
-                   "two files are named to open, one by its option and " + arguments.file +
-                       " without; leave out one of the two",
-                   {}});
+    return shared::reportError({ErrorCode::InvalidArgument,
+                                "two files are named to open, one by its option and " +
+                                    arguments.file + " without; leave out one of the two",
+                                {}});
   }
   arguments.scenarioGiven = app.count("--scenario") > 0 || arguments.file.ends_with(".json");
   arguments.onlySession =
       !arguments.session.empty() && onlyGiven(app, {"--session", "file", "--settings"});
   if (arguments.renderScenario.empty() != arguments.picture.empty()) {
-    return report(
+    return shared::reportError(
         {ErrorCode::InvalidArgument, "--render-scenario needs --picture FILE.png to write to", {}});
   }
   if (!arguments.record.empty() && !arguments.session.empty()) {
-    return report({ErrorCode::InvalidArgument,
-                   "--record records a match or live robots, and " + arguments.session +
-                       " is a recording already; leave out one of the two",
-                   {}});
+    return shared::reportError({ErrorCode::InvalidArgument,
+                                "--record records a match or live robots, and " +
+                                    arguments.session +
+                                    " is a recording already; leave out one of the two",
+                                {}});
   }
   if (!arguments.record.empty() && !arguments.renderScenario.empty()) {
-    return report({ErrorCode::InvalidArgument,
-                   "--record needs a match that is played, and --render-scenario only draws one; "
-                   "leave out one of the two",
-                   {}});
+    return shared::reportError(
+        {ErrorCode::InvalidArgument,
+         "--record needs a match that is played, and --render-scenario only draws one; "
+         "leave out one of the two",
+         {}});
   }
   return {};
 }
 
 Result<double> speedOf(const Arguments& arguments) {
   if (arguments.speed == "max") return link::MatchRunner::unlimitedSpeed;
-  double speed = 0.0;
-  if (!isNumber(arguments.speed, speed) || !(speed >= 0.01 && speed <= 1000.0)) {
+  const std::optional<double> speed = shared::numberFrom(arguments.speed);
+  if (!speed || !(*speed >= 0.01 && *speed <= 1000.0)) {
     return failure(ErrorCode::InvalidArgument,
                    "must be a number from 0.01 to 1000, or max, not '" + arguments.speed + "'",
                    "--speed");
   }
-  return speed;
+  return *speed;
 }
 
 Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments) {
@@ -192,16 +172,10 @@ Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments) {
 }
 
 Result<link::Scenario> scenarioOf(const Arguments& arguments) {
-  auto scenario = link::loadScenario(arguments.renderScenario.empty() ? arguments.scenario
-                                                                      : arguments.renderScenario);
+  shared::ScenarioOptions match = arguments.match;
+  if (!arguments.renderScenario.empty()) match.scenario = arguments.renderScenario;
+  auto scenario = shared::scenarioFrom(match);
   if (!scenario) return scenario;
-  if (arguments.seed) scenario->settings.seed = *arguments.seed;
-  if (!arguments.physics.empty()) scenario->settings.physics = arguments.physics;
-  if (!arguments.noise.empty()) {
-    const auto noise = link::noisePreset(arguments.noise);
-    if (!noise) return tl::unexpected<Error>(noise.error());
-    scenario->settings.noise = *noise;
-  }
   // Asks the engine itself whether it can play this, before a window is opened.
   if (const auto trial = sim::Simulation::create(scenario->settings); !trial) {
     return tl::unexpected<Error>(trial.error());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <app/scenario_options.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -17,12 +18,9 @@ struct WindowSize {
 };
 
 struct Arguments {
-  std::string scenario = "match-3v3";
+  shared::ScenarioOptions match;
   std::string cognition = "external";
-  std::optional<std::uint64_t> seed;
   std::string speed = "1";
-  std::string noise;
-  std::string physics;
   int keyBase = 0;
   std::string theme;
   bool paused = false;
@@ -58,8 +56,5 @@ link::Cognition cognitionOf(const Arguments& arguments);
 
 /// The saved options of Live with those of the command line in them.
 Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOptions saved);
-
-/// "error: ..." on stderr; the exit code.
-int report(const Error& error);
 
 }  // namespace pitchboard::studio

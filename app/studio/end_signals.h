@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// An end that the system asks for, told to the event loop. Window thread; one per program, owned by
+// its main function.
+
 #include <QObject>
 
 namespace pitchboard::studio {

@@ -10,6 +10,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include <app/command_line.h>
+#include <robotlink/processes/own_program.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/live_controller.h>
@@ -54,9 +56,7 @@ link::MatchOptions matchOptions(const Arguments& arguments) {
   options.cognition = cognitionOf(arguments);
   options.keyBase = arguments.keyBase;
   options.thoughts = true;
-  options.robotProgram = QDir(QApplication::applicationDirPath())
-                             .filePath(QStringLiteral("pitchboard-robot"))
-                             .toStdString();
+  options.robotProgram = link::besideOwnProgram("pitchboard-robot");
   return options;
 }
 
@@ -67,9 +67,10 @@ bool save(const QPixmap& picture, const std::string& file) {
       picture.save(&out, QFileInfo(path).suffix().toLatin1().constData()) && out.commit()) {
     return true;
   }
-  report({ErrorCode::SystemError,
-          "the picture cannot be written; choose a folder that exists and a name ending in .png",
-          file});
+  shared::reportError(
+      {ErrorCode::SystemError,
+       "the picture cannot be written; choose a folder that exists and a name ending in .png",
+       file});
   return false;
 }
 
@@ -124,14 +125,14 @@ int showWindow(QApplication& application, const Arguments& arguments,
   window.offerToRemoveOrphans();
   controller.setSpeed(speed);
   const auto live = liveOptionsOf(arguments, window.live()->options());
-  if (!live) return report(live.error());
+  if (!live) return shared::reportError(live.error());
   window.live()->setOptions(*live);
   if (!arguments.session.empty()) window.openSession(QString::fromStdString(arguments.session));
   const bool recordsMatch = !arguments.record.empty() && !arguments.live;
   if ((!arguments.live && arguments.session.empty()) || arguments.scenarioGiven) {
     // A match that is to be recorded waits until somebody writes along.
     controller.open(scenario, arguments.paused || recordsMatch);
-    window.files()->showCurrent(QString::fromStdString(arguments.scenario));
+    window.files()->showCurrent(QString::fromStdString(arguments.match.scenario));
   }
   if (arguments.live) window.showSource(ui::SourceKind::Live);
   if (arguments.overlay) window.overlayLive(true);
@@ -189,20 +190,21 @@ int run(int argc, char** argv) {
   Arguments arguments;
   if (const auto exitCode = parseArguments(argc, argv, arguments)) return *exitCode;
   const auto speed = speedOf(arguments);
-  if (!speed) return report(speed.error());
+  if (!speed) return shared::reportError(speed.error());
   const auto size = sizeOf(arguments);
-  if (!size) return report(size.error());
+  if (!size) return shared::reportError(size.error());
   const auto scenario = scenarioOf(arguments);
-  if (!scenario) return report(scenario.error());
+  if (!scenario) return shared::reportError(scenario.error());
 
   const bool render = !arguments.renderScenario.empty();
   if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") && qEnvironmentVariableIsEmpty("DISPLAY") &&
       qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY")) {
     if (!render && arguments.screenshotFile.empty()) {
-      return report({ErrorCode::SystemError,
-                     "there is no display to open a window on; use pitchboard-cli, or set "
-                     "QT_QPA_PLATFORM=offscreen",
-                     {}});
+      return shared::reportError(
+          {ErrorCode::SystemError,
+           "there is no display to open a window on; use pitchboard-cli, or set "
+           "QT_QPA_PLATFORM=offscreen",
+           {}});
     }
     qputenv("QT_QPA_PLATFORM", "offscreen");
   }
@@ -219,7 +221,8 @@ int run(int argc, char** argv) {
       handOver(studioSocket(arguments), QString::fromStdString(arguments.session))) {
     return 0;
   }
-  if (const auto good = checkRecordFolder(arguments); !good) return report(good.error());
+  if (const auto good = checkRecordFolder(arguments); !good)
+    return shared::reportError(good.error());
   const auto settings = makeSettings(arguments);
   ui::setTheme(application, themeOf(arguments, *settings));
   if (render) return renderScenario(arguments, *scenario, size->value_or(WindowSize{1040, 740}));

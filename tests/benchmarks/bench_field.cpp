@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include <QAction>
-#include <QApplication>
 #include <QImage>
 #include <QPainter>
 
@@ -13,8 +12,9 @@
 #include <memory>
 #include <vector>
 
-#include <ui/base/theme.h>
 #include <ui/field/field_view.h>
+
+#include "without_screen.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -61,8 +61,9 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   return view;
 }
 
-/// As in the studio: a frame arrives, and the event loop paints what it has changed.
-void liveFrame(benchmark::State& state) {
+/// Shows one moving frame after another; `paint` brings the view onto a screen.
+template <class Paint>
+void frames(benchmark::State& state, Paint&& paint) {
   const auto view = viewOf(state);
   int serial = firstSerial;
   for (auto _ : state) {
@@ -70,22 +71,22 @@ void liveFrame(benchmark::State& state) {
     const FramePtr frame = movingFrame(serial++);
     state.ResumeTiming();
     view->showFrame(frame);
-    QCoreApplication::processEvents();
+    paint(*view);
   }
+}
+
+/// As in the studio: a frame arrives, and the event loop paints what it has changed.
+void liveFrame(benchmark::State& state) {
+  frames(state, [](FieldView&) { QCoreApplication::processEvents(); });
 }
 
 /// Everything painted anew, as after a change of zoom: the upper bound.
 void wholeRepaint(benchmark::State& state) {
-  const auto view = viewOf(state);
-  QImage screen(view->size(), QImage::Format_RGB32);
-  int serial = firstSerial;
-  for (auto _ : state) {
-    state.PauseTiming();
-    const FramePtr frame = movingFrame(serial++);
-    state.ResumeTiming();
-    view->showFrame(frame);
-    view->render(&screen);
-  }
+  QImage screen;
+  frames(state, [&screen](FieldView& view) {
+    if (screen.isNull()) screen = QImage(view.size(), QImage::Format_RGB32);
+    view.render(&screen);
+  });
 }
 
 void cases(benchmark::internal::Benchmark* benchmark) {
@@ -104,10 +105,5 @@ BENCHMARK(wholeRepaint)->Apply(cases);
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
-  QApplication application(argc, argv);
-  setTheme(application, ThemeChoice::Dark);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return runWithoutScreen(argc, argv);
 }

@@ -9,13 +9,12 @@
 #include <QTemporaryDir>
 #include <QThread>
 #include <QTimer>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <vector>
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +26,8 @@
 #include <ui/sources/match_controller.h>
 #include <ui/window/main_window.h>
 
+#include "../support/test_socket.h"
+
 using namespace pitchboard;
 using Clock = std::chrono::steady_clock;
 
@@ -36,8 +37,7 @@ constexpr int robots = 16;
 
 /// Sends at a steady rate, writes how many to the pipe, and ends.
 [[noreturn]] void sendLoad(int portBase, int perSecond, int seconds, int pipeEnd) {
-  std::vector<int> sockets;
-  for (int i = 0; i < robots; ++i) sockets.push_back(socket(AF_INET, SOCK_DGRAM, 0));
+  const std::array<TestSocket, robots> sockets;
   std::uint64_t sent = 0;
   const auto begin = Clock::now();
   constexpr auto slice = std::chrono::milliseconds(2);
@@ -56,14 +56,8 @@ constexpr int robots = 16;
       m.actionA = 8;
       m.voltage = 165;
       const std::string text = telemetry::encode(m);
-      sockaddr_in to{};
-      to.sin_family = AF_INET;
-      to.sin_port = htons(static_cast<std::uint16_t>(portBase + robot + 1));
-      to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-      if (sendto(sockets[static_cast<std::size_t>(robot)], text.data(), text.size(), 0,
-                 reinterpret_cast<const sockaddr*>(&to), sizeof to) > 0) {
-        ++sent;
-      }
+      const auto port = static_cast<std::uint16_t>(portBase + robot + 1);
+      sent += sockets[static_cast<std::size_t>(robot)].send(port, text) ? 1 : 0;
     }
   }
   [[maybe_unused]] const auto written = write(pipeEnd, &sent, sizeof sent);

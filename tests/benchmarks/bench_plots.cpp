@@ -20,7 +20,6 @@
 
 #include <telemetry/series/series_store.h>
 #include <ui/base/plot_target.h>
-#include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/source_switch.h>
@@ -28,6 +27,7 @@
 #include "frame_times.h"
 #include "plot_feed.h"
 #include "plot_page.h"
+#include "without_screen.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -231,10 +231,5 @@ BENCHMARK(line_series)
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
-  QApplication application(argc, argv);
-  setTheme(application, ThemeChoice::Dark);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return runWithoutScreen(argc, argv);
 }

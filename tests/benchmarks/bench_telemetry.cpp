@@ -9,13 +9,11 @@
 #include <fstream>
 #include <thread>
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/team_monitor.h>
 #include <telemetry/wire/udp_receiver.h>
+
+#include "../support/test_socket.h"
 
 namespace {
 
@@ -64,8 +62,7 @@ BENCHMARK(decodeRefereePacket);
 /// Sends at a steady rate from 16 sockets to the 16 ports, until `stop`.
 std::uint64_t sendLoad(const std::vector<std::uint16_t>& ports, int perSecond,
                        std::chrono::seconds duration) {
-  std::vector<int> sockets;
-  for (std::size_t i = 0; i < ports.size(); ++i) sockets.push_back(socket(AF_INET, SOCK_DGRAM, 0));
+  const std::vector<TestSocket> sockets(ports.size());
   std::uint64_t sent = 0;
   const auto begin = std::chrono::steady_clock::now();
   constexpr auto slice = 2ms;
@@ -74,21 +71,13 @@ std::uint64_t sendLoad(const std::vector<std::uint16_t>& ports, int perSecond,
     std::this_thread::sleep_until(next);
     for (int i = 0; i < perSlice; ++i) {
       const std::size_t robot = sent % ports.size();
-      sockaddr_in to{};
-      to.sin_family = AF_INET;
-      to.sin_port = htons(ports[robot]);
-      to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
       char text[128];
       const int length =
           std::snprintf(text, sizeof text, "%zu %llu%s", robot + 1,
                         static_cast<unsigned long long>(sent % 1000), messages[0].data() + 5);
-      if (sendto(sockets[robot], text, static_cast<std::size_t>(length), 0,
-                 reinterpret_cast<const sockaddr*>(&to), sizeof to) == length) {
-        ++sent;
-      }
+      sent += sockets[robot].send(ports[robot], {text, static_cast<std::size_t>(length)}) ? 1 : 0;
     }
   }
-  for (const int descriptor : sockets) close(descriptor);
   return sent;
 }
 

@@ -9,9 +9,9 @@
 #include <QProcess>
 #include <QTemporaryDir>
 
-#include <unistd.h>
-
 #include <robotlink/blackboard/system_v.h>
+
+#include "../support/segment_keys.h"
 
 namespace studio_program {
 
@@ -43,9 +43,7 @@ class Studio : public QProcess {
     start(program(), with(arguments));
     return waitForStarted();
   }
-  static int keyBase() {
-    return 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
-  }
+  static int keyBase() { return testKeyBase(); }
   static std::size_t segments() {
     return pitchboard::link::SystemVSegments::list(keyBase()).size();
   }

@@ -8,21 +8,13 @@
 #include <QtTest>
 #include <csignal>
 
-#include "../robotlink/segment_keys.h"
+#include "../support/program_run.h"
+#include "../support/segment_keys.h"
 
 namespace {
 
-struct Output {
-  int code = -1;
-  QByteArray out, err;
-};
-
-Output cli(const QStringList& arguments) {
-  QProcess process;
-  process.start(PITCHBOARD_BIN "/pitchboard-cli", arguments);
-  process.waitForFinished();
-  return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
-          process.readAllStandardOutput(), process.readAllStandardError()};
+ProgramRun cli(const QStringList& arguments) {
+  return runProgram("pitchboard-cli", arguments);
 }
 
 }  // namespace
@@ -33,18 +25,18 @@ class TestCliBlackboard : public QObject {
   const int m_base = testKeyBase();
   const QString m_baseText = QString::number(m_base);
 
-  Output board(const QStringList& arguments) {
+  ProgramRun board(const QStringList& arguments) {
     return cli(QStringList{"blackboard"} + arguments + QStringList{"--key-base", m_baseText});
   }
 
  private slots:
-  void init() { QCOMPARE(board({"create", "1"}).code, 0); }
+  void init() { QCOMPARE(board({"create", "1"}).exitCode, 0); }
   void cleanup() { removeSegment(m_base + 100); }
 
   void setAndDump() {
     QCOMPARE(board({"set", "1", "DECISION_ACTION_A=-2147483648", "IMU_EULER_Z=0.1",
                     "VISION_BALL_DIST=nan"})
-                 .code,
+                 .exitCode,
              0);
     const auto dump = QJsonDocument::fromJson(board({"dump", "1", "--json"}).out).object();
     QCOMPARE(dump["int"].toObject()["DECISION_ACTION_A"].toDouble(), -2147483648.0);
@@ -69,14 +61,14 @@ class TestCliBlackboard : public QObject {
   void badValues() {
     QFETCH(QStringList, arguments);
     QFETCH(QByteArray, message);
-    const Output output = board(arguments);
-    QCOMPARE(output.code, 2);
+    const ProgramRun output = board(arguments);
+    QCOMPARE(output.exitCode, 2);
     QVERIFY2(output.err.startsWith("error: ") && output.err.contains(message),
              output.err.constData());
   }
 
   void aBadValueWritesNothing() {
-    QCOMPARE(board({"set", "1", "VOLTAGE=5", "IMU_EULER_Z=x"}).code, 2);
+    QCOMPARE(board({"set", "1", "VOLTAGE=5", "IMU_EULER_Z=x"}).exitCode, 2);
     QVERIFY(board({"dump", "1"}).out.contains("VOLTAGE                          0\n"));
   }
 
@@ -86,7 +78,7 @@ class TestCliBlackboard : public QObject {
                                                    "--interval", "1", "--key-base", m_baseText});
     QByteArray err;
     QTRY_VERIFY((err += watch.readAllStandardError()).contains("watching"));
-    QCOMPARE(board({"set", "1", "VOLTAGE=120", "CONTROL_ACTION=3"}).code, 0);
+    QCOMPARE(board({"set", "1", "VOLTAGE=120", "CONTROL_ACTION=3"}).exitCode, 0);
     QByteArray out;
     QTRY_VERIFY((out += watch.readAllStandardOutput()).endsWith('\n'));
     const auto change = QJsonDocument::fromJson(out).object();
@@ -104,15 +96,15 @@ class TestCliBlackboard : public QObject {
     QCOMPARE(rows[0].toObject()["robot"].toInt(), 1);
     QVERIFY(rows[0].toObject()["orphan"].toBool());
     QVERIFY(board({"list"}).out.contains("orphan"));
-    QCOMPARE(board({"remove", "--orphans"}).code, 0);
+    QCOMPARE(board({"remove", "--orphans"}).exitCode, 0);
     QVERIFY(shmget(m_base + 100, 0, 0) < 0);
   }
 
   void attachedIsRemovedOnlyByForce() {
     void* const address = shmat(shmget(m_base + 100, 0, 0), nullptr, 0);
-    QCOMPARE(board({"remove", "1"}).code, 2);
+    QCOMPARE(board({"remove", "1"}).exitCode, 2);
     QVERIFY(shmget(m_base + 100, 0, 0) >= 0);
-    QCOMPARE(board({"remove", "1", "--force"}).code, 0);
+    QCOMPARE(board({"remove", "1", "--force"}).exitCode, 0);
     shmdt(address);
     QVERIFY(shmget(m_base + 100, 0, 0) < 0);
   }
@@ -122,13 +114,13 @@ class TestCliBlackboard : public QObject {
     const QString file = folder.filePath("team.json");
     QCOMPARE(
         cli({"catalog", "import", PITCHBOARD_TEST_DATA "/catalogs/numbers.h", "--json", "-o", file})
-            .code,
+            .exitCode,
         0);
-    const Output table = cli({"catalog", "import", file});
+    const ProgramRun table = cli({"catalog", "import", file});
     QVERIFY(table.out.contains("int    17  DECISION_ACTION_A\n"));
     QVERIFY(table.out.endsWith("83 int and 122 float variables\n"));
-    QCOMPARE(board({"dump", "1", "--catalog", file}).code, 0);
-    QCOMPARE(cli({"catalog", "import", folder.filePath("none.h")}).code, 2);
+    QCOMPARE(board({"dump", "1", "--catalog", file}).exitCode, 0);
+    QCOMPARE(cli({"catalog", "import", folder.filePath("none.h")}).exitCode, 2);
   }
 };
 

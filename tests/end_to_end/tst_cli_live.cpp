@@ -11,16 +11,15 @@
 #include <QtTest>
 #include <csignal>
 
-#include "../telemetry/test_socket.h"
+#include "../support/program_run.h"
+#include "../support/test_socket.h"
 
 namespace {
 
 const QString program = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
 const QString data = QStringLiteral(PITCHBOARD_TEST_DATA "/");
 
-struct Outcome {
-  int exitCode = -1;
-  QByteArray out, err;
+struct Outcome : ProgramRun {
   QList<QJsonObject> objects() const {
     QList<QJsonObject> list;
     for (const QByteArray& line : out.split('\n')) {
@@ -31,13 +30,7 @@ struct Outcome {
 };
 
 Outcome run(const QStringList& arguments, const QByteArray& input = {}) {
-  QProcess process;
-  process.start(program, arguments);
-  process.write(input);
-  process.closeWriteChannel();
-  process.waitForFinished(30'000);
-  return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
-          process.readAllStandardOutput(), process.readAllStandardError()};
+  return {runProgram("pitchboard-cli", arguments, input)};
 }
 
 /// A listening pitchboard-cli on free ports of 127.0.0.1.

@@ -5,22 +5,14 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 
+#include "../support/program_run.h"
+
 namespace {
 
-struct Run {
-  int exitCode = -1;
-  QString out, err;
-};
+using Run = ProgramRun;
 
 Run cli(const QStringList& arguments) {
-  QProcess process;
-  process.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"), arguments);
-  Run run;
-  if (!process.waitForFinished(60000)) return run;
-  run.exitCode = process.exitCode();
-  run.out = QString::fromUtf8(process.readAllStandardOutput());
-  run.err = QString::fromUtf8(process.readAllStandardError());
-  return run;
+  return runProgram("pitchboard-cli", arguments);
 }
 
 }  // namespace
@@ -34,7 +26,7 @@ class TestCliMoments : public QObject {
   void initTestCase() {
     m_session = m_folder.filePath("match.mcap");
     const Run run = cli({"record", "--duration", "12", "--noise", "paper", "-o", m_session});
-    QVERIFY2(run.exitCode == 0, qPrintable(run.err));
+    QVERIFY2(run.exitCode == 0, run.err.constData());
     const Run again = cli({"record", "--duration", "1", "-o", m_session});
     QCOMPARE(again.exitCode, 2);
   }
@@ -43,7 +35,7 @@ class TestCliMoments : public QObject {
     const QString moment = m_folder.filePath("moment.json");
     const Run run = cli({"simulate", "--from", m_session, "--at", "5", "--duration", "3", "--json",
                          "--save-moment", moment});
-    QVERIFY2(run.exitCode == 0, qPrintable(run.err));
+    QVERIFY2(run.exitCode == 0, run.err.constData());
     QFile file(moment);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QByteArray text = file.readAll();
@@ -80,13 +72,14 @@ class TestCliMoments : public QObject {
     arguments.replaceInStrings("SESSION", m_session);
     const Run run = cli(arguments);
     QCOMPARE(run.exitCode, 2);
-    QVERIFY2(run.err.startsWith("error: ") && run.err.contains(words), qPrintable(run.err));
+    QVERIFY2(run.err.startsWith("error: ") && run.err.contains(words.toUtf8()),
+             run.err.constData());
   }
 
   void theReportIsWritten() {
     const QString path = m_folder.filePath("report.html");
     const Run run = cli({"export", m_session, "--to", "report", "-o", path});
-    QVERIFY2(run.exitCode == 0, qPrintable(run.err));
+    QVERIFY2(run.exitCode == 0, run.err.constData());
     QFile file(path);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QByteArray html = file.readAll();

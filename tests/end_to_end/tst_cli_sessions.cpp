@@ -14,7 +14,8 @@
 
 #include <telemetry/session/session_reader.h>
 
-#include "../telemetry/test_socket.h"
+#include "../support/program_run.h"
+#include "../support/test_socket.h"
 
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
@@ -24,17 +25,10 @@ namespace {
 const QString program = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
 constexpr TimeRange always{-1e9, 1e9};
 
-struct Run {
-  int exitCode = -1;
-  QByteArray out, err;
-};
+using Run = ProgramRun;
 
 Run cli(const QStringList& arguments) {
-  QProcess process;
-  process.start(program, arguments);
-  if (!process.waitForFinished(120'000)) return {};
-  return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
-          process.readAllStandardOutput(), process.readAllStandardError()};
+  return runProgram("pitchboard-cli", arguments);
 }
 
 QByteArray contents(const QString& path) {

@@ -12,26 +12,18 @@
 
 #include <robotlink/match/match_runner.h>
 
+#include "../support/program_run.h"
+#include "../support/segment_keys.h"
+
 using namespace pitchboard;
 using namespace std::chrono_literals;
 
 namespace {
 
-struct Run {
-  int exitCode = -1;
-  QByteArray out, err;
-};
+using Run = ProgramRun;
 
 Run simulate(const QStringList& arguments) {
-  QProcess process;
-  process.start(QString(PITCHBOARD_BIN) + "/pitchboard-cli", QStringList("simulate") + arguments);
-  process.waitForFinished(60000);
-  return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
-}
-
-int keyBase() {
-  return 100000 +
-         static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
+  return runProgram("pitchboard-cli", QStringList("simulate") + arguments);
 }
 
 }  // namespace
@@ -122,7 +114,7 @@ class TestCliSimulate : public QObject {
   }
 
   void aSignalEndsProcessesAndRemovesSegments() {
-    const int base = keyBase();
+    const int base = testKeyBase();
     QProcess process;
     process.start(QString(PITCHBOARD_BIN) + "/pitchboard-cli",
                   {"simulate", "--scenario", "one-robot", "--cognition", "external", "--json",

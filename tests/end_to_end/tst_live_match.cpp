@@ -15,13 +15,15 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/live_watch.h>
 
+#include "../support/segment_keys.h"
+
 using namespace pitchboard;
 
 class TestLiveMatch : public QObject {
   Q_OBJECT
 
   QTemporaryDir m_folder;
-  const int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+  const int m_keyBase = testKeyBase();
   const int m_portBase = 21000 + static_cast<int>(getpid() % 400) * 20;
 
   /// The robots' program with telemetry ports of this test.

@@ -9,7 +9,8 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/processes/management_config.h>
 
-#include "../robotlink/segment_keys.h"
+#include "../support/program_run.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -232,13 +233,10 @@ class TestManagement : public QObject {
   void refusals() {
     QFETCH(QByteArray, text);
     QFETCH(QByteArray, message);
-    QProcess process;
-    process.start(PITCHBOARD_BIN "/pitchboard-robot",
-                  {"management", "--config", config(text), "--key-base", QString::number(m_base)});
-    QVERIFY(process.waitForFinished());
-    const QByteArray error = process.readAllStandardError();
-    QCOMPARE(process.exitCode(), 2);
-    QVERIFY2(error.startsWith("error: ") && error.contains(message), error.constData());
+    const ProgramRun run = runProgram("pitchboard-robot", {"management", "--config", config(text),
+                                                           "--key-base", QString::number(m_base)});
+    QCOMPARE(run.exitCode, 2);
+    QVERIFY2(run.err.startsWith("error: ") && run.err.contains(message), run.err.constData());
     QVERIFY(!SystemVSegments::info(m_key));
   }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded GameController packets of every version, sent over UDP, reach COM_REFEREE; penalised
 // robots stand.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QtTest>
@@ -13,7 +10,8 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 
-#include "../robotlink/segment_keys.h"
+#include "../support/segment_keys.h"
+#include "../support/test_socket.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -32,41 +30,6 @@ QJsonObject expected(const QString& name) {
   QFile file(recordings + name + ".json");
   if (!file.open(QIODevice::ReadOnly)) qFatal("no description of %s", qPrintable(name));
   return QJsonDocument::fromJson(file.readAll())["expected"].toObject();
-}
-
-class Controller {
- public:
-  Controller() : m_socket(::socket(AF_INET, SOCK_DGRAM, 0)) {
-    const int yes = 1;
-    ::setsockopt(m_socket, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
-  }
-  ~Controller() { ::close(m_socket); }
-  Controller(const Controller&) = delete;
-  Controller& operator=(const Controller&) = delete;
-
-  void send(const QByteArray& datagram, int port, std::uint32_t address = INADDR_LOOPBACK) const {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(address);
-    ::sendto(m_socket, datagram.constData(), static_cast<std::size_t>(datagram.size()), 0,
-             reinterpret_cast<const sockaddr*>(&to), sizeof to);
-  }
-
- private:
-  int m_socket;
-};
-
-int freePort() {
-  const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in name{};
-  name.sin_family = AF_INET;
-  name.sin_addr.s_addr = htonl(INADDR_ANY);
-  socklen_t size = sizeof name;
-  ::bind(fd, reinterpret_cast<sockaddr*>(&name), sizeof name);
-  ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size);
-  ::close(fd);
-  return ntohs(name.sin_port);
 }
 
 // What the rules say of a robot without a penalty, from the recording's description.
@@ -92,13 +55,13 @@ class TestRefereeObeyed : public QObject {
 
   const int m_base = testKeyBase();
   const RobotVariables m_variables;
-  const Controller m_controller;
+  const TestSocket m_controller;
 
   /// Sends until the process has written `word`.
   void hears(const QByteArray& datagram, int team, int shirt, int word) {
     ProcessOptions options;
     options.telemetryPortBase = 60000;
-    options.refereePort = freePort();
+    options.refereePort = TestSocket(INADDR_ANY).port();
     options.refereeTeam = team;
     options.shirt = shirt;
     auto process = findProcess("communication")->make(options);
@@ -106,7 +69,7 @@ class TestRefereeObeyed : public QObject {
     Blackboard board = Blackboard::onHeap();
     board.write(m_variables.comReferee, 77);
     const auto cycle = [&] {
-      m_controller.send(datagram, options.refereePort);
+      m_controller.send(static_cast<std::uint16_t>(options.refereePort), datagram.toStdString());
       (*process)->step(board, {0.0});
       return board.read(m_variables.comReferee);
     };
@@ -158,7 +121,7 @@ class TestRefereeObeyed : public QObject {
       }
     }
     QVERIFY(shirt > 0);
-    const int port = freePort();
+    const std::uint16_t port = TestSocket(INADDR_ANY).port();
     QFile config;
     QTemporaryDir folder;
     config.setFileName(folder.filePath("robot.ini"));
@@ -184,14 +147,14 @@ class TestRefereeObeyed : public QObject {
     QVERIFY(board);
     board->write(m_variables.visionLost, 1);
     const auto sees = [&](const QString& name, int word) {
-      m_controller.send(packet(name), port);
+      m_controller.send(port, packet(name).toStdString());
       return board->read(m_variables.comReferee) == word;
     };
     QTRY_VERIFY(sees(playing, 2));
     QTRY_COMPARE(board->read(m_variables.decisionActionA), 3);  // it plays: turns to find the ball
     QElapsedTimer timer;
     timer.start();
-    m_controller.send(packet(penalised), port);
+    m_controller.send(port, packet(penalised).toStdString());
     QTRY_COMPARE(board->read(m_variables.comReferee), 1);
     const qint64 heard = timer.elapsed();
     qInfo("the referee's word was on the blackboard after %lld ms", heard);
@@ -203,7 +166,7 @@ class TestRefereeObeyed : public QObject {
   }
 
   void robotsOfOneComputerShareThePort() {
-    const int port = freePort();
+    const std::uint16_t port = TestSocket(INADDR_ANY).port();
     const int team = expected("v12hl688_READY")["teams"][0]["number"].toInt();
     std::vector<std::unique_ptr<QProcess>> processes;
     std::vector<Blackboard> boards;
@@ -221,7 +184,7 @@ class TestRefereeObeyed : public QObject {
     }
     constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
     const auto bothReady = [&] {
-      m_controller.send(packet("v12hl688_READY"), port, loopbackBroadcast);
+      m_controller.send(port, packet("v12hl688_READY").toStdString(), loopbackBroadcast);
       return boards[0].read(m_variables.comReferee) == 11 &&
              boards[1].read(m_variables.comReferee) == 11;
     };

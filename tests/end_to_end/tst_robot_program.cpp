@@ -9,24 +9,16 @@
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
 
-#include "../robotlink/segment_keys.h"
+#include "../support/program_run.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
 
 namespace {
 
-struct Output {
-  int code = -1;
-  QByteArray out, err;
-};
-
-Output robot(const QStringList& arguments) {
-  QProcess process;
-  process.start(PITCHBOARD_BIN "/pitchboard-robot", arguments);
-  process.waitForFinished();
-  return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -1,
-          process.readAllStandardOutput(), process.readAllStandardError()};
+ProgramRun robot(const QStringList& arguments) {
+  return runProgram("pitchboard-robot", arguments);
 }
 
 }  // namespace
@@ -161,8 +153,8 @@ class TestRobotProgram : public QObject {
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(text);
     file.close();
-    const Output output = robot(withBase({"decision", "--config", file.fileName()}));
-    QCOMPARE(output.code, 2);
+    const ProgramRun output = robot(withBase({"decision", "--config", file.fileName()}));
+    QCOMPARE(output.exitCode, 2);
     QVERIFY2(output.err.startsWith("error: ") && output.err.contains(message), output.err.data());
   }
 
@@ -189,8 +181,8 @@ class TestRobotProgram : public QObject {
   void refusals() {
     QFETCH(QStringList, arguments);
     QFETCH(QByteArray, message);
-    const Output output = robot(arguments);
-    QCOMPARE(output.code, 2);
+    const ProgramRun output = robot(arguments);
+    QCOMPARE(output.exitCode, 2);
     QCOMPARE(output.out, QByteArray());
     QVERIFY2(output.err.startsWith("error: ") && output.err.contains(message), output.err.data());
   }
@@ -198,23 +190,23 @@ class TestRobotProgram : public QObject {
   void refusesASegmentOfAnotherSize() {
     const int shmid = shmget(m_base + 100, 4096, IPC_CREAT | IPC_EXCL | 0600);
     QVERIFY(shmid >= 0);
-    const Output output = robot(withBase({"decision", "--robot", "1"}));
-    QCOMPARE(output.code, 2);
+    const ProgramRun output = robot(withBase({"decision", "--robot", "1"}));
+    QCOMPARE(output.exitCode, 2);
     QVERIFY2(output.err.startsWith("error: ") && output.err.contains("4096"), output.err.data());
   }
 
   void helpShowsExamples() {
     for (const QStringList& arguments :
          {QStringList{"--help"}, {"decision", "--help"}, {"communication", "--help"}}) {
-      const Output output = robot(arguments);
-      QCOMPARE(output.code, 0);
+      const ProgramRun output = robot(arguments);
+      QCOMPARE(output.exitCode, 0);
       QVERIFY2(output.out.contains("Example: pitchboard-robot "), output.out.data());
     }
   }
 
   void list() {
-    const Output output = robot({"list"});
-    QCOMPARE(output.code, 0);
+    const ProgramRun output = robot({"list"});
+    QCOMPARE(output.exitCode, 0);
     for (const char* name : {"decision", "communication", "naive"}) {
       QVERIFY(output.out.contains(QByteArray("\n  ") + name + ' '));
     }

@@ -6,7 +6,7 @@
 #include <telemetry/session/session_reader.h>
 #include <telemetry/wire/text_protocol.h>
 
-#include "../telemetry/test_socket.h"
+#include "../support/test_socket.h"
 #include "studio_program.h"
 
 using namespace pitchboard;

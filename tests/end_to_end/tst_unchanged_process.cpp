@@ -9,7 +9,7 @@
 #include <cmath>
 #include <thread>
 
-#include "../robotlink/segment_keys.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;

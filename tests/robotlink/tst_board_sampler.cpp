@@ -12,7 +12,7 @@
 #include <robotlink/session/board_sampler.h>
 #include <telemetry/series/series_store.h>
 
-#include "segment_keys.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;

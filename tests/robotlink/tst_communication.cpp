@@ -1,50 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 #include <QtTest>
 #include <limits>
 
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/process_registry.h>
 
-#include "udp_sender.h"
+#include "../support/test_socket.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
 
 namespace {
 
-// A UDP socket on 127.0.0.1; what is sent there is in its queue when send() has returned.
-class Receiver {
+class Receiver : public TestSocket {
  public:
-  explicit Receiver(int port = 0) : m_socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    socklen_t size = sizeof address;
-    const bool bound =
-        ::bind(m_socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
-        ::getsockname(m_socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-    m_port = bound ? ntohs(address.sin_port) : 0;
-  }
-  Receiver(const Receiver&) = delete;
-  Receiver& operator=(const Receiver&) = delete;
-  ~Receiver() { ::close(m_socket); }
-
-  int port() const { return m_port; }
-  /// The next datagram, or nothing.
-  QByteArray take() {
-    char buffer[2000];
-    const ssize_t got = ::recv(m_socket, buffer, sizeof buffer, 0);
-    return got < 0 ? QByteArray() : QByteArray(buffer, static_cast<qsizetype>(got));
-  }
-
- private:
-  int m_socket;
-  int m_port = 0;
+  explicit Receiver(int port = 0) : TestSocket(INADDR_LOOPBACK, port) {}
+  QByteArray take() const { return QByteArray::fromStdString(TestSocket::take()); }
 };
 
 // Four neighbouring ports.
@@ -55,7 +26,7 @@ std::vector<std::unique_ptr<Receiver>> team() {
     const int first = receivers.front()->port();
     for (int n = 1; n < 4; ++n) receivers.push_back(std::make_unique<Receiver>(first + n));
     if (std::all_of(receivers.begin(), receivers.end(),
-                    [](const auto& receiver) { return receiver->port() > 0; })) {
+                    [](const auto& receiver) { return receiver->good(); })) {
       return receivers;
     }
   }
@@ -227,23 +198,6 @@ class TestCommunication : public QObject {
       process->step(board, {1.0 * i});
       QCOMPARE(board.read(m_variables.imuWorking), 0);
     }
-  }
-
-  void whatCannotBeSentIsCounted() {
-    Receiver receiver;
-    auto sender = UdpSender::to("127.0.0.1");
-    QVERIFY(sender);
-    QVERIFY(sender->send(receiver.port(), "small"));
-    QCOMPARE(sender->errors(), std::uint64_t{0});
-    QVERIFY(!sender->send(receiver.port(), std::string(70'000, 'x')));  // no datagram is so long
-    QVERIFY(!sender->send(receiver.port(), std::string(70'000, 'x')));
-    QCOMPARE(sender->errors(), std::uint64_t{2});
-    QCOMPARE(receiver.take(), QByteArray("small"));
-    QCOMPARE(receiver.take(), QByteArray());
-
-    auto unreachable = UdpSender::to("240.0.0.1");  // reserved: no computer has a way to it
-    QVERIFY(unreachable);
-    if (!unreachable->send(1241, "x")) QCOMPARE(unreachable->errors(), std::uint64_t{1});
   }
 
   void refusals_data() {

@@ -18,20 +18,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-class StoreSink : public telemetry::RowSink {
- public:
-  explicit StoreSink(telemetry::SeriesStore& store) : m_store(store) {}
-  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
-    return m_store.addGroup(info);
-  }
-  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
-    m_store.append(group, row);
-  }
-
- private:
-  telemetry::SeriesStore& m_store;
-};
-
 /// Snapshots, boards and hashes by tick, as the match went on from them.
 class Witness : public TickObserver {
  public:
@@ -68,7 +54,8 @@ const RecorderOptions recording;
 struct Played {
   explicit Played(const QString& folder, const char* physics = "rigid-body")
       : scenario(scenarioOf(physics)), path((folder + "/match.mcap").toStdString()) {
-    const auto sampler = std::make_shared<MatchSampler>(std::make_shared<StoreSink>(store));
+    const auto sampler = std::make_shared<MatchSampler>(
+        std::shared_ptr<telemetry::RowSink>(std::shared_ptr<void>(), &store));
     recorder =
         MatchRecorder::create(path, scenario, VariableCatalog::published(), sampler, recording)
             .value();
@@ -321,7 +308,7 @@ class TestMoments : public QObject {
       for (std::size_t a = 0; a < start.robots.size(); ++a) {
         for (std::size_t b = a + 1; b < start.robots.size(); ++b) {
           const Point p = start.robots[a].pose.position, q = start.robots[b].pose.position;
-          QVERIFY(std::hypot(p.x - q.x, p.y - q.y) >= 2 * made.scenario.settings.field.robotRadius);
+          QVERIFY(distance(p, q) >= 2 * made.scenario.settings.field.robotRadius);
         }
       }
       for (int i = 0; i < 60; ++i) match->tick();
@@ -348,7 +335,7 @@ class TestMoments : public QObject {
       frame.robots.push_back(robot);
     }
     MomentScenario made = scenarioFromMoment(frame);
-    QVERIFY(std::hypot(made.scenario.ball.x - ball.x, made.scenario.ball.y - ball.y) < 1e-4);
+    QVERIFY(distance(made.scenario.ball, ball) < 1e-4);
     QCOMPARE(made.notes.size(), std::size_t{1});
     QVERIFY2(made.notes[0].find("3 of the 4") != std::string::npos, made.notes[0].c_str());
     for (RobotFrame& robot : frame.robots) robot.board->visionLost = true;

@@ -44,8 +44,7 @@ struct Walker {
     pose.position.x += walked * std::cos(pose.yaw);
     pose.position.y += walked * std::sin(pose.yaw);
     for (std::size_t i = 0; i < 4; ++i) {
-      const double bearing = wrapToPi(
-          std::atan2(corners[i].y - pose.position.y, corners[i].x - pose.position.x) - pose.yaw);
+      const double bearing = wrapToPi(direction(pose.position, corners[i]) - pose.yaw);
       if (std::abs(bearing) < pi / 2 && random.uniform() < 0.25) {
         input.corners[i] = random.normal(bearing, radiansFromDegrees(5));
       }
@@ -57,7 +56,7 @@ struct Walker {
 
 double error(const MonteCarloLocalization& filter, const Walker& walker) {
   const Pose& p = filter.belief().pose;
-  return std::hypot(p.position.x - walker.pose.position.x, p.position.y - walker.pose.position.y);
+  return distance(p.position, walker.pose.position);
 }
 
 }  // namespace

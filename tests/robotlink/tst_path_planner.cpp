@@ -18,7 +18,7 @@ namespace {
 double distanceToSegment(const Point& c, const Point& a, const Point& b) {
   const double dx = b.x - a.x, dy = b.y - a.y, l = dx * dx + dy * dy;
   const double t = l > 0 ? std::clamp(((c.x - a.x) * dx + (c.y - a.y) * dy) / l, 0.0, 1.0) : 0.0;
-  return std::hypot(a.x + t * dx - c.x, a.y + t * dy - c.y);
+  return distance({a.x + t * dx, a.y + t * dy}, c);
 }
 
 bool isFree(const Path& path, const std::vector<Obstacle>& obstacles) {
@@ -126,15 +126,13 @@ class TestPathPlanner : public QObject {
       const Point start = place(), target = place();
       while (obstacles.size() < 16) {
         const Obstacle o{place(), 0.3};
-        const auto clear = [&o](const Point& p) {
-          return std::hypot(p.x - o.centre.x, p.y - o.centre.y) > 0.4;
-        };
+        const auto clear = [&o](const Point& p) { return distance(p, o.centre) > 0.4; };
         if (clear(start) && clear(target)) obstacles.push_back(o);
       }
       const Path path = planner.plan(start, target, obstacles);
       QVERIFY(isFree(path, obstacles));
       if (!path.complete) continue;
-      QVERIFY(path.length >= std::hypot(start.x - target.x, start.y - target.y) - 1e-9);
+      QVERIFY(path.length >= distance(start, target) - 1e-9);
       bends += static_cast<int>(path.points.size()) - 2;
     }
     QVERIFY(bends > 100);

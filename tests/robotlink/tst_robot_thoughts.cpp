@@ -6,7 +6,7 @@
 #include <QtTest>
 #include <cmath>
 
-#include "segment_keys.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -43,6 +43,18 @@ const RobotThoughts* of(const std::vector<RobotThoughts>& all, int robot) {
 class TestRobotThoughts : public QObject {
   Q_OBJECT
   const int m_base = testKeyBase();
+
+  MatchOptions separateProcesses(int team, bool thoughts) const {
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.process.telemetryPortBase = 60000;
+    options.process.teamPortBase = 60100;
+    options.process.team = team;
+    options.thoughts = thoughts;
+    return options;
+  }
 
  private slots:
   void cleanup() {
@@ -152,7 +164,7 @@ class TestRobotThoughts : public QObject {
       for (const RobotThoughts& one : played.thoughts()) {
         if (one.path && one.path->points.size() > 1) {
           const Point a = one.path->points.front(), b = one.path->points.back();
-          longest = std::max(longest, std::hypot(a.x - b.x, a.y - b.y));
+          longest = std::max(longest, distance(a, b));
         }
       }
     }
@@ -173,7 +185,7 @@ class TestRobotThoughts : public QObject {
                          one.cloud->pose.position.y - truth.position.y) < 0.6);
       if (!one.path->points.empty()) {
         const Point start = one.path->points.front();
-        QVERIFY(std::hypot(start.x - truth.position.x, start.y - truth.position.y) < 0.7);
+        QVERIFY(distance(start, truth.position) < 0.7);
       }
     }
   }
@@ -199,14 +211,7 @@ class TestRobotThoughts : public QObject {
     scenario.settings.field.width = 20.0;
     const auto again = fieldFromText(fieldToText(scenario.settings.field), "test");
     QVERIFY(again && *again == scenario.settings.field);
-    MatchOptions options;
-    options.cognition = Cognition::External;
-    options.keyBase = m_base;
-    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
-    options.process.telemetryPortBase = 60000;
-    options.process.teamPortBase = 60100;
-    options.process.team = 82;
-    options.thoughts = true;
+    const MatchOptions options = separateProcesses(82, true);
     auto runner = MatchRunner::start(scenario, options).value();
     const auto farthest = [&] {
       double most = 0;
@@ -229,14 +234,7 @@ class TestRobotThoughts : public QObject {
   }
   void separateProcessesTellThem() {
     QFETCH(bool, asked);
-    MatchOptions options;
-    options.cognition = Cognition::External;
-    options.keyBase = m_base;
-    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
-    options.process.telemetryPortBase = 60000;
-    options.process.teamPortBase = 60100;
-    options.process.team = 80;
-    options.thoughts = asked;
+    const MatchOptions options = separateProcesses(80, asked);
     auto runner = MatchRunner::start(match(2), options).value();
     if (!asked) {
       QTRY_VERIFY(runner->latest() && !runner->latest()->boards.empty() &&

@@ -1,45 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
 
-#include <unistd.h>
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <robotlink/match/simulated_match.h>
 
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Not with sanitizers: they match every release with the function that allocated, and need these
-// functions themselves.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define COUNTS_ALLOCATIONS 0
-#else
-#define COUNTS_ALLOCATIONS 1
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-#endif
+#include "../support/allocation_counter.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
 
 namespace {
-
-int keyBase() {
-  return 100000 +
-         static_cast<int>(static_cast<long long>(::getpid()) * 7000 % 900000000) / 100 * 100;
-}
 
 Scenario builtIn(const char* name) {
   return loadScenario(name).value();
@@ -54,7 +24,7 @@ SimulatedMatch make(const Scenario& scenario, const MatchOptions& options = {}) 
 MatchOptions shared(Cognition cognition) {
   MatchOptions options;
   options.cognition = cognition;
-  options.keyBase = keyBase();
+  options.keyBase = testKeyBase();
   options.robotProgram = "/bin/false-pitchboard";
   return options;
 }
@@ -90,7 +60,7 @@ class TestSimulatedMatch : public QObject {
   }
 
   void noAllocationPerTickAfterTheStart() {
-    if (!COUNTS_ALLOCATIONS) QSKIP("the sanitizer has its own allocation functions");
+    if (!countsAllocations) QSKIP("the sanitizer has its own allocation functions");
     // Engine, bridge and the naive behaviour; planning a path and talking to the team may allocate.
     Scenario scenario = builtIn("match-3v3");
     for (ScenarioRobot& robot : scenario.robots) robot.behaviour = "naive";
@@ -99,6 +69,7 @@ class TestSimulatedMatch : public QObject {
     const long before = allocations;
     for (int i = 0; i < 3000; ++i) match.tick();
     QCOMPARE(allocations - before, 0L);
+    QVERIFY(theCounterCounts());
   }
 
   void scriptedWritesHappenBeforeTheirTick() {

@@ -5,7 +5,7 @@
 
 #include <robotlink/blackboard/system_v.h>
 
-#include "segment_keys.h"
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;

@@ -58,8 +58,7 @@ inline double poseError(const SimulatedMatch& match, const sim::RobotSnapshot& r
        static_cast<double>(board.read(v.localizationY)),
        static_cast<double>(board.read(v.localizationTheta))});
   if (yaw) *yaw = std::abs(wrapToPi(belief.yaw - robot.pose.yaw));
-  return std::hypot(belief.position.x - robot.pose.position.x,
-                    belief.position.y - robot.pose.position.y);
+  return distance(belief.position, robot.pose.position);
 }
 
 /// `seconds` of simulated time.
@@ -87,7 +86,7 @@ inline MatchMeasure playMatch(SimulatedMatch& match, double seconds) {
       for (std::size_t j = 0; j < n; ++j) {
         if (i == j) continue;
         const Point a = now.robots[i].pose.position, b = now.robots[j].pose.position;
-        const bool contact = std::hypot(a.x - b.x, a.y - b.y) < touch;
+        const bool contact = distance(a, b) < touch;
         any = any || contact;
         char& before = touched[i * 64 + j];
         measure.collisions += contact && !before && i < j;

@@ -1,39 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QFile>
 #include <QtTest>
-#include <atomic>
 #include <clocale>
-#include <cstdlib>
-#include <new>
 #include <random>
 
 #include <telemetry/wire/text_decoder.h>
 #include <telemetry/wire/text_protocol.h>
 
+#include "../support/allocation_counter.h"
+
 using namespace pitchboard::telemetry;
-
-namespace {
-std::atomic<long> allocations{0};
-}  // namespace
-
-// Counted, so that "no allocation per datagram" is more than a promise. Not with sanitizers: they
-// match every release with the function that allocated, and need these functions themselves.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define COUNTS_ALLOCATIONS 0
-#else
-#define COUNTS_ALLOCATIONS 1
-void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
-  std::abort();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-#endif
 
 namespace {
 
@@ -212,7 +188,7 @@ class TestTextDecoder : public QObject {
   }
 
   void allocatesNothing() {
-    if (!COUNTS_ALLOCATIONS) QSKIP("the sanitizer has its own allocation functions");
+    if (!countsAllocations) QSKIP("the sanitizer has its own allocation functions");
     const TextDecoder decoder;
     auto decoded = std::make_unique<DecodedText>();
     auto tally = std::make_unique<ErrorTally>();
@@ -224,6 +200,7 @@ class TestTextDecoder : public QObject {
       tally->add(decoded->errors, bad);
     }
     QCOMPARE(allocations.load(), before);
+    QVERIFY(theCounterCounts());
   }
 
   void survivesMutations() {

@@ -8,8 +8,9 @@
 
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/udp_receiver.h>
+#include <telemetry/wire/udp_sender.h>
 
-#include "test_socket.h"
+#include "../support/test_socket.h"
 
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
@@ -170,22 +171,43 @@ class TestUdpReceiver : public QObject {
     QVERIFY(!referee.heard());
   }
 
-  /// What cannot be called cannot happen by mistake: of the library's objects only the monitor
-  /// request knows a function that sends.
+  /// What cannot be called cannot happen by mistake: of the library's objects only the sender knows
+  /// a function of the system that sends, and only the monitor request knows the sender.
   void onlyTheMonitorRequestCanSend() {
     QProcess nm;
-    nm.start("nm", {"-u", "-A", QStringLiteral(PITCHBOARD_TELEMETRY_LIBRARY)});
+    nm.start("nm", {"-u", "-A", "-C", QStringLiteral(PITCHBOARD_TELEMETRY_LIBRARY)});
     if (!nm.waitForStarted()) QSKIP("nm is not installed");
     QVERIFY(nm.waitForFinished());
     static const QRegularExpression sends(R"(\b(send|sendto|sendmsg|sendmmsg|connect)(@.*)?$)");
-    QStringList senders;
+    QStringList senders, users;
     const QStringList lines = QString::fromUtf8(nm.readAllStandardOutput()).split('\n');
     QVERIFY(lines.size() > 50);
     for (const QString& line : lines) {
       if (sends.match(line.trimmed()).hasMatch()) senders << line;
+      if (line.contains("UdpSender::send(")) users << line;
     }
     QCOMPARE(senders.size(), 1);
-    QVERIFY2(senders[0].contains("monitor_request.cpp"), qPrintable(senders[0]));
+    QVERIFY2(senders[0].contains("udp_sender.cpp"), qPrintable(senders[0]));
+    QCOMPARE(users.size(), 1);
+    QVERIFY2(users[0].contains("monitor_request.cpp"), qPrintable(users[0]));
+  }
+
+  void whatCannotBeSentIsCounted() {
+    TestSocket receiver;
+    auto sender = UdpSender::to({INADDR_LOOPBACK});
+    QVERIFY(sender);
+    QVERIFY(sender->send(receiver.port(), "small"));
+    QCOMPARE(sender->errors(), std::uint64_t{0});
+    QVERIFY(!sender->send(receiver.port(), std::string(70'000, 'x')));  // no datagram is so long
+    QVERIFY(!sender->send(receiver.port(), std::string(70'000, 'x')));
+    QCOMPARE(sender->errors(), std::uint64_t{2});
+    QCOMPARE(receiver.take(), std::string("small"));
+    QCOMPARE(receiver.take(), std::string());
+
+    auto unreachable =
+        UdpSender::to({0xf0000001});  // 240.0.0.1, reserved: no computer has a way to it
+    QVERIFY(unreachable);
+    if (!unreachable->send(1241, "x")) QCOMPARE(unreachable->errors(), std::uint64_t{1});
   }
 
   void theMonitorRequestIsWhatIsDocumented() {

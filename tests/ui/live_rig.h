@@ -11,7 +11,7 @@
 #include <robotlink/live/live_watch.h>
 #include <telemetry/wire/text_protocol.h>
 
-#include "../telemetry/test_socket.h"
+#include "../support/test_socket.h"
 
 namespace live_rig {
 

@@ -485,14 +485,17 @@ class TestFieldView : public QObject {
   }
 
  private:
-  /// Asks for the context menu at a place of the field and triggers the action with this text, also
-  /// of a submenu.
-  bool trigger(const Point& place, const QString& text) {
+  /// The context menu at a place of the field; null when there is none.
+  QMenu* menuAt(const Point& place) {
     const QPoint point = at(place);
     QContextMenuEvent event(QContextMenuEvent::Mouse, point,
                             m_canvas->viewport()->mapToGlobal(point));
     QCoreApplication::sendEvent(m_canvas->viewport(), &event);
-    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    return qobject_cast<QMenu*>(QApplication::activePopupWidget());
+  }
+  /// Triggers the action with this text of the context menu, also of a submenu.
+  bool trigger(const Point& place, const QString& text) {
+    auto* menu = menuAt(place);
     if (!menu) return false;
     const auto actions = menu->findChildren<QAction*>();
     const auto found = std::find_if(actions.begin(), actions.end(),
@@ -502,11 +505,7 @@ class TestFieldView : public QObject {
     return found != actions.end();
   }
   bool isChecked(const Point& place, const QString& text) {
-    const QPoint point = at(place);
-    QContextMenuEvent event(QContextMenuEvent::Mouse, point,
-                            m_canvas->viewport()->mapToGlobal(point));
-    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
-    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    auto* menu = menuAt(place);
     if (!menu) return false;
     bool checked = false;
     for (const QAction* action : menu->findChildren<QAction*>()) {

@@ -99,13 +99,10 @@ class TestLiveIsSilent : public QObject {
   };
   /// Sends past the counting functions.
   static bool tell(int port, const std::string& text) {
-    const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const long sent = syscall(SYS_sendto, fd, text.data(), text.size(), 0, &to, sizeof to);
-    close(fd);
+    const TestSocket socket;
+    const sockaddr_in to = TestSocket::at(INADDR_LOOPBACK, static_cast<std::uint16_t>(port));
+    const long sent =
+        syscall(SYS_sendto, socket.descriptor(), text.data(), text.size(), 0, &to, sizeof to);
     return sent == static_cast<long>(text.size());
   }
 

@@ -8,6 +8,8 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 
+#include "../support/segment_keys.h"
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -125,7 +127,7 @@ class TestMatchController : public QObject {
     link::MatchOptions options;
     options.cognition = link::Cognition::External;
     options.robotProgram = "/nonexistent/pitchboard-robot";
-    options.keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+    options.keyBase = testKeyBase();
     MatchController c(options);
     QSignalSpy errors(&c, &MatchController::errorOccurred);
     c.open(match(), true);

@@ -27,13 +27,15 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+#include "../support/segment_keys.h"
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
 class TestStudioWork : public QObject {
   Q_OBJECT
 
-  int m_keyBase = 100000 + static_cast<int>(getpid() * 7000LL % 900000000 / 100 * 100);
+  int m_keyBase = testKeyBase();
 
   static link::Scenario match() { return link::loadScenario("match-3v3").value(); }
   link::MatchOptions options(link::Cognition cognition) const {

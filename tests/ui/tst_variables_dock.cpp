@@ -25,7 +25,7 @@
 #include <ui/sources/source_switch.h>
 #include <ui/variables/variables_dock.h>
 
-#include "../robotlink/segment_keys.h"
+#include "../support/segment_keys.h"
 #include "catalog_choice.h"
 #include "variables_filter.h"
 #include "variables_model.h"
@@ -150,6 +150,14 @@ struct Bench {
     view->setCurrentIndex(at(path));
     view->setFocus();
   }
+  /// Opens the editor of a value of twoRobots(), as F2 does; null when there is none.
+  QLineEdit* edit(const QString& path) {
+    hand.take(twoRobots(), SourceKind::Simulate);
+    press("editValues");
+    choose(path);
+    QTest::keyClick(view, Qt::Key_F2);
+    return dock->findChild<QLineEdit*>(QStringLiteral("valueEdit"));
+  }
 
   QTemporaryDir folder;
   HandSource hand;
@@ -162,7 +170,7 @@ struct Bench {
   VariablesModel* model = nullptr;
 };
 
-const QString distance = QStringLiteral("B1/VISION_BALL_DIST");
+const QString ballDistance = QStringLiteral("B1/VISION_BALL_DIST");
 const QString action = QStringLiteral("B1/DECISION_ACTION_A");
 
 }  // namespace
@@ -209,16 +217,16 @@ class TestVariablesDock : public QObject {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
     bench.view->openAll();
-    QTRY_COMPARE(bench.text(distance, VariablesModel::Value), QStringLiteral("80.0"));
-    QCOMPARE(bench.text(distance, VariablesModel::Unit), QStringLiteral("cm"));
-    QCOMPARE(bench.text(distance, VariablesModel::Rate), QStringLiteral("−2.0"));
+    QTRY_COMPARE(bench.text(ballDistance, VariablesModel::Value), QStringLiteral("80.0"));
+    QCOMPARE(bench.text(ballDistance, VariablesModel::Unit), QStringLiteral("cm"));
+    QCOMPARE(bench.text(ballDistance, VariablesModel::Rate), QStringLiteral("−2.0"));
     QCOMPARE(bench.text(action, VariablesModel::Value), QStringLiteral("1"));
     QCOMPARE(bench.text(action, VariablesModel::Unit), QString::fromStdString(actionWords(1)));
     QCOMPARE(bench.text(action, VariablesModel::Age), QStringLiteral("1.0 s"));
     QTRY_COMPARE(bench.text(QStringLiteral("B2/VISION_LOST"), VariablesModel::Value),
                  QStringLiteral("1"));
     QTRY_COMPARE(bench.text(QStringLiteral("B1"), VariablesModel::Value), QStringLiteral("60"));
-    const auto spark = bench.model->find(distance)
+    const auto spark = bench.model->find(ballDistance)
                            .siblingAtColumn(VariablesModel::Spark)
                            .data(VariablesModel::SparkRole)
                            .value<QList<telemetry::SeriesBucket>>();
@@ -236,7 +244,7 @@ class TestVariablesDock : public QObject {
     };
     model.setMoment(5.0);
     model.refreshAll();
-    QCOMPARE(shown(distance, VariablesModel::Value), QStringLiteral("90.0"));
+    QCOMPARE(shown(ballDistance, VariablesModel::Value), QStringLiteral("90.0"));
     QCOMPARE(shown(action, VariablesModel::Value), QStringLiteral("0"));
     QCOMPARE(shown(action, VariablesModel::Age), QString());
     model.setMoment(9.5);
@@ -245,7 +253,7 @@ class TestVariablesDock : public QObject {
     QCOMPARE(shown(action, VariablesModel::Age), QStringLiteral("500 ms"));
     model.setMoment({});
     model.refreshAll();
-    QCOMPARE(shown(distance, VariablesModel::Value), QStringLiteral("80.0"));
+    QCOMPARE(shown(ballDistance, VariablesModel::Value), QStringLiteral("80.0"));
   }
 
   void onlyRowsInSightAreRead() {
@@ -257,12 +265,12 @@ class TestVariablesDock : public QObject {
     bench.hand.take(store, SourceKind::Simulate);
     bench.view->openAll();
     bench.view->scrollToTop();
-    QTRY_COMPARE(bench.text(distance, VariablesModel::Value), QStringLiteral("1.0"));
+    QTRY_COMPARE(bench.text(ballDistance, VariablesModel::Value), QStringLiteral("1.0"));
     QVERIFY(bench.view->rowsInSight().size() < 60);
     QCOMPARE(bench.text(QStringLiteral("B1/EXTRA_499"), VariablesModel::Value), QString());
     QSignalSpy changed(bench.model, &QAbstractItemModel::dataChanged);
     append(*store, id, 1.0, 0, 0, 2.0F, 0.0, extra);
-    QTRY_COMPARE(bench.text(distance, VariablesModel::Value), QStringLiteral("2.0"));
+    QTRY_COMPARE(bench.text(ballDistance, VariablesModel::Value), QStringLiteral("2.0"));
     for (const QList<QVariant>& arguments : changed) {
       const auto first = arguments[0].toModelIndex(), last = arguments[1].toModelIndex();
       QVERIFY(last.row() - first.row() < 60);
@@ -305,19 +313,19 @@ class TestVariablesDock : public QObject {
     {
       Bench bench(file);
       bench.hand.take(twoRobots(), SourceKind::Simulate);
-      bench.choose(distance);
+      bench.choose(ballDistance);
       QTest::keyClick(bench.view, Qt::Key_Asterisk);
-      QCOMPARE(bench.model->favourites(), QStringList{distance});
+      QCOMPARE(bench.model->favourites(), QStringList{ballDistance});
       bench.press("favouritesOnly");
       QCOMPARE(qobject_cast<VariablesFilter*>(bench.view->model())->variableCount(), 1);
       bench.hand.take(nullptr, SourceKind::Simulate);
       bench.hand.take(twoRobots(), SourceKind::Simulate);
-      QVERIFY(bench.at(distance).isValid());
+      QVERIFY(bench.at(ballDistance).isValid());
     }
     Bench bench(file);
-    QCOMPARE(bench.model->favourites(), QStringList{distance});
+    QCOMPARE(bench.model->favourites(), QStringList{ballDistance});
     bench.hand.take(twoRobots(), SourceKind::Simulate);
-    bench.choose(distance);
+    bench.choose(ballDistance);
     QTest::keyClick(bench.view, Qt::Key_Asterisk);
     QVERIFY(bench.model->favourites().isEmpty());
   }
@@ -343,12 +351,12 @@ class TestVariablesDock : public QObject {
   void keyboardPlotsAndCopies() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
-    bench.choose(distance);
-    QTRY_COMPARE(bench.text(distance, VariablesModel::Value), QStringLiteral("80.0"));
+    bench.choose(ballDistance);
+    QTRY_COMPARE(bench.text(ballDistance, VariablesModel::Value), QStringLiteral("80.0"));
     QTest::keyClick(bench.view, Qt::Key_Return);
-    QCOMPARE(bench.plots.plotted, QStringList{distance});
+    QCOMPARE(bench.plots.plotted, QStringList{ballDistance});
     QTest::keySequence(bench.view, QKeySequence::Copy);
-    QCOMPARE(QGuiApplication::clipboard()->text(), distance + QStringLiteral(" 80"));
+    QCOMPARE(QGuiApplication::clipboard()->text(), ballDistance + QStringLiteral(" 80"));
     QTest::keyClick(bench.view, Qt::Key_Up);
     QCOMPARE(bench.view->selectedVariables(), QStringList{QStringLiteral("B1/VISION_LOST")});
   }
@@ -356,10 +364,10 @@ class TestVariablesDock : public QObject {
   void dragCarriesNames() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
-    const QModelIndexList rows{bench.model->find(distance), bench.model->find(action),
+    const QModelIndexList rows{bench.model->find(ballDistance), bench.model->find(action),
                                bench.model->find(QStringLiteral("B1"))};
     const std::unique_ptr<QMimeData> data(bench.model->mimeData(rows));
-    QCOMPARE(data->data(variablesMimeType), (distance + QLatin1Char('\n') + action).toUtf8());
+    QCOMPARE(data->data(variablesMimeType), (ballDistance + QLatin1Char('\n') + action).toUtf8());
     QVERIFY(bench.model->flags(rows[0]).testFlag(Qt::ItemIsDragEnabled));
     QVERIFY(!bench.model->flags(rows[2]).testFlag(Qt::ItemIsDragEnabled));
   }
@@ -396,7 +404,7 @@ class TestVariablesDock : public QObject {
   void valuesAreLockedAtFirst() {
     Bench bench;
     bench.hand.take(twoRobots(), SourceKind::Simulate);
-    bench.choose(distance);
+    bench.choose(ballDistance);
     QTest::keyClick(bench.view, Qt::Key_F2);
     QVERIFY(!bench.view->isEditing());
     QVERIFY(bench.message().contains(QStringLiteral("locked")));
@@ -411,8 +419,8 @@ class TestVariablesDock : public QObject {
     QTest::addColumn<QString>("reason");
     QTest::newRow("truth") << SourceKind::Simulate << "B1/TRUE_X"
                            << "truth";
-    QTest::newRow("live") << SourceKind::Live << distance << "live";
-    QTest::newRow("replay") << SourceKind::Replay << distance << "recording";
+    QTest::newRow("live") << SourceKind::Live << ballDistance << "live";
+    QTest::newRow("replay") << SourceKind::Replay << ballDistance << "recording";
     QTest::newRow("attached") << SourceKind::Simulate << "key 900/VISION_LOST"
                               << "only read";
   }
@@ -445,18 +453,18 @@ class TestVariablesDock : public QObject {
                                << "whole";
     QTest::newRow("too large") << action << "3000000000"
                                << "32 bits";
-    QTest::newRow("no number") << distance << "far"
+    QTest::newRow("no number") << ballDistance << "far"
                                << "not a number";
-    QTest::newRow("nan") << distance << "nan"
+    QTest::newRow("nan") << ballDistance << "nan"
                          << "not a number";
-    QTest::newRow("no float") << distance << "1e39"
+    QTest::newRow("no float") << ballDistance << "1e39"
                               << "32-bit";
     QTest::newRow("flag") << "B1/VISION_LOST"
                           << "2"
                           << "0 or 1";
     QTest::newRow("words") << action << "dance"
                            << "words of a code";
-    QTest::newRow("two commas") << distance << "1,234,5"
+    QTest::newRow("two commas") << ballDistance << "1,234,5"
                                 << "not a number";
   }
   void badValuesAreRefusedBesideTheEditor() {
@@ -464,12 +472,8 @@ class TestVariablesDock : public QObject {
     QFETCH(const QString, typed);
     QFETCH(const QString, problem);
     Bench bench;
-    bench.hand.take(twoRobots(), SourceKind::Simulate);
-    bench.press("editValues");
-    bench.choose(path);
     QSignalSpy edited(bench.model, &VariablesModel::valueEdited);
-    QTest::keyClick(bench.view, Qt::Key_F2);
-    auto* editor = bench.dock->findChild<QLineEdit*>(QStringLiteral("valueEdit"));
+    auto* editor = bench.edit(path);
     QVERIFY(editor);
     editor->selectAll();
     QTest::keyClicks(editor, typed);
@@ -489,9 +493,9 @@ class TestVariablesDock : public QObject {
     QTest::addColumn<double>("value");
     QTest::newRow("int") << action << "-7" << -7.0;
     QTest::newRow("words") << action << "Walk forward, fast" << 1.0;
-    QTest::newRow("float") << distance << "1.5e2" << 150.0;
-    QTest::newRow("minus sign") << distance << QStringLiteral("−2.5") << -2.5;
-    QTest::newRow("decimal comma") << distance << "-1,25" << -1.25;
+    QTest::newRow("float") << ballDistance << "1.5e2" << 150.0;
+    QTest::newRow("minus sign") << ballDistance << QStringLiteral("−2.5") << -2.5;
+    QTest::newRow("decimal comma") << ballDistance << "-1,25" << -1.25;
     QTest::newRow("flag") << "B1/VISION_LOST"
                           << "1" << 1.0;
   }
@@ -500,12 +504,8 @@ class TestVariablesDock : public QObject {
     QFETCH(const QString, typed);
     QFETCH(const double, value);
     Bench bench;
-    bench.hand.take(twoRobots(), SourceKind::Simulate);
-    bench.press("editValues");
-    bench.choose(path);
     QSignalSpy edited(bench.model, &VariablesModel::valueEdited);
-    QTest::keyClick(bench.view, Qt::Key_F2);
-    auto* editor = bench.dock->findChild<QLineEdit*>(QStringLiteral("valueEdit"));
+    auto* editor = bench.edit(path);
     QVERIFY(editor);
     editor->setText(typed);
     QTest::keyClick(editor, Qt::Key_Return);

@@ -32,24 +32,23 @@ struct Address {
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&value); }
 };
 
-int newSocket() {
-  return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+Descriptor newSocket() {
+  return Descriptor(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
 }
 
 // Who listens at the name: 0 when it is nobody (any more), −1 when it cannot be told.
 pid_t holderOf(const Address& address) {
-  const int client = newSocket();
-  if (client < 0) return -1;
+  const Descriptor client = newSocket();
+  if (!client) return -1;
   pid_t holder = -1;
-  if (connect(client, address.get(), address.length) == 0) {
+  if (connect(client.get(), address.get(), address.length) == 0) {
     ucred peer{};
     socklen_t size = sizeof peer;
-    if (getsockopt(client, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid > 0)
+    if (getsockopt(client.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid > 0)
       holder = peer.pid;
   } else if (errno == ECONNREFUSED) {
     holder = 0;
   }
-  close(client);
   return holder;
 }
 
@@ -72,13 +71,12 @@ Result<BridgeClaim> BridgeClaim::take(int key) {
   const Address address(key);
   // The holder may go away between bind and asking who it is; then the name is free.
   for (int attempt = 0; attempt < 8; ++attempt) {
-    const int server = newSocket();
-    if (server < 0) return tl::unexpected(systemError(key, "socket"));
-    BridgeClaim claim(server);
-    if (bind(server, address.get(), address.length) == 0) {
+    Descriptor server = newSocket();
+    if (!server) return tl::unexpected(systemError(key, "socket"));
+    if (bind(server.get(), address.get(), address.length) == 0) {
       // Listening is what lets the refused one learn who holds the claim.
-      if (listen(server, 4) != 0) return tl::unexpected(systemError(key, "listen"));
-      return claim;
+      if (listen(server.get(), 4) != 0) return tl::unexpected(systemError(key, "listen"));
+      return BridgeClaim(std::move(server));
     }
     if (errno != EADDRINUSE) return tl::unexpected(systemError(key, "bind"));
     const pid_t holder = holderOf(address);
@@ -91,21 +89,6 @@ Result<BridgeClaim> BridgeClaim::take(int key) {
   return failure(ErrorCode::Conflict,
                  "another program is just taking or giving up this robot; try again",
                  "blackboard " + std::to_string(key));
-}
-
-BridgeClaim::BridgeClaim(BridgeClaim&& other) noexcept
-    : m_socket(std::exchange(other.m_socket, -1)) {}
-
-BridgeClaim& BridgeClaim::operator=(BridgeClaim&& other) noexcept {
-  if (this != &other) {
-    if (m_socket >= 0) close(m_socket);
-    m_socket = std::exchange(other.m_socket, -1);
-  }
-  return *this;
-}
-
-BridgeClaim::~BridgeClaim() {
-  if (m_socket >= 0) close(m_socket);
 }
 
 }  // namespace pitchboard::link

@@ -12,10 +12,6 @@ namespace {
 constexpr int corners = 10;
 constexpr double rim = 1e-3;  // m, kept between a corner and the circle it goes round
 
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
-
 bool finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
@@ -81,12 +77,12 @@ Point PathPlanner::freeTarget(const Point& target, const Point& start, bool& fre
     if (inside == m_obstacles.end()) break;
     free = false;
     Point away{p.x - inside->centre.x, p.y - inside->centre.y};
-    if (std::hypot(away.x, away.y) < rim) {
+    if (length(away) < rim) {
       away = {start.x - inside->centre.x, start.y - inside->centre.y};
     }
-    const double length = std::hypot(away.x, away.y);
-    if (length < rim) away = {1.0, 0.0};
-    const double scale = (inside->radius + rim) / std::max(length, rim);
+    const double way = length(away);
+    if (way < rim) away = {1.0, 0.0};
+    const double scale = (inside->radius + rim) / std::max(way, rim);
     p = {inside->centre.x + away.x * scale, inside->centre.y + away.y * scale};
   }
   return p;

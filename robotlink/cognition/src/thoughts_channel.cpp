@@ -2,16 +2,11 @@
 // The datagrams' way over the loopback device.
 #include <robotlink/cognition/robot_thoughts.h>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 #include <cerrno>
 #include <utility>
 
 #include <base/system_reason.h>
-
-#include "udp_sender.h"
+#include <telemetry/wire/socket_address.h>
 
 namespace pitchboard::link {
 namespace {
@@ -29,37 +24,31 @@ Result<void> checkPort(int port, int least) {
 
 }  // namespace
 
-ThoughtsSender::ThoughtsSender(std::unique_ptr<UdpSender> sender, int port)
-    : m_sender(std::move(sender)), m_port(port) {}
-ThoughtsSender::ThoughtsSender(ThoughtsSender&&) noexcept = default;
-ThoughtsSender::~ThoughtsSender() = default;
-
 Result<ThoughtsSender> ThoughtsSender::to(int port) {
   if (const Result<void> valid = checkPort(port, 1); !valid)
     return tl::unexpected<Error>(valid.error());
-  Result<UdpSender> sender = UdpSender::to("127.0.0.1");
+  auto sender = telemetry::UdpSender::to({INADDR_LOOPBACK});
   if (!sender) return tl::unexpected<Error>(sender.error());
-  return ThoughtsSender(std::make_unique<UdpSender>(std::move(*sender)), port);
+  return ThoughtsSender(std::move(*sender), static_cast<std::uint16_t>(port));
 }
 
 void ThoughtsSender::send(const RobotThoughts& thoughts) {
-  for (const std::string& datagram : thoughtDatagrams(thoughts)) m_sender->send(m_port, datagram);
+  for (const std::string& datagram : thoughtDatagrams(thoughts)) {
+    (void)m_sender.send(m_port, datagram);
+  }
 }
 
 Result<ThoughtsReceiver> ThoughtsReceiver::listen(int port) {
   if (const Result<void> valid = checkPort(port, 0); !valid)
     return tl::unexpected<Error>(valid.error());
-  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (fd < 0) {
+  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket) {
     return failure(ErrorCode::SystemError, "cannot make a UDP socket: " + systemReason(errno));
   }
-  ThoughtsReceiver receiver(fd, port);
+  const int fd = socket.get();
   constexpr int roomForRobots = 1 << 21;
   (void)::setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &roomForRobots, sizeof roomForRobots);
-  sockaddr_in name{};
-  name.sin_family = AF_INET;
-  name.sin_port = htons(static_cast<std::uint16_t>(port));
-  name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  sockaddr_in name = telemetry::socketAddress({INADDR_LOOPBACK}, static_cast<std::uint16_t>(port));
   socklen_t size = sizeof name;
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0 ||
       ::getsockname(fd, reinterpret_cast<sockaddr*>(&name), &size) != 0) {
@@ -67,34 +56,14 @@ Result<ThoughtsReceiver> ThoughtsReceiver::listen(int port) {
         ErrorCode::SystemError,
         "port " + std::to_string(port) + " for thoughts cannot be had: " + systemReason(errno));
   }
-  receiver.m_port = ntohs(name.sin_port);
+  ThoughtsReceiver receiver(std::move(socket), ntohs(name.sin_port));
   receiver.m_buffer.resize(longestDatagram);
   return receiver;
 }
 
-ThoughtsReceiver::ThoughtsReceiver(ThoughtsReceiver&& other) noexcept
-    : m_socket(std::exchange(other.m_socket, -1)),
-      m_port(other.m_port),
-      m_heard(std::move(other.m_heard)),
-      m_buffer(std::move(other.m_buffer)),
-      m_strange(other.m_strange) {}
-
-ThoughtsReceiver& ThoughtsReceiver::operator=(ThoughtsReceiver&& other) noexcept {
-  std::swap(m_socket, other.m_socket);
-  std::swap(m_port, other.m_port);
-  std::swap(m_heard, other.m_heard);
-  std::swap(m_buffer, other.m_buffer);
-  std::swap(m_strange, other.m_strange);
-  return *this;
-}
-
-ThoughtsReceiver::~ThoughtsReceiver() {
-  if (m_socket >= 0) ::close(m_socket);
-}
-
 void ThoughtsReceiver::poll(Time now) {
   for (int i = 0; i < mostPerPoll; ++i) {
-    const ssize_t size = ::recv(m_socket, m_buffer.data(), m_buffer.size(), 0);
+    const ssize_t size = ::recv(m_socket.get(), m_buffer.data(), m_buffer.size(), 0);
     if (size < 0) break;
     RobotThoughts said;
     if (!readThoughtDatagram({m_buffer.data(), static_cast<std::size_t>(size)}, said)) {

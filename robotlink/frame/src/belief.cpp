@@ -46,7 +46,7 @@ std::optional<telemetry::Battery> batteryOf(const RobotFrame& robot) {
 
 std::optional<TeamBall> agreedBall(const std::vector<Point>& balls) {
   const auto near = [](const Point& a, const Point& b) {
-    return std::hypot(a.x - b.x, a.y - b.y) <= TeamBall::reach;
+    return distance(a, b) <= TeamBall::reach;
   };
   const Point* centre = nullptr;
   int most = 1;

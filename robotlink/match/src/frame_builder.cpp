@@ -12,11 +12,6 @@ constexpr auto flagMemory = 1s;
 constexpr auto thoughtsInterval = 100ms;
 constexpr auto speedWindow = 1s;
 
-template <class V>
-auto readOr0(const Blackboard& board, V variable) {
-  return variable.index >= 0 ? board.read(variable) : decltype(board.read(variable)){};
-}
-
 }  // namespace
 
 void FrameBuilder::addBusy(std::chrono::steady_clock::duration busy, std::uint64_t ticks) {
@@ -83,15 +78,15 @@ void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdenti
   const RobotVariables& v = match.variables();
   out.key = board->key();
   out.behaviour = match.behaviour(robot.id);
-  out.actionA = readOr0(*board, v.decisionActionA);
-  out.voltage = readOr0(*board, v.voltage);
-  out.visionLost = readOr0(*board, v.visionLost) != 0;
-  out.ballDistCm = readOr0(*board, v.visionBallDist);
-  out.panDeg = readOr0(*board, v.visionPanDeg);
-  out.localizationX = readOr0(*board, v.localizationX);
-  out.localizationY = readOr0(*board, v.localizationY);
-  out.localizationTheta = readOr0(*board, v.localizationTheta);
-  out.belief = readOr0(*board, v.localizationBelief);
+  out.actionA = readOr(*board, v.decisionActionA);
+  out.voltage = readOr(*board, v.voltage);
+  out.visionLost = readOr(*board, v.visionLost) != 0;
+  out.ballDistCm = readOr(*board, v.visionBallDist);
+  out.panDeg = readOr(*board, v.visionPanDeg);
+  out.localizationX = readOr(*board, v.localizationX);
+  out.localizationY = readOr(*board, v.localizationY);
+  out.localizationTheta = readOr(*board, v.localizationTheta);
+  out.belief = readOr(*board, v.localizationBelief);
 
   struct Flag {
     IntVar variable;
@@ -110,7 +105,7 @@ void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdenti
     Time& seen = entry->second[i];
     const bool wasWorking = seen != Time::min() && now - seen <= flagMemory;
     const bool heldUp = still && all[i].simulated && wasWorking;
-    if (readOr0(*board, all[i].variable) != 0 || heldUp) seen = now;
+    if (readOr(*board, all[i].variable) != 0 || heldUp) seen = now;
     out.*all[i].working = seen != Time::min() && now - seen <= flagMemory;
   }
 }

@@ -47,7 +47,7 @@ Result<int> ProcessSupervisor::start(const ChildSpec& spec) {
   if (!child) return tl::unexpected<Error>(child.error());
   const int handle = m_nextHandle++;
   m_children.push_back({handle, spec, child->pid, ChildState::Running, {}, {}});
-  m_outputs[handle].fd = child->output;
+  m_outputs[handle].pipe = std::move(child->output);
   return handle;
 }
 
@@ -77,7 +77,7 @@ void ProcessSupervisor::collect(ChildStatus& child, Output& output) {
   }
   readOutput(child, output, bytesAtEnd);
   if (!output.partial.empty()) endLine(child, output);
-  ::close(output.fd);
+  output.pipe.reset();
   child.detail = unknown ? "ended, and the system did not say how" : describe(end);
   child.asked = output.asked;
   const bool wellEnded = !unknown && end.si_code == CLD_EXITED && end.si_status == 0;
@@ -87,7 +87,7 @@ void ProcessSupervisor::collect(ChildStatus& child, Output& output) {
 void ProcessSupervisor::readOutput(ChildStatus& child, Output& output, std::size_t limit) {
   char buffer[16 * 1024];
   for (std::size_t total = 0; total < limit;) {
-    const ssize_t got = ::read(output.fd, buffer, sizeof buffer);
+    const ssize_t got = ::read(output.pipe.get(), buffer, sizeof buffer);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return;  // nothing now, or nobody writes any more
     total += static_cast<std::size_t>(got);

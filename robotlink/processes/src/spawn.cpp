@@ -14,43 +14,22 @@
 #include <system_error>
 #include <utility>
 
+#include <base/descriptor.h>
 #include <base/system_reason.h>
 
 namespace pitchboard::link {
 namespace {
 
-class Fd {
- public:
-  Fd() = default;
-  explicit Fd(int fd) : m_fd(fd) {}
-  Fd(Fd&& other) noexcept : m_fd(other.release()) {}
-  Fd& operator=(Fd&& other) noexcept {
-    reset();
-    m_fd = other.release();
-    return *this;
-  }
-  ~Fd() { reset(); }
-  int get() const { return m_fd; }
-  int release() { return std::exchange(m_fd, -1); }
-  void reset() {
-    if (m_fd >= 0) ::close(std::exchange(m_fd, -1));
-  }
-  explicit operator bool() const { return m_fd >= 0; }
-
- private:
-  int m_fd = -1;
-};
-
 // Descriptors 0 to 2 are about to be replaced in the child; a parent without standard streams would
 // otherwise be given exactly these numbers.
-Fd aboveStandard(int fd) {
-  Fd low(fd);
+Descriptor aboveStandard(int fd) {
+  Descriptor low(fd);
   if (fd < 0 || fd > 2) return low;
-  return Fd(::fcntl(fd, F_DUPFD_CLOEXEC, 3));
+  return Descriptor(::fcntl(fd, F_DUPFD_CLOEXEC, 3));
 }
 
 struct Ends {
-  Fd read, write;
+  Descriptor read, write;
 };
 
 bool makePipe(Ends& ends) {
@@ -162,7 +141,7 @@ Result<Spawned> spawn(const std::vector<std::string>& command) {
   }
 
   Ends output, report;
-  const Fd input = aboveStandard(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  const Descriptor input = aboveStandard(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (!input || !makePipe(output) || !makePipe(report)) return cannotStart(program, errno);
   if (::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0) return cannotStart(program, errno);
 
@@ -190,7 +169,7 @@ Result<Spawned> spawn(const std::vector<std::string>& command) {
     }
     return cannotStart(program, error);
   }
-  return Spawned{pid, output.read.release()};
+  return Spawned{pid, std::move(output.read)};
 }
 
 }  // namespace pitchboard::link

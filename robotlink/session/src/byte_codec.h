@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Varints and doubles in a string of bytes, for the saved forms of this library. Private to
-// robotlink.
+// Varints and doubles in a string of bytes, for the saved states of a match. Any thread.
 
 #include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
+
+#include <base/byte_reader.h>
 
 namespace pitchboard::link {
 
@@ -34,18 +35,16 @@ inline void putDouble(std::string& out, double value) {
   }
 }
 
-/// Takes values off the front of bytes. After the first failure every value is 0 and ok() is false.
-class ByteReader {
+/// The values that the functions above wrote.
+class CodecReader : public ByteReader {
  public:
-  explicit ByteReader(std::string_view bytes) : m_bytes(bytes), m_size(bytes.size()) {}
+  using ByteReader::ByteReader;
 
   std::uint64_t varint() {
     std::uint64_t value = 0;
     for (unsigned shift = 0; shift < 64; shift += 7) {
-      if (m_bytes.empty()) break;
-      const auto byte = static_cast<unsigned char>(m_bytes.front());
-      m_bytes.remove_prefix(1);
-      if (shift == 63 && byte > 1) break;
+      const auto byte = number<std::uint8_t>();
+      if (!ok() || (shift == 63 && byte > 1)) break;
       value |= static_cast<std::uint64_t>(byte & 0x7fU) << shift;
       if (byte < 0x80) return value;
     }
@@ -57,40 +56,16 @@ class ByteReader {
     return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
   }
   double real() {
-    if (m_bytes.empty()) return fail(), 0.0;
-    const auto count = static_cast<unsigned char>(m_bytes.front());
-    if (count > 8 || count >= m_bytes.size()) return fail(), 0.0;
+    if (left() == 0) return fail(), 0.0;
+    const auto count = static_cast<unsigned char>(rest().front());
+    if (count > 8 || count >= left()) return fail(), 0.0;
+    const std::string_view digits = bytes(count + 1U).substr(1);
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(m_bytes[i + 1]))
-              << (56 - 8 * i);
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(digits[i])) << (56 - 8 * i);
     }
-    m_bytes.remove_prefix(count + 1U);
     return std::bit_cast<double>(bits);
   }
-  std::string_view bytes(std::uint64_t count) {
-    if (count > m_bytes.size()) return fail(), std::string_view();
-    const std::string_view taken = m_bytes.substr(0, count);
-    m_bytes.remove_prefix(count);
-    return taken;
-  }
-
-  bool ok() const { return m_ok; }
-  void fail() {
-    if (m_ok) m_failedAt = offset();
-    m_ok = false;
-    m_bytes = {};
-  }
-  std::string_view rest() const { return m_bytes; }
-  std::size_t left() const { return m_bytes.size(); }
-  /// Of the next value, or of the failure.
-  std::size_t offset() const { return m_ok ? m_size - m_bytes.size() : m_failedAt; }
-
- private:
-  std::string_view m_bytes;
-  std::size_t m_size;
-  std::size_t m_failedAt = 0;
-  bool m_ok = true;
 };
 
 }  // namespace pitchboard::link

@@ -97,8 +97,7 @@ const std::array robotColumns{
     RobotColumn{"BELIEF_ERROR", "cm", errors,
                 [](const Robot& r) {
                   return beliefError(r, [](const Pose& b, const Pose& t) {
-                    return centimetres *
-                           std::hypot(b.position.x - t.position.x, b.position.y - t.position.y);
+                    return centimetres * distance(b.position, t.position);
                   });
                 },
                 ColumnKind::Number, derived},
@@ -159,18 +158,18 @@ const std::array theMatchColumns{
     MatchColumn{"SCORE_RIGHT", "", game,
                 [](const sim::Snapshot& s) { return double(s.score.right); }}};
 
+template <class Column>
+ColumnInfo infoOf(const Column& column) {
+  return {column.name, ColumnType::Float64, column.unit, column.heading, column.kind,
+          {},          column.resolution};
+}
+
 }  // namespace
 
 std::vector<ColumnInfo> truthColumns() {
   std::vector<ColumnInfo> out;
   for (const RobotColumn& column : robotColumns) {
-    out.push_back({column.name,
-                   ColumnType::Float64,
-                   column.unit,
-                   column.category,
-                   column.kind,
-                   {},
-                   column.resolution});
+    out.push_back(infoOf(column));
     if (column.kind == ColumnKind::Enumeration) out.back().labels = actionLabels();
   }
   return out;
@@ -187,10 +186,8 @@ void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
     r.belief = sim::published_frame::studioFromLocalization(
         match.simulation().state().settings.field, {double(x), double(y), double(theta)});
   }
-  const double dx = snapshot.ball.x - robot.pose.position.x;
-  const double dy = snapshot.ball.y - robot.pose.position.y;
-  r.trueBallDistance = std::hypot(dx, dy);
-  r.trueBallBearing = wrapToPi(std::atan2(dy, dx) - robot.pose.yaw);
+  r.trueBallDistance = distance(snapshot.ball, robot.pose.position);
+  r.trueBallBearing = wrapToPi(direction(robot.pose.position, snapshot.ball) - robot.pose.yaw);
   r.ballSeen = isPresent(v.visionBallDist) && isPresent(v.visionPanDeg) &&
                readOr(board, v.visionLost, 1) == 0 && board.read(v.visionBallDist) > 0.0F;
   if (r.ballSeen) {
@@ -203,13 +200,7 @@ void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
 std::vector<ColumnInfo> matchColumns() {
   std::vector<ColumnInfo> out;
   for (const MatchColumn& column : theMatchColumns) {
-    out.push_back({column.name,
-                   ColumnType::Float64,
-                   column.unit,
-                   column.category,
-                   column.kind,
-                   {},
-                   column.resolution});
+    out.push_back(infoOf(column));
   }
   out.push_back(
       {"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {}, microseconds});

@@ -21,10 +21,6 @@ constexpr int highestShirt = 99;
 constexpr double halfSeconds = 600.0;  // Humanoid League, rules of every year since 2013
 constexpr double fastestBall = 50.0;   // m/s, of a scenario
 
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
-
 bool isFinite(const Pose& pose) {
   return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&
          std::isfinite(pose.yaw);
@@ -194,8 +190,7 @@ class Maker {
           if (between >= least - gap / 2) continue;
           free = false;
           // On the very same spot: apart in a direction that differs from pair to pair.
-          const double angle =
-              between > 1e-9 ? std::atan2(q.y - p.y, q.x - p.x) : static_cast<double>(7 * a + b);
+          const double angle = between > 1e-9 ? direction(p, q) : static_cast<double>(7 * a + b);
           const double push = (least - between) / 2;
           const Point step{push * std::cos(angle), push * std::sin(angle)};
           p = inside(field, {p.x - step.x, p.y - step.y}, field.robotRadius);

@@ -54,7 +54,7 @@ class Writer {
 
 class Reader {
  public:
-  explicit Reader(ByteReader& in) : m_in(in) {}
+  explicit Reader(CodecReader& in) : m_in(in) {}
   void value(std::string& text) {
     const std::uint64_t size = m_in.varint();
     if (size > longestText) return m_in.fail();
@@ -110,7 +110,7 @@ class Reader {
     m_in.fail();
     return 0;
   }
-  ByteReader& m_in;
+  CodecReader& m_in;
 };
 
 bool isNear(double value) {
@@ -167,7 +167,7 @@ std::string encodeState(const sim::WorldState& state) {
 }
 
 Result<sim::WorldState> decodeState(std::string_view& bytes) {
-  ByteReader in(bytes);
+  CodecReader in(bytes);
   if (in.bytes(magic.size()) != magic) {
     return failure(ErrorCode::ParseError, "this is not a saved state of a match");
   }

@@ -23,7 +23,7 @@ constexpr std::array<int sim::RobotCommand::*, 6> values{
     &sim::RobotCommand::searchOn,         &sim::RobotCommand::actionVision,
     &sim::RobotCommand::localizationLook, &sim::RobotCommand::imuReset};
 
-Error damaged(const ByteReader& in) {
+Error damaged(const CodecReader& in) {
   return {ErrorCode::ParseError, "the recorded commands of the robots are damaged",
           "byte " + std::to_string(in.offset())};
 }
@@ -43,7 +43,7 @@ class CommandReader {
     }
     return m_commands;
   }
-  const ByteReader& in() const { return m_in; }
+  const CodecReader& in() const { return m_in; }
 
  private:
   void readChanges() {
@@ -61,7 +61,7 @@ class CommandReader {
       }
     }
   }
-  ByteReader m_in;
+  CodecReader m_in;
   std::uint64_t m_same = 0;
   std::vector<sim::RobotCommand> m_commands;
 };
@@ -133,7 +133,7 @@ std::string StateSegment::encode() const {
 }
 
 Result<StateSegment> StateSegment::decode(std::string_view bytes) {
-  ByteReader in(bytes);
+  CodecReader in(bytes);
   if (in.bytes(magic.size()) != magic) {
     return failure(ErrorCode::ParseError, "this is not a recorded piece of a match");
   }

@@ -39,10 +39,9 @@ std::string folderOf(const std::string& path) {
 
 /// 0, or the errno of what failed.
 int syncPath(const std::string& path, int flags) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
-  if (descriptor < 0) return errno;
-  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
+  const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags));
+  if (!descriptor) return errno;
+  const int error = ::fsync(descriptor.get()) == 0 ? 0 : errno;
   // Some network file systems do not know the call: nothing more can be done there.
   return error == EINVAL || error == ENOSYS ? 0 : error;
 }

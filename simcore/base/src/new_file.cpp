@@ -23,11 +23,11 @@ Result<NewFile> NewFile::openDevice(const std::string& path) {
 }
 
 Result<NewFile> NewFile::open(const std::string& path, int flags, const std::string& shownAs) {
-  int descriptor = -1;
+  Descriptor descriptor;
   do {
-    descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644);
-  } while (descriptor < 0 && errno == EINTR);
-  if (descriptor >= 0) return NewFile(shownAs, descriptor);
+    descriptor.reset(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644));
+  } while (!descriptor && errno == EINTR);
+  if (descriptor) return NewFile(shownAs, std::move(descriptor));
   switch (errno) {
     case EEXIST:
       return failure(ErrorCode::Conflict, "This file exists; choose another name.", shownAs);
@@ -43,22 +43,6 @@ Result<NewFile> NewFile::open(const std::string& path, int flags, const std::str
       return failure(ErrorCode::SystemError,
                      "The file cannot be made: " + systemReason(errno) + ".", shownAs);
   }
-}
-
-NewFile::NewFile(NewFile&& other) noexcept
-    : m_path(std::move(other.m_path)),
-      m_descriptor(std::exchange(other.m_descriptor, -1)),
-      m_size(other.m_size) {}
-
-NewFile& NewFile::operator=(NewFile&& other) noexcept {
-  std::swap(m_path, other.m_path);
-  std::swap(m_descriptor, other.m_descriptor);
-  std::swap(m_size, other.m_size);
-  return *this;
-}
-
-NewFile::~NewFile() {
-  if (m_descriptor >= 0) ::close(m_descriptor);
 }
 
 tl::unexpected<Error> NewFile::failed(int reason) const {
@@ -78,7 +62,7 @@ tl::unexpected<Error> NewFile::failed(int reason) const {
 
 Result<void> NewFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
+    const ssize_t written = ::write(m_descriptor.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return failed(written < 0 ? errno : ENOSPC);
     m_size += static_cast<std::uint64_t>(written);
@@ -89,42 +73,41 @@ Result<void> NewFile::write(std::string_view bytes) {
 
 Result<void> NewFile::sync() const {
   // Pipes and some network file systems do not know the call: nothing more can be done there.
-  if (::fdatasync(m_descriptor) == 0 || errno == EINVAL || errno == ENOSYS) return {};
+  if (::fdatasync(m_descriptor.get()) == 0 || errno == EINVAL || errno == ENOSYS) return {};
   return failed(errno);
 }
 
 Result<void> NewFile::syncFolder() const {
   const std::string folder = std::filesystem::path(m_path).parent_path().string();
-  const int opened =
-      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const Descriptor opened(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // A folder that may be written but not read cannot be asked.
-  if (opened < 0) return {};
-  const int reason = ::fsync(opened) == 0 ? 0 : errno;
-  ::close(opened);
+  if (!opened) return {};
+  const int reason = ::fsync(opened.get()) == 0 ? 0 : errno;
   if (reason == 0 || reason == EINVAL || reason == ENOSYS) return {};
   return failed(reason);
 }
 
 void NewFile::cutAt(std::uint64_t size) {
-  if (::ftruncate(m_descriptor, static_cast<off_t>(size)) != 0) return;
-  if (::lseek(m_descriptor, static_cast<off_t>(size), SEEK_SET) >= 0) m_size = size;
+  if (::ftruncate(m_descriptor.get(), static_cast<off_t>(size)) != 0) return;
+  if (::lseek(m_descriptor.get(), static_cast<off_t>(size), SEEK_SET) >= 0) m_size = size;
 }
 
 bool NewFile::keepRoom(std::uint64_t bytes) {
-  return ::fallocate(m_descriptor, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(m_size),
+  return ::fallocate(m_descriptor.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(m_size),
                      static_cast<off_t>(bytes)) == 0 ||
          errno != ENOSPC;
 }
 
 Result<void> NewFile::stillThere() const {
   struct stat status {};
-  if (::fstat(m_descriptor, &status) != 0) return failed(errno);
+  if (::fstat(m_descriptor.get(), &status) != 0) return failed(errno);
   if (status.st_nlink > 0) return {};
   return failure(ErrorCode::SystemError, "The file was removed while it was written.", m_path);
 }
 
 Result<void> NewFile::close() {
-  const int descriptor = std::exchange(m_descriptor, -1);
+  const int descriptor = m_descriptor.release();
   if (descriptor < 0 || ::close(descriptor) == 0 || errno == EINTR) return {};
   return failed(errno);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include <base/descriptor.h>
 #include <base/system_reason.h>
 
 namespace pitchboard {
@@ -46,14 +47,12 @@ Result<std::string> readDescriptor(int descriptor, std::size_t mostBytes, const 
 
 Result<std::string> readFile(const std::string& path, std::size_t mostBytes,
                              const std::string& what) {
-  int descriptor = -1;
+  Descriptor descriptor;
   do {
-    descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  } while (descriptor < 0 && errno == EINTR);
-  if (descriptor < 0) return cannotRead(what, path, errno);
-  auto bytes = readDescriptor(descriptor, mostBytes, what, path);
-  ::close(descriptor);
-  return bytes;
+    descriptor.reset(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  } while (!descriptor && errno == EINTR);
+  if (!descriptor) return cannotRead(what, path, errno);
+  return readDescriptor(descriptor.get(), mostBytes, what, path);
 }
 
 }  // namespace pitchboard

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Little-endian numbers, strings and maps of MCAP records, to and from bytes. The reading half
-// never goes past its end: it turns bad and gives zeros from then on.
+// Little-endian numbers, strings and maps of MCAP records, to and from bytes. Any thread.
 
+#include <zlib.h>
 #include <bit>
 #include <cstring>
 #include <string>
 #include <string_view>
 
+#include <base/byte_reader.h>
 #include <telemetry/mcap/mcap_records.h>
 
 namespace pitchboard::telemetry {
 
-static_assert(std::endian::native == std::endian::little, "records are copied as they are");
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
 
 template <class T>
 void putNumber(std::string& out, T value) {
@@ -43,6 +44,12 @@ inline void putMap(std::string& out, const McapMap& map) {
   setNumber(out, at, static_cast<std::uint32_t>(out.size() - at - 4));
 }
 
+/// The CRC-32 of bytes that go on after others with the checksum `crc`; 0 when they are the first.
+inline std::uint32_t extendedCrc(std::uint32_t crc, std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 /// Opcode and room for the length; endRecord() fills it in.
 inline std::size_t beginRecord(std::string& out, McapOp op) {
   out += static_cast<char>(op);
@@ -53,34 +60,34 @@ inline void endRecord(std::string& out, std::size_t begin) {
   setNumber(out, begin - 8, static_cast<std::uint64_t>(out.size() - begin));
 }
 
-class ByteReader {
- public:
-  explicit ByteReader(std::string_view bytes) : m_bytes(bytes) {}
+inline void putSchema(std::string& out, const McapSchema& schema) {
+  const auto record = beginRecord(out, McapOp::Schema);
+  putNumber(out, schema.id);
+  putText(out, schema.name);
+  putText(out, schema.encoding);
+  putText(out, schema.data);
+  endRecord(out, record);
+}
 
-  template <class T>
-  T number() {
-    T value{};
-    if (m_bytes.size() - m_at < sizeof(T)) {
-      fail();
-      return value;
-    }
-    std::memcpy(&value, m_bytes.data() + m_at, sizeof(T));
-    m_at += sizeof(T);
-    return value;
-  }
-  std::string_view bytes(std::uint64_t count) {
-    if (count > m_bytes.size() - m_at) {
-      fail();
-      return {};
-    }
-    const auto out = m_bytes.substr(m_at, static_cast<std::size_t>(count));
-    m_at += static_cast<std::size_t>(count);
-    return out;
-  }
+inline void putChannel(std::string& out, const McapChannel& channel) {
+  const auto record = beginRecord(out, McapOp::Channel);
+  putNumber(out, channel.id);
+  putNumber(out, channel.schema);
+  putText(out, channel.topic);
+  putText(out, channel.messageEncoding);
+  putMap(out, channel.metadata);
+  endRecord(out, record);
+}
+
+/// The values of a record.
+class RecordReader : public ByteReader {
+ public:
+  using ByteReader::ByteReader;
+
   std::string_view text() { return bytes(number<std::uint32_t>()); }
   McapMap map() {
     McapMap out;
-    ByteReader inside(text());
+    RecordReader inside(text());
     while (inside.ok() && inside.left() > 0) {
       std::string key(inside.text());
       std::string value(inside.text());
@@ -89,18 +96,6 @@ class ByteReader {
     if (!inside.ok()) fail();
     return out;
   }
-  std::size_t left() const { return m_bytes.size() - m_at; }
-  std::size_t at() const { return m_at; }
-  bool ok() const { return m_ok; }
-
- private:
-  void fail() {
-    m_ok = false;
-    m_at = m_bytes.size();
-  }
-  std::string_view m_bytes;
-  std::size_t m_at = 0;
-  bool m_ok = true;
 };
 
 inline constexpr std::size_t recordHead = 9;  ///< opcode and length

@@ -8,7 +8,7 @@
 namespace pitchboard::telemetry {
 
 std::optional<McapSchema> parseSchema(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapSchema schema;
   schema.id = in.number<std::uint16_t>();
   schema.name = in.text();
@@ -19,7 +19,7 @@ std::optional<McapSchema> parseSchema(std::string_view content) {
 }
 
 std::optional<McapChannel> parseChannel(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapChannel channel;
   channel.id = in.number<std::uint16_t>();
   channel.schema = in.number<std::uint16_t>();
@@ -31,7 +31,7 @@ std::optional<McapChannel> parseChannel(std::string_view content) {
 }
 
 std::optional<McapMessage> parseMessage(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapMessage message;
   message.channel = in.number<std::uint16_t>();
   message.sequence = in.number<std::uint32_t>();
@@ -43,13 +43,13 @@ std::optional<McapMessage> parseMessage(std::string_view content) {
 }
 
 std::optional<McapChunkInfo> parseChunkIndex(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapChunkInfo chunk;
   chunk.start = in.number<std::uint64_t>();
   chunk.end = in.number<std::uint64_t>();
   chunk.offset = in.number<std::uint64_t>();
   chunk.length = in.number<std::uint64_t>();
-  ByteReader places(in.text());
+  RecordReader places(in.text());
   while (places.left() > 0) {
     chunk.channels.push_back(places.number<std::uint16_t>());
     places.number<std::uint64_t>();
@@ -64,7 +64,7 @@ std::optional<McapChunkInfo> parseChunkIndex(std::string_view content) {
 }
 
 std::optional<McapAttachmentInfo> parseAttachmentIndex(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapAttachmentInfo info;
   info.offset = in.number<std::uint64_t>();
   info.length = in.number<std::uint64_t>();
@@ -78,7 +78,7 @@ std::optional<McapAttachmentInfo> parseAttachmentIndex(std::string_view content)
 }
 
 std::optional<McapMetadataInfo> parseMetadataIndex(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapMetadataInfo info;
   info.offset = in.number<std::uint64_t>();
   info.length = in.number<std::uint64_t>();
@@ -88,14 +88,14 @@ std::optional<McapMetadataInfo> parseMetadataIndex(std::string_view content) {
 }
 
 std::optional<McapStatistics> parseStatistics(std::string_view content) {
-  ByteReader in(content);
+  RecordReader in(content);
   McapStatistics statistics;
   statistics.messages = in.number<std::uint64_t>();
   in.number<std::uint16_t>();
   for (int i = 0; i < 4; ++i) in.number<std::uint32_t>();
   statistics.start = in.number<std::uint64_t>();
   statistics.end = in.number<std::uint64_t>();
-  ByteReader counts(in.text());
+  RecordReader counts(in.text());
   while (counts.left() > 0) {
     const auto channel = counts.number<std::uint16_t>();
     statistics.perChannel[channel] = counts.number<std::uint64_t>();
@@ -105,7 +105,7 @@ std::optional<McapStatistics> parseStatistics(std::string_view content) {
 }
 
 std::optional<ChunkHead> parseChunkHead(std::string_view beginning, std::uint64_t contentLength) {
-  ByteReader in(beginning);
+  RecordReader in(beginning);
   ChunkHead head;
   head.info.start = in.number<std::uint64_t>();
   head.info.end = in.number<std::uint64_t>();
@@ -113,7 +113,7 @@ std::optional<ChunkHead> parseChunkHead(std::string_view beginning, std::uint64_
   head.crc = in.number<std::uint32_t>();
   head.info.compression = in.text();
   head.info.compressedSize = in.number<std::uint64_t>();
-  head.recordsAt = in.at();
+  head.recordsAt = in.offset();
   if (!in.ok() || head.recordsAt > contentLength ||
       head.info.compressedSize > contentLength - head.recordsAt) {
     return std::nullopt;
@@ -123,14 +123,14 @@ std::optional<ChunkHead> parseChunkHead(std::string_view beginning, std::uint64_
 
 std::optional<AttachmentHead> parseAttachmentHead(std::string_view beginning,
                                                   std::uint64_t contentLength) {
-  ByteReader in(beginning);
+  RecordReader in(beginning);
   AttachmentHead head;
   head.info.logTime = in.number<std::uint64_t>();
   head.info.createTime = in.number<std::uint64_t>();
   head.info.name = in.text();
   head.info.mediaType = in.text();
   head.info.dataSize = in.number<std::uint64_t>();
-  head.dataAt = in.at();
+  head.dataAt = in.offset();
   if (!in.ok() || head.dataAt > contentLength || contentLength - head.dataAt < 4 ||
       head.info.dataSize > contentLength - head.dataAt - 4) {
     return std::nullopt;

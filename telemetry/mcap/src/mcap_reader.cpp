@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/mcap/mcap_reader.h>
 
-#include <zlib.h>
 #include <algorithm>
 
 #include "mcap_bytes.h"
@@ -13,11 +12,6 @@ namespace {
 constexpr std::size_t mostProblems = 100;
 constexpr std::uint64_t longestSummary = std::uint64_t{512} << 20;
 constexpr std::size_t unpackStep = 256 * 1024;
-
-std::uint32_t crcOf(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 std::string atOffset(std::uint64_t offset) {
   return "at byte " + std::to_string(offset);
@@ -120,14 +114,14 @@ Result<void> McapReader::Impl::readHeader() {
                                 source.name()});
   }
   dataBegin = magic.size();
-  ByteReader head(source.look(dataBegin, recordHead));
+  RecordReader head(source.look(dataBegin, recordHead));
   const auto op = head.number<std::uint8_t>();
   const auto length = head.number<std::uint64_t>();
   if (!head.ok() || op != static_cast<std::uint8_t>(McapOp::Header) || length > longestHead) {
     problem(dataBegin, "the header is missing.");
     return {};
   }
-  ByteReader in(source.look(dataBegin + recordHead, static_cast<std::size_t>(length)));
+  RecordReader in(source.look(dataBegin + recordHead, static_cast<std::size_t>(length)));
   profile = in.text();
   library = in.text();
   if (in.ok()) {
@@ -143,7 +137,7 @@ bool McapReader::Impl::readSummary() {
   if (source.size() < dataBegin + tail) return false;
   const std::uint64_t footerAt = source.size() - tail;
   const std::string end(source.look(footerAt, tail));
-  ByteReader in(end);
+  RecordReader in(end);
   const auto op = in.number<std::uint8_t>();
   const auto length = in.number<std::uint64_t>();
   const auto start = in.number<std::uint64_t>();
@@ -161,7 +155,7 @@ bool McapReader::Impl::readSummary() {
   std::string summary;
   const std::size_t covered = static_cast<std::size_t>(footerAt - start) + recordHead + 16;
   if (!source.read(start, covered, summary)) return false;
-  if (crc != 0 && crcOf(summary) != crc) {
+  if (crc != 0 && extendedCrc(0, summary) != crc) {
     problem(start, "the checksum of the summary is wrong; it is not used.");
     return false;
   }
@@ -183,7 +177,7 @@ bool McapReader::Impl::takeSummary(std::string_view summary) {
            length <= source.size() - offset;
   };
   bool counted = false;
-  ByteReader in(summary);
+  RecordReader in(summary);
   while (in.left() > 0) {
     const auto op = static_cast<McapOp>(in.number<std::uint8_t>());
     const auto content = in.bytes(in.number<std::uint64_t>());
@@ -283,7 +277,7 @@ Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string
   }
   const std::string_view look = source.look(
       chunk.offset, static_cast<std::size_t>(std::min<std::uint64_t>(256, chunk.length)));
-  ByteReader in(look);
+  RecordReader in(look);
   const auto op = in.number<std::uint8_t>();
   const auto length = in.number<std::uint64_t>();
   if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::Chunk) ||
@@ -312,7 +306,7 @@ Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string
       return wrong(done.error().message);
     }
   }
-  if (head->crc != 0 && crcOf(body) != head->crc) return wrong("its checksum is wrong");
+  if (head->crc != 0 && extendedCrc(0, body) != head->crc) return wrong("its checksum is wrong");
   return {};
 }
 
@@ -332,7 +326,7 @@ Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachm
   if (!source.read(attachment.offset, static_cast<std::size_t>(attachment.length), record)) {
     return wrong("it cannot be read");
   }
-  ByteReader in(record);
+  RecordReader in(record);
   if (in.number<std::uint8_t>() != static_cast<std::uint8_t>(McapOp::Attachment) ||
       in.number<std::uint64_t>() != record.size() - recordHead) {
     return wrong("there is none here");
@@ -341,8 +335,9 @@ Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachm
   const auto head = parseAttachmentHead(content.substr(0, longestHead), content.size());
   if (!head) return wrong("its head is not of its form");
   const std::size_t covered = head->dataAt + static_cast<std::size_t>(head->info.dataSize);
-  const auto crc = ByteReader(content.substr(covered)).number<std::uint32_t>();
-  if (crc != 0 && crc != crcOf(content.substr(0, covered))) return wrong("its checksum is wrong");
+  const auto crc = RecordReader(content.substr(covered)).number<std::uint32_t>();
+  if (crc != 0 && crc != extendedCrc(0, content.substr(0, covered)))
+    return wrong("its checksum is wrong");
   return std::string(content.substr(head->dataAt, static_cast<std::size_t>(head->info.dataSize)));
 }
 
@@ -351,48 +346,15 @@ Result<McapMap> McapReader::readMetadata(const McapMetadataInfo& metadata) const
   std::string record;
   if (metadata.length <= m_impl->options.maxAttachmentBytes &&
       source.read(metadata.offset, static_cast<std::size_t>(metadata.length), record)) {
-    ByteReader in(record);
+    RecordReader in(record);
     const auto op = in.number<std::uint8_t>();
-    ByteReader content(in.bytes(in.number<std::uint64_t>()));
+    RecordReader content(in.bytes(in.number<std::uint64_t>()));
     content.text();
     McapMap values = content.map();
     if (op == static_cast<std::uint8_t>(McapOp::Metadata) && in.ok() && content.ok()) return values;
   }
   return tl::unexpected(
       damaged(source, metadata.offset, "The metadata \"" + metadata.name + "\" are damaged."));
-}
-
-McapCursor::Kind McapCursor::next() {
-  while (m_at < m_body.size()) {
-    ByteReader in(m_body.substr(m_at));
-    const auto op = static_cast<McapOp>(in.number<std::uint8_t>());
-    const auto content = in.bytes(in.number<std::uint64_t>());
-    bool whole = in.ok();
-    Kind kind = Kind::End;
-    if (whole && op == McapOp::Message) {
-      const auto message = parseMessage(content);
-      whole = message.has_value();
-      if (whole) m_message = *message;
-      kind = Kind::Message;
-    } else if (whole && op == McapOp::Channel) {
-      auto channel = parseChannel(content);
-      whole = channel.has_value();
-      if (whole) m_channel = std::move(*channel);
-      kind = Kind::Channel;
-    } else if (whole && op == McapOp::Schema) {
-      auto schema = parseSchema(content);
-      whole = schema.has_value();
-      if (whole) m_schema = std::move(*schema);
-      kind = Kind::Schema;
-    }
-    if (!whole) {
-      m_damaged = true;
-      return Kind::End;
-    }
-    m_at += in.at();
-    if (kind != Kind::End) return kind;
-  }
-  return Kind::End;
 }
 
 }  // namespace pitchboard::telemetry

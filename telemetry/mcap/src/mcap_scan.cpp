@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <telemetry/mcap/mcap_cursor.h>
+
 #include "mcap_bytes.h"
 #include "mcap_reader_impl.h"
 
@@ -62,7 +64,7 @@ class McapScan {
 
   void step() {
     const std::uint64_t left = m_source.size() - m_at;
-    ByteReader in(m_source.look(m_at, recordHead));
+    RecordReader in(m_source.look(m_at, recordHead));
     const auto op = in.number<std::uint8_t>();
     const auto length = in.number<std::uint64_t>();
     if (!in.ok() || op == 0 || length > left - recordHead) {
@@ -90,7 +92,7 @@ class McapScan {
         const std::string_view look =
             m_source.look(m_at + recordHead,
                           static_cast<std::size_t>(std::min<std::uint64_t>(length, longestHead)));
-        ByteReader content(look);
+        RecordReader content(look);
         std::string name(content.text());
         if (content.ok()) m_reader.metadata.push_back({m_at, recordHead + length, std::move(name)});
         break;
@@ -200,7 +202,7 @@ class McapScan {
 
   void addLoose(std::uint64_t length) {
     if (m_run && m_at + recordHead + length - m_run->offset > longestLooseRun) closeRun();
-    ByteReader in(m_source.look(m_at + recordHead, messageHead));
+    RecordReader in(m_source.look(m_at + recordHead, messageHead));
     const auto channel = in.number<std::uint16_t>();
     in.number<std::uint32_t>();
     const auto time = in.number<std::uint64_t>();
@@ -252,7 +254,7 @@ class McapScan {
       at = markAt + 1;
       if (markAt < from + 1 + before) continue;
       const std::uint64_t offset = markAt - before;
-      ByteReader in(m_source.look(offset, recordHead));
+      RecordReader in(m_source.look(offset, recordHead));
       const auto op = in.number<std::uint8_t>();
       const auto length = in.number<std::uint64_t>();
       if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::Chunk) ||
@@ -294,7 +296,7 @@ McapLoss McapReader::Impl::lossOf(const McapChunkInfo& chunk) const {
   // Behind a chunk stand the indexes of its messages, outside of its checksum and compression.
   std::uint64_t at = chunk.offset + chunk.length;
   for (;;) {
-    ByteReader in(source.look(at, recordHead + 2 + 4));
+    RecordReader in(source.look(at, recordHead + 2 + 4));
     const auto op = in.number<std::uint8_t>();
     const auto length = in.number<std::uint64_t>();
     in.number<std::uint16_t>();

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include <base/descriptor.h>
 #include <base/result.h>
 
 namespace pitchboard::telemetry {
@@ -16,9 +17,6 @@ class McapSource {
  public:
   static Result<McapSource> file(const std::string& path);
   static McapSource memory(std::string bytes);
-  McapSource(McapSource&& other) noexcept;
-  McapSource& operator=(McapSource&&) = delete;
-  ~McapSource();
 
   std::uint64_t size() const { return m_size; }
   const std::string& name() const { return m_name; }
@@ -34,7 +32,7 @@ class McapSource {
 
   std::string m_name;
   std::string m_bytes;
-  int m_descriptor = -1;
+  Descriptor m_descriptor;
   std::uint64_t m_size = 0;
   mutable std::string m_window;
   mutable std::uint64_t m_windowOffset = 0;

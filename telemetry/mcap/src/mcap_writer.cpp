@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/mcap/mcap_writer.h>
 
-#include <zlib.h>
 #include <zstd.h>
 #include <algorithm>
 #include <bit>
@@ -11,6 +10,7 @@
 
 #include "disk_sync.h"
 #include "mcap_bytes.h"
+#include "mcap_summary.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -20,11 +20,6 @@ constexpr std::uint64_t spareRoom = 64 * 1024;
 
 /// Chunks after which all definitions are repeated; in the beginning of a file more often.
 constexpr std::uint64_t chunksBetweenRepeats = 64;
-
-std::uint32_t extendCrc(std::uint32_t crc, std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 /// Adds what is not known by its number yet; true when there was something.
 template <class Definition>
@@ -37,63 +32,7 @@ bool addNew(std::vector<Definition>& known, const std::vector<Definition>& defin
   return known.size() > before;
 }
 
-void putSchema(std::string& out, const McapSchema& schema) {
-  const auto record = beginRecord(out, McapOp::Schema);
-  putNumber(out, schema.id);
-  putText(out, schema.name);
-  putText(out, schema.encoding);
-  putText(out, schema.data);
-  endRecord(out, record);
-}
-
-void putChannel(std::string& out, const McapChannel& channel) {
-  const auto record = beginRecord(out, McapOp::Channel);
-  putNumber(out, channel.id);
-  putNumber(out, channel.schema);
-  putText(out, channel.topic);
-  putText(out, channel.messageEncoding);
-  putMap(out, channel.metadata);
-  endRecord(out, record);
-}
-
 }  // namespace
-
-void McapChunk::add(const McapSchema& schema) {
-  putSchema(m_body, schema);
-  m_schemas.push_back(schema);
-}
-
-void McapChunk::add(const McapChannel& channel) {
-  putChannel(m_body, channel);
-  m_channels.push_back(channel);
-}
-
-char* McapChunk::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
-                            std::uint64_t publishTime, std::size_t size) {
-  const std::size_t at = m_body.size();
-  m_index.push_back({logTime, at, channel});
-  m_body += static_cast<char>(McapOp::Message);
-  putNumber(m_body, static_cast<std::uint64_t>(messageHead + size));
-  putNumber(m_body, channel);
-  putNumber(m_body, sequence);
-  putNumber(m_body, logTime);
-  putNumber(m_body, publishTime);
-  m_body.resize(m_body.size() + size);
-  return m_body.data() + at + recordHead + messageHead;
-}
-
-void McapChunk::add(const McapMessage& message) {
-  char* to = addMessage(message.channel, message.sequence, message.logTime, message.publishTime,
-                        message.data.size());
-  std::copy(message.data.begin(), message.data.end(), to);
-}
-
-void McapChunk::clear() {
-  m_body.clear();
-  m_index.clear();
-  m_schemas.clear();
-  m_channels.clear();
-}
 
 struct McapWriter::Impl {
   NewFile file;
@@ -106,14 +45,10 @@ struct McapWriter::Impl {
 
   std::string out;  ///< the records of the chunk being written
   std::string compressed;
-  std::vector<McapSchema> schemas;
-  std::vector<McapChannel> channels;
-  std::string chunkIndexes, attachmentIndexes, metadataIndexes;  ///< records, ready
-  std::uint32_t chunks = 0, attachments = 0, metadatas = 0;
+  McapSummary summary;
   std::uint64_t chunksGiven = 0;  ///< without those of repeated definitions
   bool defined = false;           ///< the last chunk brought definitions that stand only there
-  McapStatistics statistics;
-  std::optional<DiskSync> disk;  ///< with options.sync; last: it ends before the file is closed
+  std::optional<DiskSync> disk;   ///< with options.sync; last: it ends before the file is closed
 
   explicit Impl(NewFile f) : file(std::move(f)) {}
   ~Impl() { ZSTD_freeCCtx(compressor); }
@@ -124,38 +59,21 @@ struct McapWriter::Impl {
     return tl::unexpected(error);
   }
 
-  std::uint64_t summarySize() const {
-    std::uint64_t size = chunkIndexes.size() + attachmentIndexes.size() + metadataIndexes.size();
-    for (const McapSchema& schema : schemas) size += schema.data.size() + schema.name.size() + 64;
-    for (const McapChannel& channel : channels) {
-      size += channel.topic.size() + 64;
-      for (const auto& [key, value] : channel.metadata) size += key.size() + value.size() + 8;
-    }
-    return size;
-  }
-
   bool repeatIsDue() const {
-    if (schemas.empty() && channels.empty()) return false;
+    if (summary.schemas.empty() && summary.channels.empty()) return false;
     return defined || std::has_single_bit(chunksGiven) || chunksGiven % chunksBetweenRepeats == 0;
-  }
-
-  McapChunk definitions() const {
-    McapChunk chunk;
-    for (const McapSchema& schema : schemas) chunk.add(schema);
-    for (const McapChannel& channel : channels) chunk.add(channel);
-    return chunk;
   }
 
   /// Whole records of the data section.
   Result<void> write(std::string_view records) {
     if (failed) return tl::unexpected(*failed);
-    if (!file.keepRoom(records.size() + summarySize() + spareRoom)) {
+    if (!file.keepRoom(records.size() + summary.size() + spareRoom)) {
       return fail({ErrorCode::SystemError,
                    "The disk is full; free some room or choose another disk.", file.path()});
     }
     if (auto written = file.write(records); !written) return fail(written.error());
     whole = file.size();
-    dataCrc = extendCrc(dataCrc, records);
+    dataCrc = extendedCrc(dataCrc, records);
     return {};
   }
 
@@ -169,7 +87,6 @@ struct McapWriter::Impl {
 
   void putMessageIndexes(const McapChunk& chunk, std::uint64_t offset,
                          std::vector<std::pair<std::uint16_t, std::uint64_t>>& places);
-  std::string summary(std::uint64_t begin) const;
 };
 
 McapWriter::McapWriter(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
@@ -230,7 +147,7 @@ Result<void> McapWriter::writeChunk(const McapChunk& chunk) {
   if (impl.failed) return tl::unexpected(*impl.failed);
   if (chunk.empty()) return {};
   if (impl.repeatIsDue()) {
-    if (auto repeated = writeOne(impl.definitions()); !repeated) return repeated;
+    if (auto repeated = writeOne(impl.summary.definitions()); !repeated) return repeated;
     impl.defined = false;
   }
   ++impl.chunksGiven;
@@ -263,7 +180,7 @@ Result<void> McapWriter::writeOne(const McapChunk& chunk) {
   putNumber(out, start);
   putNumber(out, end);
   putNumber(out, static_cast<std::uint64_t>(chunk.m_body.size()));
-  putNumber(out, extendCrc(0, chunk.m_body));
+  putNumber(out, extendedCrc(0, chunk.m_body));
   putText(out, "zstd");
   putNumber(out, static_cast<std::uint64_t>(size));
   out.append(impl.compressed.data(), size);
@@ -284,8 +201,8 @@ Result<void> McapWriter::writeOne(const McapChunk& chunk) {
     return settled;
   }
 
-  ++impl.chunks;
-  std::string& index = impl.chunkIndexes;
+  ++impl.summary.chunks;
+  std::string& index = impl.summary.chunkIndexes;
   const auto indexRecord = beginRecord(index, McapOp::ChunkIndex);
   for (const std::uint64_t value : {start, end, offset, length}) putNumber(index, value);
   putNumber(index, static_cast<std::uint32_t>(places.size() * 10));
@@ -299,10 +216,10 @@ Result<void> McapWriter::writeOne(const McapChunk& chunk) {
   putNumber(index, static_cast<std::uint64_t>(chunk.m_body.size()));
   endRecord(index, indexRecord);
 
-  const bool newSchemas = addNew(impl.schemas, chunk.m_schemas);
-  const bool newChannels = addNew(impl.channels, chunk.m_channels);
+  const bool newSchemas = addNew(impl.summary.schemas, chunk.m_schemas);
+  const bool newChannels = addNew(impl.summary.channels, chunk.m_channels);
   impl.defined = impl.defined || newSchemas || newChannels;
-  McapStatistics& statistics = impl.statistics;
+  McapStatistics& statistics = impl.summary.statistics;
   if (!chunk.m_index.empty()) {
     statistics.start = statistics.messages == 0 ? start : std::min(statistics.start, start);
     statistics.end = std::max(statistics.end, end);
@@ -325,13 +242,13 @@ Result<void> McapWriter::attach(std::uint64_t logTime, std::uint64_t createTime,
   putText(out, mediaType);
   putNumber(out, static_cast<std::uint64_t>(data.size()));
   out += data;
-  putNumber(out, extendCrc(0, std::string_view(out).substr(record)));
+  putNumber(out, extendedCrc(0, std::string_view(out).substr(record)));
   endRecord(out, record);
   const std::uint64_t offset = impl.file.size();
   if (auto written = impl.write(out); !written) return written;
 
-  ++impl.attachments;
-  std::string& index = impl.attachmentIndexes;
+  ++impl.summary.attachments;
+  std::string& index = impl.summary.attachmentIndexes;
   const auto indexRecord = beginRecord(index, McapOp::AttachmentIndex);
   for (const std::uint64_t value : {offset, static_cast<std::uint64_t>(out.size()), logTime,
                                     createTime, static_cast<std::uint64_t>(data.size())}) {
@@ -354,8 +271,8 @@ Result<void> McapWriter::metadata(std::string_view name, const McapMap& values) 
   const std::uint64_t offset = impl.file.size();
   if (auto written = impl.write(out); !written) return written;
 
-  ++impl.metadatas;
-  std::string& index = impl.metadataIndexes;
+  ++impl.summary.metadatas;
+  std::string& index = impl.summary.metadataIndexes;
   const auto indexRecord = beginRecord(index, McapOp::MetadataIndex);
   putNumber(index, offset);
   putNumber(index, static_cast<std::uint64_t>(out.size()));
@@ -368,63 +285,6 @@ Result<void> McapWriter::sync() {
   return m_impl->settle();
 }
 
-/// Summary, summary offsets and footer, from file offset `begin` on.
-std::string McapWriter::Impl::summary(std::uint64_t begin) const {
-  struct Group {
-    McapOp op;
-    std::size_t start, length;
-  };
-  std::string text;
-  std::vector<Group> groups;
-  const auto group = [&](McapOp op, auto&& fill) {
-    const std::size_t start = text.size();
-    fill();
-    if (text.size() > start) groups.push_back({op, start, text.size() - start});
-  };
-  group(McapOp::Schema, [&] {
-    for (const auto& schema : schemas) putSchema(text, schema);
-  });
-  group(McapOp::Channel, [&] {
-    for (const auto& channel : channels) putChannel(text, channel);
-  });
-  group(McapOp::ChunkIndex, [&] { text += chunkIndexes; });
-  group(McapOp::AttachmentIndex, [&] { text += attachmentIndexes; });
-  group(McapOp::MetadataIndex, [&] { text += metadataIndexes; });
-  group(McapOp::Statistics, [&] {
-    const auto record = beginRecord(text, McapOp::Statistics);
-    putNumber(text, statistics.messages);
-    putNumber(text, static_cast<std::uint16_t>(schemas.size()));
-    putNumber(text, static_cast<std::uint32_t>(channels.size()));
-    putNumber(text, attachments);
-    putNumber(text, metadatas);
-    putNumber(text, chunks);
-    putNumber(text, statistics.start);
-    putNumber(text, statistics.end);
-    putNumber(text, static_cast<std::uint32_t>(statistics.perChannel.size() * 10));
-    for (const auto& [channel, count] : statistics.perChannel) {
-      putNumber(text, channel);
-      putNumber(text, count);
-    }
-    endRecord(text, record);
-  });
-  const std::size_t offsets = text.size();
-  for (const Group& g : groups) {
-    const auto record = beginRecord(text, McapOp::SummaryOffset);
-    text += static_cast<char>(g.op);
-    putNumber(text, begin + g.start);
-    putNumber(text, static_cast<std::uint64_t>(g.length));
-    endRecord(text, record);
-  }
-  const auto footer = beginRecord(text, McapOp::Footer);
-  putNumber(text, begin);
-  putNumber(text, begin + offsets);
-  // The checksum covers the footer's head, whose length is therefore written first.
-  setNumber(text, footer - 8, static_cast<std::uint64_t>(footerLength));
-  putNumber(text, extendCrc(0, text));
-  text.append(mcapMagic.data(), mcapMagic.size());
-  return text;
-}
-
 Result<void> McapWriter::finish() {
   Impl& impl = *m_impl;
   if (std::exchange(impl.closed, true)) return {};
@@ -432,7 +292,7 @@ Result<void> McapWriter::finish() {
   const auto record = beginRecord(out, McapOp::DataEnd);
   putNumber(out, impl.dataCrc);
   endRecord(out, record);
-  out += impl.summary(impl.file.size() + out.size());
+  out += impl.summary.records(impl.file.size() + out.size());
   auto written = impl.file.write(out);
   if (!written) {
     impl.file.cutAt(impl.whole);
@@ -453,7 +313,7 @@ double McapWriter::owedSeconds() const {
   return m_impl->disk ? m_impl->disk->owedSeconds() : 0.0;
 }
 const McapStatistics& McapWriter::statistics() const {
-  return m_impl->statistics;
+  return m_impl->summary.statistics;
 }
 
 }  // namespace pitchboard::telemetry

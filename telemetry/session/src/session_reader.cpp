@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <telemetry/mcap/mcap_cursor.h>
+
 #include "session_loss.h"
 #include "session_reader_impl.h"
 
@@ -19,20 +21,15 @@ SessionReader::~SessionReader() = default;
 
 Result<SessionReader> SessionReader::open(const std::string& path,
                                           const McapReaderOptions& options) {
-  auto file = McapReader::open(path, options);
-  if (!file) return tl::unexpected(file.error());
-  auto impl = std::make_unique<Impl>(std::move(*file));
-  impl->takeMetadata();
-  impl->takeChannels();
-  impl->takeChunks();
-  impl->findStart();
-  impl->noteLosses();
-  return SessionReader(std::move(impl));
+  return of(McapReader::open(path, options));
 }
 
 Result<SessionReader> SessionReader::openBytes(std::string bytes,
                                                const McapReaderOptions& options) {
-  auto file = McapReader::openBytes(std::move(bytes), options);
+  return of(McapReader::openBytes(std::move(bytes), options));
+}
+
+Result<SessionReader> SessionReader::of(Result<McapReader> file) {
   if (!file) return tl::unexpected(file.error());
   auto impl = std::make_unique<Impl>(std::move(*file));
   impl->takeMetadata();

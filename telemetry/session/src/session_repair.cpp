@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <base/file_target.h>
+#include <telemetry/mcap/mcap_cursor.h>
 #include <telemetry/mcap/mcap_reader.h>
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <telemetry/mcap/mcap_cursor.h>
+
 #include "session_reader_impl.h"
 
 namespace pitchboard::telemetry {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// How datagrams get from the network thread of UdpReceiver, which owns the queue, to the thread
+// that looks at them. Any thread.
+
 #include <condition_variable>
 #include <mutex>
 

@@ -18,18 +18,6 @@
 namespace pitchboard::telemetry {
 namespace {
 
-/// Closes a descriptor that is not a socket.
-struct Descriptor {
-  int value = -1;
-  Descriptor() = default;
-  explicit Descriptor(int descriptor) : value(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (value >= 0) close(value);
-  }
-};
-
 constexpr std::uint32_t stopEvent = ~0U;
 
 }  // namespace
@@ -50,7 +38,7 @@ struct UdpReceiver::Impl {
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.u32 = what;
-    return epoll_ctl(poll.value, EPOLL_CTL_ADD, descriptor, &event) == 0;
+    return epoll_ctl(poll.get(), EPOLL_CTL_ADD, descriptor, &event) == 0;
   }
 
   /// True when every port is bound.
@@ -109,7 +97,7 @@ struct UdpReceiver::Impl {
         wait = static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000));
       }
       const int count =
-          epoll_wait(poll.value, events.data(), static_cast<int>(events.size()), wait);
+          epoll_wait(poll.get(), events.data(), static_cast<int>(events.size()), wait);
       if (count < 0 && errno != EINTR) return;
       for (int i = 0; i < count; ++i) {
         const std::uint32_t what = events[static_cast<std::size_t>(i)].data.u32;
@@ -172,7 +160,7 @@ std::uint64_t ReceiverStatus::datagrams() const {
 Result<std::unique_ptr<UdpReceiver>> UdpReceiver::start(ReceiverOptions options,
                                                         std::function<void()> onReady) {
   auto impl = std::make_unique<Impl>(std::move(options), std::move(onReady));
-  if (impl->poll.value < 0 || impl->wake.value < 0 || !impl->watch(impl->wake.value, stopEvent)) {
+  if (impl->poll.get() < 0 || impl->wake.get() < 0 || !impl->watch(impl->wake.get(), stopEvent)) {
     return failure(ErrorCode::SystemError,
                    "The network cannot be watched: " + systemReason(errno) + ".");
   }
@@ -194,7 +182,7 @@ void UdpReceiver::stop() {
   if (!m_impl->thread.joinable()) return;
   const std::uint64_t one = 1;
   // Cannot fail: the counter of an eventfd holds far more than one.
-  [[maybe_unused]] const auto written = write(m_impl->wake.value, &one, sizeof one);
+  [[maybe_unused]] const auto written = write(m_impl->wake.get(), &one, sizeof one);
   m_impl->thread.join();
   m_impl->queue.close();
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "udp_socket.h"
 
-#include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <utility>
 
 #include <base/system_reason.h>
+#include <telemetry/wire/socket_address.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -19,14 +18,6 @@ WallTime wallTime(const timespec& time) {
 void setOption(int descriptor, int option, int value) {
   // Each of these is a wish; without it less is known about the datagrams.
   (void)setsockopt(descriptor, SOL_SOCKET, option, &value, sizeof value);
-}
-
-sockaddr_in socketAddress(Address address, std::uint16_t port) {
-  sockaddr_in out{};
-  out.sin_family = AF_INET;
-  out.sin_port = htons(port);
-  out.sin_addr.s_addr = htonl(address.value);
-  return out;
 }
 
 std::string reason(int error) {
@@ -61,50 +52,35 @@ void ReceiveBuffers::prepare() {
   }
 }
 
-UdpSocket::~UdpSocket() {
-  if (m_descriptor >= 0) close(m_descriptor);
-}
-
-UdpSocket::UdpSocket(UdpSocket&& other) noexcept
-    : m_descriptor(std::exchange(other.m_descriptor, -1)),
-      m_port(other.m_port),
-      m_lastDrops(other.m_lastDrops) {}
-
-UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
-  std::swap(m_descriptor, other.m_descriptor);
-  std::swap(m_port, other.m_port);
-  std::swap(m_lastDrops, other.m_lastDrops);
-  return *this;
-}
-
 Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int receiveBufferBytes) {
   const auto refused = [&](int error) {
     return failure(ErrorCode::SystemError, "UDP port " + std::to_string(port) +
                                                " cannot be received: " + reason(error) + ".");
   };
   UdpSocket socket;
-  socket.m_descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (socket.m_descriptor < 0) return refused(errno);
+  socket.m_descriptor = Descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket.m_descriptor) return refused(errno);
   // With address reuse every listener on a port gets each broadcast, and the last one that was
   // started gets the unicast ones whole. SO_REUSEPORT would divide unicast among the listeners by
   // sender, so it is only set where the other listener has it and would be in the way otherwise.
-  setOption(socket.m_descriptor, SO_REUSEADDR, 1);
+  const int descriptor = socket.descriptor();
+  setOption(descriptor, SO_REUSEADDR, 1);
   const sockaddr_in name = socketAddress(address, port);
   const auto tryBind = [&] {
-    return ::bind(socket.m_descriptor, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0;
+    return ::bind(descriptor, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0;
   };
   if (!tryBind()) {
     if (errno != EADDRINUSE) return refused(errno);
-    setOption(socket.m_descriptor, SO_REUSEPORT, 1);
+    setOption(descriptor, SO_REUSEPORT, 1);
     if (!tryBind()) return refused(errno);
   }
-  setOption(socket.m_descriptor, SO_RCVBUF, receiveBufferBytes);
-  setOption(socket.m_descriptor, SO_RCVBUFFORCE, receiveBufferBytes);
-  setOption(socket.m_descriptor, SO_TIMESTAMPNS, 1);
-  setOption(socket.m_descriptor, SO_RXQ_OVFL, 1);
+  setOption(descriptor, SO_RCVBUF, receiveBufferBytes);
+  setOption(descriptor, SO_RCVBUFFORCE, receiveBufferBytes);
+  setOption(descriptor, SO_TIMESTAMPNS, 1);
+  setOption(descriptor, SO_RXQ_OVFL, 1);
   sockaddr_in bound{};
   socklen_t length = sizeof bound;
-  if (getsockname(socket.m_descriptor, reinterpret_cast<sockaddr*>(&bound), &length) != 0) {
+  if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&bound), &length) != 0) {
     return refused(errno);
   }
   socket.m_port = ntohs(bound.sin_port);
@@ -116,7 +92,8 @@ std::size_t UdpSocket::receive(ReceiveBuffers& buffers, DatagramBatch& batch,
   buffers.prepare();
   int count = 0;
   do {
-    count = recvmmsg(m_descriptor, buffers.heads.data(), ReceiveBuffers::messages, 0, nullptr);
+    count =
+        recvmmsg(m_descriptor.get(), buffers.heads.data(), ReceiveBuffers::messages, 0, nullptr);
   } while (count < 0 && errno == EINTR);
   if (count <= 0) return 0;
   timespec now{};

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Sockets that only receive, with the kernel's time stamps and its count of what it had to drop.
+// They belong to the thread of UdpReceiver.
+
 #include <array>
 #include <memory>
 
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <base/descriptor.h>
 #include <telemetry/wire/datagram.h>
 
 namespace pitchboard::telemetry {
@@ -31,15 +35,10 @@ struct ReceiveBuffers {
 /// A bound, non-blocking UDP socket that only receives.
 class UdpSocket {
  public:
-  UdpSocket() = default;
-  ~UdpSocket();
-  UdpSocket(UdpSocket&& other) noexcept;
-  UdpSocket& operator=(UdpSocket&& other) noexcept;
-
   /// Error SystemError with the reason in a sentence.
   static Result<UdpSocket> bind(Address address, std::uint16_t port, int receiveBufferBytes);
 
-  int descriptor() const { return m_descriptor; }
+  int descriptor() const { return m_descriptor.get(); }
   std::uint16_t port() const { return m_port; }
 
   /// Appends up to ReceiveBuffers::messages datagrams to `batch`. Returns how many came; fewer than
@@ -47,7 +46,7 @@ class UdpSocket {
   std::size_t receive(ReceiveBuffers& buffers, DatagramBatch& batch, std::uint64_t& kernelDrops);
 
  private:
-  int m_descriptor = -1;
+  Descriptor m_descriptor;
   std::uint16_t m_port = 0;
   std::uint32_t m_lastDrops = 0;
 };

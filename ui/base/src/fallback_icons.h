@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Icons for desktops without an icon theme. Any thread.
+
 #include <QByteArray>
 #include <QString>
 

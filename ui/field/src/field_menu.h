@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The field's context menu.
+// The field's context menu. Window thread; it lives as long as it is open.
 
 #include <QPointF>
 #include <functional>

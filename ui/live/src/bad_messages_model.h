@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// What arrived from robots and referee and could not be read, for the dock of bad messages. Window
+// thread; belongs to the dock.
+
 #include <QAbstractTableModel>
 #include <vector>
 

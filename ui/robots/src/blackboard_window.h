@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// A robot's blackboard as a window, opened from its card. Window thread; it owns itself.
+
 #include <QDialog>
 
 #include <base/ids.h>

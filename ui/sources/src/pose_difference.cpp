@@ -11,9 +11,7 @@ std::optional<PoseDifference> poseDifference(const link::MatchFrame& other, Robo
                                              const Pose& here) {
   const link::RobotFrame* robot = other.robot(id);
   if (robot == nullptr || !robot->poseKnown() || robot->timedOut()) return std::nullopt;
-  return PoseDifference{robot->pose,
-                        std::hypot(robot->pose.position.x - here.position.x,
-                                   robot->pose.position.y - here.position.y),
+  return PoseDifference{robot->pose, distance(robot->pose.position, here.position),
                         std::abs(wrapToPi(robot->pose.yaw - here.yaw))};
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The title bar that every dock has instead of the one of the desktop. Window thread; the dock owns
+// it.
+
 #include <QWidget>
 
 class QDockWidget;

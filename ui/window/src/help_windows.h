@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The windows of the Help menu. Window thread; neither is modal, and both delete themselves when
+// closed.
+
 class QWidget;
 
 namespace pitchboard::ui {
 
-// Neither is modal; both delete themselves when closed.
 void showShortcuts(QWidget* parent);
 void showAbout(QWidget* parent);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Makes the localization process for the registry. Metres and radians inside, the published units
+// on the blackboard. The process belongs to who asked for it, and to one thread at a time.
+
 #include <memory>
 
 #include <robotlink/cognition/cognitive_process.h>

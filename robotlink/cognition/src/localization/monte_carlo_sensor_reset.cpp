@@ -68,7 +68,7 @@ Pose MonteCarloLocalization::drawFromSensors(CounterRandom& random) const {
   const double y = (2 * random.uniform() - 1) * m_halfWidth;
   if (count == 0) return {{x, y}, yaw};
   const std::size_t i = known[0];
-  return {{x, y}, std::atan2(m_corners[i].y - y, m_corners[i].x - x) - m_remembered[i].bearing};
+  return {{x, y}, direction({x, y}, m_corners[i]) - m_remembered[i].bearing};
 }
 
 }  // namespace pitchboard::link

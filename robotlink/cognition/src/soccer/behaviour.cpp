@@ -6,17 +6,6 @@
 #include <base/angles.h>
 
 namespace pitchboard::link {
-namespace {
-
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
-double direction(const Point& from, const Point& to) {
-  return std::atan2(to.y - from.y, to.x - from.x);
-}
-
-}  // namespace
-
 Choice Behaviour::choose(const WorldModel& world) {
   if (world.fallen()) return {acts::stop, Intention::None, {}, false};  // control gets it up
   switch (world.referee()) {

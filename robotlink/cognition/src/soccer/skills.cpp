@@ -22,13 +22,6 @@ constexpr double behindBall = 0.36;     // m from the ball, where an attack begi
 constexpr double kickDistance = 0.245;  // m: the body touches at 0.22
 constexpr double kickBearing = 0.42;    // rad: the kick's sector reaches 30 degrees
 
-double distance(const Point& a, const Point& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
-}
-double direction(const Point& from, const Point& to) {
-  return std::atan2(to.y - from.y, to.x - from.x);
-}
-
 struct Gait {
   Act act;
   double direction;  // rad from the heading
@@ -88,7 +81,7 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
     m_path.points.erase(m_path.points.begin());
   }
   const Point next = world.toLocal(m_path.next());
-  const double bearing = std::atan2(next.y, next.x);
+  const double bearing = direction({}, next);
   const double way = std::max(m_path.length, left);
 
   // The time each gait needs: turning into it, walking, turning to face what the goal asks.

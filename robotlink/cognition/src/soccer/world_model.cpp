@@ -21,10 +21,6 @@ constexpr double ballJump = 0.5;            // m: farther from the prediction it
 constexpr double ballMemory = 8.0;          // s
 constexpr double opponentMemory = 3.0;      // s
 
-double length(const Point& p) {
-  return std::hypot(p.x, p.y);
-}
-
 }  // namespace
 
 void WorldModel::update(Blackboard& board, const Clock& clock) {
@@ -149,7 +145,7 @@ double WorldModel::ballDistance() const {
   return length(m_ballLocal);
 }
 double WorldModel::ballBearing() const {
-  return std::atan2(m_ballLocal.y, m_ballLocal.x);
+  return direction({}, m_ballLocal);
 }
 
 std::optional<Point> WorldModel::ball() const {
@@ -159,7 +155,7 @@ std::optional<Point> WorldModel::ball() const {
   double nearest = 1e9;
   for (const auto& mate : m_mates) {
     if (!mate || !mate->ball) continue;
-    const double d = std::hypot(mate->ball->x - mate->position.x, mate->ball->y - mate->position.y);
+    const double d = distance(*mate->ball, mate->position);
     if (d < nearest) {
       nearest = d;
       told = mate->ball;

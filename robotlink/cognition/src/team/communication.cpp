@@ -5,9 +5,9 @@
 
 #include <robotlink/blackboard/robot_variables.h>
 #include <telemetry/wire/text_protocol.h>
+#include <telemetry/wire/udp_sender.h>
 
 #include "team/referee_listener.h"
-#include "udp_sender.h"
 
 namespace pitchboard::link {
 namespace {
@@ -27,7 +27,7 @@ constexpr double cycle = 0.05;  // s: how soon a referee's word is on the blackb
 // whether or not the ball is in view, and the request is cleared.
 class Communication final : public CognitiveProcess {
  public:
-  Communication(const ProcessOptions& options, UdpSender sender,
+  Communication(const ProcessOptions& options, telemetry::UdpSender sender,
                 std::unique_ptr<RefereeListener> referee)
       : m_options(options), m_sender(std::move(sender)), m_referee(std::move(referee)) {
     const VariableCatalog& catalog = VariableCatalog::published();
@@ -62,7 +62,8 @@ class Communication final : public CognitiveProcess {
     const std::string message = std::to_string(distanceMessage) + " " +
                                 std::to_string(m_options.robot.value) + " " +
                                 telemetry::pythonFloat(distance);
-    for (int n = 1; n <= teamPorts; ++n) m_sender.send(m_options.teamPortBase + n, message);
+    for (int n = 1; n <= teamPorts; ++n)
+      m_sender.send(static_cast<std::uint16_t>(m_options.teamPortBase + n), message);
     if (asked) board.replace(*m_request, distanceMessage, 0);
   }
 
@@ -89,11 +90,12 @@ class Communication final : public CognitiveProcess {
     m.actionA = board.read(v.decisionActionA);
     m.imuEulerZ = board.read(v.imuEulerZ);
     m.voltage = board.read(v.voltage);
-    m_sender.send(m_options.telemetryPortBase + m_options.robot.value, telemetry::encode(m));
+    m_sender.send(static_cast<std::uint16_t>(m_options.telemetryPortBase + m_options.robot.value),
+                  telemetry::encode(m));
   }
 
   ProcessOptions m_options;
-  UdpSender m_sender;
+  telemetry::UdpSender m_sender;
   std::unique_ptr<RefereeListener> m_referee;  // when there is a team to listen for
   double m_nextTelemetry = 0.0;
   RobotVariables m_variables;
@@ -120,7 +122,9 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
                    options.teamPortBase + teamPorts)}) {
     if (!ports) return tl::unexpected<Error>(ports.error());
   }
-  Result<UdpSender> sender = UdpSender::to(options.udpAddress);
+  const auto address = telemetry::parseAddress(options.udpAddress);
+  if (!address) return tl::unexpected<Error>(address.error());
+  auto sender = telemetry::UdpSender::to(*address);
   if (!sender) return tl::unexpected<Error>(sender.error());
   if (!(options.telemetryPeriod >= cycle && options.telemetryPeriod <= 60.0)) {
     return failure(ErrorCode::InvalidArgument,

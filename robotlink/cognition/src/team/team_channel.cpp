@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/cognition/team_channel.h>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <string>
 
+#include <base/descriptor.h>
 #include <base/system_reason.h>
+#include <telemetry/wire/socket_address.h>
+#include <telemetry/wire/udp_sender.h>
 
 namespace pitchboard::link {
 namespace {
@@ -22,39 +20,24 @@ constexpr std::size_t longestMessage = 512;
 constexpr int firstPort = 10000;
 constexpr int mostTeams = 100;
 
-/// A socket that closes itself.
-class Socket {
- public:
-  explicit Socket(int fd) : m_fd(fd) {}
-  Socket(Socket&& other) noexcept : m_fd(std::exchange(other.m_fd, -1)) {}
-  Socket& operator=(Socket&&) = delete;
-  ~Socket() {
-    if (m_fd >= 0) ::close(m_fd);
-  }
-  int fd() const { return m_fd; }
-
- private:
-  int m_fd;
-};
-
 class UdpTeamChannel final : public TeamChannel {
  public:
-  UdpTeamChannel(Socket socket, const sockaddr_in& to) : m_socket(std::move(socket)), m_to(to) {}
+  UdpTeamChannel(Descriptor socket, telemetry::UdpSender sender, std::uint16_t port)
+      : m_socket(std::move(socket)), m_sender(std::move(sender)), m_port(port) {}
 
   // A datagram starts with the sender's number, so that a robot does not hear itself.
   void post(RobotId from, std::string_view message) override {
     std::string datagram = std::to_string(from.value) + " ";
     datagram += message;
     if (datagram.size() > longestMessage) return;
-    (void)::sendto(m_socket.fd(), datagram.data(), datagram.size(), MSG_DONTWAIT,
-                   reinterpret_cast<const sockaddr*>(&m_to), sizeof m_to);
+    (void)m_sender.send(m_port, datagram);
   }
 
   std::vector<std::string> take(RobotId to) override {
     std::vector<std::string> messages;
     std::array<char, longestMessage> buffer;
     for (std::size_t i = 0; i < mostWaiting; ++i) {
-      const ssize_t size = ::recv(m_socket.fd(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+      const ssize_t size = ::recv(m_socket.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
       if (size < 0) break;
       const char* const end = buffer.data() + size;
       int from = 0;
@@ -66,8 +49,9 @@ class UdpTeamChannel final : public TeamChannel {
   }
 
  private:
-  Socket m_socket;
-  sockaddr_in m_to;
+  Descriptor m_socket;
+  telemetry::UdpSender m_sender;
+  std::uint16_t m_port;
 };
 
 Error systemError(const std::string& what) {
@@ -101,30 +85,30 @@ Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& addre
     return failure(ErrorCode::InvalidArgument,
                    "the number of the team is " + std::to_string(team) + ", allowed are 0 to 99");
   }
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(static_cast<std::uint16_t>(firstPort + team));
+  const auto port = static_cast<std::uint16_t>(firstPort + team);
   // A loopback datagram reaches one socket only, a broadcast on the loopback device all of them.
-  const std::string target = address == "127.0.0.1" ? "127.255.255.255" : address;
-  if (::inet_pton(AF_INET, target.c_str(), &to.sin_addr) != 1) {
+  const bool onlyHere = address == "127.0.0.1" || address == "127.255.255.255";
+  const auto to = telemetry::parseAddress(onlyHere ? "127.255.255.255" : address);
+  if (!to) {
     return failure(ErrorCode::InvalidArgument, "\"" + address +
                                                    "\" is not an IPv4 address; use for example "
                                                    "127.0.0.1 or 192.168.1.255");
   }
-  Socket socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (socket.fd() < 0) return tl::unexpected<Error>(systemError("The system gives no UDP socket"));
+  auto sender = telemetry::UdpSender::to(*to);
+  if (!sender) return tl::unexpected<Error>(sender.error());
+  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket) return tl::unexpected<Error>(systemError("The system gives no UDP socket"));
   const int on = 1;
   // Several robots of one computer listen on the same port.
-  ::setsockopt(socket.fd(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  ::setsockopt(socket.fd(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
-  sockaddr_in here = to;
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   // Bound to the loopback broadcast address, nothing from outside is heard.
-  if (target != "127.255.255.255") here.sin_addr.s_addr = htonl(INADDR_ANY);
-  if (::bind(socket.fd(), reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) {
+  const sockaddr_in here =
+      telemetry::socketAddress(onlyHere ? *to : telemetry::Address{INADDR_ANY}, port);
+  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) {
     return tl::unexpected<Error>(
-        systemError("Port " + std::to_string(firstPort + team) + " cannot be listened to"));
+        systemError("Port " + std::to_string(port) + " cannot be listened to"));
   }
-  return std::make_unique<UdpTeamChannel>(std::move(socket), to);
+  return std::make_unique<UdpTeamChannel>(std::move(socket), std::move(*sender), port);
 }
 
 }  // namespace pitchboard::link

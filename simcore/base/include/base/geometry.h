@@ -3,6 +3,9 @@
 
 // Plain values of the studio's frame: metres, radians, seconds; origin at the centre of the field,
 // +x towards the right goal, +y up on the screen, yaw counter-clockwise from +x (CONVENTIONS.md).
+// And what is measured between them.
+
+#include <cmath>
 
 namespace pitchboard {
 
@@ -19,6 +22,21 @@ struct Velocity {
   double y = 0.0;
   bool operator==(const Velocity&) const = default;
 };
+
+/// From the origin to `p`, metres.
+inline double length(const Point& p) {
+  return std::hypot(p.x, p.y);
+}
+
+/// Between two places, metres.
+inline double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+/// The way from one place to another, radians counter-clockwise from +x.
+inline double direction(const Point& from, const Point& to) {
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
 
 /// Where something stands and which way it faces.
 struct Pose {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include <base/descriptor.h>
 #include <base/result.h>
 
 namespace pitchboard {
@@ -20,9 +21,6 @@ class NewFile {
   static Result<NewFile> create(const std::string& path, const std::string& shownAs = {});
   /// A device or a pipe, which exists already.
   static Result<NewFile> openDevice(const std::string& path);
-  NewFile(NewFile&& other) noexcept;
-  NewFile& operator=(NewFile&& other) noexcept;
-  ~NewFile();
 
   /// All or an error; after an error part of the bytes may be in the file.
   Result<void> write(std::string_view bytes);
@@ -44,12 +42,13 @@ class NewFile {
   const std::string& path() const { return m_path; }
 
  private:
-  NewFile(std::string path, int descriptor) : m_path(std::move(path)), m_descriptor(descriptor) {}
+  NewFile(std::string path, Descriptor descriptor)
+      : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {}
   static Result<NewFile> open(const std::string& path, int flags, const std::string& shownAs);
   tl::unexpected<Error> failed(int reason) const;
 
   std::string m_path;
-  int m_descriptor = -1;
+  Descriptor m_descriptor;
   std::uint64_t m_size = 0;
 };
 

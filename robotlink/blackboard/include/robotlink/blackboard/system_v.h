@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <base/descriptor.h>
 #include <robotlink/blackboard/blackboard.h>
 
 namespace pitchboard::link {
@@ -58,13 +59,10 @@ class SystemVSegments {
 class BridgeClaim {
  public:
   static Result<BridgeClaim> take(int key);
-  BridgeClaim(BridgeClaim&& other) noexcept;
-  BridgeClaim& operator=(BridgeClaim&& other) noexcept;
-  ~BridgeClaim();
 
  private:
-  explicit BridgeClaim(int socket) : m_socket(socket) {}
-  int m_socket = -1;
+  explicit BridgeClaim(Descriptor socket) : m_socket(std::move(socket)) {}
+  Descriptor m_socket;
 };
 
 }  // namespace pitchboard::link

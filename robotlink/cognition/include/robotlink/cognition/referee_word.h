@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// What a referee packet says to one robot, as the one word that stands on its blackboard. Any
+// thread.
+
 #include <optional>
 
 #include <telemetry/wire/gamecontroller.h>

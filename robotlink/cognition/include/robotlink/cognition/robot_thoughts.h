@@ -15,14 +15,15 @@
 
 #include <chrono>
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <base/descriptor.h>
 #include <base/geometry.h>
 #include <base/ids.h>
 #include <base/result.h>
+#include <telemetry/wire/udp_sender.h>
 
 namespace pitchboard::link {
 
@@ -64,22 +65,20 @@ std::vector<std::string> thoughtDatagrams(const RobotThoughts& thoughts);
 /// Takes over what a datagram says; false, and nothing is changed, when it is not one of these.
 bool readThoughtDatagram(std::string_view datagram, RobotThoughts& thoughts);
 
-class UdpSender;
-
 /// Tells a display on this computer. One thread at a time.
 class ThoughtsSender {
  public:
   /// Port 1..65535 of 127.0.0.1.
   static Result<ThoughtsSender> to(int port);
-  ThoughtsSender(ThoughtsSender&&) noexcept;
-  ~ThoughtsSender();
   /// Never waits; nobody need listen.
   void send(const RobotThoughts& thoughts);
 
  private:
-  ThoughtsSender(std::unique_ptr<UdpSender> sender, int port);
-  std::unique_ptr<UdpSender> m_sender;
-  int m_port;
+  ThoughtsSender(telemetry::UdpSender sender, std::uint16_t port)
+      : m_sender(std::move(sender)), m_port(port) {}
+
+  telemetry::UdpSender m_sender;
+  std::uint16_t m_port;
 };
 
 /// Hears what processes on this computer tell. Use from one thread; poll it at the rate of the
@@ -90,9 +89,6 @@ class ThoughtsReceiver {
 
   /// On 127.0.0.1; 0 takes a free port.
   static Result<ThoughtsReceiver> listen(int port = 0);
-  ThoughtsReceiver(ThoughtsReceiver&& other) noexcept;
-  ThoughtsReceiver& operator=(ThoughtsReceiver&& other) noexcept;
-  ~ThoughtsReceiver();
 
   int port() const { return m_port; }
   /// Takes what waits. Never blocks.
@@ -107,9 +103,9 @@ class ThoughtsReceiver {
     RobotThoughts thoughts;
     Time cloudTime{}, pathTime{};
   };
-  ThoughtsReceiver(int socket, int port) : m_socket(socket), m_port(port) {}
+  ThoughtsReceiver(Descriptor socket, int port) : m_socket(std::move(socket)), m_port(port) {}
 
-  int m_socket = -1;
+  Descriptor m_socket;
   int m_port = 0;
   std::map<RobotId, Heard> m_heard;
   std::vector<char> m_buffer;

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include <base/descriptor.h>
 #include <base/ids.h>
 #include <base/result.h>
 
@@ -82,7 +83,7 @@ class ProcessSupervisor {
 
  private:
   struct Output {         // of a running child
-    int fd = -1;          // read end of its pipe
+    Descriptor pipe;      // read end of its pipe
     std::string partial;  // the line that has no end yet
     bool asked = false;   // stop() told it to end
   };

@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include <base/descriptor.h>
 #include <base/result.h>
 
 namespace pitchboard::link {
 
 struct Spawned {
-  pid_t pid = 0;    ///< also its process group
-  int output = -1;  ///< read end of its standard output and error; non-blocking, close-on-exec
+  pid_t pid = 0;      ///< also its process group
+  Descriptor output;  ///< read end of its standard output and error; non-blocking, close-on-exec
 };
 
 /// Starts `command` (program and arguments). From a process with any number of threads: nothing but

@@ -6,47 +6,18 @@
 // the file holds whole records only, so that what was written before a crash can be read. Schemas
 // and channels are repeated in chunks of their own now and then, so that damage of one chunk costs
 // that chunk and not the meaning of the others.
-// A McapChunk may be filled in another thread than the one that owns the McapWriter.
 
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <base/new_file.h>
 #include <base/result.h>
+#include <telemetry/mcap/mcap_chunk.h>
 #include <telemetry/mcap/mcap_records.h>
 
 namespace pitchboard::telemetry {
-
-/// Messages on their way into a file: the body of a chunk as it will be compressed.
-class McapChunk {
- public:
-  void add(const McapSchema& schema);
-  void add(const McapChannel& channel);
-  /// Begins a message of `size` bytes and returns where they go; valid until the next call.
-  char* addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
-                   std::uint64_t publishTime, std::size_t size);
-  void add(const McapMessage& message);
-  void clear();  ///< keeps the memory
-
-  bool empty() const { return m_body.empty(); }
-  std::size_t bytes() const { return m_body.size(); }
-  std::size_t messages() const { return m_index.size(); }
-
- private:
-  friend class McapWriter;
-  struct Entry {
-    std::uint64_t logTime;
-    std::uint64_t offset;
-    std::uint16_t channel;
-  };
-  std::string m_body;
-  std::vector<Entry> m_index;
-  std::vector<McapSchema> m_schemas;
-  std::vector<McapChannel> m_channels;
-};
 
 struct McapWriterOptions {
   std::string profile;

@@ -105,6 +105,7 @@ class SessionReader {
 
  private:
   struct Impl;
+  static Result<SessionReader> of(Result<McapReader> file);
   explicit SessionReader(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> m_impl;
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Whom to listen to.
+// Whom to listen to: everybody, or the addresses and networks that a list names. Any thread once it
+// is made.
 
 #include <string_view>
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// The filter behind the search fields over tables. Window thread; belongs to its view.
+
 #include <QSortFilterProxyModel>
 #include <QStringList>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Blackboards that a crashed program left behind, told when the studio starts. Window thread.
+
 namespace pitchboard::ui {
 
 class MatchController;

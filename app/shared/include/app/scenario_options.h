@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Which match is played, as every command that plays one is told: a scenario, and what is to be
+// different in it. Used at the start of a program, in its first thread.
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+#include <robotlink/scenario/scenario.h>
+
+namespace pitchboard::shared {
+
+struct ScenarioOptions {
+  std::string scenario = "match-3v3";
+  std::optional<std::uint64_t> seed;
+  std::string noise;    ///< name of a preset; empty: the scenario's
+  std::string physics;  ///< name of a model; empty: the scenario's
+};
+
+/// --scenario, --seed, --noise and --physics.
+void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
+
+/// Puts seed, noise and physics into a scenario.
+Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);
+
+/// The scenario that was named, changed. Errors as loadScenario() and noisePreset().
+Result<link::Scenario> scenarioFrom(const ScenarioOptions& options);
+
+}  // namespace pitchboard::shared

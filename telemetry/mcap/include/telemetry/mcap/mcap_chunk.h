@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Messages on their way into an MCAP file. A chunk is filled in one thread, which may be another
+// one than that of the McapWriter it is given to. Times in ns since 1970.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <telemetry/mcap/mcap_records.h>
+
+namespace pitchboard::telemetry {
+
+/// The body of a chunk as it will be compressed.
+class McapChunk {
+ public:
+  void add(const McapSchema& schema);
+  void add(const McapChannel& channel);
+  /// Begins a message of `size` bytes and returns where they go; valid until the next call.
+  char* addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
+                   std::uint64_t publishTime, std::size_t size);
+  void add(const McapMessage& message);
+  void clear();  ///< keeps the memory
+
+  bool empty() const { return m_body.empty(); }
+  std::size_t bytes() const { return m_body.size(); }
+  std::size_t messages() const { return m_index.size(); }
+
+ private:
+  friend class McapWriter;
+  struct Entry {
+    std::uint64_t logTime;
+    std::uint64_t offset;
+    std::uint16_t channel;
+  };
+  std::string m_body;
+  std::vector<Entry> m_index;
+  std::vector<McapSchema> m_schemas;
+  std::vector<McapChannel> m_channels;
+};
+
+}  // namespace pitchboard::telemetry

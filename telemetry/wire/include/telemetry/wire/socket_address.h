@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// An address and a port as the system's calls on sockets want them. Any thread.
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <telemetry/wire/datagram.h>
+
+namespace pitchboard::telemetry {
+
+inline sockaddr_in socketAddress(Address address, std::uint16_t port) {
+  sockaddr_in out{};
+  out.sin_family = AF_INET;
+  out.sin_port = htons(port);
+  out.sin_addr.s_addr = htonl(address.value);
+  return out;
+}
+
+}  // namespace pitchboard::telemetry
