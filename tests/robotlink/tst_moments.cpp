@@ -212,7 +212,10 @@ class TestMoments : public QObject {
     RecentPast past;
     past.rows = &m_match->store;
     past.archive = m_match->archive.get();
-    past.events = {{1.0, "bookmark", "", "too old"}, {18.0, "bookmark", "", "kept"}};
+    past.events.resize(2);
+    for (MatchEvent& event : past.events) event.kind = MatchEventKind::Bookmark;
+    past.events[0].time = 1.0;  // too old
+    past.events[1].time = 18.0;
     past.scenario = scenarioToJson(m_match->scenario);
     const std::string path = m_folder.filePath("recent.mcap").toStdString();
     const auto saved = saveRecent(path, 5.0, past, sessionInfo(m_match->scenario, recording));
