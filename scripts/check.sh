@@ -80,7 +80,7 @@ tidy_these() {
   [ $# -gt 0 ] || { echo "no source has changed"; return 0; }
   quietly cmake --preset tidy
   local autogen
-  mapfile -t autogen < <(ninja -C build/tidy -t targets all | sed -n 's/^\([A-Za-z_]*_autogen\): phony$/\1/p')
+  mapfile -t autogen < <(ninja -C build/tidy -t targets all | sed -n 's/^\([A-Za-z_]*_autogen\): phony$/\1/p' | grep -v '^tst_')
   quietly ninja -C build/tidy "${autogen[@]}"
   printf '%s\n' "$@" | xargs -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' 2> \
     >(grep -vE '^[0-9]+ warnings? (generated|treated)' >&2)
@@ -93,7 +93,7 @@ tidy() {
   fi
   since=$(git merge-base "$since" HEAD)
   mapfile -t changed < <(comm -12 <(sources 'app/*.cpp' 'simcore/*.cpp' 'telemetry/*.cpp' 'robotlink/*.cpp' 'ui/*.cpp' | sort) \
-    <({ git diff --name-only "$since"; sources --others '*.cpp'; } | sort -u))
+    <({ git diff --name-only "$since"; git ls-files --others --exclude-standard; } | sort -u))
   tidy_these "${changed[@]}"
 }
 

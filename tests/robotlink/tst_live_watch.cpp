@@ -136,7 +136,9 @@ class TestLiveWatch : public QObject {
     QCOMPARE(team.robots[0].number, 1);
     QCOMPARE(team.robots[1].number, 3);
     QCOMPARE(team.robots[1].sender.port, three.port());
-    QCOMPARE(team.errors.total(), std::uint64_t{1});
+    // No robot can be blamed for what names none.
+    QVERIFY(team.errors.total() > 0);
+    QCOMPARE(team.robots[1].errors.total(), std::uint64_t{0});
     const std::lock_guard lock(witness->mutex);
     QCOMPARE(witness->numbers, (std::vector<int>{1, 3}));
     QCOMPARE(witness->payloads, (std::vector<std::string>{message(1, 310), message(3, 330)}));
