@@ -25,21 +25,28 @@ class Hand : public QObject {
       return;
     }
     m_line.append(bytes, size);
-    if (!m_line.endsWith('\n')) return;
-    const QByteArray word = m_line.trimmed();
-    m_line.clear();
-    for (QWindow* window : QGuiApplication::topLevelWindows()) {
-      if (!window->isVisible() || window->transientParent() != nullptr) continue;
-      if (word == "look") {
-        const bool hidden = window->windowStates().testFlag(Qt::WindowMinimized);
-        const QByteArray seen = (hidden ? "minimized " : "") + window->title().toUtf8() + '\n';
-        if (write(STDOUT_FILENO, seen.constData(), std::size_t(seen.size())) < 0) return;
-      }
-      if (word == "minimize") window->setWindowState(Qt::WindowMinimized);
-      if (word == "close") window->close();
-      if (word == "quit") QTest::keyClick(window, Qt::Key_Q, Qt::ControlModifier);
-      return;
+    for (qsizetype end; (end = m_line.indexOf('\n')) >= 0; m_line.remove(0, end + 1)) {
+      obey(m_line.left(end).trimmed());
     }
+  }
+
+  static void obey(const QByteArray& word) {
+    QWindow* shown = nullptr;
+    for (QWindow* window : QGuiApplication::topLevelWindows()) {
+      if (shown == nullptr && window->isVisible() && window->transientParent() == nullptr) {
+        shown = window;
+      }
+    }
+    if (word == "look") {
+      QByteArray seen = shown ? shown->title().toUtf8() : QByteArray();
+      if (shown && shown->windowStates().testFlag(Qt::WindowMinimized)) seen.prepend("minimized ");
+      seen += '\n';
+      if (write(STDOUT_FILENO, seen.constData(), std::size_t(seen.size())) < 0) return;
+    }
+    if (shown == nullptr) return;
+    if (word == "minimize") shown->setWindowState(Qt::WindowMinimized);
+    if (word == "close") shown->close();
+    if (word == "quit") QTest::keyClick(shown, Qt::Key_Q, Qt::ControlModifier);
   }
 
   QSocketNotifier m_words;

@@ -156,7 +156,7 @@ class TestRunningStudio : public QObject {
     const QDateTime made = desk.sockets().first().lastModified();
     // Without a file: a studio as always.
     desk.start(other, other.with({QStringLiteral("--cognition"), QStringLiteral("inline")}));
-    QTRY_VERIFY_WITH_TIMEOUT(!seen(other).isEmpty(), longWait);
+    QTRY_VERIFY_WITH_TIMEOUT(seen(other).startsWith(QStringLiteral("Pitchboard")), longWait);
     QCOMPARE(desk.sockets().size(), 1);
     ::kill(static_cast<pid_t>(studio.processId()), signal);
     QVERIFY(studio.waitForFinished(longWait));

@@ -239,6 +239,7 @@ void ValueChart::redraw() {
 
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {
   if (m_area.isEmpty()) return;
+  painter->setRenderHint(QPainter::Antialiasing, false);
   painter->setPen(theme().innerLine);
   painter->setBrush(Qt::NoBrush);
   painter->drawRect(m_area);
