@@ -79,10 +79,14 @@ inline const QList<Room>& table() {
          {"nlohmann/", "zlib.h"}},
         // A robot's processes know nothing of matches, sessions and windows; of scenarios, only how
         // a field is written.
-        {"app/robot", {base, world, wire, board, processes, cognition, scenario}, {"CLI/"}},
-        {"app/cli", belowUi, {"CLI/", "nlohmann/"}},
+        // What more than one program needs of its command line.
+        {"app/shared", {base, scenario}, {"CLI/"}},
+        {"app/robot",
+         {base, world, wire, board, processes, cognition, scenario, "app/shared"},
+         {"CLI/"}},
+        {"app/cli", belowUi + QStringList{"app/shared"}, {"CLI/", "nlohmann/"}},
         {"app/studio",
-         belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/window"},
+         belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/window", "app/shared"},
          {"CLI/", "Q"}},
         {"ui/base", {base, world, wire, series, frame}, qt},
         {"ui/sources", belowUi + QStringList{"ui/base"}, qt},
@@ -119,6 +123,7 @@ inline QString roomOfPath(const QString& path) {
 inline QString roomOfHeader(const QString& header) {
   if (header.startsWith("base/")) return "simcore/base";
   if (header.startsWith("resources/")) return "resources";
+  if (header.startsWith("app/")) return "app/shared";
   static const QStringList libraries{"simcore", "telemetry", "robotlink", "ui", "app"};
   return libraries.contains(header.section('/', 0, 0)) && header.count('/') > 0
              ? header.section('/', 0, 1)
@@ -202,7 +207,9 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
       if (QStringList{"SOURCES", "PUBLIC", "PRIVATE", "LIBS"}.contains(word)) {
         part = word;
       } else if (word.contains("::")) {
-        (part == "PUBLIC" ? links.publicOnes : links.privateOnes) << word;
+        // The parts that programs share are one room.
+        (part == "PUBLIC" ? links.publicOnes : links.privateOnes)
+            << (word.startsWith("app::") ? QStringLiteral("app::shared") : word);
       }
     }
     found << links;

@@ -163,6 +163,30 @@ class TestLayers : public QObject {
     QVERIFY(!packageErrors({shown}, {uses}).isEmpty());
   }
 
+  // CONVENTIONS.md, Words on the screen.
+  void noTextGoesThroughTranslation() {
+    static const QRegularExpression translated(
+        QStringLiteral("\\btr\\(|\\btranslate\\(\\s*\"|\\bQT_TR\\w*|\\bQ_DECLARE_TR\\w*"));
+    QVERIFY(translated.match(QStringLiteral("label(QObject::tr(text))")).hasMatch());
+    QVERIFY(
+        !translated.match(QStringLiteral("painter.translate(x, y); str(1); attr(2)")).hasMatch());
+    QStringList wrong;
+    int seen = 0;
+    for (const QString& folder : {QStringLiteral("ui"), QStringLiteral("app")}) {
+      QDirIterator files(source + folder, {"*.h", "*.cpp"}, QDir::Files,
+                         QDirIterator::Subdirectories);
+      while (files.hasNext()) {
+        QFile file(files.next());
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const auto match = translated.match(QString::fromUtf8(file.readAll()));
+        if (match.hasMatch()) wrong << file.fileName() + QStringLiteral(": ") + match.captured();
+        ++seen;
+      }
+    }
+    QVERIFY(seen > 50);
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join("\n")));
+  }
+
   void everySourceFileNamesItsLicence() {
     const QStringList folders{"simcore", "telemetry", "robotlink", "ui", "app", "tests"};
     int seen = 0;

@@ -23,7 +23,7 @@ InPlaceMessage::InPlaceMessage(QWidget* parent)
   auto* close = new QToolButton(this);
   close->setIcon(themedIcon(QStringLiteral("window-close")));
   close->setIconSize({scaled(this, 12), scaled(this, 12)});
-  close->setToolTip(tr("Close"));
+  close->setToolTip(QStringLiteral("Close"));
   close->setAutoRaise(true);
   connect(close, &QToolButton::clicked, this, &InPlaceMessage::clear);
   connect(m_button, &QPushButton::clicked, this, [this] {

@@ -62,7 +62,8 @@ void NoticeBar::present() {
   if (m_notices.empty()) return;
   const Notice& notice = m_notices.front();
   m_text->setText(notice.sentence);
-  m_more->setText(m_notices.size() > 1 ? tr("%1 more").arg(m_notices.size() - 1) : QString());
+  m_more->setText(m_notices.size() > 1 ? QStringLiteral("%1 more").arg(m_notices.size() - 1)
+                                       : QString());
   m_more->setVisible(m_notices.size() > 1);
   setStyleSheet(QStringLiteral("#noticeBar { background: %1; border-bottom: 1px solid %2; }"
                                "#noticeBar QLabel { color: %2; }")
@@ -78,7 +79,7 @@ void NoticeBar::present() {
   if (notice.buttons.empty()) {
     auto* close = new QToolButton(this);
     close->setIcon(themedIcon(QStringLiteral("window-close")));
-    close->setToolTip(tr("Close this notice"));
+    close->setToolTip(QStringLiteral("Close this notice"));
     close->setAutoRaise(true);
     connect(close, &QToolButton::clicked, this, &NoticeBar::dismiss);
     m_buttons->addWidget(close);

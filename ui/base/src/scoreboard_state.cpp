@@ -33,37 +33,37 @@ QColor refereeColour(const std::string& words) {
 }
 
 QString refereeTeam(const link::RefereeTeamView& team) {
-  if (team.colour == "unknown") return QObject::tr("TEAM %1").arg(team.number);
+  if (team.colour == "unknown") return QStringLiteral("TEAM %1").arg(team.number);
   return QString::fromStdString(team.colour).toUpper();
 }
 
 QString refereeTip(const link::RefereeView& view) {
   QStringList tip;
   for (const link::RefereeTeamView& team : view.teams) {
-    tip << QObject::tr("Team %1 (%2): %3 goals, %4 players on the field%5")
+    tip << QStringLiteral("Team %1 (%2): %3 goals, %4 players on the field%5")
                .arg(team.number)
                .arg(QString::fromStdString(team.colour))
                .arg(team.score)
                .arg(team.playersLeft)
-               .arg(team.number == view.ourTeam && view.ourTeam != 0 ? QObject::tr(", ours")
+               .arg(team.number == view.ourTeam && view.ourTeam != 0 ? QStringLiteral(", ours")
                                                                      : QString());
   }
-  tip << (view.firstHalf ? QObject::tr("First half") : QObject::tr("Second half"));
+  tip << (view.firstHalf ? QStringLiteral("First half") : QStringLiteral("Second half"));
   if (!view.phase.empty()) tip.back() += QStringLiteral(", ") + QString::fromStdString(view.phase);
   if (!view.setPlay.empty()) {
     tip.back() += QStringLiteral(", ") + QString::fromStdString(view.setPlay);
   }
   if (view.secondaryTime && *view.secondaryTime != 0) {
-    tip << QObject::tr("Secondary time: %1 s").arg(*view.secondaryTime);
+    tip << QStringLiteral("Secondary time: %1 s").arg(*view.secondaryTime);
   }
-  tip << (view.kickOffTeam ? QObject::tr("Kick-off: team %1").arg(*view.kickOffTeam)
-                           : QObject::tr("Kick-off: nobody (drop ball)"));
-  tip << QObject::tr("Referee at %1, version %2, heard %3 s ago")
+  tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
+                           : QStringLiteral("Kick-off: nobody (drop ball)"));
+  tip << QStringLiteral("Referee at %1, version %2, heard %3 s ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)
              .arg(numberText(view.age, 1));
-  if (view.conflict) tip << QObject::tr("A second referee program is heard.");
-  if (view.trueData) tip << QObject::tr("Monitor mode: true data arrive.");
+  if (view.conflict) tip << QStringLiteral("A second referee program is heard.");
+  if (view.trueData) tip << QStringLiteral("Monitor mode: true data arrive.");
   return tip.join(QLatin1Char('\n'));
 }
 
@@ -71,8 +71,8 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   ScoreboardState state;
   if (!frame.referee) {
     state.clock = QStringLiteral("--:--");
-    state.state = QObject::tr("NO REFEREE");
-    state.tip = QObject::tr("No referee's packet has been heard yet.");
+    state.state = QStringLiteral("NO REFEREE");
+    state.tip = QStringLiteral("No referee's packet has been heard yet.");
     return state;
   }
   const link::RefereeView& view = *frame.referee;
@@ -87,9 +87,9 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
   if (view.timedOut) {
-    state.state = QObject::tr("REFEREE SILENT");
+    state.state = QStringLiteral("REFEREE SILENT");
   } else if (view.stopped) {
-    state.state += QStringLiteral(" · ") + QObject::tr("stopped");
+    state.state += QStringLiteral(" · ") + QStringLiteral("stopped");
   } else if (!more.empty()) {
     state.state += QStringLiteral(" · ") + QString::fromStdString(more);
   }

@@ -126,8 +126,10 @@ void FieldCanvas::paintEmptyState(QPainter* painter) const {
   if (frame && !empty) return;
   QString text = m_emptyText ? m_emptyText() : QString();
   if (text.isEmpty()) {
-    text = frame ? tr("Press A to add a robot where the cursor is, B to put the ball there.")
-                 : tr("No match is open. Choose a scenario in the toolbar.");
+    text =
+        frame
+            ? QStringLiteral("Press A to add a robot where the cursor is, B to put the ball there.")
+            : QStringLiteral("No match is open. Choose a scenario in the toolbar.");
   }
   const bool longer = text.contains(QLatin1Char('\n'));
   const QFont& font = fieldFont(scaled(this, longer ? 12 : 13), !longer);

@@ -15,14 +15,15 @@ namespace pitchboard::ui {
 namespace {
 
 void addPlaces(QMenu* menu, FieldScene* scene, MatchController* controller, const QPointF& metres) {
-  QMenu* add = menu->addMenu(themedIcon(QStringLiteral("list-add")), QObject::tr("Add robot here"));
+  QMenu* add =
+      menu->addMenu(themedIcon(QStringLiteral("list-add")), QStringLiteral("Add robot here"));
   for (const TeamColorInfo& team : teamColors) {
     const Pose pose{fromScene(metres), team.facesLeft ? std::numbers::pi : 0.0};
     add->addAction(capitalised(team.name), controller, [controller, color = team.color, pose] {
       controller->edits()->addRobot(color, pose);
     });
   }
-  menu->addAction(QObject::tr("Place ball here"), controller, [controller, scene, metres] {
+  menu->addAction(QStringLiteral("Place ball here"), controller, [controller, scene, metres] {
     controller->edits()->moveBall(scene->ball(), fromScene(metres));
   });
 }
@@ -39,9 +40,10 @@ void addRobotActions(QMenu* menu, MatchController* controller, const std::vector
                                           {"Walk forward", 1},
                                           {"Stop", 0}}};
   for (const Entry& entry : entries) {
-    menu->addAction(QObject::tr(entry.text), controller, [controller, ids, action = entry.action] {
-      for (const RobotId id : ids) controller->edits()->commandAction(id, action);
-    });
+    menu->addAction(QString::fromUtf8(entry.text), controller,
+                    [controller, ids, action = entry.action] {
+                      for (const RobotId id : ids) controller->edits()->commandAction(id, action);
+                    });
   }
   addBehaviourMenu(menu, controller, ids);
   addTeamMenu(menu, controller, ids);
@@ -61,15 +63,15 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
     if (editable) {
       addRobotActions(menu, controller, ids);
       menu->addSeparator();
-      menu->addAction(QObject::tr("Pose…"), menu, [actions, id] { actions.editPose(id); });
+      menu->addAction(QStringLiteral("Pose…"), menu, [actions, id] { actions.editPose(id); });
     }
-    QAction* follow = menu->addAction(QObject::tr("Follow"));
+    QAction* follow = menu->addAction(QStringLiteral("Follow"));
     follow->setCheckable(true);
     follow->setChecked(scene->followed() == id);
     QObject::connect(follow, &QAction::toggled, scene, [scene, id](bool on) {
       scene->setFollowed(on ? std::optional(id) : std::nullopt);
     });
-    QAction* trail = menu->addAction(QObject::tr("Hide trail"));
+    QAction* trail = menu->addAction(QStringLiteral("Hide trail"));
     trail->setCheckable(true);
     trail->setChecked(!scene->isTrailShown(id));
     QObject::connect(trail, &QAction::toggled, scene, [scene, ids](bool hide) {
@@ -78,13 +80,13 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
     if (editable) {
       menu->addSeparator();
       menu->addAction(themedIcon(QStringLiteral("edit-delete")),
-                      ids.size() == 1 ? QObject::tr("Remove robot")
-                                      : QObject::tr("Remove %1 robots").arg(ids.size()),
+                      ids.size() == 1 ? QStringLiteral("Remove robot")
+                                      : QStringLiteral("Remove %1 robots").arg(ids.size()),
                       controller, [controller, ids] { controller->edits()->removeRobots(ids); });
     }
   } else if (editable && hit.kind == FieldHit::Kind::Ball) {
-    menu->addAction(QObject::tr("Ball position…"), menu, [actions] { actions.editBall(); });
-    menu->addAction(QObject::tr("Ball to the centre mark"), controller, [controller, scene] {
+    menu->addAction(QStringLiteral("Ball position…"), menu, [actions] { actions.editBall(); });
+    menu->addAction(QStringLiteral("Ball to the centre mark"), controller, [controller, scene] {
       controller->edits()->moveBall(scene->ball(), {0.0, 0.0});
     });
   } else if (editable) {
@@ -93,7 +95,7 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
   if (editable) {
     menu->addSeparator();
     menu->addAction(themedIcon(QStringLiteral("document-save")),
-                    QObject::tr("Save this moment as a scenario…"), menu,
+                    QStringLiteral("Save this moment as a scenario…"), menu,
                     [actions] { actions.saveMoment(); });
   }
 }

@@ -52,7 +52,7 @@ QByteArray svgPicture(FieldScene& scene, QSize size) {
   generator.setOutputDevice(&buffer);
   generator.setSize(size);
   generator.setViewBox(QRect(QPoint(), size));
-  generator.setTitle(QObject::tr("The field"));
+  generator.setTitle(QStringLiteral("The field"));
   QPainter painter;
   if (!painter.begin(&generator)) return {};
   paintField(scene, painter, size);

@@ -198,10 +198,11 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   look.followed = m_followed == id;
   if (now.fallen) look.word = QStringLiteral("fallen");
   if (now.timedOut()) {
-    look.word = tr("timeout %1 s").arg(static_cast<int>(telemetry::secondsOf(now.health->age)));
+    look.word =
+        QStringLiteral("timeout %1 s").arg(static_cast<int>(telemetry::secondsOf(now.health->age)));
     look.opacity = 0.45;
   } else if (now.health && now.health->penalty) {
-    look.word = tr("penalised");
+    look.word = QStringLiteral("penalised");
   }
   robot.body.setLook(look);
   robot.body.setVisible(now.poseKnown());

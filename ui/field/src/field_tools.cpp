@@ -69,7 +69,7 @@ std::vector<QAction*> FieldTools::viewActions() const {
 void FieldTools::makeLayers() {
   for (int i = 0; i < fieldLayerCount; ++i) {
     const LayerText& text = layerTexts[static_cast<std::size_t>(i)];
-    auto* action = new QAction(tr(text.text), this);
+    auto* action = new QAction(QString::fromUtf8(text.text), this);
     action->setCheckable(true);
     action->setChecked(m_scene->style().layers[static_cast<std::size_t>(i)]);
     if (*text.key) action->setText(action->text() + QLatin1Char('\t') + QLatin1String(text.key));
@@ -81,10 +81,11 @@ void FieldTools::makeLayers() {
 void FieldTools::makeTools() {
   auto* group = new QActionGroup(this);
   for (const ToolText& text : toolTexts) {
-    auto* action = new QAction(themedIcon(QLatin1String(text.icon)), tr(text.text), group);
+    auto* action =
+        new QAction(themedIcon(QLatin1String(text.icon)), QString::fromUtf8(text.text), group);
     action->setCheckable(true);
     action->setChecked(text.tool == m_pointer->tool());
-    action->setToolTip(tr(text.tip));
+    action->setToolTip(QString::fromUtf8(text.tip));
     connect(action, &QAction::triggered, this,
             [this, tool = text.tool] { m_pointer->setTool(tool); });
     connect(m_pointer, &FieldPointer::toolChanged, action,
@@ -94,22 +95,23 @@ void FieldTools::makeTools() {
 }
 
 void FieldTools::makeViews() {
-  m_flip =
-      new QAction(themedIcon(QStringLiteral("object-flip-horizontal")), tr("Flip sides"), this);
+  m_flip = new QAction(themedIcon(QStringLiteral("object-flip-horizontal")),
+                       QStringLiteral("Flip sides"), this);
   m_flip->setCheckable(true);
-  m_flip->setToolTip(tr("See the field from the other side (Space)"));
+  m_flip->setToolTip(QStringLiteral("See the field from the other side (Space)"));
   connect(m_flip, &QAction::toggled, this, [this](bool on) { m_canvas->setFlipped(on); });
-  m_fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Fit the field\tHome"), this);
-  m_fit->setToolTip(tr("Fit the field (Home)"));
+  m_fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
+                      QStringLiteral("Fit the field\tHome"), this);
+  m_fit->setToolTip(QStringLiteral("Fit the field (Home)"));
   connect(m_fit, &QAction::triggered, this, [this] { m_canvas->fit(); });
-  m_keys =
-      new QAction(themedIcon(QStringLiteral("help-contextual")), tr("Keys of the field\tF1"), this);
-  m_keys->setToolTip(tr("All keys of the field (F1)"));
+  m_keys = new QAction(themedIcon(QStringLiteral("help-contextual")),
+                       QStringLiteral("Keys of the field\tF1"), this);
+  m_keys->setToolTip(QStringLiteral("All keys of the field (F1)"));
   connect(m_keys, &QAction::triggered, this, [this] { m_help->toggle(); });
 }
 
 void FieldTools::makeLayerOptions() {
-  auto* all = new QAction(tr("Field of view of all robots"), this);
+  auto* all = new QAction(QStringLiteral("Field of view of all robots"), this);
   all->setCheckable(true);
   all->setChecked(m_scene->style().wedgeForAll);
   connect(all, &QAction::toggled, this, [this](bool on) {
@@ -118,7 +120,7 @@ void FieldTools::makeLayerOptions() {
   m_layerOptions.push_back(all);
   auto* group = new QActionGroup(this);
   for (const int granularity : {4, 6}) {
-    auto* action = new QAction(tr("EOPRA granularity %1").arg(granularity), group);
+    auto* action = new QAction(QStringLiteral("EOPRA granularity %1").arg(granularity), group);
     action->setCheckable(true);
     action->setChecked(m_scene->style().eopraGranularity == granularity);
     connect(action, &QAction::toggled, this, [this, granularity](bool on) {
@@ -165,8 +167,8 @@ void FieldTools::addTeams() {
 void FieldTools::addLayersButton() {
   auto* layersButton = new QToolButton;
   layersButton->setIcon(themedIcon(QStringLiteral("layer-visible-on")));
-  layersButton->setToolTip(tr("Layers: what the field shows"));
-  layersButton->setAccessibleName(tr("Layers"));
+  layersButton->setToolTip(QStringLiteral("Layers: what the field shows"));
+  layersButton->setAccessibleName(QStringLiteral("Layers"));
   layersButton->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(layersButton);
   for (QAction* layer : m_layers) menu->addAction(layer);

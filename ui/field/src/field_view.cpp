@@ -150,7 +150,7 @@ void FieldView::Private::openPoseEditor(RobotId id) {
   if (!pose || !editor()) return;
   const link::RobotFrame* robot = scene->frame()->robot(id);
   const QString name = robot != nullptr ? robotName(robot->identity) : QString();
-  openEditor({tr("Pose of %1").arg(name), *pose, true,
+  openEditor({QStringLiteral("Pose of %1").arg(name), *pose, true,
               [this, id, from = *pose](const Pose& to) {
                 controller->edits()->previewRobots({{id, from, to}});
               },
@@ -162,7 +162,7 @@ void FieldView::Private::openPoseEditor(RobotId id) {
 void FieldView::Private::openBallEditor() {
   if (!editor() || !scene->frame()) return;
   const Point ball = scene->ball();
-  openEditor({tr("Position of the ball"),
+  openEditor({QStringLiteral("Position of the ball"),
               {ball, 0.0},
               false,
               [this](const Pose& to) { controller->edits()->previewBall(to.position); },

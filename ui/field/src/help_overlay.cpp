@@ -105,11 +105,11 @@ void HelpOverlay::paintEvent(QPaintEvent*) {
   painter.setFont(fieldFont(pixels + 2, true));
   painter.setPen(theme().text);
   painter.drawText(panel.adjusted(padding, padding - 4, -padding, 0), Qt::AlignLeft | Qt::AlignTop,
-                   tr("Keys of the field"));
+                   QStringLiteral("Keys of the field"));
   painter.setFont(fieldFont(pixels, false));
   painter.setPen(theme().secondaryText);
   painter.drawText(panel.adjusted(padding, padding - 2, -padding, 0), Qt::AlignRight | Qt::AlignTop,
-                   tr("any key closes"));
+                   QStringLiteral("any key closes"));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int column = static_cast<int>(i) / perColumn;
     const int row = static_cast<int>(i) % perColumn;

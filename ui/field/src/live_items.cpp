@@ -46,7 +46,7 @@ void TeamBallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWi
   painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
   painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
   drawHaloText(painter, {0, -ring - 9},
-               QObject::tr("%1 of %2 agree").arg(m_ball.agree).arg(m_ball.see),
+               QStringLiteral("%1 of %2 agree").arg(m_ball.agree).arg(m_ball.see),
                fieldFont(10, false), theme().fieldLines, halo());
 }
 

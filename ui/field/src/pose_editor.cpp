@@ -47,14 +47,14 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
     m_heading =
         spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1, QStringLiteral("°"));
     m_heading->setWrapping(true);
-    form->addRow(tr("heading"), m_heading);
+    form->addRow(QStringLiteral("heading"), m_heading);
     boxes.push_back(m_heading);
   }
   auto* title = new QLabel(m_edit.title);
   QFont bold = title->font();
   bold.setBold(true);
   title->setFont(bold);
-  auto* hint = new QLabel(tr("Enter keeps it, Esc puts it back"));
+  auto* hint = new QLabel(QStringLiteral("Enter keeps it, Esc puts it back"));
   hint->setForegroundRole(QPalette::PlaceholderText);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(title);

@@ -18,28 +18,35 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
 
 void BadMessagesModel::update(const link::LiveDetails& details) {
   std::vector<Row> rows;
-  add(rows, tr("everybody"), details.team.errors);
+  add(rows, QStringLiteral("everybody"), details.team.errors);
   for (const telemetry::RobotStatus& robot : details.team.robots) {
     add(rows,
-        tr("robot %1 at %2").arg(robot.number).arg(QString::fromStdString(robot.sender.text())),
+        QStringLiteral("robot %1 at %2")
+            .arg(robot.number)
+            .arg(QString::fromStdString(robot.sender.text())),
         robot.errors);
   }
   for (const telemetry::SenderStatus& sender : details.team.senders) {
-    add(rows, tr("sender %1").arg(QString::fromStdString(sender.address.text())), sender.errors);
+    add(rows, QStringLiteral("sender %1").arg(QString::fromStdString(sender.address.text())),
+        sender.errors);
   }
   const auto count = [&rows](const QString& who, const QString& kind, quint64 number,
                              const QString& sample = {}) {
     if (number > 0) rows.push_back({who, kind, number, sample});
   };
-  count(tr("referee's port"), QString::fromStdString(details.unknownRefereeReason),
+  count(QStringLiteral("referee's port"), QString::fromStdString(details.unknownRefereeReason),
         details.unknownReferee, QString::fromStdString(details.unknownRefereeSample));
-  count(tr("everybody"), tr("from senders that are not on the list"), details.team.refusedByFilter);
-  count(tr("everybody"), tr("of robots beyond the 64th"), details.team.refusedRobots);
-  count(tr("network"), tr("lost because nobody took them in time"), details.network.queueDrops);
+  count(QStringLiteral("everybody"), QStringLiteral("from senders that are not on the list"),
+        details.team.refusedByFilter);
+  count(QStringLiteral("everybody"), QStringLiteral("of robots beyond the 64th"),
+        details.team.refusedRobots);
+  count(QStringLiteral("network"), QStringLiteral("lost because nobody took them in time"),
+        details.network.queueDrops);
   for (const telemetry::PortStatus& port : details.network.ports) {
-    count(tr("port %1").arg(port.port), tr("lost in the kernel: its buffer was full"),
-          port.kernelDrops);
-    count(tr("port %1").arg(port.port), tr("longer than 64 KiB, cut"), port.truncated);
+    count(QStringLiteral("port %1").arg(port.port),
+          QStringLiteral("lost in the kernel: its buffer was full"), port.kernelDrops);
+    count(QStringLiteral("port %1").arg(port.port), QStringLiteral("longer than 64 KiB, cut"),
+          port.truncated);
   }
   const auto sameRow = [](const Row& a, const Row& b) {
     return a.who == b.who && a.kind == b.kind;
@@ -86,7 +93,8 @@ QVariant BadMessagesModel::data(const QModelIndex& index, int role) const {
 
 QVariant BadMessagesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  const QString names[] = {tr("Who"), tr("What is wrong"), tr("How many"), tr("Last text")};
+  const QString names[] = {QStringLiteral("Who"), QStringLiteral("What is wrong"),
+                           QStringLiteral("How many"), QStringLiteral("Last text")};
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 

@@ -35,7 +35,7 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
   });
   m_monitor->setObjectName(QStringLiteral("monitorMode"));
   m_monitor->setCheckable(true);
-  m_monitor->setText(tr("Monitor"));
+  m_monitor->setText(QStringLiteral("Monitor"));
   connect(m_monitor, &QToolButton::clicked, this, &LiveBar::switchMonitor);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
@@ -55,10 +55,11 @@ LiveBar::LiveBar(LiveController* live, QSettings* settings, QWidget* parent)
 void LiveBar::refresh() {
   const link::LiveOptions& options = m_live->options();
   m_ports->setText(m_live->portsText());
-  QStringList tip{tr("Click for all settings of Live."),
-                  options.bind.value == 0
-                      ? tr("Listening at every address of this computer.")
-                      : tr("Listening at %1.").arg(QString::fromStdString(options.bind.text()))};
+  QStringList tip{
+      QStringLiteral("Click for all settings of Live."),
+      options.bind.value == 0
+          ? QStringLiteral("Listening at every address of this computer.")
+          : QStringLiteral("Listening at %1.").arg(QString::fromStdString(options.bind.text()))};
   const link::LiveDetails details = m_live->details();
   for (const telemetry::PortStatus& port : details.network.ports) {
     if (!port.problem.empty()) tip << QString::fromStdString(port.problem);
@@ -67,15 +68,17 @@ void LiveBar::refresh() {
   m_monitor->setChecked(options.monitor.has_value());
   m_monitor->setToolTip(
       options.monitor
-          ? tr("Monitor mode is on: once a second the referee's program at %1 is asked for true "
-               "data. "
-               "Nothing else is sent.%2")
+          ? QStringLiteral(
+                "Monitor mode is on: once a second the referee's program at %1 is asked for true "
+                "data. "
+                "Nothing else is sent.%2")
                 .arg(QString::fromStdString(options.monitor->text()),
                      details.monitorProblem.empty()
                          ? QString()
                          : QLatin1Char('\n') + QString::fromStdString(details.monitorProblem))
-          : tr("Ask the referee's program for monitor mode (controllers of 2026). Off: nothing is "
-               "sent at all."));
+          : QStringLiteral(
+                "Ask the referee's program for monitor mode (controllers of 2026). Off: nothing is "
+                "sent at all."));
   showTeams();
 }
 
@@ -86,18 +89,19 @@ void LiveBar::showTeams() {
     int number;
     bool operator==(const Entry&) const = default;
   };
-  QList<Entry> wanted{{tr("Our team: choose"), 0}};
+  QList<Entry> wanted{{QStringLiteral("Our team: choose"), 0}};
   const int ours = m_live->options().ourTeam;
   const FramePtr frame = m_live->frame();
   if (frame && frame->referee) {
     for (const link::RefereeTeamView& team : frame->referee->teams) {
-      wanted.append({tr("Team %1 (%2)").arg(team.number).arg(QString::fromStdString(team.colour)),
-                     team.number});
+      wanted.append(
+          {QStringLiteral("Team %1 (%2)").arg(team.number).arg(QString::fromStdString(team.colour)),
+           team.number});
     }
   }
   const auto isOurs = [ours](const Entry& entry) { return entry.number == ours; };
   if (std::none_of(wanted.begin(), wanted.end(), isOurs)) {
-    wanted.append({tr("Team %1 (not in this game)").arg(ours), ours});
+    wanted.append({QStringLiteral("Team %1 (not in this game)").arg(ours), ours});
   }
   QList<Entry> shown;
   for (int i = 0; i < m_team->count(); ++i) {
@@ -108,9 +112,9 @@ void LiveBar::showTeams() {
     for (const Entry& entry : wanted) m_team->addItem(entry.text, entry.number);
   }
   m_team->setCurrentIndex(m_team->findData(ours));
-  m_team->setToolTip(
-      tr("Whose robots are heard: decides whose penalties are shown on cards and field. "
-         "The teams are those that the referee names."));
+  m_team->setToolTip(QStringLiteral(
+      "Whose robots are heard: decides whose penalties are shown on cards and field. "
+      "The teams are those that the referee names."));
 }
 
 void LiveBar::switchMonitor(bool on) {

@@ -44,13 +44,13 @@ QFormLayout* page(QWidget* widget) {
 LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings, QWidget* parent)
     : QDialog(parent), m_live(live), m_settings(settings) {
   setObjectName(QStringLiteral("liveSettings"));
-  setWindowTitle(tr("Live settings"));
+  setWindowTitle(QStringLiteral("Live settings"));
   setAttribute(Qt::WA_DeleteOnClose);
   auto* tabs = new QTabWidget(this);
-  tabs->addTab(makeNetwork(), tr("Network"));
-  tabs->addTab(makeRobots(), tr("Robots"));
-  tabs->addTab(makeReferee(), tr("Referee"));
-  tabs->addTab(makeMessages(), tr("Messages"));
+  tabs->addTab(makeNetwork(), QStringLiteral("Network"));
+  tabs->addTab(makeRobots(), QStringLiteral("Robots"));
+  tabs->addTab(makeReferee(), QStringLiteral("Referee"));
+  tabs->addTab(makeMessages(), QStringLiteral("Messages"));
   m_problem = new QLabel(this);
   m_problem->setObjectName(QStringLiteral("liveProblem"));
   m_problem->setWordWrap(true);
@@ -100,76 +100,82 @@ QWidget* LiveSettingsDialog::makeNetwork() {
   QFormLayout* form = page(widget);
   m_bind = new NetworkChooser(widget);
   m_bind->setObjectName(QStringLiteral("bind"));
-  m_bind->setToolTip(
-      tr("Every interface: all addresses of this computer, broadcasts included. One address "
-         "receives what is sent to it, but no broadcasts. An address can be typed, too"));
-  form->addRow(tr("Listen at"), m_bind);
-  m_portBase =
-      addNumber(form, "portBase", tr("Port base"), 0, 65534, tr("Robot n sends to port base + n"));
-  m_robots = addNumber(form, "robots", tr("Robots"), 1, 64, tr("How many ports after the base"));
-  m_refereePort = addNumber(form, "refereePort", tr("Referee's port"), 1, 65535, {});
+  m_bind->setToolTip(QStringLiteral(
+      "Every interface: all addresses of this computer, broadcasts included. One address "
+      "receives what is sent to it, but no broadcasts. An address can be typed, too"));
+  form->addRow(QStringLiteral("Listen at"), m_bind);
+  m_portBase = addNumber(form, "portBase", QStringLiteral("Port base"), 0, 65534,
+                         QStringLiteral("Robot n sends to port base + n"));
+  m_robots = addNumber(form, "robots", QStringLiteral("Robots"), 1, 64,
+                       QStringLiteral("How many ports after the base"));
+  m_refereePort = addNumber(form, "refereePort", QStringLiteral("Referee's port"), 1, 65535, {});
   m_senders = new QLineEdit(widget);
   m_senders->setObjectName(QStringLiteral("senders"));
-  m_senders->setPlaceholderText(tr("everybody"));
+  m_senders->setPlaceholderText(QStringLiteral("everybody"));
   m_senders->setToolTip(
-      tr("Addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: everybody"));
-  form->addRow(tr("Only from"), m_senders);
-  form->addRow(
-      explanation(tr("A port that another program holds is named in the status bar and tried "
+      QStringLiteral("Addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: everybody"));
+  form->addRow(QStringLiteral("Only from"), m_senders);
+  form->addRow(explanation(
+      QStringLiteral("A port that another program holds is named in the status bar and tried "
                      "again every three seconds; the others work meanwhile."),
-                  widget));
+      widget));
   return widget;
 }
 
 QWidget* LiveSettingsDialog::makeRobots() {
   auto* widget = new QWidget(this);
   QFormLayout* form = page(widget);
-  m_timeout = addReal(form, "timeout", tr("Timeout after"), 0.1, 3600, 1, tr(" s"),
-                      tr("A robot that is silent for so long is greyed"));
-  m_cells = addNumber(form, "cells", tr("Battery cells"), 0, 24,
-                      tr("In series. Automatic: the fewest that explain the highest voltage seen"));
-  m_cells->setSpecialValueText(tr("automatic"));
-  const QString volts = tr(" V per cell");
-  m_full = addReal(form, "full", tr("Full at"), 0.1, 10, 2, volts, {});
-  m_low = addReal(form, "low", tr("Low below"), 0.1, 10, 2, volts, tr("Shown in red"));
-  m_empty = addReal(form, "empty", tr("Empty at"), 0.0, 10, 2, volts, {});
+  m_timeout =
+      addReal(form, "timeout", QStringLiteral("Timeout after"), 0.1, 3600, 1, QStringLiteral(" s"),
+              QStringLiteral("A robot that is silent for so long is greyed"));
+  m_cells = addNumber(
+      form, "cells", QStringLiteral("Battery cells"), 0, 24,
+      QStringLiteral("In series. Automatic: the fewest that explain the highest voltage seen"));
+  m_cells->setSpecialValueText(QStringLiteral("automatic"));
+  const QString volts = QStringLiteral(" V per cell");
+  m_full = addReal(form, "full", QStringLiteral("Full at"), 0.1, 10, 2, volts, {});
+  m_low = addReal(form, "low", QStringLiteral("Low below"), 0.1, 10, 2, volts,
+                  QStringLiteral("Shown in red"));
+  m_empty = addReal(form, "empty", QStringLiteral("Empty at"), 0.0, 10, 2, volts, {});
   m_colours = new QComboBox(widget);
-  m_colours->addItem(tr("of the team"), false);
-  m_colours->addItem(tr("one for each number"), true);
-  form->addRow(tr("Colour"), m_colours);
+  m_colours->addItem(QStringLiteral("of the team"), false);
+  m_colours->addItem(QStringLiteral("one for each number"), true);
+  form->addRow(QStringLiteral("Colour"), m_colours);
   m_field = new QComboBox(widget);
   for (const sim::FieldSpec& field : sim::builtInFields()) {
-    m_field->addItem(tr("%1: %2 × %3 m")
+    m_field->addItem(QStringLiteral("%1: %2 × %3 m")
                          .arg(QString::fromStdString(field.name))
                          .arg(field.length)
                          .arg(field.width),
                      QString::fromStdString(field.name));
   }
-  form->addRow(tr("Field"), m_field);
+  form->addRow(QStringLiteral("Field"), m_field);
   return widget;
 }
 
 QWidget* LiveSettingsDialog::makeReferee() {
   auto* widget = new QWidget(this);
   QFormLayout* form = page(widget);
-  m_ourTeam = addNumber(form, "ourTeam", tr("Our team's number"), 0, 65535,
-                        tr("As in the referee's program; decides whose penalties are shown"));
-  m_ourTeam->setSpecialValueText(tr("not chosen"));
-  m_monitor = new QCheckBox(tr("Ask the referee for monitor mode"), widget);
+  m_ourTeam =
+      addNumber(form, "ourTeam", QStringLiteral("Our team's number"), 0, 65535,
+                QStringLiteral("As in the referee's program; decides whose penalties are shown"));
+  m_ourTeam->setSpecialValueText(QStringLiteral("not chosen"));
+  m_monitor = new QCheckBox(QStringLiteral("Ask the referee for monitor mode"), widget);
   m_monitor->setObjectName(QStringLiteral("monitor"));
   m_monitorAddress = new QLineEdit(widget);
   m_monitorAddress->setObjectName(QStringLiteral("monitorAddress"));
-  m_monitorAddress->setPlaceholderText(tr("address of the referee's computer"));
+  m_monitorAddress->setPlaceholderText(QStringLiteral("address of the referee's computer"));
   connect(m_monitor, &QCheckBox::toggled, m_monitorAddress, &QWidget::setEnabled);
   form->addRow(m_monitor);
-  form->addRow(tr("Referee at"), m_monitorAddress);
-  form->addRow(explanation(tr("Controllers of 2026 send more to programs that ask for it. While "
-                              "this is on, one packet of "
-                              "five bytes (RGTr and a zero) goes to UDP port 3636 of that one "
-                              "address every second. It is the "
-                              "only thing that Live ever sends, it never goes to a robot, and it "
-                              "is off at every start."),
-                           widget));
+  form->addRow(QStringLiteral("Referee at"), m_monitorAddress);
+  form->addRow(explanation(
+      QStringLiteral("Controllers of 2026 send more to programs that ask for it. While "
+                     "this is on, one packet of "
+                     "five bytes (RGTr and a zero) goes to UDP port 3636 of that one "
+                     "address every second. It is the "
+                     "only thing that Live ever sends, it never goes to a robot, and it "
+                     "is off at every start."),
+      widget));
   return widget;
 }
 
@@ -179,7 +185,7 @@ QWidget* LiveSettingsDialog::makeMessages() {
   m_profileName = new QLabel(widget);
   m_profileName->setObjectName(QStringLiteral("profileName"));
   m_profileName->setWordWrap(true);
-  form->addRow(tr("Order of fields"), m_profileName);
+  form->addRow(QStringLiteral("Order of fields"), m_profileName);
   auto* row = new QHBoxLayout;
   const auto add = [&](const QString& text, const char* name, auto slot) {
     auto* button = new QPushButton(text, widget);
@@ -187,20 +193,20 @@ QWidget* LiveSettingsDialog::makeMessages() {
     connect(button, &QPushButton::clicked, this, slot);
     row->addWidget(button);
   };
-  add(tr("Published"), "publishedProfile", [this] {
+  add(QStringLiteral("Published"), "publishedProfile", [this] {
     m_profile = telemetry::publishedProfile();
     m_profileFile.clear();
     showProfile();
   });
-  add(tr("From file…"), "profileFromFile", [this] { chooseProfile(); });
-  add(tr("Edit…"), "editProfile", [this] { editProfile(); });
+  add(QStringLiteral("From file…"), "profileFromFile", [this] { chooseProfile(); });
+  add(QStringLiteral("Edit…"), "editProfile", [this] { editProfile(); });
   row->addStretch(1);
   form->addRow(row);
-  form->addRow(
-      explanation(tr("Teams insert fields of their own. A profile says in which order a "
+  form->addRow(explanation(
+      QStringLiteral("Teams insert fields of their own. A profile says in which order a "
                      "message has its fields and what they mean. Fields after those of the "
                      "profile are shown as OTHER_1, OTHER_2, ..."),
-                  widget));
+      widget));
   return widget;
 }
 
@@ -234,8 +240,8 @@ void LiveSettingsDialog::adopt() {
 
 void LiveSettingsDialog::showProfile() {
   m_profileName->setText((m_profileFile.isEmpty()
-                              ? tr("%1, %2 fields")
-                              : tr("%1, %2 fields, from %3")
+                              ? QStringLiteral("%1, %2 fields")
+                              : QStringLiteral("%1, %2 fields, from %3")
                                     .arg(QStringLiteral("%1"), QStringLiteral("%2"),
                                          QFileInfo(m_profileFile).fileName()))
                              .arg(QString::fromStdString(m_profile.name))
@@ -244,8 +250,8 @@ void LiveSettingsDialog::showProfile() {
 }
 
 void LiveSettingsDialog::chooseProfile() {
-  auto* ask = new QFileDialog(this, tr("Profile of messages"), QFileInfo(m_profileFile).path(),
-                              tr("Profiles (*.json)"));
+  auto* ask = new QFileDialog(this, QStringLiteral("Profile of messages"),
+                              QFileInfo(m_profileFile).path(), QStringLiteral("Profiles (*.json)"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setFileMode(QFileDialog::ExistingFile);
   connect(ask, &QFileDialog::fileSelected, this, [this](const QString& file) {
@@ -286,20 +292,20 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   link::LiveOptions& o = live.options;
   const auto words = [](const Error& error) { return QString::fromStdString(error.text()); };
   const auto bind = telemetry::parseAddress(m_bind->address().toStdString());
-  if (!bind) return fail(tr("Listen at: %1").arg(words(bind.error())));
+  if (!bind) return fail(QStringLiteral("Listen at: %1").arg(words(bind.error())));
   o.bind = *bind;
   o.portBase = m_portBase->value();
   o.robots = m_robots->value();
   o.refereePort = m_refereePort->value();
   live.senders = m_senders->text();
   auto senders = sendersFromText(live.senders);
-  if (!senders) return fail(tr("Only from: %1").arg(words(senders.error())));
+  if (!senders) return fail(QStringLiteral("Only from: %1").arg(words(senders.error())));
   o.team.senders = std::move(*senders);
   o.team.timeout = std::chrono::milliseconds(qRound64(m_timeout->value() * 1000));
   o.team.battery = {m_cells->value(), m_full->value(), m_low->value(), m_empty->value()};
   if (!(o.team.battery.emptyPerCell < o.team.battery.lowPerCell &&
         o.team.battery.lowPerCell < o.team.battery.fullPerCell)) {
-    return fail(tr("Battery: empty must be less than low, and low less than full."));
+    return fail(QStringLiteral("Battery: empty must be less than low, and low less than full."));
   }
   o.colourByNumber = m_colours->currentData().toBool();
   if (const auto field = sim::fieldByName(m_field->currentData().toString().toStdString())) {
@@ -310,7 +316,7 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   o.monitor.reset();
   if (m_monitor->isChecked()) {
     const auto referee = telemetry::parseAddress(live.monitorAddress.toStdString());
-    if (!referee) return fail(tr("Referee at: %1").arg(words(referee.error())));
+    if (!referee) return fail(QStringLiteral("Referee at: %1").arg(words(referee.error())));
     o.monitor = *referee;
   }
   o.profile = m_profile;

@@ -19,7 +19,7 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
     if (!port.bound) closed << QString::number(port.port);
   }
   if (!closed.isEmpty()) {
-    return QObject::tr("Not received: port %1 (tried again)")
+    return QStringLiteral("Not received: port %1 (tried again)")
         .arg(closed.mid(0, 4).join(QStringLiteral(", ")) +
              (closed.size() > 4 ? QStringLiteral(", …") : QString()));
   }
@@ -27,16 +27,16 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
   for (const link::RobotFrame& robot : frame->robots) {
     if (!robot.health) continue;
     if (robot.health->conflict) {
-      return QObject::tr("Number %1 is sent by two programs").arg(robot.identity.number);
+      return QStringLiteral("Number %1 is sent by two programs").arg(robot.identity.number);
     }
     if (robot.timedOut()) {
-      return QObject::tr("%1 has not been heard for %2 s. Its card comes back by itself.")
+      return QStringLiteral("%1 has not been heard for %2 s. Its card comes back by itself.")
           .arg(robotName(robot.identity))
           .arg(static_cast<qint64>(telemetry::secondsOf(robot.health->age)));
     }
   }
   if (frame->referee && frame->referee->conflict) {
-    return QObject::tr("A second referee program is heard");
+    return QStringLiteral("A second referee program is heard");
   }
   return {};
 }
@@ -61,15 +61,15 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
   quint64 lost =
       details.network.kernelDrops() + details.network.queueDrops + details.team.refusedRobots;
   for (const telemetry::RobotStatus& robot : details.team.robots) lost += robot.lost;
-  text.network = QObject::tr("UDP %1/s, %2 lost, %3 bad")
+  text.network = QStringLiteral("UDP %1/s, %2 lost, %3 bad")
                      .arg(countText(static_cast<qulonglong>(std::llround(m_rate))), countText(lost),
                           countText(details.team.errors.total() + details.unknownReferee));
-  text.referee = frame == nullptr || !frame->referee ? QObject::tr("No referee heard")
-                                                     : QObject::tr("Referee: version %1, %2/s")
+  text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee heard")
+                                                     : QStringLiteral("Referee: version %1, %2/s")
                                                            .arg(frame->referee->version)
                                                            .arg(numberText(m_refereeRate, 0));
   text.trouble = troubleOf(details, frame);
-  QStringList tip{QObject::tr("%1 datagrams; lost: %2 in the kernel, %3 here")
+  QStringList tip{QStringLiteral("%1 datagrams; lost: %2 in the kernel, %3 here")
                       .arg(countText(details.network.datagrams()),
                            countText(details.network.kernelDrops()),
                            countText(details.network.queueDrops + details.team.refusedRobots))};
@@ -77,7 +77,7 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
     if (!port.bound)
       tip << QString::fromStdString(port.problem);
     else if (port.datagrams > 0) {
-      tip << QObject::tr("port %1: %2 datagrams").arg(port.port).arg(countText(port.datagrams));
+      tip << QStringLiteral("port %1: %2 datagrams").arg(port.port).arg(countText(port.datagrams));
     }
   }
   text.tip = tip.join(QLatin1Char('\n'));

@@ -31,14 +31,14 @@ NetworkChooser::NetworkChooser(QWidget* parent, Addresses addresses)
 
 void NetworkChooser::offer(const QString& chosen) {
   clear();
-  addItem(tr("every interface"), every);
+  addItem(QStringLiteral("every interface"), every);
   for (const NetworkAddress& one : m_addresses()) {
-    addItem(tr("%1 — %2").arg(one.interface, one.address), one.address);
+    addItem(QStringLiteral("%1 — %2").arg(one.interface, one.address), one.address);
   }
   int index = findData(chosen);
   if (index < 0 && !QHostAddress(chosen).isNull()) {
     index = count();
-    addItem(tr("%1 — not on this computer now").arg(chosen), chosen);
+    addItem(QStringLiteral("%1 — not on this computer now").arg(chosen), chosen);
   }
   setCurrentIndex(index);
   if (index < 0) setEditText(chosen);

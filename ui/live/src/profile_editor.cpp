@@ -51,16 +51,17 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
       m_problem(new QLabel(this)) {
   setObjectName(QStringLiteral("profileEditor"));
   setAttribute(Qt::WA_DeleteOnClose);
-  setWindowTitle(tr("Fields of a message"));
+  setWindowTitle(QStringLiteral("Fields of a message"));
   m_name->setText(QString::fromStdString(profile.name));
   m_end->setText(QString::fromStdString(profile.end));
-  m_end->setToolTip(tr("The word that ends a message"));
+  m_end->setToolTip(QStringLiteral("The word that ends a message"));
   auto* form = new QFormLayout;
-  form->addRow(tr("Name"), m_name);
-  form->addRow(tr("Last word"), m_end);
+  form->addRow(QStringLiteral("Name"), m_name);
+  form->addRow(QStringLiteral("Last word"), m_end);
 
-  m_table->setHorizontalHeaderLabels(
-      {tr("Name"), tr("Type"), tr("Unit"), tr("Category"), tr("Meaning")});
+  m_table->setHorizontalHeaderLabels({QStringLiteral("Name"), QStringLiteral("Type"),
+                                      QStringLiteral("Unit"), QStringLiteral("Category"),
+                                      QStringLiteral("Meaning")});
   m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
   m_table->verticalHeader()->setDefaultSectionSize(scaled(this, 26));
   m_table->horizontalHeader()->setStretchLastSection(true);
@@ -81,7 +82,7 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
     connect(button, &QToolButton::clicked, this, slot);
     tools->addWidget(button);
   };
-  addTool("list-add", tr("Add"), "addField", [this] {
+  addTool("list-add", QStringLiteral("Add"), "addField", [this] {
     const int row = m_table->currentRow() + 1;
     ProfileField field;
     field.name = "FIELD_" + std::to_string(m_table->rowCount() + 1);
@@ -89,15 +90,15 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
     m_table->setCurrentCell(row > 0 ? row : m_table->rowCount() - 1, Name);
     check();
   });
-  addTool("list-remove", tr("Remove"), "removeField", [this] { removeRows(); });
-  addTool("go-up", tr("Up"), "fieldUp", [this] { moveRow(-1); });
-  addTool("go-down", tr("Down"), "fieldDown", [this] { moveRow(1); });
+  addTool("list-remove", QStringLiteral("Remove"), "removeField", [this] { removeRows(); });
+  addTool("go-up", QStringLiteral("Up"), "fieldUp", [this] { moveRow(-1); });
+  addTool("go-down", QStringLiteral("Down"), "fieldDown", [this] { moveRow(1); });
   tools->addStretch(1);
 
   m_problem->setObjectName(QStringLiteral("profileProblem"));
   m_problem->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  m_save = buttons->addButton(tr("Save as…"), QDialogButtonBox::ActionRole);
+  m_save = buttons->addButton(QStringLiteral("Save as…"), QDialogButtonBox::ActionRole);
   m_save->setObjectName(QStringLiteral("saveProfile"));
   connect(m_save, &QPushButton::clicked, this, &ProfileEditor::askAndSave);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -125,7 +126,8 @@ void ProfileEditor::addRow(int row, const ProfileField& field) {
   type->setCurrentIndex(static_cast<int>(field.type));
   auto* meaning = new QComboBox(m_table);
   for (std::size_t i = 0; i < telemetry::fieldMeaningCount; ++i) {
-    meaning->addItem(i == 0 ? tr("(only shown)") : meaningText(static_cast<FieldMeaning>(i)));
+    meaning->addItem(i == 0 ? QStringLiteral("(only shown)")
+                            : meaningText(static_cast<FieldMeaning>(i)));
   }
   meaning->setCurrentIndex(static_cast<int>(field.meaning));
   m_table->setCellWidget(row, Type, type);
@@ -185,7 +187,7 @@ void ProfileEditor::check() {
   const auto good = telemetry::validate(now);
   m_save->setEnabled(good.has_value());
   if (good)
-    say(tr("%1 fields. Saving puts the profile to use.").arg(now.fields.size()), false);
+    say(QStringLiteral("%1 fields. Saving puts the profile to use.").arg(now.fields.size()), false);
   else
     say(QString::fromStdString(good.error().text()), true);
 }
@@ -201,17 +203,20 @@ bool ProfileEditor::saveTo(const QString& path) {
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly) ||
       file.write(text.data(), static_cast<qint64>(text.size())) < 0 || !file.commit()) {
-    say(tr("%1 cannot be written: %2. Choose another folder.").arg(path, file.errorString()), true);
+    say(QStringLiteral("%1 cannot be written: %2. Choose another folder.")
+            .arg(path, file.errorString()),
+        true);
     return false;
   }
   m_file = path;
   emit saved(now, path);
-  say(tr("Saved as %1.").arg(QFileInfo(path).fileName()), false);
+  say(QStringLiteral("Saved as %1.").arg(QFileInfo(path).fileName()), false);
   return true;
 }
 
 void ProfileEditor::askAndSave() {
-  auto* ask = new QFileDialog(this, tr("Save the profile"), m_file, tr("Profiles (*.json)"));
+  auto* ask = new QFileDialog(this, QStringLiteral("Save the profile"), m_file,
+                              QStringLiteral("Profiles (*.json)"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setAcceptMode(QFileDialog::AcceptSave);
   ask->setDefaultSuffix(QStringLiteral("json"));

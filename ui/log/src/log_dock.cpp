@@ -41,13 +41,13 @@ class LogDock : public QWidget {
 
     auto* words = new QLineEdit(this);
     words->setObjectName(QStringLiteral("logFilter"));
-    words->setPlaceholderText(tr("Filter by words, e.g. B1 goal"));
+    words->setPlaceholderText(QStringLiteral("Filter by words, e.g. B1 goal"));
     words->setClearButtonEnabled(true);
     words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(words, &QLineEdit::textChanged, m_filter, &WordsFilter::setWords);
     auto* clear = new QToolButton(this);
     clear->setIcon(themedIcon(QStringLiteral("edit-clear-all")));
-    clear->setToolTip(tr("Clear the log"));
+    clear->setToolTip(QStringLiteral("Clear the log"));
     connect(clear, &QToolButton::clicked, m_model, &LogModel::clear);
 
     auto* row = new QHBoxLayout;
@@ -69,7 +69,7 @@ class LogDock : public QWidget {
     connect(m_filter, &QAbstractItemModel::modelReset, this, &LogDock::showEmpty);
     showEmpty();
 
-    auto* copy = new QAction(tr("Copy"), this);
+    auto* copy = new QAction(QStringLiteral("Copy"), this);
     copy->setShortcut(QKeySequence::Copy);
     copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     connect(copy, &QAction::triggered, this, [this] { copySelection(); });
@@ -94,10 +94,11 @@ class LogDock : public QWidget {
     const bool empty = m_filter->rowCount() == 0;
     m_table->setVisible(!empty);
     m_empty->setVisible(empty);
-    m_empty->setText(m_model->rowCount() > 0
-                         ? tr("No line has all of these words.")
-                         : tr("Nothing yet. Kicks, goals, falls, errors and what the robots' "
-                              "processes print appear here."));
+    m_empty->setText(
+        m_model->rowCount() > 0
+            ? QStringLiteral("No line has all of these words.")
+            : QStringLiteral("Nothing yet. Kicks, goals, falls, errors and what the robots' "
+                             "processes print appear here."));
   }
 
   void append(const std::vector<LogLine>& lines) {

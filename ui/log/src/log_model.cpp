@@ -70,7 +70,8 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
 
 QVariant LogModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  const QString names[] = {tr("Time"), tr("Origin"), tr("Message")};
+  const QString names[] = {QStringLiteral("Time"), QStringLiteral("Origin"),
+                           QStringLiteral("Message")};
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 

@@ -74,13 +74,13 @@ class NoiseDock : public QScrollArea {
 
  private:
   void addNoise(QWidget* form, QVBoxLayout* column) {
-    column->addWidget(heading(tr("Noise"), form));
+    column->addWidget(heading(QStringLiteral("Noise"), form));
     m_preset = new QComboBox(form);
     m_preset->setObjectName(QStringLiteral("noisePreset"));
     for (const std::string& name : link::noisePresets()) {
       m_preset->addItem(QString::fromStdString(name));
     }
-    m_preset->addItem(tr("custom"));
+    m_preset->addItem(QStringLiteral("custom"));
     connect(m_preset, &QComboBox::activated, this, [this] { choosePreset(); });
     column->addWidget(m_preset);
     auto* grid = new QGridLayout;
@@ -97,7 +97,7 @@ class NoiseDock : public QScrollArea {
   }
 
   void addPhysics(QWidget* form, QVBoxLayout* column) {
-    column->addWidget(heading(tr("Physics"), form));
+    column->addWidget(heading(QStringLiteral("Physics"), form));
     m_model = new QComboBox(form);
     m_model->setObjectName(QStringLiteral("physicsModel"));
     for (const sim::PhysicsModelInfo& model : sim::physicsModels()) {
@@ -111,12 +111,14 @@ class NoiseDock : public QScrollArea {
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
-    column->addWidget(remark(tr("Changing the model goes on from this moment with everything at "
-                                "rest and forgets what can be undone."),
-                             form));
-    m_exact = remark(tr("“published” follows the published simulator to the last bit: it has no "
-                        "constants to change. Choose “rigid-body” to change them."),
-                     form);
+    column->addWidget(
+        remark(QStringLiteral("Changing the model goes on from this moment with everything at "
+                              "rest and forgets what can be undone."),
+               form));
+    m_exact = remark(
+        QStringLiteral("“published” follows the published simulator to the last bit: it has no "
+                       "constants to change. Choose “rigid-body” to change them."),
+        form);
     column->addWidget(m_exact);
     m_body = new QWidget(form);
     auto* grid = new QGridLayout(m_body);
@@ -129,7 +131,7 @@ class NoiseDock : public QScrollArea {
         m_controller->edits()->setRigidBody(m_constants);
       }));
     }
-    m_falls = new QCheckBox(tr(sim::fallsSwitch.name), m_body);
+    m_falls = new QCheckBox(QString::fromUtf8(sim::fallsSwitch.name), m_body);
     connect(m_falls, &QCheckBox::toggled, this, [this](bool on) {
       m_constants.falls = on;
       m_controller->edits()->setRigidBody(m_constants);
@@ -143,7 +145,7 @@ class NoiseDock : public QScrollArea {
   ParameterRow* rowOf(QGridLayout* grid, const sim::Parameter<Values>& p, QWidget* parent,
                       std::function<void(double)> edited) {
     return new ParameterRow(
-        grid, tr(p.name), tr(p.meaning), p.shown,
+        grid, QString::fromUtf8(p.name), QString::fromUtf8(p.meaning), p.shown,
         [&p, edited = std::move(edited)](double shown) {
           edited(p.stored(shown / p.shown.factor));
         },

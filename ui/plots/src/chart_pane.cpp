@@ -145,7 +145,7 @@ void ChartPane::paintCurves(QPainter& painter) const {
 }
 
 void ChartPane::extendMenu(QMenu* menu) {
-  QAction* automatic = menu->addAction(tr("Values follow the curves"));
+  QAction* automatic = menu->addAction(QStringLiteral("Values follow the curves"));
   automatic->setCheckable(true);
   automatic->setChecked(m_spec.autoValues);
   connect(automatic, &QAction::triggered, this, [this](bool on) {

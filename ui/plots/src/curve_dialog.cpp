@@ -73,9 +73,9 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
       m_unit(new QLineEdit(this)),
       m_title(new QLineEdit(this)),
       m_problem(problemLabel(this)) {
-  setWindowTitle(tr("Curve"));
+  setWindowTitle(QStringLiteral("Curve"));
   setMinimumWidth(scaled(this, 460));
-  for (const char* name : kindNames) m_kind->addItem(tr(name));
+  for (const char* name : kindNames) m_kind->addItem(QString::fromUtf8(name));
   m_kind->setObjectName(QStringLiteral("curveKind"));
   m_first->setObjectName(QStringLiteral("firstVariable"));
   m_second->setObjectName(QStringLiteral("secondVariable"));
@@ -88,23 +88,23 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
     completer->setCaseSensitivity(Qt::CaseInsensitive);
     completer->setMaxVisibleItems(15);
     edit->setCompleter(completer);
-    edit->setPlaceholderText(tr("part of a name, e.g. ball_dist"));
+    edit->setPlaceholderText(QStringLiteral("part of a name, e.g. ball_dist"));
   }
   m_expression->setPlaceholderText(QStringLiteral("B1.VISION_BALL_DIST / 100"));
   m_expression->setToolTip(
-      tr("Operators + - * / ^, comparisons, condition ? a : b; functions sin, "
-         "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
-         "pi; t is the time in seconds. Variables: GROUP.NAME"));
-  m_title->setPlaceholderText(tr("as the variable"));
-  m_unit->setPlaceholderText(tr("as the variable"));
-  m_form->addRow(tr("Kind"), m_kind);
-  m_form->addRow(tr("Variable"), m_first);
-  m_form->addRow(tr("Minus"), m_second);
-  m_form->addRow(tr("Expression"), m_expression);
-  m_form->addRow(tr("Parameter"), m_parameter);
-  m_form->addRow(tr("Plus"), m_offset);
-  m_form->addRow(tr("Unit"), m_unit);
-  m_form->addRow(tr("Name"), m_title);
+      QStringLiteral("Operators + - * / ^, comparisons, condition ? a : b; functions sin, "
+                     "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
+                     "pi; t is the time in seconds. Variables: GROUP.NAME"));
+  m_title->setPlaceholderText(QStringLiteral("as the variable"));
+  m_unit->setPlaceholderText(QStringLiteral("as the variable"));
+  m_form->addRow(QStringLiteral("Kind"), m_kind);
+  m_form->addRow(QStringLiteral("Variable"), m_first);
+  m_form->addRow(QStringLiteral("Minus"), m_second);
+  m_form->addRow(QStringLiteral("Expression"), m_expression);
+  m_form->addRow(QStringLiteral("Parameter"), m_parameter);
+  m_form->addRow(QStringLiteral("Plus"), m_offset);
+  m_form->addRow(QStringLiteral("Unit"), m_unit);
+  m_form->addRow(QStringLiteral("Name"), m_title);
   m_form->addRow(m_problem);
   QDialogButtonBox* box = buttons(this);
   m_accept = box->button(QDialogButtonBox::Ok);
@@ -141,9 +141,9 @@ void CurveDialog::showKind() {
   show(m_parameter, parameter);
   show(m_offset, kind == CurveKind::Conversion);
   auto* label = qobject_cast<QLabel*>(m_form->labelForField(m_parameter));
-  label->setText(kind == CurveKind::MovingAverage ? tr("Window, s")
-                 : kind == CurveKind::WrapAngle   ? tr("Full turn")
-                                                  : tr("Factor"));
+  label->setText(kind == CurveKind::MovingAverage ? QStringLiteral("Window, s")
+                 : kind == CurveKind::WrapAngle   ? QStringLiteral("Full turn")
+                                                  : QStringLiteral("Factor"));
   if (m_parameter->value() == 0.0) {
     m_parameter->setValue(kind == CurveKind::WrapAngle ? 360.0 : 1.0);
   }
@@ -158,14 +158,14 @@ QString CurveDialog::problem() const {
   }
   for (const QString& input : spec.inputs) {
     if (input.indexOf(QLatin1Char('/')) <= 0) {
-      return tr("A variable is written GROUP/NAME, e.g. B1/VISION_BALL_DIST.");
+      return QStringLiteral("A variable is written GROUP/NAME, e.g. B1/VISION_BALL_DIST.");
     }
   }
   if (spec.kind == CurveKind::MovingAverage && spec.parameter <= 0.0) {
-    return tr("The window must be longer than 0 s.");
+    return QStringLiteral("The window must be longer than 0 s.");
   }
   if (spec.kind == CurveKind::WrapAngle && spec.parameter <= 0.0) {
-    return tr("A full turn is 360 in degrees, 6.283185 in radians.");
+    return QStringLiteral("A full turn is 360 in degrees, 6.283185 in radians.");
   }
   return {};
 }
@@ -201,11 +201,11 @@ AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, QWidget* parent)
       m_pane(pane),
       m_title(new QLineEdit(pane.title, this)),
       m_valueTitle(new QLineEdit(pane.valueTitle, this)),
-      m_fixed(new QCheckBox(tr("Fixed limits"), this)),
+      m_fixed(new QCheckBox(QStringLiteral("Fixed limits"), this)),
       m_low(new QLineEdit(this)),
       m_high(new QLineEdit(this)),
       m_problem(problemLabel(this)) {
-  setWindowTitle(tr("Title and axes"));
+  setWindowTitle(QStringLiteral("Title and axes"));
   setMinimumWidth(scaled(this, 340));
   const ValueLimits limits = pane.autoValues ? shown : pane.values;
   m_low->setText(QString::number(limits.low));
@@ -215,11 +215,11 @@ AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, QWidget* parent)
   m_fixed->setObjectName(QStringLiteral("fixedLimits"));
   m_fixed->setChecked(!pane.autoValues);
   auto* form = new QFormLayout(this);
-  form->addRow(tr("Title"), m_title);
-  form->addRow(tr("Value axis"), m_valueTitle);
+  form->addRow(QStringLiteral("Title"), m_title);
+  form->addRow(QStringLiteral("Value axis"), m_valueTitle);
   form->addRow(m_fixed);
-  form->addRow(tr("From"), m_low);
-  form->addRow(tr("To"), m_high);
+  form->addRow(QStringLiteral("From"), m_low);
+  form->addRow(QStringLiteral("To"), m_high);
   form->addRow(m_problem);
   QDialogButtonBox* box = buttons(this);
   m_accept = box->button(QDialogButtonBox::Ok);
@@ -238,9 +238,9 @@ void AxesDialog::check() {
   const auto high = numberFromText(m_high->text());
   QString problem;
   if (fixed && (!low || !high))
-    problem = tr("Both limits must be numbers.");
+    problem = QStringLiteral("Both limits must be numbers.");
   else if (fixed && !(*low < *high))
-    problem = tr("The first limit must be the smaller one.");
+    problem = QStringLiteral("The first limit must be the smaller one.");
   m_problem->setText(problem);
   m_accept->setEnabled(problem.isEmpty());
 }

@@ -3,7 +3,6 @@
 
 #include <muParser.h>
 
-#include <QCoreApplication>
 #include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
@@ -33,10 +32,6 @@ double wrapped(double angle, double turn) {
   return rest <= -turn / 2 ? rest + turn : rest;
 }
 
-QString tr(const char* text) {
-  return QCoreApplication::translate("Expression", text);
-}
-
 tl::unexpected<Error> wrong(const QString& sentence) {
   return failure(ErrorCode::ParseError, sentence.toStdString());
 }
@@ -60,14 +55,14 @@ const QStringList& Expression::variables() const {
 }
 
 Result<Expression> Expression::parse(const QString& text) {
-  if (text.trimmed().isEmpty()) return wrong(tr("the expression is empty"));
+  if (text.trimmed().isEmpty()) return wrong(QStringLiteral("the expression is empty"));
   if (text.size() > longest) {
-    return wrong(tr("the expression is longer than %1 characters").arg(longest));
+    return wrong(QStringLiteral("the expression is longer than %1 characters").arg(longest));
   }
   static const QRegularExpression assignment(QStringLiteral("(?<![=<>!])=(?!=)"));
   if (const auto found = assignment.match(text); found.hasMatch()) {
-    return wrong(
-        tr("the '=' at character %1 would assign; '==' compares").arg(found.capturedStart() + 1));
+    return wrong(QStringLiteral("the '=' at character %1 would assign; '==' compares")
+                     .arg(found.capturedStart() + 1));
   }
   // `{B1/odd name}` becomes an identifier that the parser can read.
   QString plain;
@@ -78,10 +73,11 @@ Result<Expression> Expression::parse(const QString& text) {
       continue;
     }
     const qsizetype end = text.indexOf(QLatin1Char('}'), i);
-    if (end < 0) return wrong(tr("the brace at character %1 is not closed").arg(i + 1));
+    if (end < 0) return wrong(QStringLiteral("the brace at character %1 is not closed").arg(i + 1));
     const QString name = text.mid(i + 1, end - i - 1).trimmed();
     if (name.indexOf(QLatin1Char('/')) <= 0) {
-      return wrong(tr("{%1} is not GROUP/NAME, such as {B1/VISION_BALL_DIST}").arg(name));
+      return wrong(
+          QStringLiteral("{%1} is not GROUP/NAME, such as {B1/VISION_BALL_DIST}").arg(name));
     }
     plain += QStringLiteral("braced_%1").arg(braced.size());
     braced << name;
@@ -108,13 +104,15 @@ Result<Expression> Expression::parse(const QString& text) {
         name = id.left(dot) + QLatin1Char('/') + id.mid(dot + 1);
       }
       if (name.isEmpty()) {
-        return wrong(tr("'%1' is not known; a variable is written with its group, such as "
-                        "B1.VISION_BALL_DIST")
-                         .arg(id));
+        return wrong(
+            QStringLiteral("'%1' is not known; a variable is written with its group, such as "
+                           "B1.VISION_BALL_DIST")
+                .arg(id));
       }
       used.push_back({plain.indexOf(id), {identifier, name}});
     }
-    if (used.empty()) return wrong(tr("there is no variable in it, such as B1.VISION_BALL_DIST"));
+    if (used.empty())
+      return wrong(QStringLiteral("there is no variable in it, such as B1.VISION_BALL_DIST"));
     std::sort(used.begin(), used.end());
     made->values.assign(used.size(), nan);
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -126,7 +124,7 @@ Result<Expression> Expression::parse(const QString& text) {
   } catch (const mu::Parser::exception_type& error) {
     QString what = QString::fromStdString(error.GetMsg());
     while (what.endsWith(QLatin1Char('.'))) what.chop(1);
-    return wrong(tr("cannot be read: %1").arg(what));
+    return wrong(QStringLiteral("cannot be read: %1").arg(what));
   }
   return Expression(std::move(made));
 }

@@ -110,9 +110,10 @@ QVariant MarksModel::data(const QModelIndex& index, int role) const {
     case Qt::DisplayRole:
       return cell(row, index.column());
     case Qt::ToolTipRole:
-      return index.column() == Name
-                 ? tr("%1: %2 samples between A and B").arg(row.name).arg(row.between.samples)
-                 : QVariant();
+      return index.column() == Name ? QStringLiteral("%1: %2 samples between A and B")
+                                          .arg(row.name)
+                                          .arg(row.between.samples)
+                                    : QVariant();
     case Qt::DecorationRole:
       return index.column() == Name ? QVariant(row.color) : QVariant();
     case Qt::TextAlignmentRole:

@@ -89,7 +89,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   column->addLayout(head);
   column->addWidget(m_table, 1);
   column->addWidget(m_events);
-  auto* copy = new QAction(tr("Copy table"), this);
+  auto* copy = new QAction(QStringLiteral("Copy table"), this);
   copy->setShortcut(QKeySequence::Copy);
   copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   connect(copy, &QAction::triggered, this, &MarksPanel::copyTable);

@@ -26,10 +26,6 @@
 namespace pitchboard::ui {
 namespace {
 
-QString tr(const char* text) {
-  return QCoreApplication::translate("PlotMenus", text);
-}
-
 /// Asks where to, puts the suffix there, writes, and says what went wrong.
 void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QString& filter,
             const std::function<Result<void>(const QString&)>& write) {
@@ -42,28 +38,28 @@ void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QS
 }
 
 void addExports(QMenu* menu, PlotsDock* dock) {
-  menu->addAction(tr("Export picture (PNG)…"), dock, [dock] {
-    saveAs(dock, tr("Export the plots as a picture"), QStringLiteral("plots.png"),
-           tr("Pictures (*.png)"),
+  menu->addAction(QStringLiteral("Export picture (PNG)…"), dock, [dock] {
+    saveAs(dock, QStringLiteral("Export the plots as a picture"), QStringLiteral("plots.png"),
+           QStringLiteral("Pictures (*.png)"),
            [dock](const QString& path) { return savePlotPng(*dock->currentPage(), path); });
   });
-  menu->addAction(tr("Export drawing (SVG)…"), dock, [dock] {
-    saveAs(dock, tr("Export the plots as a drawing"), QStringLiteral("plots.svg"),
-           tr("Drawings (*.svg)"),
+  menu->addAction(QStringLiteral("Export drawing (SVG)…"), dock, [dock] {
+    saveAs(dock, QStringLiteral("Export the plots as a drawing"), QStringLiteral("plots.svg"),
+           QStringLiteral("Drawings (*.svg)"),
            [dock](const QString& path) { return savePlotSvg(*dock->currentPage(), path); });
   });
-  menu->addAction(tr("Export visible data (CSV)…"), dock, [dock] {
-    saveAs(dock, tr("Export the data that is visible"), QStringLiteral("plots.csv"),
-           tr("Tables (*.csv)"), [dock](const QString& path) {
+  menu->addAction(QStringLiteral("Export visible data (CSV)…"), dock, [dock] {
+    saveAs(dock, QStringLiteral("Export the data that is visible"), QStringLiteral("plots.csv"),
+           QStringLiteral("Tables (*.csv)"), [dock](const QString& path) {
              return savePlotCsv(dock->currentPage()->panes(), dock->time()->range(), path);
            });
   });
   menu->addSeparator();
-  menu->addAction(tr("Copy picture"), dock, [dock] {
+  menu->addAction(QStringLiteral("Copy picture"), dock, [dock] {
     QApplication::clipboard()->setImage(
         plotPicture(*dock->currentPage(), dock->devicePixelRatioF()));
   });
-  menu->addAction(tr("Copy values"), dock, [dock] {
+  menu->addAction(QStringLiteral("Copy values"), dock, [dock] {
     QApplication::clipboard()->setText(
         valuesText(dock->currentPage()->panes(), dock->time()->cursor()));
   });
@@ -77,16 +73,16 @@ void openLayout(PlotsDock* dock, const Result<PlotLayout>& layout) {
 }
 
 void addPresets(QMenu* menu, PlotsDock* dock) {
-  menu->addAction(tr("Save layout as…"), dock, [dock] {
+  menu->addAction(QStringLiteral("Save layout as…"), dock, [dock] {
     bool taken = false;
-    const QString name =
-        QInputDialog::getText(dock, tr("Save layout"), tr("Name of the layout:"), QLineEdit::Normal,
-                              dock->currentPage()->name(), &taken);
+    const QString name = QInputDialog::getText(
+        dock, QStringLiteral("Save layout"), QStringLiteral("Name of the layout:"),
+        QLineEdit::Normal, dock->currentPage()->name(), &taken);
     if (!taken || name.trimmed().isEmpty()) return;
     PlotPresets(dock->context().settings).save(name.trimmed(), dock->layoutSpec());
   });
-  QMenu* open = menu->addMenu(tr("Open layout"));
-  QMenu* remove = menu->addMenu(tr("Delete layout"));
+  QMenu* open = menu->addMenu(QStringLiteral("Open layout"));
+  QMenu* remove = menu->addMenu(QStringLiteral("Delete layout"));
   QObject::connect(menu, &QMenu::aboutToShow, open, [dock, open, remove] {
     open->clear();
     remove->clear();
@@ -100,14 +96,15 @@ void addPresets(QMenu* menu, PlotsDock* dock) {
     open->setEnabled(!open->isEmpty());
     remove->setEnabled(!remove->isEmpty());
   });
-  menu->addAction(tr("Import layout…"), dock, [dock] {
-    const QString path = QFileDialog::getOpenFileName(dock, tr("Import a layout of plots"), {},
-                                                      tr("Layouts (*.json);;All files (*)"));
+  menu->addAction(QStringLiteral("Import layout…"), dock, [dock] {
+    const QString path =
+        QFileDialog::getOpenFileName(dock, QStringLiteral("Import a layout of plots"), {},
+                                     QStringLiteral("Layouts (*.json);;All files (*)"));
     if (!path.isEmpty()) openLayout(dock, PlotPresets::readFile(path));
   });
-  menu->addAction(tr("Export layout…"), dock, [dock] {
-    saveAs(dock, tr("Export the layout of the plots"), QStringLiteral("plots.json"),
-           tr("Layouts (*.json)"), [dock](const QString& path) {
+  menu->addAction(QStringLiteral("Export layout…"), dock, [dock] {
+    saveAs(dock, QStringLiteral("Export the layout of the plots"), QStringLiteral("plots.json"),
+           QStringLiteral("Layouts (*.json)"), [dock](const QString& path) {
              return PlotPresets::writeFile(path, dock->layoutSpec());
            });
   });
@@ -136,15 +133,15 @@ void addChoices(QMenu* menu, PlotPane* pane, int curve, Value CurveSpec::*member
 
 void addLooks(QMenu* menu, PlotPane* pane, int curve) {
   const CurveSpec now = pane->curves()[static_cast<std::size_t>(curve)].spec();
-  QMenu* colors = menu->addMenu(tr("Colour"));
+  QMenu* colors = menu->addMenu(QStringLiteral("Colour"));
   for (int number = 0; number < curveColors; ++number) {
     CurveSpec changed = now;
     changed.colorNumber = number;
     changed.color = QColor();
-    colors->addAction(swatch(curveColor(number)), tr("Colour %1").arg(number + 1), pane,
+    colors->addAction(swatch(curveColor(number)), QStringLiteral("Colour %1").arg(number + 1), pane,
                       [pane, curve, changed] { pane->setCurve(curve, changed); });
   }
-  colors->addAction(tr("Other…"), pane, [pane, curve, now] {
+  colors->addAction(QStringLiteral("Other…"), pane, [pane, curve, now] {
     const QColor color =
         QColorDialog::getColor(now.color.isValid() ? now.color : curveColor(now.colorNumber), pane);
     if (!color.isValid()) return;
@@ -152,21 +149,23 @@ void addLooks(QMenu* menu, PlotPane* pane, int curve) {
     changed.color = color;
     pane->setCurve(curve, changed);
   });
-  addChoices<CurveStyle>(menu->addMenu(tr("Style")), pane, curve, &CurveSpec::style,
-                         {{tr("Line"), CurveStyle::Line},
-                          {tr("Steps"), CurveStyle::Steps},
-                          {tr("Points"), CurveStyle::Points},
-                          {tr("Line and points"), CurveStyle::LineAndPoints}});
-  addChoices<double>(
-      menu->addMenu(tr("Width")), pane, curve, &CurveSpec::width,
-      {{tr("Thin"), 1.0}, {tr("Normal"), 1.5}, {tr("Thick"), 2.5}, {tr("Very thick"), 4.0}});
+  addChoices<CurveStyle>(menu->addMenu(QStringLiteral("Style")), pane, curve, &CurveSpec::style,
+                         {{QStringLiteral("Line"), CurveStyle::Line},
+                          {QStringLiteral("Steps"), CurveStyle::Steps},
+                          {QStringLiteral("Points"), CurveStyle::Points},
+                          {QStringLiteral("Line and points"), CurveStyle::LineAndPoints}});
+  addChoices<double>(menu->addMenu(QStringLiteral("Width")), pane, curve, &CurveSpec::width,
+                     {{QStringLiteral("Thin"), 1.0},
+                      {QStringLiteral("Normal"), 1.5},
+                      {QStringLiteral("Thick"), 2.5},
+                      {QStringLiteral("Very thick"), 4.0}});
 }
 
 /// Curves that can be computed from this one.
 void addDerived(QMenu* menu, PlotPage* page, PlotPane* pane, int index) {
   const Curve& curve = pane->curves()[static_cast<std::size_t>(index)];
   if (curve.spec().kind != CurveKind::Variable || pane->kind() == PaneKind::Xy) return;
-  QMenu* derived = menu->addMenu(tr("Derived curve"));
+  QMenu* derived = menu->addMenu(QStringLiteral("Derived curve"));
   const CurveSpec base = variableCurve(curve.spec().inputs.value(0));
   const auto offer = [derived, page, pane](const QString& name, const CurveSpec& spec,
                                            bool ownPlot) {
@@ -187,25 +186,26 @@ void addDerived(QMenu* menu, PlotPage* page, PlotPane* pane, int index) {
     return spec;
   };
   // What has another unit gets a plot of its own.
-  offer(tr("Derivative"), with(CurveKind::Derivative, 0.0), true);
-  offer(tr("Integral"), with(CurveKind::Integral, 0.0), true);
+  offer(QStringLiteral("Derivative"), with(CurveKind::Derivative, 0.0), true);
+  offer(QStringLiteral("Integral"), with(CurveKind::Integral, 0.0), true);
   for (const double seconds : {0.2, 1.0, 5.0}) {
-    offer(tr("Moving average, %1 s").arg(seconds), with(CurveKind::MovingAverage, seconds), false);
+    offer(QStringLiteral("Moving average, %1 s").arg(seconds),
+          with(CurveKind::MovingAverage, seconds), false);
   }
   const std::string unit = curve.isWaiting() ? std::string() : curve.view().info().unit;
-  offer(tr("Wrapped angle"), with(CurveKind::WrapAngle, unit == "rad" ? 6.283185307179586 : 360.0),
-        false);
+  offer(QStringLiteral("Wrapped angle"),
+        with(CurveKind::WrapAngle, unit == "rad" ? 6.283185307179586 : 360.0), false);
   for (const auto& conversion : telemetry::unitConversionsFrom(unit)) {
     CurveSpec spec = with(CurveKind::Conversion, conversion.conversion.factor);
     spec.offset = conversion.conversion.offset;
     spec.unit = QString::fromUtf8(conversion.to.data(), qsizetype(conversion.to.size()));
-    offer(tr("In %1").arg(spec.unit), spec, true);
+    offer(QStringLiteral("In %1").arg(spec.unit), spec, true);
   }
   for (const Curve& other : pane->curves()) {
     if (&other == &curve || other.spec().kind != CurveKind::Variable) continue;
     CurveSpec spec = with(CurveKind::Difference, 0.0);
     spec.inputs << other.spec().inputs.value(0);
-    offer(tr("Minus %1").arg(other.name()), spec, false);
+    offer(QStringLiteral("Minus %1").arg(other.name()), spec, false);
   }
 }
 
@@ -227,7 +227,7 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
       pair.inputs << spec.curves[i + 1].inputs.value(0);
       xy.curves << pair;
     }
-    offer(tr("Show one over the other (XY)"), xy, PaneKind::Xy);
+    offer(QStringLiteral("Show one over the other (XY)"), xy, PaneKind::Xy);
   }
   if (pane->kind() == PaneKind::Xy) {
     PaneSpec chart = spec;
@@ -238,10 +238,11 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
         chart.curves.back().colorNumber = static_cast<int>(chart.curves.size()) - 1;
       }
     }
-    offer(tr("Show over time"), chart, PaneKind::Chart);
+    offer(QStringLiteral("Show over time"), chart, PaneKind::Chart);
   }
-  if (pane->kind() == PaneKind::Chart) offer(tr("Show as lanes"), spec, PaneKind::Lane);
-  if (pane->kind() == PaneKind::Lane) offer(tr("Show as curves"), spec, PaneKind::Chart);
+  if (pane->kind() == PaneKind::Chart) offer(QStringLiteral("Show as lanes"), spec, PaneKind::Lane);
+  if (pane->kind() == PaneKind::Lane)
+    offer(QStringLiteral("Show as curves"), spec, PaneKind::Chart);
 }
 
 void askForAxes(PlotsDock* dock, PlotPane* pane) {
@@ -254,9 +255,9 @@ void askForAxes(PlotsDock* dock, PlotPane* pane) {
 }  // namespace
 
 QMenu* makePlotsMenu(PlotsDock* dock) {
-  auto* menu = new QMenu(tr("&Plots"), dock);
-  menu->addAction(tr("Add curve…"), dock, [dock] { askForCurve(dock); });
-  menu->addAction(tr("Rename tab…"), dock,
+  auto* menu = new QMenu(QStringLiteral("&Plots"), dock);
+  menu->addAction(QStringLiteral("Add curve…"), dock, [dock] { askForCurve(dock); });
+  menu->addAction(QStringLiteral("Rename tab…"), dock,
                   [dock] { dock->renamePage(int(dock->pages().indexOf(dock->currentPage()))); });
   menu->addSeparator();
   addPresets(menu, dock);
@@ -285,10 +286,11 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->setObjectName(QStringLiteral("plotMenu"));
   const auto offerCurve = [&](QMenu* into, int index) {
-    into->addAction(tr("Edit…"), dock, [dock, pane, index] { editCurve(dock, pane, index); });
+    into->addAction(QStringLiteral("Edit…"), dock,
+                    [dock, pane, index] { editCurve(dock, pane, index); });
     if (pane->kind() != PaneKind::Lane) addLooks(into, pane, index);
     addDerived(into, page, pane, index);
-    into->addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove curve"), page,
+    into->addAction(themedIcon(QStringLiteral("edit-delete")), QStringLiteral("Remove curve"), page,
                     [page, pane, index] {
                       pane->removeCurve(index);
                       if (pane->curves().empty()) page->removePane(pane);
@@ -302,22 +304,23 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
       QMenu* sub = menu->addMenu(swatch(each.color()), each.name());
       offerCurve(sub, static_cast<int>(i));
     }
-    menu->addAction(tr("Add curve…"), dock, [dock] { askForCurve(dock); });
+    menu->addAction(QStringLiteral("Add curve…"), dock, [dock] { askForCurve(dock); });
     menu->addSeparator();
     if (pane->kind() != PaneKind::Lane) {
-      menu->addAction(tr("Title and axes…"), dock, [dock, pane] { askForAxes(dock, pane); });
+      menu->addAction(QStringLiteral("Title and axes…"), dock,
+                      [dock, pane] { askForAxes(dock, pane); });
     }
     pane->extendMenu(menu);
     addKinds(menu, page, pane);
     if (pane->isOverTime()) {
       const double moment = pane->timeAxis().time(pane->surface()->mapFromGlobal(at).x());
-      menu->addAction(tr("Show the field at this moment"), dock,
+      menu->addAction(QStringLiteral("Show the field at this moment"), dock,
                       [dock, moment] { dock->time()->requestMoment(moment); });
     }
     menu->addSeparator();
     addExports(menu, dock);
     menu->addSeparator();
-    menu->addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove plot"), page,
+    menu->addAction(themedIcon(QStringLiteral("edit-delete")), QStringLiteral("Remove plot"), page,
                     [page, pane] { page->removePane(pane); });
   }
   menu->popup(at);

@@ -54,8 +54,8 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   m_panes->setHandleWidth(scaled(this, 4));
   m_empty->setObjectName(QStringLiteral("emptyPlots"));
   m_empty->setText(
-      tr("Drag variables here, or press Enter on one in Variables.\n"
-         "Add curve chooses from a list."));
+      QStringLiteral("Drag variables here, or press Enter on one in Variables.\n"
+                     "Add curve chooses from a list."));
   m_empty->setAlignment(Qt::AlignCenter);
   m_empty->setForegroundRole(QPalette::PlaceholderText);
   auto* column = new QVBoxLayout(m_stack);
@@ -253,9 +253,9 @@ void PlotPage::dragMoveEvent(QDragMoveEvent* event) {
   if (names.isEmpty()) return;
   event->acceptProposedAction();
   const Target target = targetAt(event->position().toPoint(), names.size());
-  const QString words = target.place == Place::OnPane  ? tr("add to this plot")
-                        : target.place == Place::NewXy ? tr("one over the other (XY)")
-                                                       : tr("new plot");
+  const QString words = target.place == Place::OnPane  ? QStringLiteral("add to this plot")
+                        : target.place == Place::NewXy ? QStringLiteral("one over the other (XY)")
+                                                       : QStringLiteral("new plot");
   m_lines->setHint(DropHint{target.area, words});
 }
 

@@ -33,7 +33,8 @@ const QString layoutKey = QStringLiteral("plots/layout");
 const QString windowKey = QStringLiteral("plots/window");
 
 QString windowText(double seconds) {
-  return seconds < 60 ? QObject::tr("%1 s").arg(seconds) : QObject::tr("%1 min").arg(seconds / 60);
+  return seconds < 60 ? QStringLiteral("%1 s").arg(seconds)
+                      : QStringLiteral("%1 min").arg(seconds / 60);
 }
 
 QToolButton* toolButton(QAction* action, QWidget* parent) {
@@ -114,8 +115,9 @@ void PlotsDock::makeTools() {
   row->setSpacing(scaled(this, 2));
   LinkedTime* time = m_context.time;
 
-  m_follow = new QAction(themedIcon(QStringLiteral("media-seek-forward")), tr("Follow live"), this);
-  m_follow->setToolTip(tr("Follow the newest moment"));
+  m_follow = new QAction(themedIcon(QStringLiteral("media-seek-forward")),
+                         QStringLiteral("Follow live"), this);
+  m_follow->setToolTip(QStringLiteral("Follow the newest moment"));
   m_follow->setCheckable(true);
   m_follow->setChecked(time->isFollowing());
   connect(m_follow, &QAction::triggered, time, &LinkedTime::setFollowing);
@@ -125,7 +127,7 @@ void PlotsDock::makeTools() {
     m_window->addItem(windowText(seconds), seconds);
   }
   m_window->setObjectName(QStringLiteral("plotWindow"));
-  m_window->setToolTip(tr("How much is shown while following"));
+  m_window->setToolTip(QStringLiteral("How much is shown while following"));
   m_window->setFont(themeFont(TypeRole::Secondary));
   m_window->setFocusPolicy(Qt::NoFocus);
   connect(m_window, &QComboBox::activated, this, [this, time](int index) {
@@ -135,37 +137,42 @@ void PlotsDock::makeTools() {
   connect(time, &LinkedTime::windowChanged, this, &PlotsDock::showWindow);
   showWindow();
 
-  m_marks = new QAction(tr("A|B"), this);
-  m_marks->setToolTip(tr("Marks A and B: differences and statistics between two moments"));
+  m_marks = new QAction(QStringLiteral("A|B"), this);
+  m_marks->setToolTip(
+      QStringLiteral("Marks A and B: differences and statistics between two moments"));
   m_marks->setCheckable(true);
   m_marks->setChecked(time->hasMarks());
   connect(m_marks, &QAction::triggered, time, &LinkedTime::showMarks);
   connect(time, &LinkedTime::marksChanged, m_marks,
           [this, time] { m_marks->setChecked(time->hasMarks()); });
 
-  m_box =
-      new QAction(themedIcon(QStringLiteral("select-rectangular")), tr("Zoom into a box"), this);
-  m_box->setToolTip(tr("Drag a box to zoom into it (also Shift-drag)"));
+  m_box = new QAction(themedIcon(QStringLiteral("select-rectangular")),
+                      QStringLiteral("Zoom into a box"), this);
+  m_box->setToolTip(QStringLiteral("Drag a box to zoom into it (also Shift-drag)"));
   m_box->setCheckable(true);
   connect(m_box, &QAction::toggled, this, [this](bool on) {
     for (PlotPage* page : pages()) page->setBoxTool(on);
   });
 
-  auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")), tr("Show everything"), this);
-  fit->setToolTip(tr("Show all there is (also a double click on a plot)"));
+  auto* fit = new QAction(themedIcon(QStringLiteral("zoom-fit-best")),
+                          QStringLiteral("Show everything"), this);
+  fit->setToolTip(QStringLiteral("Show all there is (also a double click on a plot)"));
   connect(fit, &QAction::triggered, time, &LinkedTime::fitAll);
 
-  auto* add = new QAction(themedIcon(QStringLiteral("list-add")), tr("Add curve…"), this);
-  add->setToolTip(tr("Add a variable, or a curve computed from variables"));
+  auto* add =
+      new QAction(themedIcon(QStringLiteral("list-add")), QStringLiteral("Add curve…"), this);
+  add->setToolTip(QStringLiteral("Add a variable, or a curve computed from variables"));
   connect(add, &QAction::triggered, this, [this] { askForCurve(this); });
 
-  auto* more = new QAction(themedIcon(QStringLiteral("application-menu")), tr("Plots"), this);
-  more->setToolTip(tr("Tabs, layouts, export"));
+  auto* more =
+      new QAction(themedIcon(QStringLiteral("application-menu")), QStringLiteral("Plots"), this);
+  more->setToolTip(QStringLiteral("Tabs, layouts, export"));
   more->setMenu(makePlotsMenu(this));
 
-  auto* newPage = new QAction(themedIcon(QStringLiteral("tab-new")), tr("New tab"), this);
+  auto* newPage =
+      new QAction(themedIcon(QStringLiteral("tab-new")), QStringLiteral("New tab"), this);
   connect(newPage, &QAction::triggered, this, [this] {
-    addPage({tr("Plots %1").arg(m_tabs->count() + 1), {}});
+    addPage({QStringLiteral("Plots %1").arg(m_tabs->count() + 1), {}});
     m_tabs->setCurrentIndex(m_tabs->count() - 1);
   });
 
@@ -184,7 +191,7 @@ void PlotsDock::showWindow() {
   if (index < 0) {
     // Zoomed by hand: one more entry tells what it is now.
     while (m_window->count() > offered) m_window->removeItem(offered);
-    m_window->addItem(tr("%1 s").arg(seconds, 0, 'g', 3), seconds);
+    m_window->addItem(QStringLiteral("%1 s").arg(seconds, 0, 'g', 3), seconds);
     index = offered;
   }
   m_window->setCurrentIndex(index);
@@ -211,7 +218,7 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
   close->setFixedSize(scaled(this, 16), scaled(this, 16));
   close->setAutoRaise(true);
   close->setFocusPolicy(Qt::NoFocus);
-  close->setToolTip(tr("Close this tab"));
+  close->setToolTip(QStringLiteral("Close this tab"));
   connect(close, &QToolButton::clicked, this, [this, page] { closePage(m_tabs->indexOf(page)); });
   m_tabs->tabBar()->setTabButton(index, QTabBar::RightSide, close);
   connect(page, &PlotPage::changed, this, [this, page] {
@@ -234,7 +241,7 @@ void PlotsDock::closePage(int index) {
   if (page == nullptr) return;
   m_tabs->removeTab(index);
   page->deleteLater();
-  if (m_tabs->count() == 0) addPage({tr("Plots"), {}});
+  if (m_tabs->count() == 0) addPage({QStringLiteral("Plots"), {}});
   m_saveSoon.start();
 }
 
@@ -242,8 +249,9 @@ void PlotsDock::renamePage(int index) {
   if (index < 0) return;
   auto* page = static_cast<PlotPage*>(m_tabs->widget(index));
   bool taken = false;
-  const QString name = QInputDialog::getText(this, tr("Rename tab"), tr("Name of the tab:"),
-                                             QLineEdit::Normal, page->name(), &taken);
+  const QString name =
+      QInputDialog::getText(this, QStringLiteral("Rename tab"), QStringLiteral("Name of the tab:"),
+                            QLineEdit::Normal, page->name(), &taken);
   if (taken && !name.trimmed().isEmpty()) page->setName(name.trimmed());
 }
 
@@ -262,7 +270,7 @@ void PlotsDock::setLayoutSpec(const PlotLayout& layout) {
     page->deleteLater();
   }
   for (const PageSpec& page : layout.pages) addPage(page);
-  if (layout.pages.isEmpty()) addPage({tr("Plots"), {}});
+  if (layout.pages.isEmpty()) addPage({QStringLiteral("Plots"), {}});
   m_tabs->setCurrentIndex(layout.current);
   m_restoring = false;
   scheduleDraw();

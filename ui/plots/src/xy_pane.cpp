@@ -291,7 +291,7 @@ void XyPane::showAll() {
 }
 
 void XyPane::extendMenu(QMenu* menu) {
-  QAction* equal = menu->addAction(tr("Equal scales"));
+  QAction* equal = menu->addAction(QStringLiteral("Equal scales"));
   equal->setCheckable(true);
   equal->setChecked(m_spec.equalScales);
   connect(equal, &QAction::triggered, this, [this](bool on) {

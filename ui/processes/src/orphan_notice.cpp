@@ -22,16 +22,16 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   if (keys.empty()) return;
   const QString sentence =
       keys.size() == 1
-          ? QObject::tr(
+          ? QStringLiteral(
                 "An earlier run left a blackboard behind (key %1), with its old values. "
                 "Removing it restarts the match.")
                 .arg(names.front())
-          : QObject::tr(
+          : QStringLiteral(
                 "An earlier run left %1 blackboards behind (keys %2), with their old "
                 "values. Removing them restarts the match.")
                 .arg(keys.size())
                 .arg(names.join(QStringLiteral(", ")));
-  notices->show(sentence, {{QObject::tr("Remove"),
+  notices->show(sentence, {{QStringLiteral("Remove"),
                             [controller, keys] {
                               controller->restartAfter([keys] {
                                 for (const int key : keys) {
@@ -43,7 +43,7 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
                                 }
                               });
                             }},
-                           {QObject::tr("Keep"), {}}});
+                           {QStringLiteral("Keep"), {}}});
 }
 
 }  // namespace pitchboard::ui

@@ -17,26 +17,26 @@ namespace pitchboard::ui {
 namespace {
 
 QString emptyText(const MatchController& controller) {
-  if (controller.isOpening()) return QObject::tr("Opening…");
+  if (controller.isOpening()) return QStringLiteral("Opening…");
   if (!controller.isOpen()) {
-    return QObject::tr("No match is open. Choose a scenario in the tool bar.");
+    return QStringLiteral("No match is open. Choose a scenario in the tool bar.");
   }
   switch (controller.cognition()) {
     case link::Cognition::Inline:
       if (controller.options().cognition != link::Cognition::Inline) {
-        return QObject::tr(
+        return QStringLiteral(
             "The robots decide inside the studio, because separate processes could "
             "not be started: the Log says why.");
       }
-      return QObject::tr(
+      return QStringLiteral(
           "The robots decide inside the studio, so there are no separate processes to "
           "show. Start the studio with --cognition external to have them.");
     case link::Cognition::None:
-      return QObject::tr(
+      return QStringLiteral(
           "Nothing was started. Attach your own processes to the robots' "
           "blackboards: key 100 × robot number (plus the key base).");
     case link::Cognition::External:
-      return QObject::tr("There are no robots, so no processes run.");
+      return QStringLiteral("There are no robots, so no processes run.");
   }
   return {};
 }
@@ -82,10 +82,11 @@ class ProcessesDock : public QStackedWidget {
       m_model->update(*frame);
     else
       m_model->clear();
-    m_empty->setText(simulated
-                         ? emptyText(*m_controller)
-                         : tr("These robots' processes run on the robots. The letters on the cards "
-                              "tell which of them work."));
+    m_empty->setText(
+        simulated
+            ? emptyText(*m_controller)
+            : QStringLiteral("These robots' processes run on the robots. The letters on the cards "
+                             "tell which of them work."));
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 
@@ -96,10 +97,10 @@ class ProcessesDock : public QStackedWidget {
     const QString name = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
     QMenu menu(this);
     menu.addAction(themedIcon(QStringLiteral("view-refresh")),
-                   tr("Restart all processes of %1").arg(name), m_controller,
+                   QStringLiteral("Restart all processes of %1").arg(name), m_controller,
                    [this, id] { m_controller->edits()->restartProcesses(id); });
     menu.addAction(themedIcon(QStringLiteral("media-playback-stop")),
-                   tr("Stop all processes of %1").arg(name), m_controller,
+                   QStringLiteral("Stop all processes of %1").arg(name), m_controller,
                    [this, id] { m_controller->edits()->stopProcesses(id); });
     menu.exec(m_table->viewport()->mapToGlobal(at));
   }

@@ -106,7 +106,9 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
 QVariant ProcessesModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
   if (role != Qt::DisplayRole) return {};
-  const QString names[] = {tr("Robot"), tr("Process"), tr("PID"), tr("State"), tr("Last output")};
+  const QString names[] = {QStringLiteral("Robot"), QStringLiteral("Process"),
+                           QStringLiteral("PID"), QStringLiteral("State"),
+                           QStringLiteral("Last output")};
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 

@@ -24,10 +24,12 @@ BlackboardWindow::BlackboardWindow(MatchController* controller, RobotId id, QWid
   constexpr int refreshMilliseconds = 200;
   setAttribute(Qt::WA_DeleteOnClose);
   const link::ScenarioRobot* robot = controller->edits()->robot(id);
-  setWindowTitle(tr("Blackboard of %1").arg(robot ? robotName(robot->identity) : QString()));
+  setWindowTitle(
+      QStringLiteral("Blackboard of %1").arg(robot ? robotName(robot->identity) : QString()));
   m_where->setWordWrap(true);
   m_where->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  m_table->setHorizontalHeaderLabels({tr("Name"), tr("Value"), tr("Unit, meaning")});
+  m_table->setHorizontalHeaderLabels(
+      {QStringLiteral("Name"), QStringLiteral("Value"), QStringLiteral("Unit, meaning")});
   styleTable(m_table);
   m_table->setFrameShape(QFrame::StyledPanel);
   m_table->setColumnWidth(0, scaled(this, 200));
@@ -66,10 +68,12 @@ void BlackboardWindow::refresh() {
   const link::RobotBoardView* board = &*robot->board;
   m_where->setText(
       board->key == 0
-          ? tr("In the studio's own memory: other programs cannot reach it. Start the studio with "
-               "--cognition external or none to share it.")
-          : tr("System V shared memory, key %1, 2048 bytes. Every variable, in a terminal:\n"
-               "pitchboard-cli blackboard watch --key %1")
+          ? QStringLiteral(
+                "In the studio's own memory: other programs cannot reach it. Start the studio with "
+                "--cognition external or none to share it.")
+          : QStringLiteral(
+                "System V shared memory, key %1, 2048 bytes. Every variable, in a terminal:\n"
+                "pitchboard-cli blackboard watch --key %1")
                 .arg(board->key));
   const auto whole = [](int value) { return numberText(value, 0); };
   int row = 0;

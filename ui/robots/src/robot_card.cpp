@@ -94,12 +94,12 @@ QString RobotCard::lampTip(int lamp) const {
   const auto index = static_cast<std::size_t>(lamp);
   const QString process = m_state.process(index);
   const Lamp& state = m_state.lamps[index];
-  if (state.state == LampState::Working) return tr("%1: working").arg(process);
+  if (state.state == LampState::Working) return QStringLiteral("%1: working").arg(process);
   if (state.state == LampState::Silent) {
-    return tr("%1: silent for %2 s").arg(process).arg(state.seconds);
+    return QStringLiteral("%1: silent for %2 s").arg(process).arg(state.seconds);
   }
-  return m_state.live ? tr("%1: nothing known").arg(process)
-                      : tr("%1: not heard of since the match began").arg(process);
+  return m_state.live ? QStringLiteral("%1: nothing known").arg(process)
+                      : QStringLiteral("%1: not heard of since the match began").arg(process);
 }
 
 void RobotCard::mousePressEvent(QMouseEvent* event) {

@@ -58,18 +58,19 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   if (controller->edits()->robot(id) == nullptr) return;
   addBehaviourMenu(&menu, controller, {id});
   addTeamMenu(&menu, controller, {id});
-  menu.addAction(tr("Blackboard…"), this, [this, id] {
+  menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();
   });
-  menu.addAction(themedIcon(QStringLiteral("edit-delete")), tr("Remove %1").arg(card->state().name),
-                 controller, [controller, id] { controller->edits()->removeRobots({id}); });
+  menu.addAction(themedIcon(QStringLiteral("edit-delete")),
+                 QStringLiteral("Remove %1").arg(card->state().name), controller,
+                 [controller, id] { controller->edits()->removeRobots({id}); });
   menu.addSeparator();
 }
 
 void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
-  QMenu* show = menu.addMenu(tr("Show on cards"));
+  QMenu* show = menu.addMenu(QStringLiteral("Show on cards"));
   for (const Part& part : cardParts) {
-    QAction* action = show->addAction(tr(part.text));
+    QAction* action = show->addAction(QString::fromUtf8(part.text));
     action->setCheckable(true);
     action->setChecked(m_parts.*part.shown);
     connect(action, &QAction::toggled, this, [this, shown = part.shown](bool on) {
@@ -103,7 +104,7 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   const RobotId id = card->state().id;
   QMenu menu(this);
   if (m_context.source->kind() == SourceKind::Simulate) addMatchActions(menu, card);
-  QAction* follow = menu.addAction(tr("Follow"));
+  QAction* follow = menu.addAction(QStringLiteral("Follow"));
   follow->setCheckable(true);
   follow->setChecked(m_context.selection->followed() == id);
   connect(follow, &QAction::toggled, m_context.selection,
@@ -111,15 +112,15 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
             selection->follow(on ? std::optional(id) : std::nullopt);
           });
   if (m_floating.count(id) == 0) {
-    menu.addAction(tr("In a window of its own"), this, [this, id] { floatCard(id); });
+    menu.addAction(QStringLiteral("In a window of its own"), this, [this, id] { floatCard(id); });
   } else {
-    menu.addAction(tr("Back to the list"), this, [this, id] { unfloat(id); });
+    menu.addAction(QStringLiteral("Back to the list"), this, [this, id] { unfloat(id); });
   }
   addPartActions(menu, card);
   menu.addSeparator();
-  menu.addAction(tr("Collapse all"), this, [this] { setAllCollapsed(true); });
-  menu.addAction(tr("Expand all"), this, [this] { setAllCollapsed(false); });
-  menu.addAction(tr("Order by number"), this, [this] {
+  menu.addAction(QStringLiteral("Collapse all"), this, [this] { setAllCollapsed(true); });
+  menu.addAction(QStringLiteral("Expand all"), this, [this] { setAllCollapsed(false); });
+  menu.addAction(QStringLiteral("Order by number"), this, [this] {
     std::sort(m_order.begin(), m_order.end());
     arrange();
   });

@@ -52,7 +52,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
       m_rows(new QFormLayout),
       m_progress(new QProgressBar(this)),
       m_message(new QLabel(this)) {
-  setWindowTitle(tr("Export"));
+  setWindowTitle(QStringLiteral("Export"));
   setObjectName(QStringLiteral("exportDialog"));
   m_format->setObjectName(QStringLiteral("exportFormat"));
   m_robots->setObjectName(QStringLiteral("exportRobots"));
@@ -61,36 +61,36 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_size->setObjectName(QStringLiteral("exportSize"));
   m_rate->setObjectName(QStringLiteral("exportRate"));
   m_progress->setObjectName(QStringLiteral("exportProgress"));
-  for (const ExportForm& form : exportForms()) m_format->addItem(tr(form.words));
+  for (const ExportForm& form : exportForms()) m_format->addItem(QString::fromUtf8(form.words));
   for (const QSize size :
        {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
-    m_size->addItem(tr("%1 × %2").arg(size.width()).arg(size.height()), size);
+    m_size->addItem(QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()), size);
   }
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
-  m_rate->setSuffix(tr(" pictures a second"));
+  m_rate->setSuffix(QStringLiteral(" pictures a second"));
   for (NumberBox* box : {m_begin, m_end}) {
     box->setRange(-1e7, 1e7);
     box->setDecimals(3);
-    box->setSuffix(tr(" s"));
+    box->setSuffix(QStringLiteral(" s"));
   }
   m_begin->setValue(range.begin);
   m_end->setValue(range.end);
-  m_robots->setPlaceholderText(tr("all, or e.g. B1 R2 match"));
-  m_variables->setPlaceholderText(tr("all, or e.g. VISION_* LOCALIZATION_X"));
+  m_robots->setPlaceholderText(QStringLiteral("all, or e.g. B1 R2 match"));
+  m_variables->setPlaceholderText(QStringLiteral("all, or e.g. VISION_* LOCALIZATION_X"));
   m_message->setWordWrap(true);
   m_message->setForegroundRole(QPalette::PlaceholderText);
   m_progress->setRange(0, 1000);
   m_progress->hide();
-  m_rows->addRow(tr("Form"), m_format);
-  m_rows->addRow(tr("From"), m_begin);
-  m_rows->addRow(tr("To"), m_end);
-  m_rows->addRow(tr("Robots"), m_robots);
-  m_rows->addRow(tr("Variables"), m_variables);
-  m_rows->addRow(tr("Size"), m_size);
-  m_rows->addRow(tr("Rate"), m_rate);
+  m_rows->addRow(QStringLiteral("Form"), m_format);
+  m_rows->addRow(QStringLiteral("From"), m_begin);
+  m_rows->addRow(QStringLiteral("To"), m_end);
+  m_rows->addRow(QStringLiteral("Robots"), m_robots);
+  m_rows->addRow(QStringLiteral("Variables"), m_variables);
+  m_rows->addRow(QStringLiteral("Size"), m_size);
+  m_rows->addRow(QStringLiteral("Rate"), m_rate);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  m_export = buttons->addButton(tr("Export…"), QDialogButtonBox::ActionRole);
+  m_export = buttons->addButton(QStringLiteral("Export…"), QDialogButtonBox::ActionRole);
   m_export->setObjectName(QStringLiteral("exportButton"));
   auto* column = new QVBoxLayout(this);
   column->addLayout(m_rows);
@@ -136,8 +136,8 @@ void ExportDialog::showRows() {
 
 void ExportDialog::ask() {
   const QDir folder(m_source.folder);
-  QString path =
-      QFileDialog::getSaveFileName(this, tr("Export"), folder.filePath(m_source.name + suffix()));
+  QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export"),
+                                              folder.filePath(m_source.name + suffix()));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += suffix();
   exportTo(path);
@@ -162,7 +162,7 @@ void ExportDialog::exportTo(const QString& path) {
     request.selection.variables.clear();
   }
   if (request.selection.range.begin > request.selection.range.end) {
-    fail(tr("The range ends before it begins."));
+    fail(QStringLiteral("The range ends before it begins."));
     return;
   }
   setWriting(true);
@@ -176,7 +176,7 @@ void ExportDialog::exportTo(const QString& path) {
   SessionMaker make = m_source.make ? m_source.make() : SessionMaker();
   if (!make) {
     setWriting(false);
-    fail(tr("Nothing was written: there is nothing in memory yet."));
+    fail(QStringLiteral("Nothing was written: there is nothing in memory yet."));
     return;
   }
   m_worker.start([this, request, make = std::move(make)] {
@@ -187,9 +187,9 @@ void ExportDialog::exportTo(const QString& path) {
         return;
       }
       setWriting(false);
-      fail(m_cancelled
-               ? tr("Cancelled; nothing was written.")
-               : tr("Nothing was written: %1").arg(QString::fromStdString(made.error().text())));
+      fail(m_cancelled ? QStringLiteral("Cancelled; nothing was written.")
+                       : QStringLiteral("Nothing was written: %1")
+                             .arg(QString::fromStdString(made.error().text())));
     });
   });
 }
@@ -214,9 +214,9 @@ void ExportDialog::write(const ExportRequest& request) {
       if (done) {
         succeed(path);
       } else {
-        fail(m_cancelled
-                 ? tr("Cancelled; nothing was written.")
-                 : tr("Nothing was written: %1").arg(QString::fromStdString(done.error().text())));
+        fail(m_cancelled ? QStringLiteral("Cancelled; nothing was written.")
+                         : QStringLiteral("Nothing was written: %1")
+                               .arg(QString::fromStdString(done.error().text())));
       }
     });
   });
@@ -261,7 +261,8 @@ void ExportDialog::writePicture(const QString& path) {
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
                 IfExists::Replace, m_source.session.toStdString());
   if (!written) {
-    fail(tr("Nothing was written: %1").arg(QString::fromStdString(written.error().text())));
+    fail(QStringLiteral("Nothing was written: %1")
+             .arg(QString::fromStdString(written.error().text())));
     return;
   }
   succeed(path);
@@ -272,11 +273,11 @@ void ExportDialog::cancel() {
   if (!m_video) return;
   m_video.reset();
   setWriting(false);
-  fail(tr("Cancelled; nothing was written."));
+  fail(QStringLiteral("Cancelled; nothing was written."));
 }
 
 void ExportDialog::succeed(const QString& path) {
-  tell(tr("Written: %1 (%2 MB)")
+  tell(QStringLiteral("Written: %1 (%2 MB)")
            .arg(path)
            .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
        false);
@@ -294,7 +295,7 @@ void ExportDialog::setWriting(bool writing) {
   if (!writing && m_video) m_video.release()->deleteLater();
   m_progress->setVisible(writing);
   m_progress->setValue(0);
-  m_export->setText(writing ? tr("Cancel") : tr("Export…"));
+  m_export->setText(writing ? QStringLiteral("Cancel") : QStringLiteral("Export…"));
   for (QWidget* choice : {static_cast<QWidget*>(m_format), static_cast<QWidget*>(m_size)}) {
     choice->setEnabled(!writing);
   }

@@ -56,13 +56,14 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
     m_source->choose(m_replay);
     showTitle();
     if (!m_replay->isBroken()) return;
-    offerRepair(tr("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
-                   "be made beside it.")
-                    .arg(QFileInfo(m_replay->path()).fileName()));
+    offerRepair(
+        QStringLiteral("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
+                       "be made beside it.")
+            .arg(QFileInfo(m_replay->path()).fileName()));
   });
   connect(source, &SourceSwitch::restarted, this, &SessionFiles::showTitle);
   connect(replay, &ReplayController::damageFound, this, [this](const QStringList& sentences) {
-    offerRepair(tr("%1 is damaged inside; the rest is shown. %2")
+    offerRepair(QStringLiteral("%1 is damaged inside; the rest is shown. %2")
                     .arg(QFileInfo(m_replay->path()).fileName(), shortened(sentences)));
   });
   connect(replay, &ReplayController::noted, this,
@@ -84,14 +85,14 @@ void SessionFiles::showTitle() {
 QString SessionFiles::shortened(const QStringList& sentences) {
   constexpr int most = 3;
   QString text = sentences.mid(0, most).join(QLatin1Char(' '));
-  if (sentences.size() > most) text += tr(" And %1 more.").arg(sentences.size() - most);
+  if (sentences.size() > most) text += QStringLiteral(" And %1 more.").arg(sentences.size() - most);
   return text;
 }
 
 void SessionFiles::offerRepair(const QString& sentence) {
-  m_notices->show(
-      sentence, {{tr("Repair into a new file"), [this, path = m_replay->path()] { repair(path); }},
-                 {tr("Not now"), {}}});
+  m_notices->show(sentence, {{QStringLiteral("Repair into a new file"),
+                              [this, path = m_replay->path()] { repair(path); }},
+                             {QStringLiteral("Not now"), {}}});
 }
 
 void SessionFiles::open(const QString& path) {
@@ -99,12 +100,13 @@ void SessionFiles::open(const QString& path) {
 }
 
 void SessionFiles::askAndOpen() {
-  const QString path = askForFile(tr("Open session"));
+  const QString path = askForFile(QStringLiteral("Open session"));
   if (!path.isEmpty()) open(path);
 }
 
 QString SessionFiles::askForFile(const QString& title) {
-  return QFileDialog::getOpenFileName(m_window, title, {}, tr("Sessions (*.mcap);;All files (*)"));
+  return QFileDialog::getOpenFileName(m_window, title, {},
+                                      QStringLiteral("Sessions (*.mcap);;All files (*)"));
 }
 
 void SessionFiles::repair(const QString& path) {
@@ -114,11 +116,12 @@ void SessionFiles::repair(const QString& path) {
                                                  [this](double) { return !m_cancelled; });
     m_toUi.post([this, report, to] {
       if (!report) {
-        m_notices->show(tr("The session was not repaired: %1")
+        m_notices->show(QStringLiteral("The session was not repaired: %1")
                             .arg(QString::fromStdString(report.error().text())));
         return;
       }
-      QString text = tr("Repaired into %1: %2").arg(to, QString::fromStdString(report->summary()));
+      QString text =
+          QStringLiteral("Repaired into %1: %2").arg(to, QString::fromStdString(report->summary()));
       if (!report->lost.empty()) {
         text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
       }
@@ -151,7 +154,7 @@ bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
 void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   const FramePtr frame = m_source->frame();
   if (!frame || frame->robots.empty()) {
-    m_notices->show(tr("There is no robot on the field to simulate from here."));
+    m_notices->show(QStringLiteral("There is no robot on the field to simulate from here."));
     return;
   }
   link::MomentOptions options;

@@ -87,7 +87,8 @@ void VideoExport::read() {
       m_reading = false;
       if (!frame) {
         cancel();
-        emit failed(tr("The session cannot be read: %1").arg(QString::fromStdString(problem)));
+        emit failed(
+            QStringLiteral("The session cannot be read: %1").arg(QString::fromStdString(problem)));
         return;
       }
       m_frame = frame;

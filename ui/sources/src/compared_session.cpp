@@ -82,12 +82,12 @@ QString ComparedSession::caption() const {
   if (!isOn()) return {};
   QString text = QFileInfo(m_file.path()).completeBaseName();
   if (m_offset != 0.0) {
-    text += tr(" · %1%2 s")
+    text += QStringLiteral(" · %1%2 s")
                 .arg(m_offset < 0 ? QChar(0x2212) : QLatin1Char('+'))
                 .arg(std::abs(m_offset), 0, 'f', 2);
   }
-  if (m_here && !m_there) text += tr(" · choose its event");
-  if (m_there && !m_here) text += tr(" · choose the event above");
+  if (m_here && !m_there) text += QStringLiteral(" · choose its event");
+  if (m_there && !m_here) text += QStringLiteral(" · choose the event above");
   return text;
 }
 

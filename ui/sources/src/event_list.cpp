@@ -184,7 +184,7 @@ Qt::ItemFlags EventList::flags(const QModelIndex& index) const {
 
 QVariant EventList::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  const QString names[] = {tr("Time"), tr("Event"), tr("Note")};
+  const QString names[] = {QStringLiteral("Time"), QStringLiteral("Event"), QStringLiteral("Note")};
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 

@@ -57,8 +57,8 @@ void LiveController::stop() {
 
 void LiveController::setOptions(const link::LiveOptions& options) {
   if (const auto good = link::validate(options); !good) {
-    emit errorOccurred(
-        tr("Live keeps its settings: %1").arg(QString::fromStdString(good.error().text())));
+    emit errorOccurred(QStringLiteral("Live keeps its settings: %1")
+                           .arg(QString::fromStdString(good.error().text())));
     return;
   }
   m_options = options;
@@ -129,15 +129,19 @@ std::optional<QDateTime> LiveController::clock() const {
 }
 
 QString LiveController::portsText() const {
-  return tr("UDP %1–%2").arg(m_options.portBase + 1).arg(m_options.portBase + m_options.robots);
+  return QStringLiteral("UDP %1–%2")
+      .arg(m_options.portBase + 1)
+      .arg(m_options.portBase + m_options.robots);
 }
 
 QString LiveController::emptyText() const {
-  const QString address = m_options.bind.value == 0 ? tr("every address of this computer")
-                                                    : QString::fromStdString(m_options.bind.text());
-  return tr("Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
-            "Robot 1 sends to port %4, robot 2 to %5. Check that this computer is in the robots' "
-            "network and that no firewall keeps UDP out. Nothing is sent to robots.")
+  const QString address = m_options.bind.value == 0
+                              ? QStringLiteral("every address of this computer")
+                              : QString::fromStdString(m_options.bind.text());
+  return QStringLiteral(
+             "Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
+             "Robot 1 sends to port %4, robot 2 to %5. Check that this computer is in the robots' "
+             "network and that no firewall keeps UDP out. Nothing is sent to robots.")
       .arg(address, portsText())
       .arg(m_options.refereePort)
       .arg(m_options.portBase + 1)
@@ -176,10 +180,11 @@ void LiveController::deliver() {
   }
   if (ports.empty()) return;
   const QString first = QString::fromStdString(sentenceOf(*ports.front()));
-  emit errorOccurred(
-      ports.size() == 1
-          ? first
-          : tr("%1 ports cannot be received; the first: %2").arg(ports.size()).arg(first));
+  emit errorOccurred(ports.size() == 1
+                         ? first
+                         : QStringLiteral("%1 ports cannot be received; the first: %2")
+                               .arg(ports.size())
+                               .arg(first));
 }
 
 }  // namespace pitchboard::ui

@@ -73,16 +73,17 @@ void MatchController::Opening::start(const link::Scenario& scenario,
     inside.systemV = false;
     made = link::MatchRunner::start(scenario, inside, paused, *catalog, observers);
     if (made) {
-      error = tr("Separate robot processes cannot run: %1. The robots decide inside the studio "
-                 "instead, and other programs cannot see their blackboards. Close the other "
-                 "program, then restart the match.")
+      error = QStringLiteral(
+                  "Separate robot processes cannot run: %1. The robots decide inside the studio "
+                  "instead, and other programs cannot see their blackboards. Close the other "
+                  "program, then restart the match.")
                   .arg(words(reason));
     }
   }
   if (made)
     runner = holding(std::move(catalog), std::move(*made));
   else
-    error = tr("The match cannot be played: %1").arg(words(made.error()));
+    error = QStringLiteral("The match cannot be played: %1").arg(words(made.error()));
 }
 
 std::shared_ptr<const telemetry::SeriesStore> MatchController::series() const {
@@ -104,9 +105,9 @@ void MatchController::stopObserving(const std::shared_ptr<link::TickObserver>& o
 }
 
 QString MatchController::emptyText() const {
-  return isOpening() ? tr("Opening…")
-         : isOpen()  ? tr("No robots on the field.\nPress A over the field to add one.")
-                     : tr("No match is open.\nChoose a scenario in the tool bar.");
+  return isOpening() ? QStringLiteral("Opening…")
+         : isOpen()  ? QStringLiteral("No robots on the field.\nPress A over the field to add one.")
+                     : QStringLiteral("No match is open.\nChoose a scenario in the tool bar.");
 }
 
 std::shared_ptr<link::MatchRunner> MatchController::retire() {

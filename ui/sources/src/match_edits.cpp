@@ -73,7 +73,7 @@ void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> n
     if (entry.identity.team == team) numbers.insert(entry.identity.number);
   }
   if (static_cast<int>(ids.size()) >= sim::Simulation::maxRobots) {
-    emit failed(tr("No more than %1 robots fit on a field. Remove one first.")
+    emit failed(QStringLiteral("No more than %1 robots fit on a field. Remove one first.")
                     .arg(sim::Simulation::maxRobots));
     return;
   }
@@ -82,8 +82,8 @@ void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> n
                     info(team).facesLeft};
   entry.pose = pose;
   if (numbers.count(entry.identity.number) != 0) {
-    emit failed(
-        tr("%1 is on the field already. Choose another number.").arg(robotName(entry.identity)));
+    emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
+                    .arg(robotName(entry.identity)));
     return;
   }
   m_undoStack->push(new AddRobotCommand(m_roster.get(), entry));
@@ -143,9 +143,9 @@ void MatchEdits::commandSearch(RobotId id, bool on) {
 
 void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
   const link::Variable* variable = m_match->catalog().find(name.toStdString());
-  const QString notWritten = tr("%1 is not written").arg(name);
+  const QString notWritten = QStringLiteral("%1 is not written").arg(name);
   if (variable == nullptr) {
-    emit failed(tr("%1: this match's catalog has no such variable.").arg(notWritten));
+    emit failed(QStringLiteral("%1: this match's catalog has no such variable.").arg(notWritten));
     return;
   }
   const auto time = std::make_shared<double>();  // of the tick after which it was written, s
@@ -170,15 +170,16 @@ void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
 }
 
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
-  m_match->post({tr("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
+  m_match->post({QStringLiteral("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
                    return match.simulation().setNoise(noise);
                  }});
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
-  m_match->post({tr("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
-                   return match.simulation().setRigidBody(settings);
-                 }});
+  m_match->post(
+      {QStringLiteral("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
+         return match.simulation().setRigidBody(settings);
+       }});
 }
 
 void MatchEdits::setPhysics(const QString& model) {

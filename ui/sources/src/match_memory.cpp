@@ -83,12 +83,12 @@ void MatchMemory::continueFrom(double time) {
   m_match->setPaused(true);
   auto moment = link::momentFromMemory(*m_archive, *rows, tick, m_match->catalog());
   if (!moment) {
-    emit failed(tr("The match cannot be continued from this moment: %1")
+    emit failed(QStringLiteral("The match cannot be continued from this moment: %1")
                     .arg(QString::fromStdString(moment.error().text())));
     return;
   }
   m_match->edits()->adopt(*moment);
-  m_match->post({tr("The match cannot be continued from this moment"),
+  m_match->post({QStringLiteral("The match cannot be continued from this moment"),
                  [moment = std::move(*moment)](link::SimulatedMatch& match) {
                    return match.reenter(moment);
                  }});

@@ -31,16 +31,16 @@ void MatchRoster::adopt(const link::Moment& moment) {
 
 void MatchRoster::insert(const link::ScenarioRobot& entry) {
   m_robots.insert_or_assign(entry.identity.id, entry);
-  m_match->post({QObject::tr("%1 cannot be added").arg(robotName(entry.identity)),
+  m_match->post({QStringLiteral("%1 cannot be added").arg(robotName(entry.identity)),
                  [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
                  [this, id = entry.identity.id] { m_robots.erase(id); }});
 }
 
 void MatchRoster::erase(RobotId id) {
   const link::ScenarioRobot* known = robot(id);
-  const QString name = known ? robotName(known->identity) : QObject::tr("The robot");
+  const QString name = known ? robotName(known->identity) : QStringLiteral("The robot");
   m_robots.erase(id);
-  m_match->post({QObject::tr("%1 cannot be removed").arg(name),
+  m_match->post({QStringLiteral("%1 cannot be removed").arg(name),
                  [id](link::SimulatedMatch& match) { return match.removeRobot(id); }});
 }
 
@@ -49,7 +49,7 @@ void MatchRoster::changeIdentities(const std::vector<sim::RobotIdentity>& identi
     const auto known = m_robots.find(identity.id);
     if (known == m_robots.end()) continue;
     const sim::RobotIdentity before = std::exchange(known->second.identity, identity);
-    m_match->post({QObject::tr("%1 stays in its team").arg(robotName(before)),
+    m_match->post({QStringLiteral("%1 stays in its team").arg(robotName(before)),
                    [identity](link::SimulatedMatch& match) { return match.setIdentity(identity); },
                    [this, before] {
                      const auto still = m_robots.find(before.id);
@@ -63,7 +63,7 @@ void MatchRoster::setBehaviour(RobotId id, const std::string& behaviour) {
   if (known == m_robots.end()) return;
   known->second.behaviour = behaviour;
   m_match->post(
-      {QObject::tr("%1 keeps its behaviour").arg(robotName(known->second.identity)),
+      {QStringLiteral("%1 keeps its behaviour").arg(robotName(known->second.identity)),
        [id, behaviour](link::SimulatedMatch& match) { return match.setBehaviour(id, behaviour); }});
 }
 
@@ -77,9 +77,9 @@ void MatchRoster::place(const std::vector<RobotPlacement>& placements, bool back
 }
 
 void MatchRoster::placeBall(Point position) {
-  m_match->post({QObject::tr("The ball cannot be placed"), [position](link::SimulatedMatch& match) {
-                   return match.simulation().placeBall(position);
-                 }});
+  m_match->post(
+      {QStringLiteral("The ball cannot be placed"),
+       [position](link::SimulatedMatch& match) { return match.simulation().placeBall(position); }});
 }
 
 }  // namespace pitchboard::ui

@@ -106,10 +106,11 @@ std::shared_ptr<const telemetry::SeriesStore> ReplayController::series() const {
 }
 
 QString ReplayController::emptyText() const {
-  return isOpening() ? tr("Opening…")
-         : isOpen()  ? tr("The session has no robots at this moment.")
-                     : tr("No session is open.\nDrop a recorded session (.mcap) here, or choose "
-                           "File > Open session.");
+  return isOpening() ? QStringLiteral("Opening…")
+         : isOpen()  ? QStringLiteral("The session has no robots at this moment.")
+                     : QStringLiteral(
+                           "No session is open.\nDrop a recorded session (.mcap) here, or choose "
+                            "File > Open session.");
 }
 
 std::optional<QDateTime> ReplayController::clock() const {
@@ -129,7 +130,7 @@ void ReplayController::open(const QString& path) {
     if (!session) {
       problem = QString::fromStdString(session.error().text());
     } else if (const auto range = session->range(); !range) {
-      problem = tr("%1: the file holds no rows and no messages").arg(path);
+      problem = QStringLiteral("%1: the file holds no rows and no messages").arg(path);
     } else {
       file = std::make_shared<File>(std::move(*session));
       file->range = {range->begin, range->end};
@@ -159,7 +160,7 @@ void ReplayController::open(const QString& path) {
       if (mine != m_generation) return;
       m_opening = false;
       if (!file) {
-        emit failed(tr("The session was not opened: %1").arg(problem));
+        emit failed(QStringLiteral("The session was not opened: %1").arg(problem));
         return;
       }
       m_path = path;
@@ -272,8 +273,9 @@ void ReplayController::noteWhatDoesNotFit() {
   const auto held = m_file ? m_file->rows->range() : std::nullopt;
   if (!held || held->begin <= m_file->range.begin + chunk) return;
   emit noted(
-      {tr("The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
-          "can still be shown. Timeline > Memory for the past… gives it more.")
+      {QStringLiteral(
+           "The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
+           "can still be shown. Timeline > Memory for the past… gives it more.")
            .arg(m_budget >> 20)
            .arg(held->end - held->begin, 0, 'f', 0)});
 }

@@ -33,7 +33,7 @@ QAction* addChoice(QActionGroup* group, QMenu* menu, const QString& text, bool c
 
 void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
   if (!allOf(*controller, ids, [](const auto&) { return true; })) return;
-  QMenu* behaviour = menu->addMenu(QObject::tr("Behaviour"));
+  QMenu* behaviour = menu->addMenu(QStringLiteral("Behaviour"));
   auto* group = new QActionGroup(behaviour);
   const auto offer = [&](std::string_view name, const QString& text) {
     const bool chosen =
@@ -47,12 +47,12 @@ void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vecto
   for (const link::BehaviourInfo& known : link::behaviours())
     offer(known.name, capitalised(known.name));
   behaviour->addSeparator();
-  offer(link::noBehaviour, QObject::tr("None (your own process)"));
+  offer(link::noBehaviour, QStringLiteral("None (your own process)"));
 }
 
 void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
   if (!allOf(*controller, ids, [](const auto&) { return true; })) return;
-  QMenu* team = menu->addMenu(QObject::tr("Team"));
+  QMenu* team = menu->addMenu(QStringLiteral("Team"));
   auto* group = new QActionGroup(team);
   for (const TeamColorInfo& color : teamColors) {
     const bool chosen = allOf(*controller, ids, [&](const link::ScenarioRobot& r) {

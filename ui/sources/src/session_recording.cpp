@@ -127,14 +127,15 @@ QString SessionRecording::newPath(const QString& title) {
 
 bool SessionRecording::makeFolder(const QDir& folder) {
   if (folder.mkpath(QStringLiteral("."))) return true;
-  emit failed(tr("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
-                 "Timeline > Folder for recordings…")
-                  .arg(folder.path()));
+  emit failed(
+      QStringLiteral("Nothing is recorded: the folder %1 cannot be made. Choose another one in "
+                     "Timeline > Folder for recordings…")
+          .arg(folder.path()));
   return false;
 }
 
 QString SessionRecording::title() const {
-  if (m_source->kind() == SourceKind::Live) return tr("live");
+  if (m_source->kind() == SourceKind::Live) return QStringLiteral("live");
   const link::Scenario& scenario = m_controller->scenario();
   return QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title);
 }
@@ -188,23 +189,24 @@ void SessionRecording::start() {
 void SessionRecording::startInto(const QString& path) {
   if (m_recorder) return;
   if (!isPossible()) {
-    emit failed(tr("Nothing is recorded: there is no match to record."));
+    emit failed(QStringLiteral("Nothing is recorded: there is no match to record."));
     return;
   }
   if (!makeFolder(QFileInfo(path).dir())) return;
   const QString unused = freePath(path);
   begin(unused);
   if (m_recorder && unused != path) {
-    emit noted(tr("%1 exists and is left alone: recording into %2.").arg(path, unused));
+    emit noted(QStringLiteral("%1 exists and is left alone: recording into %2.").arg(path, unused));
   }
 }
 
 void SessionRecording::begin(const QString& path) {
   auto made = m_source->kind() == SourceKind::Live ? recordLive(path) : recordMatch(path);
   if (!made) {
-    emit failed(tr("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
-                   "recordings…")
-                    .arg(words(made.error())));
+    emit failed(
+        QStringLiteral("Nothing is recorded: %1. Choose another folder in Timeline > Folder for "
+                       "recordings…")
+            .arg(words(made.error())));
     return;
   }
   m_recorder = std::move(*made);
@@ -228,11 +230,12 @@ void SessionRecording::finish(bool matchEnds) {
     m_toUi.post([this, done, path, matchEnds] {
       if (!done) {
         emit failed(
-            tr("The recording %1 is not complete: %2. What was written before can be opened.")
+            QStringLiteral(
+                "The recording %1 is not complete: %2. What was written before can be opened.")
                 .arg(path, words(done.error())));
         return;
       }
-      if (matchEnds) emit noted(tr("The recording ended with the match: %1").arg(path));
+      if (matchEnds) emit noted(QStringLiteral("The recording ended with the match: %1").arg(path));
       emit saved(path);
     });
   });
@@ -249,7 +252,8 @@ void SessionRecording::checkHealth() {
   QString problem = QString::fromStdString(status.problem);
   // A file that was removed goes on being written, to nowhere.
   if (problem.isEmpty() && !QFile::exists(m_path)) {
-    problem = tr("Recording stopped. The file %1 was removed or its folder is gone.").arg(m_path);
+    problem = QStringLiteral("Recording stopped. The file %1 was removed or its folder is gone.")
+                  .arg(m_path);
   }
   if (problem.isEmpty()) {
     warnOf(status);
@@ -305,10 +309,10 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
 void SessionRecording::saveLast(double seconds) {
   SessionMaker make = recentPast(seconds);
   if (!make) {
-    emit failed(tr("There is nothing in memory to save yet."));
+    emit failed(QStringLiteral("There is nothing in memory to save yet."));
     return;
   }
-  const QString path = newPath(title() + tr(" last %1 s").arg(seconds));
+  const QString path = newPath(title() + QStringLiteral(" last %1 s").arg(seconds));
   if (path.isEmpty()) return;
   m_worker.start([this, path, make = std::move(make)] {
     const auto done = make(path);
@@ -316,7 +320,7 @@ void SessionRecording::saveLast(double seconds) {
       if (done)
         emit saved(path);
       else
-        emit failed(tr("Nothing was saved: %1").arg(words(done.error())));
+        emit failed(QStringLiteral("Nothing was saved: %1").arg(words(done.error())));
     });
   });
 }

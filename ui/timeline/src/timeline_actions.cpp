@@ -25,19 +25,21 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
     : QObject(parent),
       m_timeline(timeline),
       m_plots(plots),
-      m_live(make(this, tr("Back to &now"), "media-seek-forward",
+      m_live(make(this, QStringLiteral("Back to &now"), "media-seek-forward",
                   QKeySequence(Qt::CTRL | Qt::Key_End))),
-      m_play(make(this, tr("&Play the past"), "media-playback-start",
+      m_play(make(this, QStringLiteral("&Play the past"), "media-playback-start",
                   QKeySequence(Qt::CTRL | Qt::Key_Space))),
-      m_next(make(this, tr("&Next event"), "go-next", QKeySequence(Qt::Key_N))),
-      m_previous(
-          make(this, tr("&Previous event"), "go-previous", QKeySequence(Qt::SHIFT | Qt::Key_N))),
-      m_bookmark(make(this, tr("Set a &bookmark"), "bookmark-new", QKeySequence(Qt::Key_M))),
-      m_back(make(this, tr("One tick bac&k"), nullptr, QKeySequence(Qt::CTRL | Qt::Key_Comma))),
-      m_on(make(this, tr("One tick &on"), nullptr, {})),
-      m_selectVisible(make(this, tr("&Choose the plots' range"), nullptr, {})),
-      m_clearRange(make(this, tr("Choose no &range"), nullptr, {})),
-      m_loop(make(this, tr("&Loop the chosen range"), "media-playlist-repeat",
+      m_next(make(this, QStringLiteral("&Next event"), "go-next", QKeySequence(Qt::Key_N))),
+      m_previous(make(this, QStringLiteral("&Previous event"), "go-previous",
+                      QKeySequence(Qt::SHIFT | Qt::Key_N))),
+      m_bookmark(
+          make(this, QStringLiteral("Set a &bookmark"), "bookmark-new", QKeySequence(Qt::Key_M))),
+      m_back(make(this, QStringLiteral("One tick bac&k"), nullptr,
+                  QKeySequence(Qt::CTRL | Qt::Key_Comma))),
+      m_on(make(this, QStringLiteral("One tick &on"), nullptr, {})),
+      m_selectVisible(make(this, QStringLiteral("&Choose the plots' range"), nullptr, {})),
+      m_clearRange(make(this, QStringLiteral("Choose no &range"), nullptr, {})),
+      m_loop(make(this, QStringLiteral("&Loop the chosen range"), "media-playlist-repeat",
                   QKeySequence(Qt::CTRL | Qt::Key_L))) {
   m_live->setObjectName(QStringLiteral("timelineLive"));
   m_next->setObjectName(QStringLiteral("nextEvent"));

@@ -24,7 +24,7 @@ class TimelineDock : public QWidget {
         m_live(new QToolButton(this)) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     m_live->setObjectName(QStringLiteral("live"));
-    m_live->setText(tr("Live"));
+    m_live->setText(QStringLiteral("Live"));
     m_live->setCheckable(true);
     m_live->setFocusPolicy(Qt::NoFocus);
     m_live->setFixedWidth(scaled(this, 48));
@@ -65,26 +65,28 @@ class TimelineDock : public QWidget {
     if (!session->isOn()) return;
     if (event != nullptr) {
       const double time = event->time;
-      QAction* align = menu->addAction(
-          tr("&Align at this event: %1").arg(QString::fromStdString(sentenceOf(*event))), session,
-          [session, time, compared] {
-            if (compared)
-              session->alignThere(time);
-            else
-              session->alignHere(time);
-          });
+      QAction* align = menu->addAction(QStringLiteral("&Align at this event: %1")
+                                           .arg(QString::fromStdString(sentenceOf(*event))),
+                                       session, [session, time, compared] {
+                                         if (compared)
+                                           session->alignThere(time);
+                                         else
+                                           session->alignHere(time);
+                                       });
       align->setObjectName(QStringLiteral("alignHere"));
     }
-    QAction* byTime = menu->addAction(tr("Align by &time"), session, &ComparedSession::alignByTime);
+    QAction* byTime =
+        menu->addAction(QStringLiteral("Align by &time"), session, &ComparedSession::alignByTime);
     byTime->setEnabled(session->offset() != 0.0 || session->here() || session->there());
-    menu->addAction(tr("St&op comparing"), session, &ComparedSession::stop);
+    menu->addAction(QStringLiteral("St&op comparing"), session, &ComparedSession::stop);
     menu->addSeparator();
   }
   void showLive() {
     m_live->setVisible(!m_timeline->isRecording());
     m_live->setChecked(!m_timeline->isLookingBack());
-    m_live->setToolTip(m_timeline->isLookingBack() ? tr("Back to now (Ctrl+End)")
-                                                   : tr("The window shows what happens now"));
+    m_live->setToolTip(m_timeline->isLookingBack()
+                           ? QStringLiteral("Back to now (Ctrl+End)")
+                           : QStringLiteral("The window shows what happens now"));
   }
 
   Timeline* m_timeline;

@@ -27,7 +27,7 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  setAccessibleName(tr("Timeline"));
+  setAccessibleName(QStringLiteral("Timeline"));
   const auto refresh = [this] {
     fitAxis();
     update();
@@ -205,7 +205,8 @@ QString TimelineStrip::tipAt(QPointF at) {
     lines << momentText(e.time, 2) + QStringLiteral("  ") +
                  QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }
-  if (mark->merged > most) lines << tr("and %1 more; zoom in to see them").arg(mark->merged - most);
+  if (mark->merged > most)
+    lines << QStringLiteral("and %1 more; zoom in to see them").arg(mark->merged - most);
   return QStringLiteral("<p style='white-space:pre'>") + lines.join(QStringLiteral("<br>")) +
          QStringLiteral("</p>");
 }

@@ -20,28 +20,29 @@ AttachForm::AttachForm(QWidget* parent)
   m_key->setObjectName(QStringLiteral("attachKey"));
   m_key->setRange(1, std::numeric_limits<int>::max());
   m_key->setValue(100);
-  m_key->setAccessibleName(tr("Key of the blackboard"));
+  m_key->setAccessibleName(QStringLiteral("Key of the blackboard"));
   m_rate->setObjectName(QStringLiteral("attachRate"));
   m_rate->setRange(link::BoardSamplerOptions::slowest, link::BoardSamplerOptions::fastest);
   m_rate->setDecimals(1);
   m_rate->setValue(60);
-  m_rate->setSuffix(tr(" /s"));
-  m_rate->setAccessibleName(tr("Samples a second"));
+  m_rate->setSuffix(QStringLiteral(" /s"));
+  m_rate->setAccessibleName(QStringLiteral("Samples a second"));
   for (QAbstractSpinBox* box :
        {static_cast<QAbstractSpinBox*>(m_key), static_cast<QAbstractSpinBox*>(m_rate)}) {
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
     box->setAlignment(Qt::AlignRight);
     box->setMaximumWidth(scaled(this, 84));
   }
-  auto* about = new QLabel(tr("Look at another blackboard of this computer. It is only read; what "
-                              "changes twice between two samples is not seen."),
-                           this);
+  auto* about = new QLabel(
+      QStringLiteral("Look at another blackboard of this computer. It is only read; what "
+                     "changes twice between two samples is not seen."),
+      this);
   about->setWordWrap(true);
   about->setFont(themeFont(TypeRole::Secondary));
   about->setForegroundRole(QPalette::PlaceholderText);
-  auto* attach = new QPushButton(tr("Attach"), this);
+  auto* attach = new QPushButton(QStringLiteral("Attach"), this);
   attach->setObjectName(QStringLiteral("attachButton"));
-  auto* cancel = new QPushButton(tr("Cancel"), this);
+  auto* cancel = new QPushButton(QStringLiteral("Cancel"), this);
   connect(attach, &QPushButton::clicked, this, &AttachForm::request);
   connect(cancel, &QPushButton::clicked, this, &QWidget::hide);
   auto* grid = new QGridLayout(this);
@@ -49,7 +50,7 @@ AttachForm::AttachForm(QWidget* parent)
   grid->setContentsMargins(2 * gap, gap, 2 * gap, gap);
   grid->setSpacing(gap);
   grid->addWidget(about, 0, 0, 1, 5);
-  grid->addWidget(new QLabel(tr("Key"), this), 1, 0);
+  grid->addWidget(new QLabel(QStringLiteral("Key"), this), 1, 0);
   grid->addWidget(m_key, 1, 1);
   grid->addWidget(m_rate, 1, 2);
   grid->addWidget(attach, 1, 3);

@@ -36,34 +36,36 @@ CatalogChoice::CatalogChoice(MatchController* controller, QSettings* settings,
     m_file = file;
     m_controller->setCatalog(remembered.catalog);
   } else {
-    m_message->say(InPlaceMessage::Tone::Error,
-                   tr("The published catalog is used, because the imported one cannot be read: %1")
-                       .arg(remembered.problem));
+    m_message->say(
+        InPlaceMessage::Tone::Error,
+        QStringLiteral("The published catalog is used, because the imported one cannot be read: %1")
+            .arg(remembered.problem));
   }
 }
 
 QString CatalogChoice::name() const {
-  return m_file.isEmpty() ? tr("Published catalog")
-                          : tr("Catalog of %1").arg(QFileInfo(m_file).fileName());
+  return m_file.isEmpty() ? QStringLiteral("Published catalog")
+                          : QStringLiteral("Catalog of %1").arg(QFileInfo(m_file).fileName());
 }
 
 void CatalogChoice::askAndImport(QWidget* parent) {
-  const QString file =
-      QFileDialog::getOpenFileName(parent, tr("Import a catalog of variables"), m_file,
-                                   tr("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
+  const QString file = QFileDialog::getOpenFileName(
+      parent, QStringLiteral("Import a catalog of variables"), m_file,
+      QStringLiteral("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
   if (!file.isEmpty()) importFile(file);
 }
 
 void CatalogChoice::importFile(const QString& file) {
   const ReadCatalog made = read(file);
   if (!made.catalog) {
-    m_message->say(InPlaceMessage::Tone::Error, tr("Nothing was imported. %1").arg(made.problem));
+    m_message->say(InPlaceMessage::Tone::Error,
+                   QStringLiteral("Nothing was imported. %1").arg(made.problem));
     return;
   }
   m_file = QFileInfo(file).absoluteFilePath();
   if (m_settings) m_settings->setValue(fileKey, m_file);
   m_controller->setCatalog(made.catalog);
-  offerRestart(tr("%1 variables read from %2.")
+  offerRestart(QStringLiteral("%1 variables read from %2.")
                    .arg(made.catalog->variables().size())
                    .arg(QFileInfo(file).fileName()));
 }
@@ -72,7 +74,7 @@ void CatalogChoice::usePublished() {
   m_file.clear();
   if (m_settings) m_settings->remove(fileKey);
   m_controller->setCatalog({&link::VariableCatalog::published(), [](const auto*) {}});
-  offerRestart(tr("The published catalog is used again."));
+  offerRestart(QStringLiteral("The published catalog is used again."));
 }
 
 void CatalogChoice::offerRestart(const QString& sentence) {
@@ -81,13 +83,15 @@ void CatalogChoice::offerRestart(const QString& sentence) {
     m_message->say(InPlaceMessage::Tone::Note, sentence);
     return;
   }
-  QString all =
-      sentence + QLatin1Char(' ') + tr("They name the blackboards from the next match on.");
+  QString all = sentence + QLatin1Char(' ') +
+                QStringLiteral("They name the blackboards from the next match on.");
   if (!isPublished() && m_controller->cognition() == link::Cognition::External) {
-    all += QLatin1Char(' ') + tr("The studio's own robot processes know the published places only: "
-                                 "use your team's processes with it.");
+    all +=
+        QLatin1Char(' ') + QStringLiteral(
+                               "The studio's own robot processes know the published places only: "
+                               "use your team's processes with it.");
   }
-  m_message->say(InPlaceMessage::Tone::Note, all, tr("Restart the match"),
+  m_message->say(InPlaceMessage::Tone::Note, all, QStringLiteral("Restart the match"),
                  [this] { m_controller->restart(); });
 }
 

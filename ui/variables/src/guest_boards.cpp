@@ -21,8 +21,9 @@ GuestBoards::GuestBoards(MatchController* controller, VariablesModel* model,
 
 void GuestBoards::attach(int key, double rate) {
   if (const Result<void> done = m_boards->attach(key, rate); !done) {
-    m_message->say(InPlaceMessage::Tone::Error,
-                   tr("Not attached. %1").arg(QString::fromStdString(done.error().text())));
+    m_message->say(
+        InPlaceMessage::Tone::Error,
+        QStringLiteral("Not attached. %1").arg(QString::fromStdString(done.error().text())));
     return;
   }
   m_form->hide();
@@ -35,18 +36,19 @@ bool GuestBoards::contains(int key) const {
 
 void GuestBoards::detach(int key) {
   m_boards->detach(key);
-  m_model->setNote(AttachedBoards::groupName(key), {tr("detached"), {}, 0.0});
+  m_model->setNote(AttachedBoards::groupName(key), {QStringLiteral("detached"), {}, 0.0});
 }
 
 void GuestBoards::refresh() {
   for (const auto& [key, status] : m_boards->status()) {
     const QString group = AttachedBoards::groupName(key);
-    m_model->setNote(group, {status.attached ? QString() : tr("removed, waiting"),
-                             status.missed == 0 ? QString()
-                                                : tr("%1 samples were left out, because the "
-                                                     "computer was busy.")
-                                                      .arg(status.missed),
-                             status.attached ? status.rate : 0.0});
+    m_model->setNote(group,
+                     {status.attached ? QString() : QStringLiteral("removed, waiting"),
+                      status.missed == 0 ? QString()
+                                         : QStringLiteral("%1 samples were left out, because the "
+                                                          "computer was busy.")
+                                               .arg(status.missed),
+                      status.attached ? status.rate : 0.0});
     if (!status.attached && m_removed.insert(key).second) {
       m_message->say(InPlaceMessage::Tone::Warning, QString::fromStdString(status.message));
     } else if (status.attached) {

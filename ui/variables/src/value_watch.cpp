@@ -54,11 +54,11 @@ QString overwrittenText(const OverwrittenValue& value, const telemetry::ColumnIn
   const QString name = written.group + QLatin1Char('/') + written.column;
   const QString after = ageText(value.after);
   return (value.found == written.before
-              ? QObject::tr("%1 was %2 again %3 after you wrote %4")
+              ? QStringLiteral("%1 was %2 again %3 after you wrote %4")
                     .arg(name, text(value.found), after, text(written.value))
-              : QObject::tr("%1 was overwritten with %2 %3 after you wrote %4")
+              : QStringLiteral("%1 was overwritten with %2 %3 after you wrote %4")
                     .arg(name, text(value.found), after, text(written.value))) +
-         QObject::tr(
+         QStringLiteral(
              ": a process of the robot writes it too. To keep your value, stop that process "
              "(Processes) or choose behaviour “none” on the robot's card.");
 }

@@ -100,8 +100,9 @@ class VariablesDock : public QWidget {
   QHBoxLayout* makeTools() {
     m_words = new QLineEdit(this);
     m_words->setObjectName(QStringLiteral("variablesFilter"));
-    m_words->setPlaceholderText(tr("Filter by words, e.g. ball dist B1"));
-    m_words->setToolTip(tr("Rows that have all the words, in robot, process, name or unit"));
+    m_words->setPlaceholderText(QStringLiteral("Filter by words, e.g. ball dist B1"));
+    m_words->setToolTip(
+        QStringLiteral("Rows that have all the words, in robot, process, name or unit"));
     m_words->setClearButtonEnabled(true);
     m_words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(m_words, &QLineEdit::textChanged, this, [this](const QString& text) {
@@ -109,21 +110,21 @@ class VariablesDock : public QWidget {
       filterChanged();
     });
     m_stars = makeButton("favouritesOnly", "starred-symbolic",
-                         tr("Favourites only. * on a variable makes it one."));
+                         QStringLiteral("Favourites only. * on a variable makes it one."));
     m_stars->setCheckable(true);
     connect(m_stars, &QToolButton::toggled, this, [this](bool on) {
       m_filter->setFavouritesOnly(on);
       filterChanged();
     });
     m_changed = makeButton("changedOnly", nullptr, QString());
-    m_changed->setText(tr("Changed"));
+    m_changed->setText(QStringLiteral("Changed"));
     m_changed->setCheckable(true);
     connect(m_changed, &QToolButton::toggled, this, [this] { applyChanged(); });
     m_lock = makeButton("editValues", "object-locked", QString());
     m_lock->setCheckable(true);
     connect(m_lock, &QToolButton::toggled, this, [this](bool on) { allowEditing(on); });
     auto* more = makeButton("variablesMenu", "application-menu",
-                            tr("Columns, sampling, catalog, other blackboards"));
+                            QStringLiteral("Columns, sampling, catalog, other blackboards"));
     more->setMenu(makeMenu(more));
     more->setPopupMode(QToolButton::InstantPopup);
     auto* row = new QHBoxLayout;
@@ -138,8 +139,9 @@ class VariablesDock : public QWidget {
   void fillChanged(QMenu* menu) {
     menu->clear();
     for (const int seconds : {1, 5, 15, 60}) {
-      QAction* action = menu->addAction(seconds == 1 ? tr("Within the last second")
-                                                     : tr("Within the last %1 s").arg(seconds));
+      QAction* action =
+          menu->addAction(seconds == 1 ? QStringLiteral("Within the last second")
+                                       : QStringLiteral("Within the last %1 s").arg(seconds));
       action->setCheckable(true);
       action->setChecked(seconds == m_changedWithin);
       connect(action, &QAction::triggered, this, [this, seconds] {
@@ -155,30 +157,32 @@ class VariablesDock : public QWidget {
 
   QMenu* makeMenu(QWidget* parent) {
     auto* menu = new QMenu(parent);
-    QMenu* columns = menu->addMenu(tr("Columns"));
+    QMenu* columns = menu->addMenu(QStringLiteral("Columns"));
     connect(columns, &QMenu::aboutToShow, this,
             [this, columns] { m_view->columns()->fillColumns(columns); });
-    QMenu* changed = menu->addMenu(tr("Changed means"));
+    QMenu* changed = menu->addMenu(QStringLiteral("Changed means"));
     connect(changed, &QMenu::aboutToShow, this, [this, changed] { fillChanged(changed); });
-    QMenu* sampling = menu->addMenu(tr("Sampling"));
+    QMenu* sampling = menu->addMenu(QStringLiteral("Sampling"));
     connect(sampling, &QMenu::aboutToShow, this, [this, sampling] { fillSampling(sampling); });
     menu->addSeparator();
-    menu->addAction(tr("Import catalog…"), this, [this] { m_catalog->askAndImport(this); })
+    menu->addAction(QStringLiteral("Import catalog…"), this,
+                    [this] { m_catalog->askAndImport(this); })
         ->setObjectName(QStringLiteral("importCatalog"));
-    QAction* reset = menu->addAction(tr("Use the published catalog"), this,
+    QAction* reset = menu->addAction(QStringLiteral("Use the published catalog"), this,
                                      [this] { m_catalog->usePublished(); });
     reset->setObjectName(QStringLiteral("publishedCatalog"));
-    QAction* attach =
-        menu->addAction(tr("Attach blackboard…"), this, [this] { m_guests->form()->open(); });
+    QAction* attach = menu->addAction(QStringLiteral("Attach blackboard…"), this,
+                                      [this] { m_guests->form()->open(); });
     attach->setObjectName(QStringLiteral("attachBlackboard"));
     menu->addSeparator();
-    menu->addAction(tr("Open all"), this, [this] { m_view->openAll(); });
-    menu->addAction(tr("Close all"), this, [this] { m_view->closeAll(); });
+    menu->addAction(QStringLiteral("Open all"), this, [this] { m_view->openAll(); });
+    menu->addAction(QStringLiteral("Close all"), this, [this] { m_view->closeAll(); });
     connect(menu, &QMenu::aboutToShow, this, [this, reset, attach] {
       const bool simulated = m_context.source->kind() == SourceKind::Simulate;
       attach->setEnabled(simulated);
-      attach->setToolTip(simulated ? tr("Samples any System V key, read-only")
-                                   : tr("Blackboards of this computer are shown in Simulate"));
+      attach->setToolTip(
+          simulated ? QStringLiteral("Samples any System V key, read-only")
+                    : QStringLiteral("Blackboards of this computer are shown in Simulate"));
       reset->setEnabled(!m_catalog->isPublished());
       reset->setToolTip(m_catalog->name());
     });
@@ -189,8 +193,8 @@ class VariablesDock : public QWidget {
   void fillSampling(QMenu* menu) {
     menu->clear();
     for (const int ticks : {1, 2, 5, 10, 30, 60}) {
-      QAction* action =
-          menu->addAction(ticks == 1 ? tr("Each tick") : tr("Every %1 ticks").arg(ticks));
+      QAction* action = menu->addAction(ticks == 1 ? QStringLiteral("Each tick")
+                                                   : QStringLiteral("Every %1 ticks").arg(ticks));
       action->setCheckable(true);
       action->setChecked(m_context.controller->memory()->sampling() == ticks);
       connect(action, &QAction::triggered, this, [this, ticks] { setSampling(ticks); });
@@ -209,19 +213,19 @@ class VariablesDock : public QWidget {
     menu->setAttribute(Qt::WA_DeleteOnClose);
     const QStringList names = m_view->selectedVariables();
     if (!names.isEmpty()) {
-      menu->addAction(tr("Plot"), this, [this, names] {
+      menu->addAction(QStringLiteral("Plot"), this, [this, names] {
         if (m_context.plots) m_context.plots->plotVariables(names);
       });
-      menu->addAction(tr("Favourite"), m_view, &VariablesView::requestFavourites);
-      menu->addAction(tr("Copy"), m_view, &VariablesView::copySelection);
-      menu->addAction(tr("Edit value"), m_view, &VariablesView::editCurrent);
+      menu->addAction(QStringLiteral("Favourite"), m_view, &VariablesView::requestFavourites);
+      menu->addAction(QStringLiteral("Copy"), m_view, &VariablesView::copySelection);
+      menu->addAction(QStringLiteral("Edit value"), m_view, &VariablesView::editCurrent);
     }
     const auto group = m_model->groupOf(index);
     const auto& attributes = group->info().attributes;
     if (attributes.count("attached") != 0) {
       const int key = QString::fromStdString(attributes.at("key")).toInt();
       if (m_guests->contains(key)) {
-        menu->addAction(tr("Detach %1").arg(AttachedBoards::groupName(key)), this,
+        menu->addAction(QStringLiteral("Detach %1").arg(AttachedBoards::groupName(key)), this,
                         [this, key] { m_guests->detach(key); });
       }
     }
@@ -244,8 +248,9 @@ class VariablesDock : public QWidget {
       if (!why.isEmpty())
         m_message->say(InPlaceMessage::Tone::Note, why);
       else
-        m_message->say(InPlaceMessage::Tone::Note, tr("Values are locked against accidents."),
-                       tr("Edit values"), [this] { m_lock->setChecked(true); });
+        m_message->say(InPlaceMessage::Tone::Note,
+                       QStringLiteral("Values are locked against accidents."),
+                       QStringLiteral("Edit values"), [this] { m_lock->setChecked(true); });
     });
     connect(m_model, &VariablesModel::favouritesChanged, this, [this] {
       if (m_context.settings) m_context.settings->setValue(favouritesKey, m_model->favourites());
@@ -285,19 +290,21 @@ class VariablesDock : public QWidget {
         themedIcon(on ? QStringLiteral("object-unlocked") : QStringLiteral("object-locked")));
     const QString tip =
         m_context.source->kind() == SourceKind::Live
-            ? tr("Values of live robots are only shown: nothing is ever sent to robots.")
+            ? QStringLiteral(
+                  "Values of live robots are only shown: nothing is ever sent to robots.")
         : m_context.source->kind() == SourceKind::Replay
-            ? tr("Values of a recording are what they were.")
-            : tr("Edit values: double-click a value of a simulated robot to change it");
+            ? QStringLiteral("Values of a recording are what they were.")
+            : QStringLiteral("Edit values: double-click a value of a simulated robot to change it");
     m_lock->setToolTip(tip);
-    m_lock->setAccessibleName(tr("Edit values"));
+    m_lock->setAccessibleName(QStringLiteral("Edit values"));
   }
 
   void applyChanged() {
     const bool on = m_changed->isChecked();
-    m_changed->setToolTip(m_changedWithin == 1
-                              ? tr("Only what changed within the last second")
-                              : tr("Only what changed within the last %1 s").arg(m_changedWithin));
+    m_changed->setToolTip(
+        m_changedWithin == 1
+            ? QStringLiteral("Only what changed within the last second")
+            : QStringLiteral("Only what changed within the last %1 s").arg(m_changedWithin));
     m_filter->setChangedWithin(on ? std::optional<double>(m_changedWithin) : std::nullopt);
     filterChanged();
   }
@@ -339,17 +346,19 @@ class VariablesDock : public QWidget {
   QString emptyText() const {
     if (m_model->rowCount() == 0) {
       const QString why = m_context.source->frame() ? QString() : m_context.source->emptyText();
-      return why.isEmpty() ? tr("No variables yet. They appear with the first values of a robot.")
-                           : why;
+      return why.isEmpty()
+                 ? QStringLiteral("No variables yet. They appear with the first values of a robot.")
+                 : why;
     }
-    if (!m_words->text().trimmed().isEmpty()) return tr("No variable has all of these words.");
+    if (!m_words->text().trimmed().isEmpty())
+      return QStringLiteral("No variable has all of these words.");
     if (m_stars->isChecked() && m_model->favourites().isEmpty()) {
-      return tr("No favourites yet. Select a variable and press * to make it one.");
+      return QStringLiteral("No favourites yet. Select a variable and press * to make it one.");
     }
     if (m_changed->isChecked()) {
-      return tr("Nothing changed within the last %1 s.").arg(m_changedWithin);
+      return QStringLiteral("Nothing changed within the last %1 s.").arg(m_changedWithin);
     }
-    return tr("None of the favourites is in this match.");
+    return QStringLiteral("None of the favourites is in this match.");
   }
 
   VariablesContext m_context;

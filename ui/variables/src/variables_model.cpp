@@ -61,7 +61,7 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
   group->name = group->path = QString::fromStdString(info.name);
   group->rank = groupRank(info);
   const auto categoryOf = [&group](const std::string& text) {
-    const QString name = text.empty() ? tr("Other") : QString::fromStdString(text);
+    const QString name = text.empty() ? QStringLiteral("Other") : QString::fromStdString(text);
     for (const auto& category : group->children) {
       if (category->name == name) return category.get();
     }

@@ -165,7 +165,7 @@ QVariant VariablesModel::display(const VariableNode& row, int column) const {
   if (row.kind == Kind::Group) {
     const double rate = rateOf(row);
     if (column == Value && rate > 0) return QString::number(rate, 'f', rate < 10 ? 1 : 0);
-    return column == Unit && rate > 0 ? tr("/s") : QString();
+    return column == Unit && rate > 0 ? QStringLiteral("/s") : QString();
   }
   if (row.kind == Kind::Category) return {};
   switch (column) {
@@ -199,18 +199,19 @@ QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
 
 QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
   const telemetry::ColumnInfo* column = columnOf(index);
-  if (column == nullptr) return tr("Only values of variables can be edited.");
+  if (column == nullptr) return QStringLiteral("Only values of variables can be edited.");
   if (m_kind == SourceKind::Live) {
-    return tr("Values of live robots are only shown: nothing is ever sent to robots.");
+    return QStringLiteral("Values of live robots are only shown: nothing is ever sent to robots.");
   }
-  if (m_kind == SourceKind::Replay) return tr("Values of a recording are what they were.");
+  if (m_kind == SourceKind::Replay)
+    return QStringLiteral("Values of a recording are what they were.");
   const telemetry::GroupInfo& group = groupOf(index)->info();
   if (group.attributes.count("robot") == 0) {
-    return group.name == "match" ? tr("Facts of the match are measured, not set.")
-                                 : tr("An attached blackboard is only read.");
+    return group.name == "match" ? QStringLiteral("Facts of the match are measured, not set.")
+                                 : QStringLiteral("An attached blackboard is only read.");
   }
   if (column->type == ColumnType::Float64) {
-    return tr(
+    return QStringLiteral(
         "This is the truth or follows from it, not a variable of the blackboard. Robots and "
         "ball are moved on the field.");
   }
@@ -230,9 +231,10 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
       if (!text.isEmpty()) lines << text;
     }
     lines << (rateOf(row) > 0
-                  ? tr("Sampled %1 times a second. Changes between two samples cannot be seen.")
+                  ? QStringLiteral(
+                        "Sampled %1 times a second. Changes between two samples cannot be seen.")
                         .arg(rateOf(row), 0, 'f', 1)
-                  : tr("No sample within the last second."));
+                  : QStringLiteral("No sample within the last second."));
     return lines.join(QLatin1Char('\n'));
   }
   QStringList lines{row.path};
@@ -241,17 +243,17 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
     lines << exactText(row.info, row.value) + QLatin1Char(' ') +
                  (words.isEmpty() ? QString::fromStdString(row.info.unit) : words);
     if (const QString rate = rateText(row.info, row.ratePerSecond); !rate.isEmpty()) {
-      lines << tr("changes by %1 a second").arg(rate);
+      lines << QStringLiteral("changes by %1 a second").arg(rate);
     }
-    lines << tr("has this value for %1").arg(row.ageShown);
+    lines << QStringLiteral("has this value for %1").arg(row.ageShown);
   } else {
-    lines << tr("no value yet");
+    lines << QStringLiteral("no value yet");
   }
   const QString why = whyNotEditable(index);
   if (index.column() == Value) {
     lines << (!why.isEmpty()     ? why
-              : m_editingAllowed ? tr("Double-click or F2 edits it.")
-                                 : tr("Turn on “Edit values” to edit it."));
+              : m_editingAllowed ? QStringLiteral("Double-click or F2 edits it.")
+                                 : QStringLiteral("Turn on “Edit values” to edit it."));
   }
   return lines.join(QLatin1Char('\n'));
 }
@@ -333,20 +335,23 @@ QVariant VariablesModel::headerData(int section, Qt::Orientation orientation, in
     const bool right = section == Value || section == Rate || section == Age;
     return int(Qt::AlignVCenter) | int(right ? Qt::AlignRight : Qt::AlignLeft);
   }
-  const QString last = tr("Last %1 s").arg(sparkSeconds(), 0, 'f', 0);
+  const QString last = QStringLiteral("Last %1 s").arg(sparkSeconds(), 0, 'f', 0);
   if (role == Qt::DisplayRole) {
-    const QString names[] = {tr("Name"), tr("Value"), tr("Unit"), tr("Change/s"), tr("Age"), last};
+    const QString names[] = {QStringLiteral("Name"), QStringLiteral("Value"),
+                             QStringLiteral("Unit"), QStringLiteral("Change/s"),
+                             QStringLiteral("Age"),  last};
     return names[section];
   }
   if (role == Qt::ToolTipRole) {
     const QString tips[] = {
-        tr("Robot, process, variable. In a robot's row: samples a second.\nChanges between two "
-           "samples cannot be seen."),
-        tr("Newest sample"),
-        tr("Unit, or what a code means"),
-        tr("Rate of change: how much the value changed over the last second"),
-        tr("Time since the value changed last"),
-        tr("The %1, from lowest to highest value").arg(last.toLower())};
+        QStringLiteral(
+            "Robot, process, variable. In a robot's row: samples a second.\nChanges between two "
+            "samples cannot be seen."),
+        QStringLiteral("Newest sample"),
+        QStringLiteral("Unit, or what a code means"),
+        QStringLiteral("Rate of change: how much the value changed over the last second"),
+        QStringLiteral("Time since the value changed last"),
+        QStringLiteral("The %1, from lowest to highest value").arg(last.toLower())};
     return tips[section];
   }
   return {};

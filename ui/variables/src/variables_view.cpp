@@ -266,7 +266,8 @@ void VariablesView::startDrag(Qt::DropActions) {
   // Owned by the drag system while the drag goes on.
   auto* drag = new QDrag(this);
   drag->setMimeData(m_model->mimeData(selectedInModel()));
-  const QString label = names.size() == 1 ? names.front() : tr("%1 variables").arg(names.size());
+  const QString label =
+      names.size() == 1 ? names.front() : QStringLiteral("%1 variables").arg(names.size());
   const QFontMetrics metrics(font());
   const int gap = scaled(this, 6);
   const QSize size(metrics.horizontalAdvance(label) + 2 * gap, metrics.height() + gap);

@@ -29,8 +29,9 @@ DockTitle::DockTitle(QDockWidget* dock) : QWidget(dock) {
   auto* label = new QLabel(dock->windowTitle(), this);
   label->setFont(themeFont(TypeRole::Secondary, true));
   label->setForegroundRole(QPalette::PlaceholderText);
-  QToolButton* floating = button(this, QStringLiteral("window-restore"), tr("Float or dock"));
-  QToolButton* close = button(this, QStringLiteral("window-close"), tr("Close"));
+  QToolButton* floating =
+      button(this, QStringLiteral("window-restore"), QStringLiteral("Float or dock"));
+  QToolButton* close = button(this, QStringLiteral("window-close"), QStringLiteral("Close"));
   connect(floating, &QToolButton::clicked, dock,
           [dock] { dock->setFloating(!dock->isFloating()); });
   connect(close, &QToolButton::clicked, dock, &QDockWidget::close);

@@ -54,14 +54,14 @@ constexpr Keys shortcuts[] = {
 void showShortcuts(QWidget* parent) {
   auto* dialog = new QDialog(parent);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setWindowTitle(QObject::tr("Keyboard shortcuts"));
+  dialog->setWindowTitle(QStringLiteral("Keyboard shortcuts"));
   auto* list = new QWidget(dialog);
   auto* grid = new QGridLayout(list);
   grid->setHorizontalSpacing(scaled(parent, 24));
   grid->setVerticalSpacing(scaled(parent, 4));
   int row = 0;
   for (const Keys& line : shortcuts) {
-    auto* does = new QLabel(QObject::tr(line.does), list);
+    auto* does = new QLabel(QString::fromUtf8(line.does), list);
     if (line.keys == nullptr) {
       does->setFont(themeFont(TypeRole::Body, true));
       does->setContentsMargins(0, row == 0 ? 0 : scaled(parent, 8), 0, 0);
@@ -88,12 +88,13 @@ void showShortcuts(QWidget* parent) {
 void showAbout(QWidget* parent) {
   auto* dialog = new QDialog(parent);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setWindowTitle(QObject::tr("About Pitchboard"));
+  dialog->setWindowTitle(QStringLiteral("About Pitchboard"));
   auto* text = new QLabel(
-      QObject::tr("<b>Pitchboard %1</b><p>A studio for teams whose humanoid soccer robots run the "
-                  "Cross Architecture: simulate them, watch them, see what they believe.</p>"
-                  "<p>Free software under the GNU General Public License, version 3 or later. "
-                  "There is no warranty.</p>")
+      QStringLiteral(
+          "<b>Pitchboard %1</b><p>A studio for teams whose humanoid soccer robots run the "
+          "Cross Architecture: simulate them, watch them, see what they believe.</p>"
+          "<p>Free software under the GNU General Public License, version 3 or later. "
+          "There is no warranty.</p>")
           .arg(QApplication::applicationVersion()),
       dialog);
   text->setWordWrap(true);

@@ -25,7 +25,7 @@ void LookingBackSign::present() {
   const QString time =
       clock ? clock->addMSecs(qRound64(at * 1000)).toString(QStringLiteral("HH:mm:ss"))
             : longMomentText(at);
-  const QString text = tr("Looking back: %1 (live goes on)").arg(time);
+  const QString text = QStringLiteral("Looking back: %1 (live goes on)").arg(time);
   if (text == this->text() && isVisible()) return;
   setText(text);
   QRect box(0, 0, sizeHint().width() + scaled(this, 24), scaled(this, 28));

@@ -104,9 +104,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
-    m_notices->show(
-        tr("Saved: %1").arg(path),
-        {{tr("Open in Replay"), [this, path] { m_sessions->open(path); }}, {tr("Close"), {}}});
+    m_notices->show(QStringLiteral("Saved: %1").arg(path),
+                    {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},
+                     {QStringLiteral("Close"), {}}});
   });
   connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
   m_bar = new TransportBar({controller, m_source, m_timeline, m_replay, m_recording, m_live},
@@ -139,7 +139,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
   const LiveSettings live = loadLiveSettings(*settings);
   m_live->setOptions(live.options);
-  if (!live.problem.isEmpty()) m_notices->show(tr("Live: %1").arg(live.problem));
+  if (!live.problem.isEmpty()) m_notices->show(QStringLiteral("Live: %1").arg(live.problem));
   setMemoryBudget(memoryBudget());
   restoreLayout();
   m_field->setFocus();
@@ -201,7 +201,7 @@ void MainWindow::recordInto(const QString& path) {
 void MainWindow::showExport() {
   const auto all = m_timeline->available();
   if (!all) {
-    m_notices->show(tr("There is nothing to export yet."));
+    m_notices->show(QStringLiteral("There is nothing to export yet."));
     return;
   }
   ExportSource source;
@@ -209,14 +209,14 @@ void MainWindow::showExport() {
     const QFileInfo file(m_replay->path());
     source.session = m_replay->path();
     source.folder = file.path();
-    source.name = file.completeBaseName() + tr(" part");
+    source.name = file.completeBaseName() + QStringLiteral(" part");
   } else {
     source.make = [this] {
       return m_recording->recentPast(std::numeric_limits<double>::infinity());
     };
     source.folder = m_recording->folder();
     source.name = m_source->kind() == SourceKind::Live
-                      ? tr("live")
+                      ? QStringLiteral("live")
                       : QString::fromStdString(m_controller->scenario().title);
   }
   auto* dialog =
@@ -251,7 +251,7 @@ void MainWindow::showSource(SourceKind kind) {
 void MainWindow::makeDocks() {
   const StudioParts parts = this->parts();
   for (const DockInfo& info : studioDocks()) {
-    auto* dock = new QDockWidget(tr(info.title), this);
+    auto* dock = new QDockWidget(QString::fromUtf8(info.title), this);
     dock->setObjectName(QLatin1String(info.id));
     dock->setWidget(info.make(parts, dock));
     dock->setTitleBarWidget(new DockTitle(dock));

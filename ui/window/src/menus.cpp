@@ -65,11 +65,11 @@ void StudioMenus::onlyWhenSimulating(QAction* action) {
 }
 
 void StudioMenus::makeFile() {
-  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&File"));
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&File"));
   ScenarioFiles* files = m_context.files;
-  withIcon(menu->addAction(QObject::tr("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
+  withIcon(menu->addAction(QStringLiteral("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
            "document-open", QKeySequence::Open);
-  QMenu* recent = menu->addMenu(QObject::tr("Open &recent"));
+  QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
   QObject::connect(
       menu, &QMenu::aboutToShow, recent, [recent, files, scenarios = m_context.scenarios] {
         recent->clear();
@@ -82,31 +82,31 @@ void StudioMenus::makeFile() {
         recent->setEnabled(!recent->isEmpty());
       });
   SessionFiles* sessions = m_context.sessions;
-  withIcon(menu->addAction(QObject::tr("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
+  withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
            "folder-open", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
-  QAction* save = menu->addAction(QObject::tr("&Save this moment as a scenario…"), files,
+  QAction* save = menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
                                   &ScenarioFiles::askAndSave);
   withIcon(save, "document-save", QKeySequence::Save);
   onlyWhenSimulating(save);
-  withIcon(
-      menu->addAction(QObject::tr("Export &picture…"), files, &ScenarioFiles::askAndExportPicture),
-      "document-export");
+  withIcon(menu->addAction(QStringLiteral("Export &picture…"), files,
+                           &ScenarioFiles::askAndExportPicture),
+           "document-export");
   menu->addSeparator();
-  withIcon(menu->addAction(QObject::tr("&Quit"), &m_window, &QWidget::close), "application-exit",
+  withIcon(menu->addAction(QStringLiteral("&Quit"), &m_window, &QWidget::close), "application-exit",
            QKeySequence(Qt::CTRL | Qt::Key_Q));
 }
 
 void StudioMenus::makeEdit() {
-  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Edit"));
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Edit"));
   MatchController* controller = m_parts.controller;
   RobotSelection* selection = m_parts.selection;
   SourceSwitch* source = m_parts.source;
-  QAction* undo = m_context.undo->createUndoAction(&m_window, QObject::tr("Undo"));
-  QAction* redo = m_context.undo->createRedoAction(&m_window, QObject::tr("Redo"));
+  QAction* undo = m_context.undo->createUndoAction(&m_window, QStringLiteral("Undo"));
+  QAction* redo = m_context.undo->createRedoAction(&m_window, QStringLiteral("Redo"));
   menu->addAction(withIcon(undo, "edit-undo", QKeySequence::Undo));
   menu->addAction(withIcon(redo, "edit-redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)));
   menu->addSeparator();
-  withIcon(menu->addAction(QObject::tr("Select &all robots"), selection,
+  withIcon(menu->addAction(QStringLiteral("Select &all robots"), selection,
                            [source, selection] {
                              std::vector<RobotId> all;
                              if (const FramePtr frame = source->frame()) {
@@ -120,7 +120,7 @@ void StudioMenus::makeEdit() {
            "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
   QAction* remove = menu->addAction(
-      QObject::tr("&Delete selected robots"), controller,
+      QStringLiteral("&Delete selected robots"), controller,
       [controller, selection] { controller->edits()->removeRobots(selection->ids()); });
   withIcon(remove, "edit-delete");
   remove->setEnabled(false);
@@ -132,9 +132,9 @@ void StudioMenus::makeEdit() {
 void StudioMenus::makeThemes(QMenu* menu) {
   auto* group = new QActionGroup(&m_window);
   const std::pair<ThemeChoice, QString> choices[] = {
-      {ThemeChoice::FollowDesktop, QObject::tr("As the &desktop")},
-      {ThemeChoice::Light, QObject::tr("&Light")},
-      {ThemeChoice::Dark, QObject::tr("Da&rk")}};
+      {ThemeChoice::FollowDesktop, QStringLiteral("As the &desktop")},
+      {ThemeChoice::Light, QStringLiteral("&Light")},
+      {ThemeChoice::Dark, QStringLiteral("Da&rk")}};
   for (const auto& [choice, name] : choices) {
     QAction* action = menu->addAction(name);
     action->setCheckable(true);
@@ -149,27 +149,28 @@ void StudioMenus::makeThemes(QMenu* menu) {
 }
 
 void StudioMenus::makeView() {
-  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&View"));
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&View"));
   for (QDockWidget* dock : m_context.docks) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();
-  QMenu* layers = menu->addMenu(QObject::tr("Field &layers"));
+  QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));
   for (QAction* action : m_parts.field->layerActions()) layers->addAction(action);
   layers->addSeparator();
   for (QAction* action : m_parts.field->layerOptionActions()) layers->addAction(action);
   for (QAction* action : m_parts.field->viewActions()) menu->addAction(action);
-  QAction* overlay = menu->addAction(QObject::tr("Overlay what is &heard live"));
+  QAction* overlay = menu->addAction(QStringLiteral("Overlay what is &heard live"));
   overlay->setObjectName(QStringLiteral("liveOverlay"));
   overlay->setCheckable(true);
-  overlay->setToolTip(QObject::tr("Simulated and heard robots side by side, matched by number"));
+  overlay->setToolTip(QStringLiteral("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
   QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
-  menu->addAction(QObject::tr("Li&ve settings…"), &m_window, [window = &m_window, parts = m_parts] {
-    showLiveSettings(parts.live, parts.settings, window);
-  });
+  menu->addAction(QStringLiteral("Li&ve settings…"), &m_window,
+                  [window = &m_window, parts = m_parts] {
+                    showLiveSettings(parts.live, parts.settings, window);
+                  });
   menu->addSeparator();
-  makeThemes(menu->addMenu(QObject::tr("&Theme")));
-  menu->addAction(QObject::tr("&Reset layout"), &m_window, &MainWindow::resetLayout);
-  QAction* full = menu->addAction(QObject::tr("&Full screen"));
+  makeThemes(menu->addMenu(QStringLiteral("&Theme")));
+  menu->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);
+  QAction* full = menu->addAction(QStringLiteral("&Full screen"));
   full->setCheckable(true);
   withIcon(full, "view-fullscreen", QKeySequence(Qt::Key_F11));
   QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
@@ -178,11 +179,11 @@ void StudioMenus::makeView() {
 }
 
 void StudioMenus::makeSimulation() {
-  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Simulation"));
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Simulation"));
   MatchController* controller = m_parts.controller;
   for (QAction* action : m_context.transport) menu->addAction(action);
   menu->addSeparator();
-  QAction* clock = menu->addAction(QObject::tr("Game &clock runs"));
+  QAction* clock = menu->addAction(QStringLiteral("Game &clock runs"));
   clock->setCheckable(true);
   QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller, source = m_parts.source] {
     const FramePtr frame = controller->frame();
@@ -190,22 +191,22 @@ void StudioMenus::makeSimulation() {
     clock->setChecked(frame && frame->snapshot.clockRunning);
   });
   QObject::connect(clock, &QAction::triggered, controller->edits(), &MatchEdits::setClockRunning);
-  onlyWhenSimulating(
-      menu->addAction(QObject::tr("Reset &score"), controller->edits(), &MatchEdits::resetScore));
+  onlyWhenSimulating(menu->addAction(QStringLiteral("Reset &score"), controller->edits(),
+                                     &MatchEdits::resetScore));
 }
 
 void StudioMenus::makeTimeline() {
-  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Timeline"));
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Timeline"));
   m_parts.timelineActions->fill(menu);
   menu->addSeparator();
   SessionFiles* sessions = m_context.sessions;
   using Poses = link::MomentOptions::Poses;
   QAction* asBelieved =
-      menu->addAction(QObject::tr("Simulate from here, &as the robots believe"), sessions,
+      menu->addAction(QStringLiteral("Simulate from here, &as the robots believe"), sessions,
                       [sessions] { sessions->simulateFromHere(Poses::Believed); });
-  QAction* asItWas = menu->addAction(QObject::tr("Simulate from here, as it &was"), sessions,
+  QAction* asItWas = menu->addAction(QStringLiteral("Simulate from here, as it &was"), sessions,
                                      [sessions] { sessions->simulateFromHere(Poses::True); });
-  QAction* goOn = menu->addAction(QObject::tr("&Continue the match from this moment"), sessions,
+  QAction* goOn = menu->addAction(QStringLiteral("&Continue the match from this moment"), sessions,
                                   &SessionFiles::continueFromHere);
   asBelieved->setObjectName(QStringLiteral("simulateBelieved"));
   asItWas->setObjectName(QStringLiteral("simulateTrue"));
@@ -223,13 +224,14 @@ void StudioMenus::makeTimeline() {
   menu->addSeparator();
   ComparedSession* compared = m_parts.compared;
   QAction* compare =
-      menu->addAction(QObject::tr("Co&mpare with session…"), sessions, [sessions, compared] {
-        const QString path = sessions->askForFile(QObject::tr("Compare with session"));
+      menu->addAction(QStringLiteral("Co&mpare with session…"), sessions, [sessions, compared] {
+        const QString path = sessions->askForFile(QStringLiteral("Compare with session"));
         if (!path.isEmpty()) compared->open(path);
       });
-  QAction* byTime = menu->addAction(QObject::tr("Align compared session by &time"), compared,
+  QAction* byTime = menu->addAction(QStringLiteral("Align compared session by &time"), compared,
                                     &ComparedSession::alignByTime);
-  QAction* stop = menu->addAction(QObject::tr("Stop c&omparing"), compared, &ComparedSession::stop);
+  QAction* stop =
+      menu->addAction(QStringLiteral("Stop c&omparing"), compared, &ComparedSession::stop);
   compare->setObjectName(QStringLiteral("compareSession"));
   stop->setObjectName(QStringLiteral("stopComparing"));
   const auto showCompared = [byTime, stop, compared] {
@@ -240,24 +242,24 @@ void StudioMenus::makeTimeline() {
   showCompared();
   menu->addSeparator();
   SessionRecording* recording = m_parts.recording;
-  QAction* exportAction = menu->addAction(QObject::tr("&Export…"), &m_window,
+  QAction* exportAction = menu->addAction(QStringLiteral("&Export…"), &m_window,
                                           [this_ = &m_window] { this_->showExport(); });
   exportAction->setObjectName(QStringLiteral("exportSession"));
   QObject::connect(menu, &QMenu::aboutToShow, exportAction, [exportAction, timeline] {
     exportAction->setEnabled(timeline->available().has_value());
   });
-  menu->addAction(QObject::tr("Memor&y for the past…"), &m_window, [this_ = &m_window] {
+  menu->addAction(QStringLiteral("Memor&y for the past…"), &m_window, [this_ = &m_window] {
     bool chosen = false;
     const int megabytes = QInputDialog::getInt(
-        this_, QObject::tr("Memory for the past"),
-        QObject::tr("Rows of one match, of Live or of a session may take (MB):"),
+        this_, QStringLiteral("Memory for the past"),
+        QStringLiteral("Rows of one match, of Live or of a session may take (MB):"),
         this_->memoryBudget(), 16, 65536, 64, &chosen);
     if (chosen) this_->setMemoryBudget(megabytes);
   });
-  menu->addAction(QObject::tr("&Folder for recordings…"), recording,
+  menu->addAction(QStringLiteral("&Folder for recordings…"), recording,
                   [this_ = &m_window, recording] {
                     const QString chosen = QFileDialog::getExistingDirectory(
-                        this_, QObject::tr("Folder for recordings"), recording->folder());
+                        this_, QStringLiteral("Folder for recordings"), recording->folder());
                     if (!chosen.isEmpty()) recording->setFolder(chosen);
                   });
 }
@@ -269,13 +271,13 @@ void StudioMenus::makePlots() {
 }
 
 void StudioMenus::makeHelp() {
-  QMenu* menu = m_window.menuBar()->addMenu(QObject::tr("&Help"));
-  menu->addAction(QObject::tr("&Keyboard shortcuts"), &m_window,
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Help"));
+  menu->addAction(QStringLiteral("&Keyboard shortcuts"), &m_window,
                   [this_ = &m_window] { showShortcuts(this_); });
-  menu->addAction(QObject::tr("Copy state &hash"), m_context.status,
+  menu->addAction(QStringLiteral("Copy state &hash"), m_context.status,
                   &StudioStatusBar::copyStateHash);
   menu->addSeparator();
-  menu->addAction(QObject::tr("&About Pitchboard"), &m_window,
+  menu->addAction(QStringLiteral("&About Pitchboard"), &m_window,
                   [this_ = &m_window] { showAbout(this_); });
 }
 

@@ -22,7 +22,8 @@ void OpeningLabel::present() {
     hide();
     return;
   }
-  setText(tr("Opening %1…").arg(QString::fromStdString(m_controller->scenario().title)));
+  setText(
+      QStringLiteral("Opening %1…").arg(QString::fromStdString(m_controller->scenario().title)));
   const QRect area = parentWidget()->rect();
   // Wide enough to cover the field's own sentence.
   QRect box(0, 0, qMin(area.width(), scaled(this, 440)), scaled(this, 40));

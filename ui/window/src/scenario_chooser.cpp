@@ -18,7 +18,7 @@ constexpr qsizetype maxRecent = 8;
 ScenarioChooser::ScenarioChooser(QSettings* settings, QWidget* parent)
     : QComboBox(parent), m_settings(settings) {
   setObjectName(QStringLiteral("scenarioChooser"));
-  setToolTip(tr("Scenario"));
+  setToolTip(QStringLiteral("Scenario"));
   setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   setMinimumWidth(scaled(this, 168));
   setMaxVisibleItems(30);
@@ -71,7 +71,7 @@ void ScenarioChooser::fill() {
   }
   if (!m_current.isEmpty() && findData(m_current) < 0) addItem(m_title, m_current);
   insertSeparator(count());
-  addItem(tr("Open…"), QString());
+  addItem(QStringLiteral("Open…"), QString());
   view()->setMinimumWidth(view()->sizeHintForColumn(0) + scaled(this, 24));
   setCurrentIndex(findData(m_current));
 }

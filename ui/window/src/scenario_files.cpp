@@ -23,8 +23,8 @@ ScenarioFiles::ScenarioFiles(MatchController* controller, FieldView* field,
 void ScenarioFiles::open(const QString& nameOrPath) {
   const auto scenario = link::loadScenario(nameOrPath.toStdString());
   if (!scenario) {
-    emit failed(
-        tr("The scenario was not opened: %1").arg(QString::fromStdString(scenario.error().text())));
+    emit failed(QStringLiteral("The scenario was not opened: %1")
+                    .arg(QString::fromStdString(scenario.error().text())));
     return;
   }
   m_controller->open(*scenario, m_controller->isPaused());
@@ -45,7 +45,7 @@ void ScenarioFiles::save(const QString& path) {
   QSaveFile file(path);
   const auto size = static_cast<qint64>(text.size());
   if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size || !file.commit()) {
-    emit failed(tr("The scenario was not saved to %1: %2. Choose another folder.")
+    emit failed(QStringLiteral("The scenario was not saved to %1: %2. Choose another folder.")
                     .arg(path, file.errorString()));
   }
 }
@@ -59,31 +59,33 @@ void ScenarioFiles::exportPicture(const QString& path) {
                           ? file.write(m_field->svgPicture(size)) > 0
                           : m_field->picture(size).save(&file, suffix.toLatin1().constData()));
   if (!drawn || !file.commit()) {
-    emit failed(tr("The picture was not written to %1. Choose another folder, and a name that "
-                   "ends in .png or .svg.")
-                    .arg(path));
+    emit failed(
+        QStringLiteral("The picture was not written to %1. Choose another folder, and a name that "
+                       "ends in .png or .svg.")
+            .arg(path));
   }
 }
 
 void ScenarioFiles::askAndOpen() {
-  const QString path = QFileDialog::getOpenFileName(m_window, tr("Open scenario"), {},
-                                                    tr("Scenarios (*.json);;All files (*)"));
+  const QString path =
+      QFileDialog::getOpenFileName(m_window, QStringLiteral("Open scenario"), {},
+                                   QStringLiteral("Scenarios (*.json);;All files (*)"));
   if (!path.isEmpty()) open(path);
 }
 
 void ScenarioFiles::askAndSave() {
-  QString path =
-      QFileDialog::getSaveFileName(m_window, tr("Save this moment as a scenario"),
-                                   QStringLiteral("moment.json"), tr("Scenarios (*.json)"));
+  QString path = QFileDialog::getSaveFileName(
+      m_window, QStringLiteral("Save this moment as a scenario"), QStringLiteral("moment.json"),
+      QStringLiteral("Scenarios (*.json)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
   save(path);
 }
 
 void ScenarioFiles::askAndExportPicture() {
-  QString path =
-      QFileDialog::getSaveFileName(m_window, tr("Export a picture of the field"),
-                                   QStringLiteral("field.png"), tr("Pictures (*.png *.svg)"));
+  QString path = QFileDialog::getSaveFileName(
+      m_window, QStringLiteral("Export a picture of the field"), QStringLiteral("field.png"),
+      QStringLiteral("Pictures (*.png *.svg)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
   exportPicture(path);

@@ -24,7 +24,8 @@ void Scoreboard::setState(const ScoreboardState& state) {
   const QSize before = sizeHint();
   m_state = state;
   if (sizeHint() != before) updateGeometry();
-  setToolTip(state.tip.isEmpty() ? tr("Score, time of play and state of the game") : state.tip);
+  setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time of play and state of the game")
+                                 : state.tip);
   setAccessibleName(
       QStringLiteral("%1 %2 %3, %4, %5")
           .arg(state.leftName, scoreText(state), state.rightName, state.clock, state.state));

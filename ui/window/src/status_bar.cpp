@@ -41,7 +41,7 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
   setContextMenuPolicy(Qt::CustomContextMenu);
   connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
     QMenu menu(this);
-    menu.addAction(tr("Copy state hash"), this, &StudioStatusBar::copyStateHash);
+    menu.addAction(QStringLiteral("Copy state hash"), this, &StudioStatusBar::copyStateHash);
     menu.exec(mapToGlobal(at));
   });
   refresh();
@@ -79,9 +79,9 @@ void StudioStatusBar::hideEmpty() {
 }
 
 void StudioStatusBar::setCursor(QPointF metres, bool valid) {
-  m_cursor->setText(
-      valid ? tr("x %1 m  y %2 m").arg(numberText(metres.x(), 2), numberText(metres.y(), 2))
-            : QString());
+  m_cursor->setText(valid ? QStringLiteral("x %1 m  y %2 m")
+                                .arg(numberText(metres.x(), 2), numberText(metres.y(), 2))
+                          : QString());
 }
 
 void StudioStatusBar::copyStateHash() {
@@ -90,7 +90,7 @@ void StudioStatusBar::copyStateHash() {
   const QString hash =
       QStringLiteral("%1").arg(m_context.controller->stateHash(), 16, 16, QLatin1Char('0'));
   QApplication::clipboard()->setText(hash);
-  showMessage(tr("State hash %1 copied").arg(hash), 4000);
+  showMessage(QStringLiteral("State hash %1 copied").arg(hash), 4000);
 }
 
 void StudioStatusBar::refresh() {
@@ -113,15 +113,16 @@ void StudioStatusBar::showSource() {
   m_processes->setPalette({});
   m_processes->setToolTip({});
   if (!frame) {
-    m_pace->setText(m_context.source->kind() == SourceKind::Replay ? tr("No session")
-                    : m_context.controller->isOpening()            ? tr("Opening…")
-                                                                   : tr("No match"));
+    m_pace->setText(m_context.source->kind() == SourceKind::Replay ? QStringLiteral("No session")
+                    : m_context.controller->isOpening()            ? QStringLiteral("Opening…")
+                                                                   : QStringLiteral("No match"));
     for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
     return;
   }
   if (m_context.source->kind() == SourceKind::Replay) {
-    m_pace->setText(tr("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
-    m_world->setText(tr("%1 of %2")
+    m_pace->setText(
+        QStringLiteral("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
+    m_world->setText(QStringLiteral("%1 of %2")
                          .arg(momentText(m_context.timeline->shownTime(), 2),
                               momentText(m_context.timeline->now(), 0)));
     m_processes->clear();
@@ -142,13 +143,14 @@ void StudioStatusBar::showMemory() {
     const telemetry::SessionStatus status = m_context.recording->status();
     const QString trouble = QString::fromStdString(telemetry::troubleText(status));
     const QString room = QString::fromStdString(telemetry::roomText(status));
-    QString text = tr("recording %1, %2 MB")
+    QString text = QStringLiteral("recording %1, %2 MB")
                        .arg(longMomentText(status.seconds))
                        .arg(static_cast<double>(status.bytes) / 1e6, 0, 'f', 1);
     if (!room.isEmpty()) text += QStringLiteral(", ") + room;
     const auto kind = telemetry::troubleOf(status);
-    if (kind == telemetry::RecordingTrouble::DiskBehind) text += tr(", disk does not keep up");
-    if (status.dropped > 0) text += tr(", %1 rows lost").arg(countText(status.dropped));
+    if (kind == telemetry::RecordingTrouble::DiskBehind)
+      text += QStringLiteral(", disk does not keep up");
+    if (status.dropped > 0) text += QStringLiteral(", %1 rows lost").arg(countText(status.dropped));
     m_recording->setText(text);
     m_recording->setToolTip((trouble.isEmpty() ? QString() : trouble + QLatin1Char('\n')) +
                             m_context.recording->path());
@@ -159,13 +161,13 @@ void StudioStatusBar::showMemory() {
   m_recording->setToolTip({});
   if (m_context.source->kind() == SourceKind::Replay) {
     const double part = m_context.replay->loaded();
-    m_recording->setText(part < 1 ? tr("Reading %1 %").arg(static_cast<int>(part * 100))
+    m_recording->setText(part < 1 ? QStringLiteral("Reading %1 %").arg(static_cast<int>(part * 100))
                                   : QString());
     return;
   }
   const auto rows = m_context.source->series();
   const auto held = rows ? rows->range() : std::nullopt;
-  m_recording->setText(held ? tr("Memory holds the last %1 (%2 MB)")
+  m_recording->setText(held ? QStringLiteral("Memory holds the last %1 (%2 MB)")
                                   .arg(momentText(held->end - held->begin, 0))
                                   .arg(static_cast<double>(rows->memoryBytes()) / 1e6, 0, 'f', 0)
                             : QString());
@@ -183,26 +185,27 @@ void StudioStatusBar::showLive(const link::MatchFrame* frame) {
 }
 
 void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
-  m_pace->setText(frame.finished ? tr("Simulation finished")
+  m_pace->setText(frame.finished ? QStringLiteral("Simulation finished")
                   : frame.paused
-                      ? tr("Simulation paused")
-                      : tr("Simulation %1/s, ×%2")
+                      ? QStringLiteral("Simulation paused")
+                      : QStringLiteral("Simulation %1/s, ×%2")
                             .arg(countText(static_cast<qulonglong>(frame.ticksPerSecond + 0.5)),
                                  numberText(frame.speed, 2)));
   const auto robots = frame.robots.size();
-  m_world->setText(tr("%1, tick %2, seed %3")
-                       .arg(robots == 1 ? tr("1 robot") : tr("%1 robots").arg(robots),
-                            countText(frame.snapshot.tick))
-                       .arg(frame.seed));
+  m_world->setText(
+      QStringLiteral("%1, tick %2, seed %3")
+          .arg(robots == 1 ? QStringLiteral("1 robot") : QStringLiteral("%1 robots").arg(robots),
+               countText(frame.snapshot.tick))
+          .arg(frame.seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::External:
-      m_processes->setText(tr("Robot processes separate"));
+      m_processes->setText(QStringLiteral("Robot processes separate"));
       break;
     case link::Cognition::Inline:
-      m_processes->setText(tr("Robots decide in the studio"));
+      m_processes->setText(QStringLiteral("Robots decide in the studio"));
       break;
     case link::Cognition::None:
-      m_processes->setText(tr("Waiting for your processes"));
+      m_processes->setText(QStringLiteral("Waiting for your processes"));
       break;
   }
 }
@@ -210,10 +213,10 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
 void StudioStatusBar::showSelected(const link::MatchFrame& frame) {
   const auto& selected = m_context.selection->ids();
   QString text;
-  if (selected.size() > 1) text = tr("%1 robots selected").arg(selected.size());
+  if (selected.size() > 1) text = QStringLiteral("%1 robots selected").arg(selected.size());
   if (selected.size() == 1) {
     if (const link::RobotFrame* robot = frame.robot(selected.front())) {
-      text = tr("%1 selected: %2, %3 m, %4°")
+      text = QStringLiteral("%1 selected: %2, %3 m, %4°")
                  .arg(robotName(robot->identity), numberText(robot->pose.position.x, 2),
                       numberText(robot->pose.position.y, 2),
                       numberText(degreesFromRadians(wrapToPi(robot->pose.yaw)), 0));

@@ -48,7 +48,7 @@ QString speedText(double speed) {
 }  // namespace
 
 TransportBar::TransportBar(const TransportContext& context, QSettings* settings, QWidget* parent)
-    : QToolBar(tr("Tool bar"), parent),
+    : QToolBar(QStringLiteral("Tool bar"), parent),
       m_context(context),
       m_scenarios(new ScenarioChooser(settings, this)),
       m_scoreboard(new Scoreboard(this)),
@@ -91,9 +91,9 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
 void TransportBar::addModes() {
   auto* group = new QActionGroup(this);
   for (const Mode& mode : modes) {
-    auto* action = new QAction(tr(mode.name), group);
+    auto* action = new QAction(QString::fromUtf8(mode.name), group);
     action->setCheckable(true);
-    action->setToolTip(tr(mode.tip));
+    action->setToolTip(QString::fromUtf8(mode.tip));
     action->setChecked(mode.kind == m_context.source->kind());
     connect(action, &QAction::triggered, this, [this, kind = mode.kind] {
       emit sourceRequested(kind);
@@ -108,28 +108,29 @@ void TransportBar::addModes() {
 }
 
 void TransportBar::addTransport() {
-  m_restart =
-      addAction(themedIcon(QStringLiteral("media-skip-backward")), tr("Restart"), this, [this] {
-        if (Playback* past = playback())
-          past->toStart();
-        else
-          m_context.controller->restart();
-      });
+  m_restart = addAction(themedIcon(QStringLiteral("media-skip-backward")),
+                        QStringLiteral("Restart"), this, [this] {
+                          if (Playback* past = playback())
+                            past->toStart();
+                          else
+                            m_context.controller->restart();
+                        });
   m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
-  m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), tr("Pause"), this, [this] {
-    if (Playback* past = playback())
-      past->setPaused(!past->isPaused());
-    else
-      m_context.controller->setPaused(!m_context.controller->isPaused());
-  });
+  m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), QStringLiteral("Pause"),
+                     this, [this] {
+                       if (Playback* past = playback())
+                         past->setPaused(!past->isPaused());
+                       else
+                         m_context.controller->setPaused(!m_context.controller->isPaused());
+                     });
   m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
-  m_step =
-      addAction(themedIcon(QStringLiteral("media-skip-forward")), tr("One tick"), this, [this] {
-        if (Playback* past = playback())
-          past->step(1);
-        else
-          m_context.controller->stepOnce();
-      });
+  m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), QStringLiteral("One tick"),
+                     this, [this] {
+                       if (Playback* past = playback())
+                         past->step(1);
+                       else
+                         m_context.controller->stepOnce();
+                     });
   m_step->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Period));
   m_restart->setObjectName(QStringLiteral("restart"));
   m_play->setObjectName(QStringLiteral("play"));
@@ -161,7 +162,7 @@ void TransportBar::addRecord() {
   m_record->setPopupMode(QToolButton::MenuButtonPopup);
   auto* menu = new QMenu(m_record);
   for (const int seconds : {10, 30, 60, 300}) {
-    menu->addAction(tr("Save the last %1 seconds").arg(seconds), m_context.recording,
+    menu->addAction(QStringLiteral("Save the last %1 seconds").arg(seconds), m_context.recording,
                     [this, seconds] { m_context.recording->saveLast(seconds); });
   }
   m_record->setMenu(menu);
@@ -191,13 +192,15 @@ void TransportBar::showRecord() {
   painter.drawEllipse(centre, radius, radius);
   painter.end();
   m_record->setIcon(QIcon(dot));
-  m_record->setText(on ? tr("Recording %1").arg(clockText(m_context.recording->status().seconds))
-                       : tr("Record"));
+  m_record->setText(
+      on ? QStringLiteral("Recording %1").arg(clockText(m_context.recording->status().seconds))
+         : QStringLiteral("Record"));
   m_record->setToolTip(
-      on ? tr("Stop recording into %1\n%2")
+      on ? QStringLiteral("Stop recording into %1\n%2")
                .arg(m_context.recording->path(),
                     QString::fromStdString(telemetry::roomText(m_context.recording->status())))
-         : tr("Record everything into a new file in %1").arg(m_context.recording->folder()));
+         : QStringLiteral("Record everything into a new file in %1")
+               .arg(m_context.recording->folder()));
   m_record->setEnabled(on || m_context.recording->isPossible());
   m_recordAction->setVisible(m_context.source->kind() != SourceKind::Replay || on);
 }
@@ -223,10 +226,10 @@ void TransportBar::showTransport() {
   const bool paused = past != nullptr ? past->isPaused() : controller.isPaused();
   const bool there =
       past != nullptr ? past->isAvailable() : controller.isOpen() || controller.isOpening();
-  m_restart->setText(past != nullptr ? tr("To the start") : tr("Restart"));
+  m_restart->setText(past != nullptr ? QStringLiteral("To the start") : QStringLiteral("Restart"));
   m_restart->setToolTip(
       QStringLiteral("%1 (%2)").arg(m_restart->text(), m_restart->shortcut().toString()));
-  m_play->setText(paused ? tr("Play") : tr("Pause"));
+  m_play->setText(paused ? QStringLiteral("Play") : QStringLiteral("Pause"));
   m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(), m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
@@ -249,8 +252,8 @@ void TransportBar::showTransport() {
     at = m_speed->count() - 1;
   }
   m_speed->setCurrentIndex(at);
-  m_speed->setToolTip(past != nullptr ? tr("Speed: recorded seconds per second")
-                                      : tr("Speed: simulated seconds per second"));
+  m_speed->setToolTip(past != nullptr ? QStringLiteral("Speed: recorded seconds per second")
+                                      : QStringLiteral("Speed: simulated seconds per second"));
 }
 
 }  // namespace pitchboard::ui
