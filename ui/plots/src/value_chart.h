@@ -3,9 +3,8 @@
 
 // A Qt chart with two value axes. Axes, grid, numbers and titles are Qt's, and so are the series of
 // an XY plot. Long curves over time are painted by a function instead: Qt's line series takes every
-// row as a point and keeps all of them, and even with only the points that show it is slower by
-// far (measured: line_series in tests/benchmarks/bench_plots.cpp, docs/PERFORMANCE.md, Plots). UI
-// thread only.
+// row as a point and keeps all of them (compared by line_series in
+// tests/benchmarks/bench_plots.cpp). UI thread only.
 
 #include <QChartView>
 #include <functional>
