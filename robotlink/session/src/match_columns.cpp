@@ -160,7 +160,7 @@ const std::array theMatchColumns{
 
 template <class Column>
 ColumnInfo infoOf(const Column& column) {
-  return {column.name, ColumnType::Float64, column.unit, column.heading, column.kind,
+  return {column.name, ColumnType::Float64, column.unit, column.category, column.kind,
           {},          column.resolution};
 }
 
