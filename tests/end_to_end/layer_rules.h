@@ -190,7 +190,8 @@ struct Links {
 };
 
 inline QList<Links> linksOf(const SourceFile& cmake) {
-  static const QRegularExpression call(QStringLiteral("pitchboard_(room|program)\\(([^)]*)\\)"));
+  static const QRegularExpression call(
+      QStringLiteral("pitchboard_(room|program|app_part)\\(([^)]*)\\)"));
   static const QRegularExpression space(QStringLiteral("\\s+"));
   static const QHash<QString, QString> programs{{"pitchboard", "app/studio"},
                                                 {"pitchboard-cli", "app/cli"},
@@ -200,8 +201,9 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
     const auto match = matches.next();
     const QStringList words = match.captured(2).split(space, Qt::SkipEmptyParts);
     Links links;
-    links.folder = match.captured(1) == "room" ? words.value(0) + '/' + words.value(1)
-                                               : programs.value(words.value(0), words.value(0));
+    links.folder = match.captured(1) == "room"      ? words.value(0) + '/' + words.value(1)
+                   : match.captured(1) == "program" ? programs.value(words.value(0), words.value(0))
+                                                    : QStringLiteral("app/shared");
     QString part;
     for (const QString& word : words) {
       if (QStringList{"SOURCES", "PUBLIC", "PRIVATE", "LIBS"}.contains(word)) {

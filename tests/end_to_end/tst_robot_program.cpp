@@ -173,7 +173,7 @@ class TestRobotProgram : public QObject {
     row("unknown option", {"decision", "--robot", "1", "--nonsense"}, "--nonsense");
     row("behaviour", {"decision", "--robot", "1", "--behaviour", "clever"}, "'clever'");
     row("distance", {"decision", "--robot", "1", "--distance-to-kick", "nan"}, "distance to kick");
-    row("address", {"communication", "--robot", "1", "--udp-address", "nowhere"}, "'nowhere'");
+    row("address", {"communication", "--robot", "1", "--udp-address", "nowhere"}, "\"nowhere\"");
     row("port", {"communication", "--robot", "1", "--telemetry-port-base", "65535"}, "1..65535");
     row("no file", {"decision", "--config", "/no/such.ini"}, "No such file");
     row("folder", {"decision", "--config", "/"}, "error: /");

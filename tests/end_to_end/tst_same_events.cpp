@@ -55,10 +55,14 @@ class TestSameEvents : public QObject {
     scenario.ball = {scenario.settings.field.halfLength() - 0.3, 0.0};
     scenario.ballVelocity = {2.0, 0.0};
     const QString path = m_folder.filePath(QStringLiteral("simulated.mcap"));
-    const auto recorder =
-        MatchRecorder::create(path.toStdString(), scenario, VariableCatalog::published()).value();
+    const auto sampler = std::make_shared<MatchSampler>();
+    const RecorderOptions options;
+    const auto recorder = MatchRecorder::create(path.toStdString(), scenario,
+                                                VariableCatalog::published(), sampler, options)
+                              .value();
     auto runner =
-        MatchRunner::start(scenario, {}, true, VariableCatalog::published(), {recorder}).value();
+        MatchRunner::start(scenario, {}, true, VariableCatalog::published(), {sampler, recorder})
+            .value();
     std::vector<MatchEvent> events;
     const auto take = [&] {
       for (MatchEvent& event : runner->takeEvents()) events.push_back(std::move(event));

@@ -58,7 +58,7 @@ class TestLiveEvents : public QObject {
     QVERIFY(!s.at(0.2).empty());
     QVERIFY(s.at(0.3).empty());
     s.frame.referee->secondsLeft = 599;
-    s.frame.robots[0].health->age = 0.5;
+    s.frame.robots[0].health->age = std::chrono::milliseconds(500);
     QVERIFY(s.at(0.4).empty());
   }
 

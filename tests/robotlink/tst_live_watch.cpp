@@ -10,7 +10,7 @@
 #include <robotlink/live/live_watch.h>
 #include <telemetry/wire/text_protocol.h>
 
-#include "../telemetry/test_socket.h"
+#include "../support/test_socket.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;

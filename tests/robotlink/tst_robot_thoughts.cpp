@@ -31,11 +31,9 @@ Scenario match(int robots) {
   return scenario;
 }
 
-const RobotThoughts* of(const std::vector<RobotThoughts>& all, int robot) {
-  for (const RobotThoughts& one : all) {
-    if (one.robot.value == robot) return &one;
-  }
-  return nullptr;
+const RobotThoughts* of(const MatchFrame& frame, int robot) {
+  const RobotFrame* one = frame.robot(RobotId{robot});
+  return one && one->thoughts ? &*one->thoughts : nullptr;
 }
 
 }  // namespace
@@ -216,7 +214,7 @@ class TestRobotThoughts : public QObject {
     const auto farthest = [&] {
       double most = 0;
       const auto frame = runner->latest();
-      const RobotThoughts* first = frame ? of(frame->thoughts, 1) : nullptr;
+      const RobotThoughts* first = frame ? of(*frame, 1) : nullptr;
       if (!first || !first->cloud) return most;
       for (const Particle& p : first->cloud->particles)
         most = std::max(most, std::abs(p.position.x));
@@ -237,21 +235,21 @@ class TestRobotThoughts : public QObject {
     const MatchOptions options = separateProcesses(80, asked);
     auto runner = MatchRunner::start(match(2), options).value();
     if (!asked) {
-      QTRY_VERIFY(runner->latest() && !runner->latest()->boards.empty() &&
-                  runner->latest()->boards[0].decisionWorking);
-      QVERIFY(runner->latest()->thoughts.empty());
+      QTRY_VERIFY(runner->latest() && !runner->latest()->robots.empty() &&
+                  runner->latest()->robots[0].board->decisionWorking);
+      QVERIFY(!runner->latest()->robots[0].thoughts && !runner->latest()->robots[1].thoughts);
       return;
     }
     const auto complete = [&] {
       const auto frame = runner->latest();
-      const RobotThoughts* first = frame ? of(frame->thoughts, 1) : nullptr;
-      const RobotThoughts* second = frame ? of(frame->thoughts, 2) : nullptr;
+      const RobotThoughts* first = frame ? of(*frame, 1) : nullptr;
+      const RobotThoughts* second = frame ? of(*frame, 2) : nullptr;
       return first && first->cloud && first->path && second && second->cloud && second->path;
     };
     QTRY_VERIFY_WITH_TIMEOUT(complete(), 20000);
     const auto frame = runner->latest();
-    QVERIFY(of(frame->thoughts, 1)->cloudAge < 1.0);
-    QVERIFY(of(frame->thoughts, 1)->cloud->particles.size() > 100);
+    QVERIFY(of(*frame, 1)->cloudAge < 1.0);
+    QVERIFY(of(*frame, 1)->cloud->particles.size() > 100);
   }
 };
 

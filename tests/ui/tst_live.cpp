@@ -25,6 +25,7 @@
 #include <ui/window/main_window.h>
 
 #include "live_rig.h"
+#include "scoreboard.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;

@@ -263,7 +263,7 @@ class TestPlots : public QObject {
     const auto lineOfA = [&] {
       const QPoint left = s.pane()->surface()->mapTo(s.page(), QPoint());
       return heads->mapFrom(s.page(), left).x() +
-             s.pane()->timeScale().toX(*s.time.mark(TimeMark::A));
+             s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::A));
     };
     QTRY_VERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - lineOfA()) < 1.5);
     const QPoint from = heads->headRect(TimeMark::A).center().toPoint();

@@ -13,6 +13,8 @@
 #include "log_model.h"
 #include "session_rig.h"
 
+using namespace pitchboard;
+using namespace pitchboard::ui;
 using link::MatchEvent;
 using session_rig::Studio;
 using Kind = link::MatchEventKind;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve.h"
 
-#include <QCoreApplication>
 #include <cmath>
 
 #include "derived_series.h"
@@ -42,8 +41,7 @@ void Curve::update(PlotFeed& feed) {
   m_ordinate = two ? feed.find(m_spec.inputs[1]) : ColumnView{};
   if (two && !m_ordinate) m_view = {};
   if (!m_view) {
-    m_note = QCoreApplication::translate("Curve", "waiting for %1")
-                 .arg(m_spec.inputs.join(QStringLiteral(", ")));
+    m_note = QStringLiteral("waiting for %1").arg(m_spec.inputs.join(QStringLiteral(", ")));
   }
 }
 

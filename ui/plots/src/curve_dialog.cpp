@@ -21,14 +21,8 @@ namespace {
 
 // In the order of CurveKind.
 constexpr std::array<const char*, 8> kindNames{
-    QT_TRANSLATE_NOOP("CurveDialog", "Variable"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Derivative (per second)"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Integral over time"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Moving average"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Difference of two"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Wrapped angle"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Other unit"),
-    QT_TRANSLATE_NOOP("CurveDialog", "Expression")};
+    "Variable",          "Derivative (per second)", "Integral over time", "Moving average",
+    "Difference of two", "Wrapped angle",           "Other unit",         "Expression"};
 
 NumberBox* numberBox(QWidget* parent) {
   auto* box = new NumberBox(parent);

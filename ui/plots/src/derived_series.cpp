@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "derived_series.h"
 
-#include <QCoreApplication>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -170,8 +169,7 @@ void DerivedSeries::update(PlotFeed& feed) {
     if (!views.back()) missing << input;
   }
   if (!missing.isEmpty()) {
-    m_note = QCoreApplication::translate("Curve", "waiting for %1")
-                 .arg(missing.join(QStringLiteral(", ")));
+    m_note = QStringLiteral("waiting for %1").arg(missing.join(QStringLiteral(", ")));
   }
   const auto newest = [&views](std::size_t i) {
     const auto range = views[i].group->range();

@@ -34,16 +34,14 @@ QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, doub
   std::ptrdiff_t marked = 0;
   for (auto event = first; event != last; ++event) {
     if (!link::isMarked(*event) || ++marked > mostEventsNamed) continue;
-    named << QCoreApplication::translate("MarksPanel", "%1 at %2")
+    named << QStringLiteral("%1 at %2")
                  .arg(QString::fromStdString(sentenceOf(*event)), feed.timeText(event->time, 2));
   }
   if (marked == 0) return {};
   const auto more = marked - named.size();
   const QString all = named.join(QStringLiteral(", "));
-  return more > 0 ? QCoreApplication::translate("MarksPanel", "Between A and B: %1 and %2 more.")
-                        .arg(all)
-                        .arg(more)
-                  : QCoreApplication::translate("MarksPanel", "Between A and B: %1.").arg(all);
+  return more > 0 ? QStringLiteral("Between A and B: %1 and %2 more.").arg(all).arg(more)
+                  : QStringLiteral("Between A and B: %1.").arg(all);
 }
 
 MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)

@@ -2,7 +2,6 @@
 #include "plot_export.h"
 
 #include <QBuffer>
-#include <QCoreApplication>
 #include <QPainter>
 #include <QSaveFile>
 #include <QSvgGenerator>
@@ -19,11 +18,10 @@ namespace {
 constexpr double pngRatio = 2.0;
 
 tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
-  return failure(ErrorCode::SystemError,
-                 QCoreApplication::translate("PlotExport", "The file could not be written: %1.")
-                     .arg(file.errorString())
-                     .toStdString(),
-                 file.fileName().toStdString());
+  return failure(
+      ErrorCode::SystemError,
+      QStringLiteral("The file could not be written: %1.").arg(file.errorString()).toStdString(),
+      file.fileName().toStdString());
 }
 
 Result<void> writeBytes(const QString& path, const QByteArray& bytes) {

@@ -13,19 +13,15 @@ namespace {
 using telemetry::ExportFormat;
 
 const ExportForm forms[] = {
-    {QT_TRANSLATE_NOOP("ExportDialog", "Table, a row per time (CSV)"), ExportKind::Numbers, ".csv",
-     ExportFormat::CsvWide},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Table, a row per value (CSV)"), ExportKind::Numbers, ".csv",
-     ExportFormat::CsvLong},
-    {QT_TRANSLATE_NOOP("ExportDialog", "JSON lines"), ExportKind::Numbers, ".jsonl",
-     ExportFormat::JsonLines},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Shorter session (MCAP)"), ExportKind::Numbers, ".mcap",
-     ExportFormat::Mcap},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Report (HTML)"), ExportKind::Report, ".html"},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Field as it is shown (PNG)"), ExportKind::Png, ".png"},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Field as it is shown (SVG)"), ExportKind::Svg, ".svg"},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Video of the field (MP4)"), ExportKind::Video, ".mp4"},
-    {QT_TRANSLATE_NOOP("ExportDialog", "Video of the field (WebM)"), ExportKind::Video, ".webm"},
+    {"Table, a row per time (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvWide},
+    {"Table, a row per value (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvLong},
+    {"JSON lines", ExportKind::Numbers, ".jsonl", ExportFormat::JsonLines},
+    {"Shorter session (MCAP)", ExportKind::Numbers, ".mcap", ExportFormat::Mcap},
+    {"Report (HTML)", ExportKind::Report, ".html"},
+    {"Field as it is shown (PNG)", ExportKind::Png, ".png"},
+    {"Field as it is shown (SVG)", ExportKind::Svg, ".svg"},
+    {"Video of the field (MP4)", ExportKind::Video, ".mp4"},
+    {"Video of the field (WebM)", ExportKind::Video, ".webm"},
 };
 
 Result<std::uint64_t> writeReport(const telemetry::SessionReader& session,
