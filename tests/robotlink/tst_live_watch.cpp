@@ -198,9 +198,9 @@ class TestLiveWatch : public QObject {
     QCOMPARE(watch.details().unknownRefereeSample, std::string("no packet"));
     QVERIFY(!watch.details().unknownRefereeReason.empty());
     QCOMPARE(witness->unused.load(), 1);
-    // What was logged of it is given once.
-    QVERIFY(!watch.takeLog().empty());
-    QVERIFY(watch.takeLog().empty());
+    // What happened is given once.
+    QVERIFY(!watch.takeEvents().empty());
+    QVERIFY(watch.takeEvents().empty());
   }
 
   void otherPortsAreListenedTo() {
