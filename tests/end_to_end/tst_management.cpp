@@ -226,7 +226,8 @@ class TestManagement : public QObject {
     row("behaviour", "[Pitchboard]\nbehaviour = clever\n",
         "line 4: --behaviour: there is no behaviour 'clever'");
     row("shirt", "[Pitchboard]\nreferee_team = 5\nshirt = 99\n", "robot.ini, line 5: ");
-    row("address", "[Pitchboard]\nudp_address = home\n", "line 4: --udp-address: \"home\": Not an IPv4");
+    row("address", "[Pitchboard]\nudp_address = home\n",
+        "line 4: --udp-address: \"home\": Not an IPv4");
     row("field", "[Pitchboard]\nfield = {\"length\": -9}\n", "line 4: --field: ");
     row("number", "[Pitchboard]\nparticles = many\n", "robot.ini, line 4: ");
   }
