@@ -126,6 +126,7 @@ ValueChart::ValueChart(QWidget* parent)
   addSeries(new QLineSeries);  // axes are laid out by the domain of a series
   for (QValueAxis* axis : {m_axisX, m_axisY}) {
     axis->setLineVisible(false);
+    axis->setTruncateLabels(false);  // wantedLeft() makes room for them
     axis->setTickType(QValueAxis::TicksDynamic);
   }
   m_axisX->setLabelsVisible(false);
