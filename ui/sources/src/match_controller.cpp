@@ -53,16 +53,16 @@ MatchController::~MatchController() {
 struct MatchController::Opening {
   std::shared_ptr<link::MatchRunner> runner;
   link::Cognition cognition = link::Cognition::Inline;
-  std::vector<std::shared_ptr<link::TickObserver>> observers;  // that the match was started with
   QString error;  // of a match that plays otherwise than asked for, or not at all
 
+  /// `observers` see the match from its first tick.
   void start(const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
-             CatalogPtr catalog);
+             CatalogPtr catalog, const std::vector<std::shared_ptr<link::TickObserver>>& observers);
 };
 
-void MatchController::Opening::start(const link::Scenario& scenario,
-                                     const link::MatchOptions& options, bool paused,
-                                     CatalogPtr catalog) {
+void MatchController::Opening::start(
+    const link::Scenario& scenario, const link::MatchOptions& options, bool paused,
+    CatalogPtr catalog, const std::vector<std::shared_ptr<link::TickObserver>>& observers) {
   const auto words = [](const Error& reason) { return QString::fromStdString(reason.text()); };
   cognition = options.cognition;
   auto made = link::MatchRunner::start(scenario, options, paused, *catalog, observers);
@@ -161,8 +161,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
     if (between) between();
     if (generation != m_generation) return;
     const auto opening = std::make_shared<Opening>();
-    opening->observers = observers;
-    opening->start(scenario, options, paused, catalog);
+    opening->start(scenario, options, paused, catalog, observers);
     m_toUi.post([this, opening, generation] {
       if (generation == m_generation)
         take(*opening);

@@ -25,7 +25,7 @@ inline constexpr const char* profileAttachment = "profile.json";
 
 struct RecorderOptions {
   telemetry::SessionWriterOptions writer;
-  /// Version of the program, for the file: "pitchboard 0.1.0".
+  /// Name and version of the program, for the file.
   std::string program = "pitchboard";
 };
 

@@ -21,7 +21,7 @@ namespace pitchboard::telemetry {
 inline constexpr int sessionFormat = 1;
 
 struct SessionInfo {
-  std::string program;  ///< "pitchboard 0.1.0"
+  std::string program;  ///< name and version
   std::string source;   ///< "simulation" or "live"
   std::string title;    ///< scenario, or what the user called it
   std::optional<std::uint64_t> seed;
