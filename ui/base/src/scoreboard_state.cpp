@@ -63,7 +63,7 @@ QString refereeTip(const link::RefereeView& view) {
              .arg(view.version)
              .arg(numberText(view.age, 1));
   if (view.conflict) tip << QStringLiteral("A second referee program is heard.");
-  if (view.trueData) tip << QStringLiteral("Monitor mode: true data arrive.");
+  if (view.truth) tip << QStringLiteral("Monitor mode: true data arrive.");
   return tip.join(QLatin1Char('\n'));
 }
 

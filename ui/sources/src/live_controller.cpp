@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_rows.h>
 #include <telemetry/series/series_store.h>
 
@@ -15,10 +16,10 @@ class RowKeeper : public link::LiveObserver {
  public:
   RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, telemetry::WallTime zero)
       : m_rows(std::move(store), {zero, {}}) {}
-  void heard(RobotId, double, const telemetry::DatagramView& datagram,
+  void heard(RobotId id, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
-    m_rows.take(datagram, decoded, decoder);
+    m_rows.take(datagram, decoded, decoder, link::slotOf(id));
   }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
 
