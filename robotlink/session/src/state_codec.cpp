@@ -6,7 +6,7 @@
 #include <set>
 #include <type_traits>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 #include <simcore/world/state_values.h>
 
 #include "byte_codec.h"

@@ -22,7 +22,7 @@
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/processes/process_supervisor.h>
 #include <robotlink/scenario/scenario.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <base/result.h>
+#include <simcore/physics/physics_model.h>
 #include <simcore/world/event.h>
 #include <simcore/world/robot_io.h>
 #include <simcore/world/snapshot.h>
@@ -19,19 +20,9 @@
 
 namespace pitchboard::sim {
 
-class PhysicsModel;
-
-struct PhysicsModelInfo {
-  std::string_view name;         ///< as in a scenario: "published", "rigid-body"
-  std::string_view description;  ///< a sentence for people
-};
-
-/// Every motion and collision model, the default first.
-std::span<const PhysicsModelInfo> physicsModels();
-
 class Simulation {
  public:
-  static constexpr int maxRobots = 64;
+  static constexpr int maxRobots = highestRobotNumber;
 
   /// An empty field with the ball on the centre mark. Fails on an unknown model, a field that
   /// cannot be played on, a tick rate outside 1..10000 Hz or noise that is not finite.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <string>
 
+#include <simcore/rules/published_rules.h>
 #include <simcore/world/parameters.h>
 
-#include "physics_model.h"
 
 namespace pitchboard::sim {
 namespace {
@@ -60,7 +60,9 @@ Result<Simulation> Simulation::create(const SimulationSettings& settings) {
 void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts> percepts) {
   assert(commands.size() == robotCount() && percepts.size() == robotCount());
   m_events.clear();
-  m_model->step(m_state, commands, percepts, m_events);
+  const BallWay way = m_model->move(m_state, commands, percepts, m_events);
+  applyPublishedRules(m_state, way, m_events);
+  m_model->sense(m_state, commands, percepts);
   ++m_state.tick;
   if (m_state.clockRunning) ++m_state.clockTicks;
 }
