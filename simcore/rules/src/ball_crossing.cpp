@@ -47,6 +47,13 @@ Crossing onTheWay(const FieldSpec& field, const Point& from, const Point& to) {
   return crossing;
 }
 
+/// Walls stop a ball, maybe before all of it is over a line.
+Point withinWalls(const FieldSpec& field, const Point& p) {
+  const double x = field.halfLength() + field.border - field.ballRadius;
+  const double y = field.halfWidth() + field.border - field.ballRadius;
+  return {std::clamp(p.x, -x, x), std::clamp(p.y, -y, y)};
+}
+
 bool isFree(const FieldSpec& field, const Point& from, const Point& to,
             std::span<const Point> robots) {
   for (const double x : {-field.halfLength(), field.halfLength()}) {
@@ -76,7 +83,8 @@ Crossing crossingOf(const FieldSpec& field, const BallWay& way, const Point& now
                     std::span<const Point> robots) {
   if (!isInField(field, way.from)) return {};
   const bool isOut = !isInField(field, now);
-  if (!isOut && isInField(field, way.aim)) return {};
+  const Point aim = withinWalls(field, way.aim);
+  if (!isOut && isInField(field, aim)) return {};
   if (isOut) {
     // The nets hold the ball, so its centre between the posts means that it came in that way.
     if (isInGoal(field, now)) return {Crossing::Line::Goal, now, now.x > 0.0};
@@ -85,7 +93,7 @@ Crossing crossingOf(const FieldSpec& field, const BallWay& way, const Point& now
     return crossing;
   }
   // It is back already: it was out unless something stopped it before the line.
-  const Crossing crossing = onTheWay(field, way.from, way.aim);
+  const Crossing crossing = onTheWay(field, way.from, aim);
   if (crossing.line == Crossing::Line::None || !isFree(field, way.from, crossing.where, robots)) {
     return {};
   }
