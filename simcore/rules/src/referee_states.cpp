@@ -289,7 +289,7 @@ void RefereeTable::beginPlaying() {
     m_game.ballFree = false;
     m_game.passed = !m_rules.directGoals;
   }
-  if (m_rules.countsFromCall) pardonAll();  // REFEREE.md section 4: all at SET -> PLAYING
+  if (m_rules.pardonsAtPlay) pardonAll();  // REFEREE.md section 4: all at SET -> PLAYING
 }
 
 void RefereeTable::finish() {

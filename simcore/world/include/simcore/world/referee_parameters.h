@@ -76,6 +76,7 @@ inline constexpr auto refereeSwitches = std::to_array<RefereeSwitch>({
     {"escalates", &RefereeRules::escalates, "Removals grow longer"},
     {"counts_from_call", &RefereeRules::countsFromCall, "Penalties count from the call"},
     {"counts_always", &RefereeRules::countsAlways, "Penalties count in every state"},
+    {"pardons_at_play", &RefereeRules::pardonsAtPlay, "A kick-off frees penalised robots"},
     {"half_ends_with_ball", &RefereeRules::halfEndsWithBall, "A half ends when the ball rests"},
     {"knockout", &RefereeRules::knockout, "A tie goes on: extra time, shoot-out"},
     {"extra_time", &RefereeRules::extraTime, "Extra time before the shoot-out"},

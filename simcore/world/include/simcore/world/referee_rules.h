@@ -85,6 +85,7 @@ struct RefereeRules {
   bool escalates = false;
   bool countsFromCall = false;  ///< penalties count at once, not when the robot is outside
   bool countsAlways = false;    ///< penalties count in every state
+  bool pardonsAtPlay = false;   ///< a kick-off frees everybody
   bool halfEndsWithBall = false;  ///< only when the ball lies still, or 10 s later
   bool knockout = false;          ///< a tie goes on: extra time, penalty shoot-out
   bool extraTime = true;
@@ -104,7 +105,7 @@ void visitRefereeRules(Rules& r, Visitor&& all) {
       r.leavingTime, r.stillTime, r.stillDistance, r.nobodyTime, r.localStuckTime, r.pushingTime,
       r.motionInSet, r.inPlayDistance, r.mercy, r.goals, r.throwIns, r.goalKicks, r.cornerKicks,
       r.freeKicks, r.dropBalls, r.kickOffPositions, r.exclusiveBall, r.directGoals, r.changeSides,
-      r.clockStopsInSetPlays, r.escalates, r.countsFromCall, r.countsAlways, r.halfEndsWithBall,
+      r.clockStopsInSetPlays, r.escalates, r.countsFromCall, r.countsAlways, r.pardonsAtPlay, r.halfEndsWithBall,
       r.knockout, r.extraTime, r.automatic);
 }
 
