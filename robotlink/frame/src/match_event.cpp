@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -203,10 +204,79 @@ MatchEvent eventOf(MatchEventKind kind, double time, const sim::RobotIdentity& r
 
 TeamColor teamOn(Side side, std::span<const sim::RobotIdentity> robots) {
   for (const sim::RobotIdentity& robot : robots) {
-    if (info(robot.team).facesLeft == (side == Side::Right)) return robot.team;
+    if (robot.imuStartsAt180 == (side == Side::Right)) return robot.team;
   }
   return side == Side::Left ? TeamColor::Blue : TeamColor::Red;
 }
+
+namespace {
+
+/// " for red": the side that has the ball.
+std::string sideWithBall(const sim::WorldState& state) {
+  if (!state.game || state.game->restartTeam < 0) return {};
+  const auto team = static_cast<std::size_t>(state.game->restartTeam);
+  return " for " + std::string(info(state.game->teams[team].colour).name);
+}
+
+/// What the referee of a simulated match says.
+void fillGameEvent(const sim::Event& event, const sim::WorldState& state, MatchEvent& out) {
+  switch (event.kind) {
+    case sim::EventKind::ScoreCorrected:
+      out.kind = Kind::ScoreCorrected;
+      out.side = event.value == 0 ? Side::Left : Side::Right;
+      out.colour = info(teamOn(*out.side, state.robots)).name;
+      out.score = state.score;
+      break;
+    case sim::EventKind::PlayStateChanged:
+      out.kind = Kind::GameState;
+      out.detail = wordsOf(static_cast<sim::PlayState>(event.value));
+      if (state.game) {
+        out.value = static_cast<int>(std::ceil(state.game->clock / state.settings.tickRate - 1e-9));
+      }
+      break;
+    case sim::EventKind::HalfBegan:
+      out.kind = Kind::Half;
+      out.value = event.value;
+      break;
+    case sim::EventKind::PhaseChanged:
+      out.kind = Kind::GamePhase;
+      if (event.value != 0) out.detail = wordsOf(static_cast<sim::GamePhase>(event.value));
+      break;
+    case sim::EventKind::SetPlayBegan:
+      out.kind = Kind::SetPlay;
+      out.detail =
+          std::string(wordsOf(static_cast<sim::SetPlay>(event.value))) + sideWithBall(state);
+      break;
+    case sim::EventKind::SetPlayOver:
+      out.kind = Kind::SetPlay;
+      break;
+    case sim::EventKind::DropBall:
+      out.kind = Kind::SetPlay;
+      out.detail = "drop ball";
+      break;
+    case sim::EventKind::PlayStopped:
+      out.kind = Kind::PlayStopped;
+      break;
+    case sim::EventKind::PlayGoesOn:
+      out.kind = Kind::PlayGoesOn;
+      break;
+    case sim::EventKind::Penalised:
+      out.kind = Kind::Penalised;
+      out.detail = wordsOf(static_cast<sim::PenaltyKind>(event.value));
+      break;
+    case sim::EventKind::PenaltyOver:
+      out.kind = Kind::PenaltyOver;
+      break;
+    case sim::EventKind::FinalWhistle:
+      out.kind = Kind::GamePhase;
+      out.detail = "final whistle";
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
 
 MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
   MatchEvent out;
@@ -238,6 +308,9 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
     case sim::EventKind::UnknownAction:
       out.kind = Kind::UnknownAction;
       out.value = event.value;
+      break;
+    default:
+      fillGameEvent(event, state, out);
       break;
   }
   return out;

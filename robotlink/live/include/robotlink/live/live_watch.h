@@ -14,7 +14,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 #include <telemetry/wire/live_clock.h>
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/referee_tracker.h>
