@@ -58,7 +58,7 @@ void LiveController::stop() {
   m_rows.reset();
   m_series.reset();
   m_past.clear();
-  m_pastRobots = 0;
+  m_pastBytes = 0;
   emit restarted();
 }
 
@@ -92,7 +92,7 @@ void LiveController::clear() {
   m_watch->clear();
   m_frame.reset();
   m_past.clear();
-  m_pastRobots = 0;
+  m_pastBytes = 0;
   keepRows();
   emit restarted();
 }
@@ -117,14 +117,32 @@ void LiveController::keepRows() {
   m_watch->observe(m_rows);
 }
 
+namespace {
+
+/// What a frame takes, about: the values of its robots are nearly all of it, and anybody may send
+/// many.
+std::size_t bytesOf(const link::MatchFrame& frame) {
+  std::size_t bytes = sizeof frame;
+  for (const link::RobotFrame& robot : frame.robots) {
+    bytes += sizeof robot;
+    if (!robot.health) continue;
+    for (const link::HeardValue& value : robot.health->values) {
+      bytes += sizeof value + value.name.capacity() + value.text.capacity() + value.unit.capacity();
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
 void LiveController::remember() {
-  constexpr double step = 0.2;                // s
-  constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
+  constexpr double step = 0.2;  // s
+  constexpr std::size_t mostBytes = std::size_t{80} << 20;
   if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
   m_past.push_back(m_frame);
-  m_pastRobots += m_frame->robots.size() + 1;
-  while (m_pastRobots > mostRobots) {
-    m_pastRobots -= m_past.front()->robots.size() + 1;
+  m_pastBytes += bytesOf(*m_frame);
+  while (m_pastBytes > mostBytes) {
+    m_pastBytes -= bytesOf(*m_past.front());
     m_past.pop_front();
   }
 }
