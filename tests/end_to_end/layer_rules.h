@@ -59,7 +59,7 @@ inline const QList<Room>& table() {
         {"simcore/rules", {base, world}, {}},
         {physics, {base, world, "simcore/rules"}, {"box2d/"}},
         {"resources", {}, {}},
-        {wire, {base, "resources"}, {"nlohmann/"}},
+        {wire, {base, "resources"}, {"google/protobuf/", "messages/", "nlohmann/"}},
         {series, {base}, {}},
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
