@@ -68,8 +68,13 @@ class Printer {
     if (verdict == TeamMonitor::Verdict::SenderRefused) return;
     const TextDecoder& decoder = m_monitor.decoder();
     const DecodedText& decoded = m_monitor.decoded();
-    put("telemetry", datagram, m_json ? telemetryJson(decoder, decoded, datagram.payload) : Json(),
-        m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload));
+    const auto& teams = m_monitor.options().teams;
+    const int number = numberInTeam(decoded.robot, teams.size());
+    const TeamSetup* team = decoded.robot > 0 ? teamOf(decoded.robot, teams) : nullptr;
+    const std::string title = team != nullptr ? team->title() : std::string();
+    put("telemetry", datagram,
+        m_json ? telemetryJson(decoder, decoded, datagram.payload, number, title) : Json(),
+        m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload, number, title));
   }
 
   void printReferee(const DatagramView& datagram) {
@@ -127,12 +132,13 @@ int run(const Options& options) {
   }
 
   const InterruptGuard signals;
+  const std::vector<std::uint16_t> ports = receiver.ports;
   auto network = UdpReceiver::start(std::move(receiver));
   if (!network) return reportError(network.error());
   Printer printer(TeamMonitor(std::move(setup->profile), std::move(setup->monitor)),
                   static_cast<std::uint16_t>(options.network.refereePort), options.json);
   std::map<std::size_t, std::string> told;
-  sayListening(options.network);
+  sayListening(options.network, ports);
   DatagramBatch batch;
   const auto begin = Clock::now();
   auto nextRequest = begin;
@@ -167,7 +173,8 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "given.\n"
       "Examples: pitchboard-cli listen\n"
       "          pitchboard-cli listen --json --duration 60 > match.jsonl\n"
-      "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24");
+      "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24\n"
+      "          pitchboard-cli listen --team ours.json --team theirs.json");
   command->add_option("--duration", options->duration, "Seconds; without it until Ctrl+C")
       ->check(CLI::Range(0.0, 1e9));
   addListenOptions(*command, options->network);

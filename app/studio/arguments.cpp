@@ -69,7 +69,10 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--our-team", a.ourTeam, "Live: the referee's number of our team")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
-  app.add_option("--profile", a.profile, "Live: order of the fields as JSON")->type_name("FILE");
+  app.add_option("--profile", a.profile,
+                 "Live: what stands in a message; a file, or a name that docs/LIVE.md lists")
+      ->type_name("FILE|NAME");
+  app.add_option("--team", a.teams, "Live: team setup as JSON; may be repeated")->type_name("FILE");
   CLI::Option* shot =
       app.add_option("--screenshot-to", a.screenshotFile, "Save a picture of the window, then exit")
           ->type_name("FILE.png");
@@ -197,6 +200,12 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
     auto profile = telemetry::loadProfile(arguments.profile);
     if (!profile) return tl::unexpected<Error>(profile.error());
     saved.profile = std::move(*profile);
+  }
+  for (std::size_t i = 0; i < arguments.teams.size(); ++i) {
+    auto team = telemetry::loadTeamSetup(arguments.teams[i]);
+    if (!team) return tl::unexpected<Error>(team.error());
+    if (i == 0) saved.team.teams.clear();  // in place of those that are saved
+    saved.team.teams.push_back(std::move(*team));
   }
   if (const auto good = link::validate(saved); !good) return tl::unexpected<Error>(good.error());
   return saved;

@@ -92,6 +92,7 @@ void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t va
                  {{"number", std::to_string(robot.number)},
                   {"sender", robot.sender.address.text()},
                   {"live", "1"}}};
+  if (m_options.attributes) info.attributes.merge(m_options.attributes(robot.number));
   for (std::size_t i = 0; i < fields; ++i) {
     if (i < m_profile.fields.size()) {
       info.columns.push_back(columnOf(m_profile.fields[i]));

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <thread>
 
+#include <robotlink/live/live_teams.h>
+
 #include "live_events.h"
 #include "live_frame.h"
 
@@ -33,7 +35,8 @@ WallTime wallNow() {
 telemetry::ReceiverOptions receiverOptions(const LiveOptions& options) {
   telemetry::ReceiverOptions made;
   made.bind = options.bind;
-  const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
+  const auto ports = telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
+                                          options.refereePort);
   if (ports) made.ports = *ports;
   if (options.monitor) made.ports.push_back(telemetry::robotStatesPort);
   return made;
@@ -49,7 +52,8 @@ void queueUp(std::vector<MatchEvent>& queue, const std::vector<MatchEvent>& item
 }  // namespace
 
 Result<void> validate(const LiveOptions& options) {
-  const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
+  const auto ports = telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
+                                          options.refereePort);
   if (!ports) return tl::unexpected<Error>(ports.error());
   if (const auto good = telemetry::validate(options.profile); !good) return good;
   return sim::validate(options.field);
@@ -57,7 +61,9 @@ Result<void> validate(const LiveOptions& options) {
 
 struct LiveWatch::Impl {
   Impl(LiveOptions o, std::function<void()> ready)
-      : options(std::move(o)), onFrame(std::move(ready)), monitor(options.profile, options.team) {}
+      : options(std::move(o)),
+        onFrame(std::move(ready)),
+        monitor(options.profile, monitorOptions(options)) {}
 
   double since(Steady::time_point now) const {
     return std::chrono::duration<double>(now - begin).count();
@@ -84,7 +90,7 @@ struct LiveWatch::Impl {
     const LiveOptions old = std::exchange(options, std::move(*pending));
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
-    monitor.setOptions(options.team);
+    monitor.setOptions(monitorOptions(options));
     monitorProblem.clear();
     const auto before = receiverOptions(old), after = receiverOptions(options);
     if (before.ports == after.ports && before.bind == after.bind && receiver) return;

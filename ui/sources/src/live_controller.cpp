@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
@@ -13,8 +13,9 @@ namespace {
 /// Every message as a row of the store. Lives in the watch's thread once it observes.
 class RowKeeper : public link::LiveObserver {
  public:
-  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, telemetry::WallTime zero)
-      : m_rows(std::move(store), {zero, {}}) {}
+  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
+            telemetry::WallTime zero)
+      : m_rows(std::move(store), link::rowsOptions(options, zero)) {}
   void heard(RobotId, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
@@ -98,7 +99,7 @@ void LiveController::setMemoryBudget(std::size_t bytes) {
 void LiveController::keepRows() {
   if (m_rows) m_watch->stopObserving(m_rows);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
-  m_rows = std::make_shared<RowKeeper>(m_series, m_watch->began());
+  m_rows = std::make_shared<RowKeeper>(m_series, m_options, m_watch->began());
   m_watch->observe(m_rows);
 }
 

@@ -56,7 +56,7 @@ class LiveRecorder : public LiveObserver {
 
  private:
   LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
-               int refereePort);
+               const LiveOptions& live);
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
   const int m_refereePort;

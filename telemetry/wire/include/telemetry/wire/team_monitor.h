@@ -15,6 +15,7 @@
 #include <telemetry/wire/link_health.h>
 #include <telemetry/wire/process_filter.h>
 #include <telemetry/wire/sender_filter.h>
+#include <telemetry/wire/team_setup.h>
 #include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::telemetry {
@@ -27,11 +28,13 @@ struct MonitorOptions {
   Duration duplicateWindow = std::chrono::milliseconds(5);
   BatteryLimits battery;
   SenderFilter senders;
+  std::vector<TeamSetup> teams;  ///< empty: one team, of the profile
+  Surroundings field;
 };
 
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
-  int number = 0;
+  int number = 0;  ///< over all teams: numberInTeam(), teamPlace()
   std::uint64_t serial =
       0;  ///< of this robot as long as it is remembered, whatever port it sends from
   WallTime lastMessage{};
@@ -104,7 +107,11 @@ class TeamMonitor {
   RobotStatus statusOf(const Robot& robot, WallTime now) const;
   void use(Robot& robot, const DatagramView& datagram);
 
+  void makeRouter();
+
   MonitorOptions m_options;
+  Profile m_profile;
+  std::unique_ptr<const TeamRouter> m_router;
   std::shared_ptr<const TextDecoder> m_decoder;
   DecodedText m_decoded;
   std::vector<Robot> m_robots;
