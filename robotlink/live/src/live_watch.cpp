@@ -56,6 +56,7 @@ Result<void> validate(const LiveOptions& options) {
                                           options.refereePort);
   if (!ports) return tl::unexpected<Error>(ports.error());
   if (const auto good = telemetry::validate(options.profile); !good) return good;
+  if (const auto good = validate(options.boards); !good) return good;
   return sim::validate(options.field);
 }
 
@@ -63,7 +64,9 @@ struct LiveWatch::Impl {
   Impl(LiveOptions o, std::function<void()> ready)
       : options(std::move(o)),
         onFrame(std::move(ready)),
-        monitor(options.profile, monitorOptions(options)) {}
+        monitor(options.profile, monitorOptions(options)) {
+    boards.set(options.boards);
+  }
 
   double since(Steady::time_point now) const {
     return std::chrono::duration<double>(now - begin).count();
@@ -91,6 +94,7 @@ struct LiveWatch::Impl {
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
     monitor.setOptions(monitorOptions(options));
+    boards.set(options.boards);
     monitorProblem.clear();
     const auto before = receiverOptions(old), after = receiverOptions(options);
     if (before.ports == after.ports && before.bind == after.bind && receiver) return;
@@ -166,6 +170,10 @@ struct LiveWatch::Impl {
     auto made =
         std::make_shared<MatchFrame>(liveFrame(options, team, referee, identities, since(now)));
     made->serial = ++serial;
+    boards.addTo(*made);
+    boards.takeRows([this](const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
+      for (const auto& observer : observers) observer->sampled(group, rows);
+    });
     tell(happened.compare(*made));
     if (receiver && now >= nextPorts) {
       nextPorts = now + portsPeriod;
@@ -234,6 +242,7 @@ struct LiveWatch::Impl {
   std::optional<LiveOptions> pending;
   bool clearAsked = false;
   TeamMonitor monitor;
+  AttachedRobots boards{begin};
   telemetry::RefereeTracker referee;
   LiveIdentities identities;
   LiveEvents happened;
@@ -284,6 +293,7 @@ LiveDetails LiveWatch::details() const {
   details.unknownRefereeReason = m_impl->unknownReason;
   details.unknownRefereeSample = m_impl->unknownSample;
   details.robotStates = m_impl->robotStates;
+  details.boards = m_impl->boards.status();
   details.monitorProblem = m_impl->monitorProblem;
   return details;
 }

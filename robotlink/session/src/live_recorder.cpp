@@ -119,7 +119,8 @@ LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
                            telemetry::WallTime zero, const LiveOptions& live)
     : m_writer(std::move(writer)),
       m_refereePort(live.refereePort),
-      m_rows(m_writer, rowsOptions(live, zero)) {}
+      m_rows(m_writer, rowsOptions(live, zero)),
+      m_boards(m_writer) {}
 
 LiveRecorder::~LiveRecorder() = default;
 

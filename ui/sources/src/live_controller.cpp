@@ -15,16 +15,20 @@ class RowKeeper : public link::LiveObserver {
  public:
   RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
             telemetry::WallTime zero)
-      : m_rows(std::move(store), link::rowsOptions(options, zero)) {}
+      : m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
   void heard(RobotId, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
     m_rows.take(datagram, decoded, decoder);
   }
+  void sampled(const telemetry::GroupInfo& group, std::span<const link::BoardRow> rows) override {
+    m_boards.take(group, rows);
+  }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
 
  private:
   telemetry::LiveRows m_rows;
+  link::BoardRowKeeper m_boards;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/live/attached_robots.h>
 #include <simcore/physics/simulation.h>
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/referee_tracker.h>
@@ -34,6 +35,7 @@ struct LiveOptions {
   TeamColor colour = TeamColor::Blue;  ///< of our robots while the referee says none
   bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
   sim::FieldSpec field;
+  std::vector<AttachedBoard> boards;          ///< of robots that are this computer
   std::optional<telemetry::Address> monitor;  ///< the referee to ask for monitor mode; empty: off
   std::uint16_t monitorPort = telemetry::monitorRequestPort;
 };
@@ -51,7 +53,8 @@ struct LiveDetails {
   std::string unknownRefereeReason;  ///< of the last one
   std::string unknownRefereeSample;
   std::uint64_t robotStates = 0;  ///< robots' replies passed on by a referee in monitor mode
-  std::string monitorProblem;     ///< why the last monitor request was not sent
+  std::vector<AttachedStatus> boards;
+  std::string monitorProblem;  ///< why the last monitor request was not sent
 };
 
 /// Sees every datagram that is used, for rows and recording. Called on the watch's thread: must not
@@ -70,6 +73,8 @@ class LiveObserver {
   virtual void happened(const MatchEvent&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
+  /// What was read of an attached blackboard since the last frame.
+  virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
 };
