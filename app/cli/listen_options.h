@@ -22,7 +22,8 @@ struct ListenOptions {
   int refereePort = 3838;
   std::string profile;
   std::vector<std::string> teams;
-  std::vector<std::string> senders;
+  std::vector<std::string> senders, refereeSenders;
+  int refereeVersion = 0;
 };
 
 /// "b-human, barelangfc, ...": the profiles that are part of the program, over several lines.
@@ -36,6 +37,7 @@ struct ListenSetup {
   telemetry::ReceiverOptions receiver;
   telemetry::Profile profile;
   telemetry::MonitorOptions monitor;
+  telemetry::SenderFilter referees;
 };
 Result<ListenSetup> listenSetup(const ListenOptions& options);
 
@@ -43,6 +45,7 @@ Result<ListenSetup> listenSetup(const ListenOptions& options);
 void sayListening(const ListenOptions& options, const std::vector<std::uint16_t>& ports);
 /// Says on stderr which ports are not received, once for each change.
 void reportPorts(const telemetry::ReceiverStatus& status, std::map<std::size_t, std::string>& told);
-telemetry::WallTime wallNow();
+/// "; refused: 12 of senders that are not on the list, ...": nothing where nothing was.
+std::string refusedText(const telemetry::TeamStatus& team, std::uint64_t referees);
 
 }  // namespace pitchboard::cli

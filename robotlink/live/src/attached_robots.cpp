@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
@@ -22,7 +23,7 @@ namespace pitchboard::link {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = AttachedRobots::Clock;
+using Clock = std::chrono::steady_clock;
 
 constexpr auto lookInterval = 100ms;        // is it still the segment of this key?
 constexpr std::size_t mostRows = 4096;      // waiting; older ones are lost, counted
@@ -125,8 +126,11 @@ Result<void> validate(const std::vector<AttachedBoard>& boards) {
 
 class AttachedRobots::Reader {
  public:
-  Reader(const AttachedBoard& board, Map map, Clock::time_point zero)
-      : m_board(board), m_map(std::move(map)), m_columns(m_map.catalog), m_zero(zero) {
+  Reader(const AttachedBoard& board, Map map, std::function<double()> seconds)
+      : m_board(board),
+        m_map(std::move(map)),
+        m_columns(m_map.catalog),
+        m_seconds(std::move(seconds)) {
     sim::RobotIdentity identity;
     identity.team = board.team;
     identity.number = board.number();
@@ -159,7 +163,7 @@ class AttachedRobots::Reader {
     return std::exchange(m_rows, {});
   }
 
-  void addTo(MatchFrame& frame, Clock::time_point now) const {
+  void addTo(MatchFrame& frame) const {
     const std::lock_guard lock(m_mutex);
     if (m_newest.words.empty()) return;
     RobotFrame& robot = frame.robots.emplace_back();
@@ -168,7 +172,7 @@ class AttachedRobots::Reader {
     robot.identity.id = RobotId{m_board.number() + attachedStep};
     while (isTaken(frame, robot.identity.id)) robot.identity.id.value += 1000;
     RobotHealth& health = robot.health.emplace();
-    const double age = std::max(0.0, secondsSince(now) - m_newest.time);
+    const double age = std::max(0.0, m_seconds() - m_newest.time);
     health.age =
         std::chrono::duration_cast<telemetry::Duration>(std::chrono::duration<double>(age));
     health.messages = m_status.samples;
@@ -213,10 +217,6 @@ class AttachedRobots::Reader {
                                     [name](const auto& column) { return column.name == name; });
     if (found == columns.end()) return std::nullopt;
     return static_cast<std::size_t>(found - columns.begin());
-  }
-
-  double secondsSince(Clock::time_point now) const {
-    return std::chrono::duration<double>(now - m_zero).count();
   }
 
   /// Of the newest sample; 0 for what the catalog does not have.
@@ -297,7 +297,7 @@ class AttachedRobots::Reader {
         look(view);
       }
       if (view && now >= due) {
-        sample(*view, now);
+        sample(*view);
         due += period;
         if (now > due) {
           const auto late = (now - due) / period + 1;
@@ -331,9 +331,9 @@ class AttachedRobots::Reader {
     }
   }
 
-  void sample(const SegmentView& view, Clock::time_point now) {
+  void sample(const SegmentView& view) {
     BoardRow row;
-    row.time = secondsSince(now);
+    row.time = m_seconds();
     row.words.reserve(m_places.size());
     for (const std::size_t place : m_places) row.words.push_back(view.word(place));
     const std::lock_guard lock(m_mutex);
@@ -352,7 +352,7 @@ class AttachedRobots::Reader {
   const AttachedBoard m_board;
   const Map m_map;
   const BoardColumns m_columns;
-  const Clock::time_point m_zero;
+  const std::function<double()> m_seconds;
   telemetry::GroupInfo m_group;
   std::vector<std::size_t> m_places;  // words of the columns
   std::array<std::optional<std::size_t>, wantedCount> m_wanted;
@@ -365,7 +365,7 @@ class AttachedRobots::Reader {
   std::jthread m_thread;  // last: it uses all of the above
 };
 
-AttachedRobots::AttachedRobots(Clock::time_point zero) : m_zero(zero) {}
+AttachedRobots::AttachedRobots(std::function<double()> seconds) : m_seconds(std::move(seconds)) {}
 AttachedRobots::~AttachedRobots() = default;
 
 void AttachedRobots::set(const std::vector<AttachedBoard>& boards) {
@@ -377,14 +377,13 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards) {
                                     [&](const auto& reader) { return reader->board() == board; });
     if (known != m_readers.end()) continue;
     if (auto map = mapOf(board)) {
-      m_readers.push_back(std::make_unique<Reader>(board, std::move(*map), m_zero));
+      m_readers.push_back(std::make_unique<Reader>(board, std::move(*map), m_seconds));
     }
   }
 }
 
 void AttachedRobots::addTo(MatchFrame& frame) const {
-  const auto now = Clock::now();
-  for (const auto& reader : m_readers) reader->addTo(frame, now);
+  for (const auto& reader : m_readers) reader->addTo(frame);
 }
 
 void AttachedRobots::takeRows(const BoardRowsTaker& take) {

@@ -7,7 +7,6 @@
 // comes again.
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -40,7 +39,7 @@ Result<AttachedBoard> parseAttachedBoard(std::string_view text);
 Result<void> validate(const std::vector<AttachedBoard>& boards);
 
 struct BoardRow {
-  double time = 0.0;  ///< s since the zero of AttachedRobots
+  double time = 0.0;  ///< s, as AttachedRobots was told
   std::vector<std::uint32_t> words;
 };
 
@@ -58,8 +57,8 @@ using BoardRowsTaker =
 
 class AttachedRobots {
  public:
-  using Clock = std::chrono::steady_clock;
-  explicit AttachedRobots(Clock::time_point zero);
+  /// `seconds`: the time of the rows, s; called on any thread.
+  explicit AttachedRobots(std::function<double()> seconds);
   ~AttachedRobots();
 
   /// Attaches these and no others; a board that stays as it is goes on. They must be valid.
@@ -72,7 +71,7 @@ class AttachedRobots {
 
  private:
   class Reader;
-  const Clock::time_point m_zero;
+  const std::function<double()> m_seconds;
   std::vector<std::unique_ptr<Reader>> m_readers;
 };
 
