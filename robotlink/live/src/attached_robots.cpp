@@ -48,14 +48,24 @@ struct Map {
 Result<Map> mapOf(const AttachedBoard& board) {
   SegmentLayout layout;
   if (board.bytes != 0) layout.bytes = board.bytes;
-  if (board.catalogFile.empty()) return Map{VariableCatalog::published(), layout};
-  auto catalog = VariableCatalog::fromFile(board.catalogFile, layout);
+  const bool isPublished = board.catalogFile.empty();
+  Result<VariableCatalog> catalog = isPublished
+                                        ? Result<VariableCatalog>(VariableCatalog::published())
+                                        : VariableCatalog::fromFile(board.catalogFile, layout);
   if (!catalog) return tl::unexpected(catalog.error());
   if (board.bytes != 0 && layout.bytes != board.bytes) {
     return failure(ErrorCode::Conflict,
                    "says " + std::to_string(layout.bytes) + " bytes, but the size asked for is " +
                        std::to_string(board.bytes),
                    board.catalogFile);
+  }
+  for (const Variable& variable : catalog->variables()) {
+    const int offset = variable.type == VariableType::Int ? 0 : layout.floatOffset;
+    if (variable.index + offset < layout.words()) continue;
+    return failure(ErrorCode::Conflict,
+                   variable.name + " lies beyond the " + std::to_string(layout.bytes) +
+                       " bytes of the segment; give the catalog that belongs to it",
+                   isPublished ? "the published map" : board.catalogFile);
   }
   return Map{std::move(*catalog), layout};
 }
