@@ -78,9 +78,9 @@ class MatchLoop {
   Clock::time_point play(Clock::time_point now);
   Clock::time_point playBatch(Clock::time_point now, std::uint64_t lastTick);
   void collectEvents();
-  void pollChildren();
-  void log(const std::string& origin, const std::string& text, bool warning);
-  std::string nameOf(const ChildSpec& child) const;
+  void pollProcesses();
+  void log(const std::string& origin, const std::string& text, LogLevel level);
+  std::string nameOf(const ProcessLine& line) const;
   bool refreshesWhileStill() const;
 
   MatchRunner::Shared& m_shared;
