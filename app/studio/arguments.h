@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <app/robots_options.h>
 #include <app/scenario_options.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/match/simulated_match.h>
@@ -21,7 +22,7 @@ struct Arguments {
   shared::ScenarioOptions match;
   std::string cognition = "external";
   std::string speed = "1";
-  int keyBase = 0;
+  shared::RobotsOptions robots;
   std::string theme;
   bool paused = false;
   std::optional<std::uint64_t> playTo;
