@@ -12,8 +12,8 @@ namespace {
 // A communication process sets no flag on its blackboard: its child process tells.
 bool communicationRuns(const link::RobotFrame& robot) {
   const auto processes = robot.processes();
-  return std::any_of(processes.begin(), processes.end(), [](const link::ChildStatus& child) {
-    return child.spec.name == "communication" && child.state == link::ChildState::Running;
+  return std::any_of(processes.begin(), processes.end(), [](const link::ProcessStatus& one) {
+    return one.name == "communication" && one.state == link::ProcessState::Running;
   });
 }
 

@@ -199,7 +199,9 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
           .arg(frame.seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::External:
-      m_processes->setText(QStringLiteral("Robot processes separate"));
+      m_processes->setText(frame.inLockStep
+                               ? QStringLiteral("Robot processes separate, in lock-step")
+                               : QStringLiteral("Robot processes separate, running freely"));
       break;
     case link::Cognition::Inline:
       m_processes->setText(QStringLiteral("Robots decide in the studio"));
@@ -207,6 +209,10 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
     case link::Cognition::None:
       m_processes->setText(QStringLiteral("Waiting for your processes"));
       break;
+  }
+  if (frame.matchNumber.value_or(0) > 0) {
+    m_processes->setText(
+        QStringLiteral("Match %1 · %2").arg(*frame.matchNumber).arg(m_processes->text()));
   }
 }
 
