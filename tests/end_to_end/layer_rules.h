@@ -64,9 +64,11 @@ inline const QList<Room>& table() {
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
         {board, {base, series, wire, "resources"}, {"nlohmann/"}},
-        {processes, {base, board}, {}},
+        {processes, {base, board, "resources"}, {}},
         {cognition, {base, world, wire, board, processes}, {"Eigen/"}},
-        {scenario, {base, world, physics, board, cognition, "resources"}, {"nlohmann/"}},
+        {scenario,
+         {base, world, physics, board, processes, cognition, "resources"},
+         {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
         {match, all("simcore") + QStringList{board, processes, cognition, scenario, frame}, {}},
         {live, {base, world, physics, wire, series, frame}, {}},
@@ -77,13 +79,10 @@ inline const QList<Room>& table() {
         {"robotlink/conformance",
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
-        // A robot's processes know nothing of matches, sessions and windows; of scenarios, only how
-        // a field is written.
         // What more than one program needs of its command line.
-        {"app/shared", {base, scenario}, {"CLI/"}},
-        {"app/robot",
-         {base, world, wire, board, processes, cognition, scenario, "app/shared"},
-         {"CLI/"}},
+        {"app/shared", {base, scenario, match}, {"CLI/"}},
+        // A robot's processes know nothing of matches, scenarios, sessions and windows.
+        {"app/robot", {base, world, wire, board, processes, cognition, "app/shared"}, {"CLI/"}},
         {"app/cli", belowUi + QStringList{"app/shared"}, {"CLI/", "nlohmann/"}},
         {"app/studio",
          belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/window", "app/shared"},
