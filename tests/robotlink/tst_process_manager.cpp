@@ -297,8 +297,10 @@ class TestProcessManager : public QObject {
     timer.start();
     QTRY_VERIFY_WITH_TIMEOUT(m_lines.size() > 60 || (look(), false), 40'000);
     QVERIFY(timer.elapsed() < 30'000);  // a minute of its own
-    QVERIFY2(m_lines[59].starts_with("60 60") || m_lines[59].starts_with("61 61"),
-             m_lines[59].c_str());
+    // Sixty sleeps of a second; a busy computer wakes it late, but both of its clocks agree.
+    int passed = 0, monotonic = 0;
+    QCOMPARE(std::sscanf(m_lines[59].c_str(), "%d %d", &passed, &monotonic), 2);
+    QVERIFY2(passed >= 60 && std::abs(passed - monotonic) <= 1, m_lines[59].c_str());
     // Its time stands still while it is stopped, and goes on from there.
     m_manager->setPaused(true, Clock::now());
     look();
@@ -308,7 +310,7 @@ class TestProcessManager : public QObject {
     m_lines.clear();
     m_manager->setPaused(false, Clock::now());
     QTRY_VERIFY((look(), !m_lines.empty()));
-    QVERIFY2(std::stoi(m_lines.front()) <= before + 15, m_lines.front().c_str());
+    QVERIFY2(std::stoi(m_lines.front()) <= before + 25, m_lines.front().c_str());
     const pid_t pid = status(id).pid;
     m_manager->stop(id);
     QVERIFY(!QFile::exists(QString("/dev/shm/faketime_shm_%1").arg(pid)));

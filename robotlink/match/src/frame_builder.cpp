@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <robotlink/match/referee_packet.h>
+
 namespace pitchboard::link {
 namespace {
 
@@ -41,6 +43,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     robot.thoughts.reset();
     robot.runtime = runtimeChoiceToText(match.runtime(robot.id()));
     robot.ofOthers = false;
+    robot.penalty = refereePenalty(state, state.robots[i]);
   }
   for (const sim::RobotIdentity& other : match.robotsOfOthers()) {
     out.robots[*simulation.indexOf(other.id)].ofOthers = true;
@@ -58,6 +61,8 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
       out.robots[*index].thoughts = thoughts;
     }
   }
+  out.referee.reset();
+  if (state.game) out.referee = refereeView(state);
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
   out.field = state.settings.field;

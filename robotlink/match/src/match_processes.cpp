@@ -108,6 +108,7 @@ bool SimulatedMatch::wants(const Seat& seat, const ProfileProcess& process) cons
 }
 
 Result<void> SimulatedMatch::startProcesses(Seat& seat) {
+  seat.facesLeft = identityOf(seat.id).imuStartsAt180;
   std::vector<std::unique_ptr<SeatProcess>> all;
   for (const ProfileProcess& profile : seat.runtime.processes) {
     if (!wants(seat, profile)) continue;
@@ -144,6 +145,7 @@ Result<std::unique_ptr<SeatProcess>> SimulatedMatch::startProcess(Seat& seat,
                                                                   const ProfileProcess& profile) {
   auto process = std::make_unique<SeatProcess>();
   process->profile = profile;
+  process->startTick = m_simulation.state().tick;
   if (profile.isReference() && findProcess(profile.reference) == nullptr) {
     std::vector<std::string_view> known;
     for (const ProcessInfo& info : cognitiveProcesses()) known.push_back(info.name);

@@ -20,6 +20,7 @@ struct SeatProcess {
   int id = 0;                                ///< of a separate one, in the manager
   bool known = false;                        ///< how often it wants a turn is known
   double period = 0.0;                       ///< s, once known
+  std::uint64_t startTick = 0;               ///< after which it was started
   std::uint64_t nextTick = 0;                ///< runs after the tick that ends here
 
   // Of a separate one that takes turns (a reference process).
@@ -35,6 +36,7 @@ struct SimulatedMatch::Seat {
   std::string behaviour;
   RuntimeChoice choice;              ///< as told for this robot; may be nothing
   RuntimeProfile runtime;            ///< what that means
+  bool facesLeft = false;             // what its processes were told
   std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;
   std::vector<std::unique_ptr<SeatProcess>> processes;

@@ -42,7 +42,7 @@ bool SimulatedMatch::dueNow(SeatProcess& process, std::optional<double> period) 
     process.known = true;
     process.period = *period;
     // As if it had been there since it was started: turns lie on multiples of the period.
-    process.nextTick = nextDueTick(process.period, m_expectedTick - 1);
+    process.nextTick = nextDueTick(process.period, process.startTick);
   }
   return process.known && m_expectedTick >= process.nextTick;
 }

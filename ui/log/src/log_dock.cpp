@@ -122,10 +122,16 @@ class LogDock : public QWidget {
 
     // Simulated and live lines stand in one log: both go on while the other is looked at.
     for (FrameSource* source : shown->sources()) {
-      connect(source, &FrameSource::logReceived, this,
-              [this](const std::vector<LogLine>& lines) { append(lines); });
-      connect(source, &FrameSource::eventsReceived, this, &LogDock::appendEvents);
+      connect(
+          source, &FrameSource::logReceived, this,
+          [this, source](const std::vector<LogLine>& lines) { append(lines, source->clock()); });
+      connect(source, &FrameSource::eventsReceived, this,
+              [this, source](const std::vector<link::MatchEvent>& events) {
+                appendEvents(events, source->clock());
+              });
     }
+    m_model->setTimesOfDay(shown->timesOfDay());
+    connect(shown, &SourceSwitch::timesOfDayChanged, m_model, &LogModel::setTimesOfDay);
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
       append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
@@ -145,20 +151,21 @@ class LogDock : public QWidget {
                              "processes print appear here."));
   }
 
-  void append(const std::vector<LogLine>& lines) {
-    m_model->append(lines);
+  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {}) {
+    m_model->append(lines, clock);
     m_start->setText(QStringLiteral("Start-up lines: %1").arg(m_model->startLines()));
     m_start->setVisible(m_model->startLines() > 0);
     if (m_follow->isChecked()) m_table->scrollToBottom();
   }
 
-  void appendEvents(const std::vector<link::MatchEvent>& events) {
+  void appendEvents(const std::vector<link::MatchEvent>& events,
+                    const std::optional<QDateTime>& clock) {
     std::vector<LogLine> lines;
     for (const link::MatchEvent& event : events) {
       lines.push_back(logLineOf(event));
       if (event.kind == link::MatchEventKind::ProcessStarted) lines.back().level = LogLevel::Debug;
     }
-    append(lines);
+    append(lines, clock);
   }
 
   static QString textOf(const QModelIndex& row) {

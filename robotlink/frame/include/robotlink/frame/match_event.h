@@ -42,6 +42,8 @@ enum class MatchEventKind : std::uint8_t {
   RobotSilent,       ///< robot
   RobotBack,         ///< robot
   SecondSender,      ///< robot; detail: the sender that is shown
+  AddressChanged,    ///< robot; detail: "10.0.0.3 to 10.0.0.7"
+  ClockSet,          ///< the computer's; value: by so many seconds
   Penalised,         ///< robot; detail: for what; value: seconds left
   PenaltyOver,       ///< robot
   ProcessStarted,    ///< robot, process; value: its process number

@@ -27,7 +27,7 @@
 #include <robotlink/processes/process_manager.h>
 #include <robotlink/processes/runtime_profile.h>
 #include <robotlink/scenario/scenario.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 
@@ -55,9 +55,15 @@ struct MatchOptions {
   RobotsPace pace = RobotsPace::LockStep;
   /// Of robots of which neither the scenario nor their behaviour says who runs.
   RuntimeChoice runtime;
+  /// The referee of the match sends packets to process.refereePort of this computer. Without it
+  /// only inline robots hear it.
+  bool sendReferee = false;
+  /// Instead of its own referee, the match obeys a GameController that is heard on this port.
+  std::optional<int> obeyReferee;
 };
 
 class MatchEvents;
+class MatchReferee;
 struct Moment;
 struct SeatProcess;
 
@@ -79,7 +85,7 @@ class SimulatedMatch {
   void tick();
   /// A stop condition of the scenario is met. Nothing keeps the caller from going on.
   bool finished() const { return !finishedBy().empty(); }
-  /// "goal", "ball_out" or "duration"; empty while none is met.
+  /// "goal", "ball_out", "duration" or "full_time"; empty while none is met.
   std::string_view finishedBy() const;
 
   /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
@@ -142,6 +148,8 @@ class SimulatedMatch {
   /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
   /// shirt is worn already.
   Result<void> setIdentity(const sim::RobotIdentity& identity);
+  /// A call of the referee (a person's); see sim::Simulation::call().
+  Result<void> call(const sim::RefereeCall& call) { return m_simulation.call(call); }
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
 
@@ -172,6 +180,10 @@ class SimulatedMatch {
   void followJump();
   void runProcesses();
   std::uint64_t nextDueTick(double period, std::uint64_t after) const;
+  Result<void> beginGame();
+  void hearReferee();
+  bool hearsThroughMatch(const Seat& seat) const;
+  void followSides();
   Seat* seat(RobotId id) const;
   Result<RuntimeProfile> runtimeFor(const ScenarioRobot& robot) const;
   bool sharesBoard(const Seat& seat, const RuntimeProfile& runtime) const;
@@ -214,6 +226,7 @@ class SimulatedMatch {
   std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
   std::optional<ThoughtsReceiver> m_thoughts;
   std::unique_ptr<MatchEvents> m_events;
+  std::unique_ptr<MatchReferee> m_referee;
   std::shared_ptr<MatchClaim> m_claim;
   double m_speed = 0.0;
   bool m_still = false;

@@ -15,7 +15,7 @@
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
 #include <robotlink/processes/runtime_profile.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 
