@@ -48,8 +48,6 @@ class TestRobotThoughts : public QObject {
     options.cognition = Cognition::External;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
-    options.process.telemetryPortBase = 60000;
-    options.process.teamPortBase = 60100;
     options.process.team = team;
     options.thoughts = thoughts;
     return options;

@@ -255,6 +255,9 @@ class TestRuntimeProfile : public QObject {
       QCOMPARE(namesOf(match, other),
                (std::vector<std::string>{"localization", "team", "decision", "communication"}));
     }
+    QVERIFY(match.robotsOfOthers().empty());
+    const auto mine = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);
+    QVERIFY(mine);
     QCOMPARE(match.robotsOfOthers().size(), std::size_t{1});
     QCOMPARE(match.robotsOfOthers().front().name(), std::string("B2"));
     // And back again.

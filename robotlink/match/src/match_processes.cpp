@@ -83,9 +83,10 @@ const sim::RobotIdentity& SimulatedMatch::identityOf(RobotId id) const {
 std::vector<sim::RobotIdentity> SimulatedMatch::robotsOfOthers() const {
   std::vector<sim::RobotIdentity> others;
   for (const auto& seat : m_seats) {
-    if (seat->board.key() != 0 && seat->runtime.processes.empty()) {
-      others.push_back(identityOf(seat->id));
-    }
+    if (seat->board.key() == 0 || !seat->runtime.processes.empty()) continue;
+    // Nobody else at its blackboard: an obstacle, or one that is steered by hand.
+    const auto segment = SystemVSegments::info(seat->board.key());
+    if (segment && segment->attached > 1) others.push_back(identityOf(seat->id));
   }
   return others;
 }

@@ -34,8 +34,8 @@ void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDa
   for (std::size_t i = lines.size() - kept; i < lines.size(); ++i) {
     m_lines.push_back({lines[i], clock});
   }
-  m_startLines += static_cast<int>(std::count_if(
-      lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end(), isStartLine));
+  m_startLines += static_cast<int>(
+      std::count_if(lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end(), isStartLine));
   endInsertRows();
 }
 

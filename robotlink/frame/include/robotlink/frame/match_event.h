@@ -57,7 +57,7 @@ enum class MatchEventKind : std::uint8_t {
   Bookmark,          ///< detail: the user's note
   Other              ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 34;
+inline constexpr std::size_t matchEventKindCount = 36;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
