@@ -316,6 +316,22 @@ class TestProcessManager : public QObject {
     QVERIFY(!QFile::exists(QString("/dev/shm/faketime_shm_%1").arg(pid)));
   }
 
+  // Work, and half a second of sleep: at a high speed nothing is left of the sleep.
+  void whatAProgramCannotKeepUpWithIsTold() {
+    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+    ManagedProcess process = shell("");
+    process.spec.command = {"python3", "-c",
+                            "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)\n"};
+    process.ownTime = true;
+    const int id = add(process);
+    QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved == 1.0), 60'000);
+    m_manager->setSpeed(1000.0, Clock::now());
+    QCOMPARE(status(id).achieved, 0.0);
+    QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved > 0.0 && status(id).achieved < 900.0),
+                             60'000);
+    QCOMPARE(status(id).speed, 1000.0);
+  }
+
   // The guard of a supervisor that is killed ends grandchildren and removes segments.
   void nothingSurvivesAKilledSupervisor() {
     QProcess host;

@@ -51,6 +51,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   const auto number = match.number();
   out.matchNumber = number ? std::optional(number->value) : std::nullopt;
   out.inLockStep = match.inLockStep();
+  out.slowestOwnProgram = match.slowestOwnProgram();
   std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_thoughtsTime >= thoughtsInterval) {
     m_thoughts = match.thoughts();

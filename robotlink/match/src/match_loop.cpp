@@ -56,6 +56,7 @@ void MatchLoop::run(const std::stop_token& stop) {
     auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
       pollProcesses();
+      followOwnPrograms(now);
       m_lastPoll = now;
       publishNow = publishNow || refreshesWhileStill();
     }
@@ -107,6 +108,8 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
     m_player.setSpeed(speed, now);
     m_match.setPlaying(speed, still, now);
+    m_wantedSpeed = m_speed = speed;
+    m_lastFollow = now;
     m_builder.resetSpeed(now, tick);
     m_publishWanted = true;
   }
@@ -146,6 +149,23 @@ void MatchLoop::collectEvents() {
     pushBounded(m_shared.events, std::move(event), m_shared.droppedEvents);
   }
   m_newEvents->list.clear();
+}
+
+void MatchLoop::followOwnPrograms(Clock::time_point now) {
+  constexpr auto interval = 3s;  // so that a new speed shows what it does
+  constexpr double faster = 1.25, least = 0.1;
+  if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed || now - m_lastFollow < interval) {
+    return;
+  }
+  m_lastFollow = now;
+  const auto slowest = m_match.slowestOwnProgram();
+  const double speed = !m_match.waitsForOwnPrograms() ? m_wantedSpeed
+                       : slowest ? std::max(least, std::min(*slowest, m_wantedSpeed))
+                                 : std::min(m_wantedSpeed, m_speed * faster);
+  if (speed == m_speed) return;
+  m_speed = speed;
+  m_player.setSpeed(speed, now);
+  m_match.setPlaying(speed, m_still, now);
 }
 
 bool MatchLoop::refreshesWhileStill() const {

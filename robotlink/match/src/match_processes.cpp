@@ -298,7 +298,7 @@ ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
   options.behaviour = seat.behaviour;
   options.field = m_scenario.settings.field;
   options.seed = m_scenario.settings.seed;
-  options.facesLeft = identityOf(seat.id).imuStartsAt180;
+  if (m_options.tellSides) options.facesLeft = identityOf(seat.id).imuStartsAt180;
   options.teamChannel = teamChannel(seat.id);
   return options;
 }
@@ -324,14 +324,15 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       options.udpAddress,
       "--team",
       std::to_string(options.team + static_cast<int>(identity.team)),
-      "--attack",
-      identity.imuStartsAt180 ? "left" : "right",
       "--particles",
       std::to_string(options.particles),
       "--seed",
       std::to_string(m_scenario.settings.seed),
       "--field",
       sim::fieldToText(m_scenario.settings.field)};
+  if (m_options.tellSides) {
+    command.insert(command.end(), {"--attack", identity.imuStartsAt180 ? "left" : "right"});
+  }
   if (options.publishedLocalization) command.emplace_back("--published-localization");
   if (m_thoughts) {
     command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});

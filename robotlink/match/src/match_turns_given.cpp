@@ -19,6 +19,20 @@ constexpr auto glance = 20ms;  // between two looks at the processes while one i
 constexpr Seconds leastTimeToStart{10.0};  // of a process on a busy computer
 constexpr auto worthWaiting = 1s;          // for a restart; longer, the match goes on without it
 
+bool comesSoon(const ProcessStatus& status, const ProfileProcess& profile,
+               SteadyClock::time_point now) {
+  switch (status.state) {
+    case ProcessState::Running:
+      return true;
+    case ProcessState::Waiting:
+      return Seconds(profile.delay) <= worthWaiting;
+    case ProcessState::Restarting:
+      return status.nextStart - now < worthWaiting;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 void SimulatedMatch::runProcesses() {
@@ -84,10 +98,7 @@ void SimulatedMatch::runSeparate(Seat& seat, SeatProcess& process) {
   while (true) {
     const ProcessStatus* status = m_processes->status(process.id);
     const auto now = SteadyClock::now();
-    const bool comes =
-        status &&
-        (status->state == ProcessState::Running || status->state == ProcessState::Waiting ||
-         (status->state == ProcessState::Restarting && status->nextStart - now < worthWaiting));
+    const bool comes = status && comesSoon(*status, process.profile, now);
     if (!comes) {
       // One that was given up for silent may have come back by itself.
       if (status && status->state == ProcessState::Silent && process.place >= 0 &&
@@ -149,6 +160,16 @@ void SimulatedMatch::setPlaying(double speed, bool still,
   m_measuredTick = m_simulation.state().tick;
   if (speed > 0.0) m_processes->setSpeed(speed, now);
   m_processes->setPaused(still, now);
+}
+
+std::optional<double> SimulatedMatch::slowestOwnProgram() const {
+  constexpr double keepsUp = 0.95;
+  std::optional<double> slowest;
+  for (const ProcessStatus& one : m_processes->statuses()) {
+    if (!one.foreign || one.achieved <= 0.0 || one.achieved >= keepsUp * one.speed) continue;
+    slowest = std::min(slowest.value_or(one.achieved), one.achieved);
+  }
+  return slowest;
 }
 
 void SimulatedMatch::letOwnProgramsRun(std::chrono::duration<double> time) {

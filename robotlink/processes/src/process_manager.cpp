@@ -213,14 +213,15 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   entry.handle = *handle;
   entry.lastSign = entry.stoppedSince = entry.sampled = now;
   entry.sleeps = 0;
-  entry.cpuSeconds = 0.0;
+  entry.cpuSeconds = entry.cyclesPerSecond = 0.0;
   entry.programStamp = process.watchFile ? stampOf(process.spec) : std::string();
   entry.newStamp.clear();
   status.state = ProcessState::Running;
   status.pid = child(*handle)->pid;
   status.started = now;
   status.detail.clear();
-  status.speed = entry.time ? entry.time->speed() : 0.0;
+  status.speed = entry.time ? m_speed : 0.0;
+  status.achieved = 0.0;
   if (again) ++status.restarts;
   if (m_paused && spec.foreign) m_supervisor.pauseChild(entry.handle, true);
   m_news.push_back({again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started,
@@ -364,6 +365,9 @@ void ProcessManager::sample(Entry& entry, Time now) {
   ProcessStatus& status = statusOf(entry);
   const double passed = Seconds(now - entry.sampled).count();
   if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
+  if (entry.cpuSeconds > 0.0 && entry.time && !m_paused) measurePace(entry, *use, passed);
+  entry.sampledSleeps = use->sleeps;
+  entry.readySeconds = use->readySeconds;
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
@@ -371,13 +375,31 @@ void ProcessManager::sample(Entry& entry, Time now) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
   changed();
-  if (use->state != 'T') {
+  // Who listens for a heartbeat, or counts sleeps, notices it by that.
+  const bool listens =
+      entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
+  if (use->state != 'T' || listens) {
     entry.stoppedSince = now;
     if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
       status.state = ProcessState::Running;
     }
   } else if (now - entry.stoppedSince >= ticks(entry.process.silentAfter)) {
     silenced(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
+  }
+}
+
+/// How many cycles a program does in a second of its own time is the same at every speed, as long
+/// as it has time to sleep. One that never sleeps is one that nobody can judge.
+void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
+  constexpr double busy = 0.9;  // share of the time in which it worked, or waited for a core
+  ProcessStatus& status = statusOf(entry);
+  const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
+  const double rate = cycles / (seconds * entry.time->speed());
+  if ((use.readySeconds - entry.readySeconds) / seconds < busy) {
+    entry.cyclesPerSecond = entry.cyclesPerSecond > 0.0 ? (entry.cyclesPerSecond + rate) / 2 : rate;
+    status.achieved = status.speed;
+  } else if (entry.cyclesPerSecond > 0.0) {
+    status.achieved = status.speed * std::min(1.0, rate / entry.cyclesPerSecond);
   }
 }
 
@@ -443,6 +465,9 @@ void ProcessManager::setSpeed(double speed, Time now) {
     if (!entry.time || entry.handle == 0) continue;
     if (!m_paused) entry.time->setSpeed(speed, now);
     statusOf(entry).speed = speed;
+    statusOf(entry).achieved = 0.0;
+    entry.sampled = now;  // a second that is not half of this speed
+    entry.cpuSeconds = 0.0;
     changed();
   }
 }

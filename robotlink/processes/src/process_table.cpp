@@ -45,6 +45,13 @@ std::optional<ProcessUse> processUse(pid_t pid) {
   for (int i = 0; i < 10; ++i) fields >> skipped;
   fields >> user >> system;
   use.cpuSeconds = (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  use.readySeconds = use.cpuSeconds;
+  if (const auto schedule = readFile(folderOf(pid) + "/schedstat", mostBytes)) {
+    constexpr double nanoseconds = 1e9;
+    std::istringstream times(*schedule);
+    double worked = 0.0, waited = 0.0;
+    if (times >> worked >> waited) use.readySeconds = (worked + waited) / nanoseconds;
+  }
   use.memoryBytes = numberAfter(*status, "VmRSS:") * 1024;
   use.sleeps = numberAfter(*status, "\nvoluntary_ctxt_switches:");
   return use;

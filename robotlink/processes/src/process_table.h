@@ -19,6 +19,7 @@ inline constexpr const char* processMark = "PITCHBOARD_RUN";
 struct ProcessUse {
   char state = '?';         ///< R, S, T (stopped), Z
   double cpuSeconds = 0.0;  ///< since its start
+  double readySeconds = 0.0;  ///< in which it worked, or could have if a core had been free
   std::uint64_t memoryBytes = 0;
   std::uint64_t sleeps =
       0;  ///< how often it went to sleep by itself: a periodic one does each cycle

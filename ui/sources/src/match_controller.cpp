@@ -215,6 +215,12 @@ void MatchController::setPace(link::RobotsPace pace) {
   emit transportChanged();
 }
 
+void MatchController::setWaitForOwnPrograms(bool on) {
+  m_options.waitForOwnPrograms = on;
+  post([on](link::SimulatedMatch& match) { match.setWaitForOwnPrograms(on); });
+  emit transportChanged();
+}
+
 void MatchController::tellWhoWillNotFollow() {
   if (m_toldWhoWillNotFollow || !m_frame) return;
   QStringList names;

@@ -205,6 +205,11 @@ void StudioMenus::makeSimulation() {
   QObject::connect(freely, &QAction::triggered, controller, [controller](bool on) {
     controller->setPace(on ? link::RobotsPace::Free : link::RobotsPace::LockStep);
   });
+  QAction* wait = menu->addAction(QStringLiteral("Slow &down to what own programs manage"));
+  wait->setCheckable(true);
+  QObject::connect(menu, &QMenu::aboutToShow, wait,
+                   [wait, controller] { wait->setChecked(controller->waitsForOwnPrograms()); });
+  QObject::connect(wait, &QAction::triggered, controller, &MatchController::setWaitForOwnPrograms);
   QAction* clock = menu->addAction(QStringLiteral("Game &clock runs"));
   clock->setCheckable(true);
   QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller, source = m_parts.source] {

@@ -211,6 +211,10 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
       m_processes->setText(QStringLiteral("Waiting for your processes"));
       break;
   }
+  if (frame.slowestOwnProgram) {
+    m_processes->setText(QStringLiteral("%1 · own programs reach ×%2")
+                             .arg(m_processes->text(), numberText(*frame.slowestOwnProgram, 1)));
+  }
   if (frame.matchNumber.value_or(0) > 0) {
     m_processes->setText(
         QStringLiteral("Match %1 · %2").arg(*frame.matchNumber).arg(m_processes->text()));

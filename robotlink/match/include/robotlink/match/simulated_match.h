@@ -53,6 +53,10 @@ struct MatchOptions {
   ProcessOptions process;      ///< for the processes; the ports are the match's
   bool thoughts = false;       ///< hear particles and paths, for display
   RobotsPace pace = RobotsPace::LockStep;
+  /// Played at ×n, the match slows down to what a team's own programs manage.
+  bool waitForOwnPrograms = false;
+  /// Reference processes are told where their team attacks; else they find out.
+  bool tellSides = true;
   /// Of robots of which neither the scenario nor their behaviour says who runs.
   RuntimeChoice runtime;
   /// The referee of the match sends packets to process.refereePort of this computer. Without it
@@ -120,6 +124,10 @@ class SimulatedMatch {
   void letOwnProgramsRun(std::chrono::duration<double> time);
   void setPace(RobotsPace pace) { m_options.pace = pace; }
   RobotsPace pace() const { return m_options.pace; }
+  void setWaitForOwnPrograms(bool on) { m_options.waitForOwnPrograms = on; }
+  bool waitsForOwnPrograms() const { return m_options.waitForOwnPrograms; }
+  /// Times real time: the slowest of a team's own programs that cannot keep up; nothing: all do.
+  std::optional<double> slowestOwnProgram() const;
   /// Separate reference processes are waited for in every tick.
   bool inLockStep() const {
     return m_options.pace == RobotsPace::LockStep || m_still || m_speed != 1.0;

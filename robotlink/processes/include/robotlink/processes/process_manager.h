@@ -29,6 +29,8 @@
 
 namespace pitchboard::link {
 
+struct ProcessUse;
+
 struct ManagedProcess {
   enum class Watch { Nobody, Variable, Sleeps, Caller };
   using Seconds = RestartRule::Seconds;
@@ -73,6 +75,9 @@ struct ProcessStatus {
   std::optional<double> heartbeatAge{};  ///< s since a sign of life; nothing: nobody watches
   bool foreign = false;                  ///< a program of the team
   double speed = 0.0;  ///< of a foreign program's clocks; 0: they cannot follow the match
+  /// What it manages of that, times real time: less than `speed` when it cannot keep up. 0: nobody
+  /// has seen yet how often it works when it can.
+  double achieved = 0.0;
   bool operator==(const ProcessStatus&) const = default;
 };
 
@@ -155,6 +160,9 @@ class ProcessManager {
     int inARow = 0;  // restarts without steady work in between
     std::uint64_t sleeps = 0;
     double cpuSeconds = 0.0;
+    double cyclesPerSecond = 0.0;  // of its own time, while it keeps up; 0: not seen yet
+    double readySeconds = 0.0;
+    std::uint64_t sampledSleeps = 0;
     Time sampled{};
     std::string programStamp, newStamp;  // of the program's file when it was started, and since
     std::unique_ptr<FakeTime> time;
@@ -170,6 +178,7 @@ class ProcessManager {
   void watch(Entry& entry, Time now);
   void watchFile(Entry& entry, Time now);
   void sample(Entry& entry, Time now);
+  void measurePace(Entry& entry, const ProcessUse& use, double seconds);
   void silenced(Entry& entry, Time now, const std::string& detail);
   void takeOutput();
   void changed() { ++m_version; }

@@ -83,6 +83,9 @@ class MatchController : public FrameSource {
   /// How separate reference processes keep time at ×1, from now on and in later matches.
   void setPace(link::RobotsPace pace);
   link::RobotsPace pace() const { return m_options.pace; }
+  /// Whether the match slows down to what a team's own programs manage.
+  void setWaitForOwnPrograms(bool on);
+  bool waitsForOwnPrograms() const { return m_options.waitForOwnPrograms; }
   bool isPaused() const { return m_paused; }
   void restart();  ///< the scenario from its beginning
   /// The same; `between` runs on the worker thread when the old match is gone and the new one is
