@@ -78,6 +78,7 @@ Result<void> ProcessSupervisor::keepGuard(const std::string& program) {
   SpawnRequest request{{program, std::string(guardCommand), m_run}};
   request.input = its.get();
   request.outlives = true;
+  request.environment = {{processMark, ""}};  // nobody's: who supervises us must not end it
   const auto started = spawn(request);
   if (!started) return tl::unexpected(started.error());
   m_guardPid = started->pid;
