@@ -17,8 +17,8 @@ namespace pitchboard::link {
 inline constexpr const char* processMark = "PITCHBOARD_RUN";
 
 struct ProcessUse {
-  char state = '?';         ///< R, S, T (stopped), Z
-  double cpuSeconds = 0.0;  ///< since its start
+  char state = '?';           ///< R, S, T (stopped), Z
+  double cpuSeconds = 0.0;    ///< since its start
   double readySeconds = 0.0;  ///< in which it worked, or could have if a core had been free
   std::uint64_t memoryBytes = 0;
   std::uint64_t sleeps =
