@@ -66,7 +66,13 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--our-team", a.ourTeam, "Live: the referee's number of our team")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
-  app.add_option("--profile", a.profile, "Live: order of the fields as JSON")->type_name("FILE");
+  app.add_option("--profile", a.profile,
+                 "Live: what stands in a message; a file, or a name that docs/LIVE.md lists")
+      ->type_name("FILE|NAME");
+  app.add_option("--team", a.teams, "Live: team setup as JSON; may be repeated")->type_name("FILE");
+  app.add_option("--attach", a.attached,
+                 "Live: look at a System V segment of this computer as a robot; may be repeated")
+      ->type_name("KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R][,team=COLOUR]");
   CLI::Option* shot =
       app.add_option("--screenshot-to", a.screenshotFile, "Save a picture of the window, then exit")
           ->type_name("FILE.png");
@@ -195,6 +201,17 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
     auto profile = telemetry::loadProfile(arguments.profile);
     if (!profile) return tl::unexpected<Error>(profile.error());
     saved.profile = std::move(*profile);
+  }
+  for (const std::string& text : arguments.attached) {
+    auto board = link::parseAttachedBoard(text);
+    if (!board) return tl::unexpected<Error>(board.error());
+    saved.boards.push_back(std::move(*board));
+  }
+  for (std::size_t i = 0; i < arguments.teams.size(); ++i) {
+    auto team = telemetry::loadTeamSetup(arguments.teams[i]);
+    if (!team) return tl::unexpected<Error>(team.error());
+    if (i == 0) saved.team.teams.clear();  // in place of those that are saved
+    saved.team.teams.push_back(std::move(*team));
   }
   if (const auto good = link::validate(saved); !good) return tl::unexpected<Error>(good.error());
   return saved;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <app/robots_options.h>
 #include <app/scenario_options.h>
@@ -43,6 +44,8 @@ struct Arguments {
   std::string bind;
   std::optional<int> portBase, robots, refereePort, ourTeam;
   std::string profile;
+  std::vector<std::string> teams;     ///< team setups
+  std::vector<std::string> attached;  ///< blackboards: KEY[,catalog=FILE][,size=BYTES][,robot=N]
 };
 
 /// Fills `arguments`; returns an exit code when the program is to end here (help, bad usage).
