@@ -27,10 +27,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
       ->type_name("X|max")
       ->capture_default_str();
-  app.add_option("--key-base", a.keyBase, "Added to 100 x robot number for a blackboard's key")
-      ->type_name("B")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 2000000000));
+  shared::addRobotsOptions(app, a.robots);
   app.add_option("--theme", a.theme, "Colours, this time only")
       ->type_name("light|dark")
       ->check(CLI::IsMember({"light", "dark"}));
@@ -181,6 +178,7 @@ Result<link::Scenario> scenarioOf(const Arguments& arguments) {
   shared::ScenarioOptions match = arguments.match;
   if (!arguments.renderScenario.empty()) match.scenario = arguments.renderScenario;
   auto scenario = shared::scenarioFrom(match);
+  if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.robots);
   if (!scenario) return scenario;
   // Asks the engine itself whether it can play this, before a window is opened.
   if (const auto trial = sim::Simulation::create(scenario->settings); !trial) {

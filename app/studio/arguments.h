@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <app/robots_options.h>
 #include <app/scenario_options.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/match/simulated_match.h>
@@ -22,7 +23,7 @@ struct Arguments {
   shared::ScenarioOptions match;
   std::string cognition = "external";
   std::string speed = "1";
-  int keyBase = 0;
+  shared::RobotsOptions robots;
   std::string theme;
   bool paused = false;
   std::optional<std::uint64_t> playTo;
