@@ -37,7 +37,7 @@ QString refereeTeam(const link::RefereeTeamView& team) {
   return QString::fromStdString(team.colour).toUpper();
 }
 
-QString refereeTip(const link::RefereeView& view) {
+QString refereeTip(const link::RefereeView& view, bool heard) {
   QStringList tip;
   for (const link::RefereeTeamView& team : view.teams) {
     tip << QStringLiteral("Team %1 (%2): %3 goals, %4 players on the field%5")
@@ -58,6 +58,7 @@ QString refereeTip(const link::RefereeView& view) {
   }
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
                            : QStringLiteral("Kick-off: nobody (drop ball)"));
+  if (!heard) return tip.join(QLatin1Char('\n'));
   tip << QStringLiteral("Referee at %1, version %2, heard %3 s ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)
@@ -93,7 +94,21 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   } else if (!more.empty()) {
     state.state += QStringLiteral(" · ") + QString::fromStdString(more);
   }
-  state.tip = refereeTip(view);
+  if (frame.origin == link::FrameOrigin::Simulated) {
+    if (frame.paused) state.state += QStringLiteral(" · paused");
+    if (frame.finished) state.state = QStringLiteral("FINAL WHISTLE");
+  }
+  QStringList penalties;
+  for (const link::RobotFrame& robot : frame.robots) {
+    const auto& penalty = robot.health && robot.health->penalty ? robot.health->penalty
+                                                                : robot.penalty;
+    if (!penalty) continue;
+    penalties << robotName(robot.identity) +
+                     (penalty->secondsLeft > 0 ? QStringLiteral(" %1").arg(penalty->secondsLeft)
+                                               : QString());
+  }
+  state.penalties = penalties.join(QStringLiteral(" · "));
+  state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
   return state;
 }
 

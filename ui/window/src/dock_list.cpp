@@ -6,6 +6,7 @@
 #include <ui/noise/noise_dock.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/processes_dock.h>
+#include <ui/referee/referee_dock.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
@@ -25,6 +26,9 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, parent);
+}
+QWidget* referee(const StudioParts& s, QWidget* parent) {
+  return makeRefereeDock(s.controller, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);
@@ -49,6 +53,7 @@ std::span<const DockInfo> studioDocks() {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
       {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, variables},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, noise},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},

@@ -39,8 +39,8 @@ struct MatchOptions {
   std::string robotProgram;  ///< pitchboard-robot; needed for External
   ProcessOptions process;    ///< addresses and ports for the processes
   bool thoughts = false;     ///< hear particles and paths, for display
-  /// The referee of the match sends packets to process.refereePort of this computer. Without it
-  /// only inline robots hear it.
+  /// With Inline: the referee of the match sends packets to process.refereePort of this computer,
+  /// as it always does for separate processes.
   bool sendReferee = false;
   /// Instead of its own referee, the match obeys a GameController that is heard on this port.
   std::optional<int> obeyReferee;
