@@ -125,7 +125,7 @@ RefereeState asVersion7(const RefereeState& state) {
     if (state.kickOffTeam == team.number) out.kickOffRaw = team.colour;
   }
   if (out.teams[0].colour > out.teams[1].colour) std::swap(out.teams[0], out.teams[1]);
-  for (RefereeTeam& team : out.teams) team.goalColour = team.colour;
+  for (RefereeTeam& team : out.teams) team.goalColour = 1;  // always, as recorded
   return out;
 }
 
