@@ -45,6 +45,10 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::RobotBack, "recovery", "is heard again", Shape::Back, 2, false, false, ""},
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
+    {Kind::AddressChanged, "address-changed", "has another address", Shape::None, 0, false, false,
+     ""},
+    {Kind::ClockSet, "clock-set", "the computer's clock was set", Shape::None, 0, false, true,
+     "studio"},
     {Kind::Penalised, "penalty", "penalised", Shape::Warning, 5, false, true, ""},
     {Kind::PenaltyOver, "penalty-over", "may play again", Shape::None, 0, false, false, ""},
     {Kind::ProcessStarted, "process-started", "started", Shape::None, 0, false, false, ""},
@@ -125,6 +129,9 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::Half:
       return event.value == 2 ? "second half" : "first half";
     case Kind::SetPlay:
+      if (!event.detail.empty() && event.team != 0)
+        return event.detail + " for " + teamWords(event);
+      [[fallthrough]];
     case Kind::GamePhase:
       return event.detail.empty() ? std::string(info(event.kind).words) : event.detail;
     case Kind::RefereeHeard:
@@ -136,6 +143,9 @@ std::string predicateOf(const MatchEvent& event) {
       return wordsAnd(event, " from ");
     case Kind::SecondSender:
       return wordsAnd(event, "; this one is ");
+    case Kind::ClockSet:
+      return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
+             std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";
     case Kind::Penalised:
       return wordsAnd(event) + (event.value.value_or(0) > 0
                                     ? ", " + std::to_string(*event.value) + " s"

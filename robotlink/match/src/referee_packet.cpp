@@ -185,6 +185,12 @@ RefereeView refereeView(const sim::WorldState& world) {
   view.stopped = game.stopped;
   view.secondsLeft = sim::secondsOf(game.clock, rate);
   if (game.secondary != 0) view.secondaryTime = sim::secondsOf(game.secondary, rate);
+  if (game.setPlay != SetPlay::None && game.setPlayTeam >= 0) {
+    view.performingTeam = game.teams[static_cast<std::size_t>(game.setPlayTeam)].number;
+    view.setPlayStep = game.step == SetPlayStep::Placing     ? "stop"
+                       : game.step == SetPlayStep::Preparing ? "prepare"
+                                                             : "ready";
+  }
   if (game.kickOff >= 0) view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
   const std::size_t left = game.leftTeam();
   for (std::size_t side = 0; side < 2; ++side) {
@@ -194,7 +200,15 @@ RefereeView refereeView(const sim::WorldState& world) {
     shown.colour = info(team.colour).name;
     shown.score = team.score;
     for (const sim::RobotIdentity& robot : world.robots) {
-      if (robot.team == team.colour && !refereePenalty(world, robot)) ++shown.playersLeft;
+      if (robot.team != team.colour || robot.number < 1 ||
+          robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
+        continue;
+      }
+      const sim::GamePlayer& player = team.players[static_cast<std::size_t>(robot.number - 1)];
+      if (player.penalty == sim::PenaltyKind::None) ++shown.playersLeft;
+      shown.players.push_back({robot.number, std::string(wordsOf(player.penalty)),
+                               sim::secondsOf(player.ticksLeft, rate), player.warnings,
+                               player.yellow, player.red, player.cautions, player.goalkeeper});
     }
   }
   return view;

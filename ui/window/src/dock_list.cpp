@@ -2,11 +2,12 @@
 #include "dock_list.h"
 
 #include <ui/live/bad_messages_dock.h>
+#include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
 #include <ui/noise/noise_dock.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/processes_dock.h>
-#include <ui/referee/referee_dock.h>
+#include <ui/referee/refereeing_dock.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
@@ -19,7 +20,8 @@ namespace {
 
 // Each dock gets what it uses and no more.
 QWidget* robots(const StudioParts& s, QWidget* parent) {
-  return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings}, parent);
+  return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings, s.live},
+                        parent);
 }
 QWidget* variables(const StudioParts& s, QWidget* parent) {
   return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings}, parent);
@@ -27,14 +29,17 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
 QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, parent);
 }
-QWidget* referee(const StudioParts& s, QWidget* parent) {
-  return makeRefereeDock(s.controller, parent);
+QWidget* refereeing(const StudioParts& s, QWidget* parent) {
+  return makeRefereeingDock(s.controller, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);
+}
+QWidget* referee(const StudioParts& s, QWidget* parent) {
+  return makeRefereeDock(s.source, parent);
 }
 QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
@@ -53,9 +58,10 @@ std::span<const DockInfo> studioDocks() {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
       {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, variables},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, noise},
-      {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},
+      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 372, refereeing},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, timeline, true},

@@ -9,7 +9,7 @@
 
 #include <robotlink/scenario/scenario.h>
 #include <ui/base/scoreboard_state.h>
-#include <ui/referee/referee_dock.h>
+#include <ui/referee/refereeing_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 
@@ -26,7 +26,7 @@ struct Desk {
     link::Scenario scenario = link::loadScenario("match").value();
     scenario.settings.referee->automatic = false;
     for (auto& robot : scenario.robots) robot.behaviour = "none";
-    dock.reset(makeRefereeDock(&controller, nullptr));
+    dock.reset(makeRefereeingDock(&controller, nullptr));
     dock->resize(400, 900);
     dock->show();
     controller.open(scenario, true);
@@ -49,7 +49,7 @@ struct Desk {
 
 }  // namespace
 
-class TestRefereeDock : public QObject {
+class TestRefereeingDock : public QObject {
   Q_OBJECT
  private slots:
   void statesByButtonsAndUndo() {
@@ -149,5 +149,5 @@ class TestRefereeDock : public QObject {
   }
 };
 
-QTEST_MAIN(TestRefereeDock)
-#include "tst_referee_dock.moc"
+QTEST_MAIN(TestRefereeingDock)
+#include "tst_refereeing_dock.moc"

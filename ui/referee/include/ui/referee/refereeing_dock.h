@@ -11,6 +11,6 @@ namespace pitchboard::ui {
 class MatchController;
 
 /// The controller must outlive the dock.
-QWidget* makeRefereeDock(MatchController* controller, QWidget* parent);
+QWidget* makeRefereeingDock(MatchController* controller, QWidget* parent);
 
 }  // namespace pitchboard::ui

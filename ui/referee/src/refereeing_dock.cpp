@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <ui/referee/referee_dock.h>
+#include <ui/referee/refereeing_dock.h>
 
 #include <QAction>
 #include <QCheckBox>
@@ -64,11 +64,11 @@ bool isOfReferee(link::MatchEventKind kind) {
   }
 }
 
-class RefereeDock : public QScrollArea {
+class RefereeingDock : public QScrollArea {
  public:
-  RefereeDock(MatchController* controller, QWidget* parent)
+  RefereeingDock(MatchController* controller, QWidget* parent)
       : QScrollArea(parent), m_match(controller) {
-    setObjectName(QStringLiteral("refereeDock"));
+    setObjectName(QStringLiteral("refereeingDock"));
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -461,8 +461,8 @@ class RefereeDock : public QScrollArea {
 
 }  // namespace
 
-QWidget* makeRefereeDock(MatchController* controller, QWidget* parent) {
-  return new RefereeDock(controller, parent);
+QWidget* makeRefereeingDock(MatchController* controller, QWidget* parent) {
+  return new RefereeingDock(controller, parent);
 }
 
 }  // namespace pitchboard::ui
