@@ -54,6 +54,12 @@ struct Game {
     }
   }
   bool call(sim::RefereeCall call) { return simulation->call(call).has_value(); }
+  /// The ball lies at a robot, and rolls away from it.
+  void touch(const Point& place, const Velocity& velocity) {
+    QVERIFY(simulation->placeBall(place));
+    tick();
+    QVERIFY(simulation->placeBall(place, velocity));
+  }
   bool state(PlayState state) { return call({.kind = CallKind::State, .state = state}); }
   bool happened(sim::EventKind kind) const {
     return std::any_of(events.begin(), events.end(),
@@ -257,7 +263,7 @@ class TestReferee : public QObject {
     game.simulation->editState().game->breakLeft = 0;
     game.runTo(80);  // READY, SET, PLAYING, and the ball is everybody's
     QCOMPARE(game.game().state, PlayState::Playing);
-    QVERIFY(game.simulation->placeBall({3.9, 0.6}, {speed, 0.0}));
+    QVERIFY(game.simulation->placeBall({4.1, 0.6}, {speed, 0.0}));
     game.runTo(81);
     QCOMPARE(game.game().teams[0].score, 1);
     QCOMPARE(game.game().state, PlayState::Ready);
@@ -279,7 +285,7 @@ class TestReferee : public QObject {
     Game game("humanoid-2021", true);
     game.runTo(80);
     // Blue 2 stands at (-2.5, 2): the ball rolls past it over the touch line.
-    QVERIFY(game.simulation->placeBall({-2.5, 2.23}, {0.0, 3.0}));
+    game.touch({-2.5, 2.225}, {0.0, 3.0});
     game.runTo(82);
     QCOMPARE(game.game().setPlay, SetPlay::ThrowIn);
     QCOMPARE(game.game().setPlayTeam, 1);
@@ -294,7 +300,7 @@ class TestReferee : public QObject {
       game.runTo(80);
       const int robot = byDefender ? 4 : 2;  // red 1 or blue 2, before the right goal line
       QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{4.0, 2.5}, 0.0}));
-      QVERIFY(game.simulation->placeBall({4.22, 2.5}, {3.0, 0.0}));
+      game.touch({4.225, 2.5}, {3.0, 0.0});
       game.runTo(82);
       QCOMPARE(game.game().setPlay, byDefender ? SetPlay::CornerKick : SetPlay::GoalKick);
       QCOMPARE(game.game().setPlayTeam, byDefender ? 0 : 1);
@@ -310,7 +316,7 @@ class TestReferee : public QObject {
     rules.name = "ours";
     QVERIFY(game.simulation->setReferee(rules));
     game.runTo(80);
-    QVERIFY(game.simulation->placeBall({-2.5, 2.23}, {0.0, 3.0}));
+    game.touch({-2.5, 2.225}, {0.0, 3.0});
     game.runTo(82);
     QCOMPARE(game.game().setPlay, SetPlay::None);
     QVERIFY(std::abs(game.simulation->snapshot().ball.y) < 3.0);

@@ -4,8 +4,14 @@
 #include <robotlink/cognition/referee_word.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 
+#include <QFile>
 #include <QtTest>
+#include <map>
+#include <optional>
 
+#include <telemetry/wire/gamecontroller.h>
+
+#include "../support/test_socket.h"
 #include "../support/whole_match.h"
 
 using namespace pitchboard;
@@ -115,6 +121,70 @@ class TestWholeMatch : public QObject {
                         .penalty = sim::PenaltyKind::Manual}));
     for (int i = 0; i < 31; ++i) match.tick();
     QCOMPARE(word(1), refereeStop);
+  }
+
+  void itsPacketsAreHeardOnTheMatchsPort() {
+    constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
+    const TestSocket ear(loopbackBroadcast);
+    QVERIFY(ear.good());
+    MatchOptions options;
+    options.process.particles = 200;
+    options.process.refereePort = ear.port();
+    options.sendReferee = true;
+    auto match = SimulatedMatch::create(shortMatch("humanoid-2014"), options).value();
+    for (int i = 0; i < 60 * 12; ++i) match.tick();
+    std::map<int, int> versions;
+    std::optional<telemetry::RefereeState> last;
+    for (std::string text = ear.take(); !text.empty(); text = ear.take()) {
+      const auto packet = telemetry::decodeReferee(text);
+      QVERIFY(packet);
+      const auto& state = std::get<telemetry::RefereeState>(*packet);
+      ++versions[state.version];
+      if (state.version == 9) last = state;
+    }
+    // Twice a second, each with the one of version 7 behind it.
+    QVERIFY(versions[9] >= 24 && versions[9] <= 26);
+    QCOMPARE(versions[7], versions[9]);
+    QCOMPARE(last->state, 1);
+    QCOMPARE(*last->secondaryTime, 28);
+    QCOMPARE(last->teams[0].players()[3].penalty, 14);  // nobody wears this shirt
+  }
+
+  void anExternalControllerIsObeyed() {
+    const TestSocket place;  // a free port; given back before the match listens
+    int port = 0;
+    {
+      const TestSocket probe;
+      port = probe.port();
+    }
+    MatchOptions options;
+    options.process.particles = 200;
+    options.obeyReferee = port;
+    auto match = SimulatedMatch::create(shortMatch("humanoid-2021"), options).value();
+    const auto send = [&](const char* name) {
+      QFile file(QString(PITCHBOARD_TEST_DATA) + "/gamecontroller/" + name + ".bin");
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      QVERIFY(place.send(static_cast<std::uint16_t>(port), file.readAll().toStdString()));
+    };
+    const auto state = [&] {
+      match.tick();
+      return static_cast<int>(match.simulation().state().game->state);
+    };
+    for (int i = 0; i < 60 * 20; ++i) match.tick();
+    QCOMPARE(state(), 0);  // nobody has said a word
+    send("v12hl640_2017.3_PLAYING");
+    QTRY_COMPARE(state(), 3);
+    QCOMPARE(match.blackboard(RobotId{1})->read(match.variables().comReferee) != refereeStop, true);
+    send("v12hl640_2017.3_SECOND_HALF_PLAYING");
+    QTRY_COMPARE((state(), match.simulation().state().game->half), 2);
+  }
+
+  void aMatchToObeyNeedsRules() {
+    MatchOptions options;
+    options.obeyReferee = 3838;
+    const auto refused = SimulatedMatch::create(loadScenario("match-3v3").value(), options);
+    QVERIFY(!refused);
+    QVERIFY(refused.error().text().find("has no referee") != std::string::npos);
   }
 
   void itRepeatsToTheBit() {

@@ -97,6 +97,30 @@ int playersPerTeam(const sim::WorldState& world) {
   return std::max(count[0], count[1]);
 }
 
+/// Numbers that the game does not know are given to the team of that colour, else by side; the
+/// first team of a packet defends the left goal.
+void followTeams(const telemetry::RefereeState& packet, sim::WorldState& world) {
+  GameState& game = *world.game;
+  const auto known = [&](int number) {
+    return game.teams[0].number == number || game.teams[1].number == number;
+  };
+  const bool newTeams = !known(packet.teams[0].number) || !known(packet.teams[1].number);
+  if (newTeams) {
+    std::size_t first = game.leftTeam();
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (colourCode(game.teams[i].colour) == packet.teams[0].colour) first = i;
+    }
+    game.teams[first].number = packet.teams[0].number;
+    game.teams[1 - first].number = packet.teams[1].number;
+  }
+  const bool swapped = game.teams[1].number == packet.teams[0].number;
+  if (swapped == game.swapped) return;
+  game.swapped = swapped;
+  for (sim::RobotIdentity& robot : world.robots) {
+    if (game.teamOf(robot.team) >= 0) robot.imuStartsAt180 = !robot.imuStartsAt180;
+  }
+}
+
 }  // namespace
 
 telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNumber, bool truth) {
@@ -231,6 +255,7 @@ std::optional<Penalty> refereePenalty(const sim::WorldState& world,
 
 void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) {
   GameState& game = *world.game;
+  followTeams(packet, world);
   const double rate = world.settings.tickRate;
   const auto ticks = [rate](int seconds) { return static_cast<int>(std::lround(seconds * rate)); };
   const PenaltyDialect penalties = penaltyDialect(packet.version, packet.league);
@@ -299,7 +324,9 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
         player.outside = false;
         player.sinceTicks = 0;
       }
-      player.ticksLeft = ticks(slots[i].secondsLeft);
+      // Until the next packet at least: only the program says when a penalty is over.
+      constexpr int untilNextPacket = 2;
+      player.ticksLeft = ticks(std::max(untilNextPacket, slots[i].secondsLeft));
       player.counting = false;
     }
   }
