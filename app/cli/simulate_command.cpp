@@ -312,9 +312,10 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                         ->needs(from);
   from->needs(at);
   command
-      ->add_option("--duration", a.duration,
-                   "Simulated seconds; default: the scenario's stop conditions or the final whistle, "
-                   "else 60 (with --cognition none: until Ctrl+C)")
+      ->add_option(
+          "--duration", a.duration,
+          "Simulated seconds; default: the scenario's stop conditions or the final whistle, "
+          "else 60 (with --cognition none: until Ctrl+C)")
       ->type_name("S");
   command
       ->add_option("--speed", a.speed,

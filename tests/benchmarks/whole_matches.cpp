@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays whole matches with their referee, from the first READY to the final whistle, and says what
 // went wrong; exit code 1 when something did. Each of the scenarios is played in turn.
-//   whole_matches [COUNT=50] [MINUTES OF A HALF=10] [RULES=humanoid-2021] [SCENARIOS=match,match-4v4]
+//   whole_matches [COUNT=50] [MINUTES OF A HALF=10] [RULES=humanoid-2021]
+//   [SCENARIOS=match,match-4v4]
 //                 [FIRST SEED=1] [PARTICLES=500] [NOISE=realistic]
 
 #include <chrono>
@@ -41,8 +42,9 @@ int main(int argc, char** argv) {
 
   int withGoal = 0, goals = 0, bad = 0;
   double simulated = 0.0, took = 0.0;
-  std::printf("seed scenario score kicks set_plays drop_balls penalties longest_stuck_s "
-              "simulated_s x_real_time\n");
+  std::printf(
+      "seed scenario score kicks set_plays drop_balls penalties longest_stuck_s "
+      "simulated_s x_real_time\n");
   for (int i = 0; i < count; ++i) {
     const std::string& name = names[static_cast<std::size_t>(i) % names.size()];
     auto scenario = link::loadScenario(name);
@@ -80,9 +82,10 @@ int main(int argc, char** argv) {
     bad += !m.wrong.empty() || !m.over || m.longestStuck > 60.0;
     std::fflush(stdout);
   }
-  std::printf("%d of %d matches with a goal, %.1f goals a match, %d matches with something wrong, "
-              "%.0f x real time\n",
-              withGoal, count, static_cast<double>(goals) / std::max(1, count), bad,
-              simulated / std::max(1e-9, took));
+  std::printf(
+      "%d of %d matches with a goal, %.1f goals a match, %d matches with something wrong, "
+      "%.0f x real time\n",
+      withGoal, count, static_cast<double>(goals) / std::max(1, count), bad,
+      simulated / std::max(1e-9, took));
   return bad > 0 || 2 * withGoal <= count ? 1 : 0;
 }

@@ -28,8 +28,8 @@ struct Game {
     simulation.emplace(sim::Simulation::create(settings).value());
     for (int i = 0; i < 6; ++i) {
       const bool red = i >= 3;
-      sim::RobotIdentity robot{
-          RobotId{i + 1}, red ? TeamColor::Red : TeamColor::Blue, i % 3 + 1, red};
+      sim::RobotIdentity robot{RobotId{i + 1}, red ? TeamColor::Red : TeamColor::Blue, i % 3 + 1,
+                               red};
       const double x = (red ? 1.0 : -1.0) * (i % 3 == 0 ? 4.2 : 2.5);
       const Pose pose{{x, i % 3 == 0 ? 0.0 : i % 3 == 1 ? 2.0 : -2.0}, red ? 3.14159 : 0.0};
       if (!simulation->addRobot(robot, pose)) qFatal("no robot");
@@ -133,9 +133,8 @@ bool goalOfTeam1(Game& g) {
   return g.call({.kind = CallKind::Goal, .team = 0, .value = 1});
 }
 bool down(Game& g) {
-  return g.call({.kind = CallKind::Penalise,
-                 .robot = RobotId{3},
-                 .penalty = sim::PenaltyKind::Incapable});
+  return g.call(
+      {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = sim::PenaltyKind::Incapable});
 }
 
 }  // namespace
@@ -348,18 +347,16 @@ class TestReferee : public QObject {
   void aPenalisedRobotIsPutOutsideAndComesBack() {
     Game game("humanoid-soccer-2026", true);
     game.runTo(75);
-    QVERIFY(game.call({.kind = CallKind::Penalise,
-                       .robot = RobotId{2},
-                       .penalty = sim::PenaltyKind::Pushing}));
+    QVERIFY(game.call(
+        {.kind = CallKind::Penalise, .robot = RobotId{2}, .penalty = sim::PenaltyKind::Pushing}));
     game.runTo(79);
     const Pose pose = game.simulation->snapshot().robots[1].pose;
     QVERIFY2(std::abs(pose.position.y) > 3.0, qPrintable(QString::number(pose.position.y)));
     QVERIFY(pose.position.x < 0.0);
     QCOMPARE(game.packet().team(1)->allSlots[1].penalty, 10);
     // A second one of the team lasts ten seconds longer.
-    QVERIFY(game.call({.kind = CallKind::Penalise,
-                       .robot = RobotId{3},
-                       .penalty = sim::PenaltyKind::Pushing}));
+    QVERIFY(game.call(
+        {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = sim::PenaltyKind::Pushing}));
     QCOMPARE(sim::secondsOf(game.game().teams[0].players[2].ticksLeft, 60.0), 55);
   }
 

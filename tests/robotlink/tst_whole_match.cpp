@@ -34,8 +34,7 @@ SimulatedMatch make(const Scenario& scenario) {
 }
 
 double forward(const sim::GameState& game, const sim::RobotSnapshot& robot) {
-  const bool right =
-      game.attacksRight(static_cast<std::size_t>(game.teamOf(robot.identity.team)));
+  const bool right = game.attacksRight(static_cast<std::size_t>(game.teamOf(robot.identity.team)));
   return (right ? 1.0 : -1.0) * robot.pose.position.x;
 }
 
@@ -74,8 +73,9 @@ class TestWholeMatch : public QObject {
       const sim::PlayState state = match.simulation().state().game->state;
       for (std::size_t i = 0; i < now.robots.size(); ++i) {
         for (std::size_t j = 0; j < i && state == sim::PlayState::Ready; ++j) {
-          const double d = std::hypot(now.robots[i].pose.position.x - now.robots[j].pose.position.x,
-                                      now.robots[i].pose.position.y - now.robots[j].pose.position.y);
+          const double d =
+              std::hypot(now.robots[i].pose.position.x - now.robots[j].pose.position.x,
+                         now.robots[i].pose.position.y - now.robots[j].pose.position.y);
           if (d < 2 * match.simulation().state().settings.field.robotRadius + 0.001) ++touched;
         }
         if (state != sim::PlayState::Set || match.simulation().state().game->stateTicks < 90) {
@@ -93,7 +93,8 @@ class TestWholeMatch : public QObject {
     for (const sim::RobotSnapshot& robot : now.robots) {
       QVERIFY2(forward(game, robot) < 0.0, robot.identity.name().c_str());
       const Point& p = robot.pose.position;
-      QVERIFY(std::hypot(p.x, p.y) > match.simulation().state().settings.field.centreCircleDiameter / 2);
+      QVERIFY(std::hypot(p.x, p.y) >
+              match.simulation().state().settings.field.centreCircleDiameter / 2);
       QVERIFY(std::abs(p.x) < 4.5 && std::abs(p.y) < 3.0);
     }
   }

@@ -79,8 +79,9 @@ class TestRefereeParameters : public QObject {
     const QString text = QString::fromUtf8(file.readAll());
     file.close();
     QString right = text;
-    for (const auto& [name, table] : {std::pair<QString, QString>{"refereeParameters", numbersTable()},
-                                      {"refereeSwitches", switchesTable()}}) {
+    for (const auto& [name, table] :
+         {std::pair<QString, QString>{"refereeParameters", numbersTable()},
+          {"refereeSwitches", switchesTable()}}) {
       const QString mark = "<!-- " + name + " -->\n";
       const auto begin = right.indexOf(mark);
       QVERIFY2(begin >= 0, qPrintable(name));

@@ -32,8 +32,8 @@ struct WholeMatch {
 inline bool isTransition(sim::PlayState from, sim::PlayState to, sim::GamePhase phase) {
   using S = sim::PlayState;
   static const std::set<std::pair<S, S>> allowed{
-      {S::Initial, S::Ready},   {S::Ready, S::Set},        {S::Set, S::Playing},
-      {S::Playing, S::Ready},   {S::Ready, S::Finished},   {S::Set, S::Finished},
+      {S::Initial, S::Ready},    {S::Ready, S::Set},       {S::Set, S::Playing},
+      {S::Playing, S::Ready},    {S::Ready, S::Finished},  {S::Set, S::Finished},
       {S::Playing, S::Finished}, {S::Finished, S::Initial}};
   if (allowed.count({from, to}) > 0) return true;
   const bool shot = phase == sim::GamePhase::ShootOut &&
@@ -57,11 +57,10 @@ class StuckWatch {
       One& one = m_robots[i];
       const sim::RobotSnapshot& robot = m_now.robots[i];
       const int team = world.game->teamOf(robot.identity.team);
-      const bool plays =
-          playing && team >= 0 &&
-          world.game->teams[static_cast<std::size_t>(team)]
-                  .players[static_cast<std::size_t>(robot.identity.number - 1)]
-                  .penalty == sim::PenaltyKind::None;
+      const bool plays = playing && team >= 0 &&
+                         world.game->teams[static_cast<std::size_t>(team)]
+                                 .players[static_cast<std::size_t>(robot.identity.number - 1)]
+                                 .penalty == sim::PenaltyKind::None;
       const bool moved = std::hypot(robot.pose.position.x - one.place.x,
                                     robot.pose.position.y - one.place.y) > reach;
       if (!plays || moved) one = {robot.pose.position, 0, 0};

@@ -23,9 +23,9 @@ bool isCoach(const RefereeState& state, qsizetype at) {
   struct Range {
     int version, size, teams, block, from, to;
   };
-  constexpr Range ranges[] = {{8, 158, 18, 70, 6, 48},     {9, 244, 20, 112, 6, 90},
-                              {10, 588, 20, 284, 6, 262},  {11, 592, 24, 284, 6, 262},
-                              {12, 640, 24, 308, 6, 264},  {12, 688, 24, 332, 6, 266}};
+  constexpr Range ranges[] = {{8, 158, 18, 70, 6, 48},    {9, 244, 20, 112, 6, 90},
+                              {10, 588, 20, 284, 6, 262}, {11, 592, 24, 284, 6, 262},
+                              {12, 640, 24, 308, 6, 264}, {12, 688, 24, 332, 6, 266}};
   for (const Range& r : ranges) {
     if (r.version != state.version || r.size != state.size || at < r.teams) continue;
     const auto inBlock = (at - r.teams) % r.block;

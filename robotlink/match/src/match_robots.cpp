@@ -211,10 +211,9 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       fieldToText(m_scenario.settings.field)};
   if (const auto& game = m_simulation.state().game; game && game->teamOf(identity.team) >= 0) {
     const auto team = static_cast<std::size_t>(game->teamOf(identity.team));
-    command.insert(command.end(),
-                   {"--referee-team", std::to_string(game->teams[team].number), "--shirt",
-                    std::to_string(identity.number), "--referee-port",
-                    std::to_string(options.refereePort)});
+    command.insert(command.end(), {"--referee-team", std::to_string(game->teams[team].number),
+                                   "--shirt", std::to_string(identity.number), "--referee-port",
+                                   std::to_string(options.refereePort)});
   }
   if (m_thoughts) {
     command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});

@@ -24,8 +24,8 @@ constexpr std::size_t mostFileBytes = 1024 * 1024;
 
 // The default first, as in choosers; each is resources/scenarios/<name>.json.
 constexpr std::array<std::string_view, 9> builtInNames{
-    "match", "match-3v3", "match-4v4", "published-match-3v3", "scenario-1", "scenario-2",
-    "one-robot", "match-11v11",         "empty"};
+    "match",     "match-3v3",   "match-4v4", "published-match-3v3", "scenario-1", "scenario-2",
+    "one-robot", "match-11v11", "empty"};
 
 std::string resourcePath(std::string_view name) {
   return "scenarios/" + std::string(name) + ".json";

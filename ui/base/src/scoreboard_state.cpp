@@ -91,12 +91,12 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   }
   QStringList penalties;
   for (const link::RobotFrame& robot : frame.robots) {
-    const auto& penalty = robot.health && robot.health->penalty ? robot.health->penalty
-                                                                : robot.penalty;
+    const auto& penalty =
+        robot.health && robot.health->penalty ? robot.health->penalty : robot.penalty;
     if (!penalty) continue;
-    penalties << robotName(robot.identity) +
-                     (penalty->secondsLeft > 0 ? QStringLiteral(" %1").arg(penalty->secondsLeft)
-                                               : QString());
+    penalties << robotName(robot.identity) + (penalty->secondsLeft > 0
+                                                  ? QStringLiteral(" %1").arg(penalty->secondsLeft)
+                                                  : QString());
   }
   state.penalties = penalties.join(QStringLiteral(" · "));
   state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);

@@ -102,8 +102,7 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
                  (static_cast<double>(i) - 1.5) * 0.8 + (attacks ? 0.4 : 0.0)};
       }
       const double heading = way > 0 ? yaw : std::numbers::pi + yaw;
-      places.robots.emplace_back(own[i].id,
-                                 Pose{{way * place.x, way * place.y}, heading});
+      places.robots.emplace_back(own[i].id, Pose{{way * place.x, way * place.y}, heading});
     }
   }
   return places;

@@ -23,26 +23,26 @@ RefereeCommand::RefereeCommand(MatchController* match, const sim::RefereeCall& c
     : QUndoCommand(words), m_match(match), m_call(call), m_before(std::make_shared<Before>()) {}
 
 void RefereeCommand::redo() {
-  m_match->post(MatchOrder{
-      QStringLiteral("The referee's call was not carried out"),
-      [call = m_call, before = m_before](link::SimulatedMatch& match) -> Result<void> {
-        sim::Simulation& simulation = match.simulation();
-        *before = {};
-        const std::optional<sim::GameState> game = simulation.state().game;
-        const sim::Snapshot then = simulation.snapshot();
-        if (auto called = match.call(call); !called) return called;
-        before->game = game;
-        const sim::Snapshot now = simulation.snapshot();
-        if (now.ball != then.ball) {
-          before->ball = then.ball;
-          before->ballVelocity = then.ballVelocity;
-        }
-        for (std::size_t i = 0; i < now.robots.size(); ++i) {
-          if (now.robots[i].pose == then.robots[i].pose) continue;
-          before->robots.emplace_back(then.robots[i].identity.id, then.robots[i].pose);
-        }
-        return {};
-      }});
+  m_match->post(
+      MatchOrder{QStringLiteral("The referee's call was not carried out"),
+                 [call = m_call, before = m_before](link::SimulatedMatch& match) -> Result<void> {
+                   sim::Simulation& simulation = match.simulation();
+                   *before = {};
+                   const std::optional<sim::GameState> game = simulation.state().game;
+                   const sim::Snapshot then = simulation.snapshot();
+                   if (auto called = match.call(call); !called) return called;
+                   before->game = game;
+                   const sim::Snapshot now = simulation.snapshot();
+                   if (now.ball != then.ball) {
+                     before->ball = then.ball;
+                     before->ballVelocity = then.ballVelocity;
+                   }
+                   for (std::size_t i = 0; i < now.robots.size(); ++i) {
+                     if (now.robots[i].pose == then.robots[i].pose) continue;
+                     before->robots.emplace_back(then.robots[i].identity.id, then.robots[i].pose);
+                   }
+                   return {};
+                 }});
 }
 
 void RefereeCommand::undo() {

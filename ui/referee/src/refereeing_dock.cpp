@@ -7,7 +7,6 @@
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QTableWidget>
@@ -15,7 +14,6 @@
 #include <QVBoxLayout>
 #include <functional>
 
-#include <robotlink/frame/match_event.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -23,6 +21,7 @@
 #include <ui/sources/match_edits.h>
 
 #include "formations.h"
+#include "referee_log.h"
 #include "referee_orders.h"
 
 namespace pitchboard::ui {
@@ -40,28 +39,6 @@ QString words(std::string_view text) {
 QString sentenceCase(QString text) {
   if (!text.isEmpty()) text[0] = text[0].toUpper();
   return text;
-}
-
-/// Events that the referee makes.
-bool isOfReferee(link::MatchEventKind kind) {
-  using Kind = link::MatchEventKind;
-  switch (kind) {
-    case Kind::Goal:
-    case Kind::ScoreCorrected:
-    case Kind::BallOut:
-    case Kind::GameState:
-    case Kind::MatchOver:
-    case Kind::Half:
-    case Kind::SetPlay:
-    case Kind::GamePhase:
-    case Kind::PlayStopped:
-    case Kind::PlayGoesOn:
-    case Kind::Penalised:
-    case Kind::PenaltyOver:
-      return true;
-    default:
-      return false;
-  }
 }
 
 class RefereeingDock : public QScrollArea {
@@ -93,9 +70,6 @@ class RefereeingDock : public QScrollArea {
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
     connect(m_match, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { show(frame); });
-    connect(m_match, &MatchController::scenarioChanged, this, [this] { m_log->clear(); });
-    connect(m_match, &MatchController::eventsReceived, this,
-            [this](const std::vector<link::MatchEvent>& events) { write(events); });
     show(m_match->frame());
   }
 
@@ -115,9 +89,9 @@ class RefereeingDock : public QScrollArea {
     auto* made = new QPushButton(text, m_calls);
     made->setObjectName(QStringLiteral("referee ") + text);
     made->setMinimumWidth(scaled(this, 40));
-    made->setToolTip(key.isEmpty() ? tip
-                                   : tip + QStringLiteral(" (%1)").arg(
-                                               key.toString(QKeySequence::NativeText)));
+    made->setToolTip(
+        key.isEmpty() ? tip
+                      : tip + QStringLiteral(" (%1)").arg(key.toString(QKeySequence::NativeText)));
     connect(made, &QPushButton::clicked, this, [pressed] { pressed(); });
     if (!key.isEmpty()) {
       auto* action = new QAction(text, this);
@@ -215,15 +189,15 @@ class RefereeingDock : public QScrollArea {
     for (int team = 0; team < 2; ++team) {
       const QString colour = team == 0 ? QStringLiteral("Blue") : QStringLiteral("Red");
       grid->addWidget(new QLabel(colour, m_calls), team, 0);
-      grid->addWidget(button(QStringLiteral("Goal %1").arg(colour),
-                             QStringLiteral("A goal for this team"),
-                             [this, team] {
-                               call({.kind = CallKind::Goal, .team = team, .value = 1},
-                                    QStringLiteral("goal"));
-                             },
-                             QKeySequence(team == 0 ? QStringLiteral("Ctrl+Alt+1")
-                                                    : QStringLiteral("Ctrl+Alt+2"))),
-                      team, 1);
+      grid->addWidget(
+          button(
+              QStringLiteral("Goal %1").arg(colour), QStringLiteral("A goal for this team"),
+              [this, team] {
+                call({.kind = CallKind::Goal, .team = team, .value = 1}, QStringLiteral("goal"));
+              },
+              QKeySequence(team == 0 ? QStringLiteral("Ctrl+Alt+1")
+                                     : QStringLiteral("Ctrl+Alt+2"))),
+          team, 1);
       grid->addWidget(button(QStringLiteral("− %1").arg(colour),
                              QStringLiteral("Takes a goal of this team back"),
                              [this, team] {
@@ -275,24 +249,24 @@ class RefereeingDock : public QScrollArea {
                         },
                         QKeySequence(QStringLiteral("Ctrl+Alt+K"))),
                     0, 0);
-    grid->addWidget(button(
-                        QStringLiteral("Next step"),
-                        QStringLiteral("Ball placed, prepared, executed, in play"),
-                        [this] { call({.kind = CallKind::NextStep}, QStringLiteral("next step")); },
-                        QKeySequence(QStringLiteral("Ctrl+Alt+N"))),
-                    0, 1);
+    grid->addWidget(
+        button(
+            QStringLiteral("Next step"), QStringLiteral("Ball placed, prepared, executed, in play"),
+            [this] { call({.kind = CallKind::NextStep}, QStringLiteral("next step")); },
+            QKeySequence(QStringLiteral("Ctrl+Alt+N"))),
+        0, 1);
     grid->addWidget(button(
                         QStringLiteral("Drop ball"), QStringLiteral("READY, nobody's kick-off"),
                         [this] { call({.kind = CallKind::DropBall}, QStringLiteral("drop ball")); },
                         QKeySequence(QStringLiteral("Ctrl+Alt+D"))),
                     0, 2);
-    grid->addWidget(button(QStringLiteral("Ball to centre"),
-                           QStringLiteral("Puts the ball on the centre mark"),
-                           [this] {
-                             const FramePtr frame = m_match->frame();
-                             if (frame) m_match->edits()->moveBall(frame->snapshot.ball, {});
-                           }),
-                    0, 3);
+    grid->addWidget(
+        button(QStringLiteral("Ball to centre"), QStringLiteral("Puts the ball on the centre mark"),
+               [this] {
+                 const FramePtr frame = m_match->frame();
+                 if (frame) m_match->edits()->moveBall(frame->snapshot.ball, {});
+               }),
+        0, 3);
     m_callColumn->addLayout(grid);
   }
 
@@ -317,13 +291,12 @@ class RefereeingDock : public QScrollArea {
           }
         },
         QKeySequence(QStringLiteral("Ctrl+Alt+A"))));
-    row->addWidget(button(QStringLiteral("Pardon"), QStringLiteral("The robots chosen in the table"),
-                          [this] {
-                            for (const RobotId robot : chosen()) {
-                              call({.kind = CallKind::Pardon, .robot = robot},
-                                   QStringLiteral("pardon"));
-                            }
-                          }));
+    row->addWidget(
+        button(QStringLiteral("Pardon"), QStringLiteral("The robots chosen in the table"), [this] {
+          for (const RobotId robot : chosen()) {
+            call({.kind = CallKind::Pardon, .robot = robot}, QStringLiteral("pardon"));
+          }
+        }));
     m_callColumn->addLayout(row);
     m_robots = new QTableWidget(0, 3, m_calls);
     m_robots->setObjectName(QStringLiteral("refereeRobots"));
@@ -357,9 +330,8 @@ class RefereeingDock : public QScrollArea {
     }
     row->addWidget(m_formation, 1);
     for (const bool left : {true, false}) {
-      auto* load = new QPushButton(left ? QStringLiteral("Left attacks")
-                                        : QStringLiteral("Right attacks"),
-                                   form);
+      auto* load = new QPushButton(
+          left ? QStringLiteral("Left attacks") : QStringLiteral("Right attacks"), form);
       load->setToolTip(QStringLiteral("Puts ball and robots there; play goes on"));
       connect(load, &QPushButton::clicked, this, [this, left] { loadFormation(left); });
       row->addWidget(load);
@@ -387,20 +359,7 @@ class RefereeingDock : public QScrollArea {
 
   void addLog(QWidget* form) {
     m_column->addWidget(heading(QStringLiteral("Log of the referee"), form));
-    m_log = new QPlainTextEdit(form);
-    m_log->setObjectName(QStringLiteral("refereeLog"));
-    m_log->setReadOnly(true);
-    m_log->setMaximumBlockCount(2000);
-    m_log->setMinimumHeight(scaled(this, 90));
-    m_column->addWidget(m_log, 1);
-  }
-
-  void write(const std::vector<link::MatchEvent>& events) {
-    for (const link::MatchEvent& event : events) {
-      if (!isOfReferee(event.kind)) continue;
-      m_log->appendPlainText(clockText(event.time) + QStringLiteral("  ") +
-                             QString::fromStdString(sentenceOf(event)));
-    }
+    m_column->addWidget(new RefereeLog(m_match, form), 1);
   }
 
   void show(const FramePtr& frame) {
@@ -456,7 +415,6 @@ class RefereeingDock : public QScrollArea {
   QCheckBox* m_automatic = nullptr;
   QLabel* m_state = nullptr;
   QTableWidget* m_robots = nullptr;
-  QPlainTextEdit* m_log = nullptr;
 };
 
 }  // namespace

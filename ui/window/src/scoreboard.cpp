@@ -39,7 +39,8 @@ QSize Scoreboard::sizeHint() const {
                                             m_state.rightName + m_state.clock);
   const int penalties =
       m_state.penalties.isEmpty() ? 0 : tag.horizontalAdvance(m_state.penalties) + scaled(this, 12);
-  return {words + penalties + tag.horizontalAdvance(m_state.state) + scaled(this, 2 * 10 + 5 * 8 + 4 * 12 + 16),
+  return {words + penalties + tag.horizontalAdvance(m_state.state) +
+              scaled(this, 2 * 10 + 5 * 8 + 4 * 12 + 16),
           scaled(this, 28)};
 }
 
