@@ -12,6 +12,7 @@
 #include <robotlink/match/match_player.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/processes/own_program.h>
+#include <robotlink/scenario/referee_rule_sets.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
 
@@ -44,6 +45,9 @@ struct Arguments {
   bool force = false;
   bool json = false;
   bool list = false;
+  std::string rules;
+  std::optional<int> obeyReferee;
+  int refereePort = 3838;
 };
 
 struct CognitionName {
@@ -102,13 +106,19 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
   auto scenario = recorded ? shared::changed(recorded->scenario, arguments.match)
                            : shared::scenarioFrom(arguments.match);
   if (!scenario) return scenario;
+  if (!arguments.rules.empty()) {
+    auto rules = link::refereeRuleSet(arguments.rules);
+    if (!rules) return tl::unexpected(rules.error());
+    scenario->settings.referee = *rules;
+  }
   if (arguments.duration) {
     if (!(*arguments.duration > 0.0 && *arguments.duration <= 1e9)) {
       return failure(ErrorCode::InvalidArgument,
                      "--duration must be above 0 and at most 1e9 seconds");
     }
     scenario->stop.duration = arguments.duration;
-  } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None) {
+  } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None &&
+             !(scenario->settings.referee && scenario->settings.referee->automatic)) {
     scenario->stop.duration = defaultDuration;
   }
   if (recorded) {
@@ -247,6 +257,8 @@ Result<void> simulate(const Arguments& arguments) {
   shared::apply(arguments.robots, options);
   options.robotProgram = arguments.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
                                                         : arguments.robotProgram;
+  options.obeyReferee = arguments.obeyReferee;
+  options.process.refereePort = arguments.refereePort;
   const InterruptGuard signals;
   auto match = link::SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());
@@ -308,9 +320,10 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                         ->needs(from);
   from->needs(at);
   command
-      ->add_option("--duration", a.duration,
-                   "Simulated seconds; default: the scenario's stop conditions, else 60 (with "
-                   "--cognition none: until Ctrl+C)")
+      ->add_option(
+          "--duration", a.duration,
+          "Simulated seconds; default: the scenario's stop conditions or the final whistle, "
+          "else 60 (with --cognition none: until Ctrl+C)")
       ->type_name("S");
   command
       ->add_option("--speed", a.speed,
@@ -322,6 +335,22 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                    "blackboards; none: blackboards for your own processes")
       ->type_name("inline|external|none")
       ->capture_default_str();
+  command
+      ->add_option("--referee", a.rules,
+                   "Rules of the match instead of the scenario's: published (no referee), "
+                   "humanoid-2014, humanoid-2021 or humanoid-soccer-2026")
+      ->type_name("RULES");
+  command
+      ->add_option("--obey-referee", a.obeyReferee,
+                   "Obey the GameController that is heard on this UDP port")
+      ->type_name("PORT")
+      ->check(CLI::Range(1, 65535));
+  command
+      ->add_option("--referee-port", a.refereePort,
+                   "UDP port on which separate processes hear the match's referee")
+      ->type_name("PORT")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 65535));
   command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
   command
       ->add_option("--save-moment", a.moment,

@@ -36,7 +36,7 @@ inline QStringList all(const QString& library) {
         "report", "conformance"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "window"}}};
+        "noise", "processes", "log", "referee", "window"}}};
   QStringList folders;
   for (const QString& room : rooms.value(library)) folders << library + '/' + room;
   return folders;

@@ -39,7 +39,7 @@ class TestCliSimulate : public QObject {
     QCOMPARE(out["ticks"].toInt(), 600);
     QCOMPARE(out["finished_by"].toString(), QString("duration"));
     QCOMPARE(out["robots"].toArray().size(), 6);
-    auto scenario = link::loadScenario("match-3v3").value();
+    auto scenario = link::loadScenario("match").value();
     scenario.settings.seed = 5;
     auto runner = link::MatchRunner::start(scenario, {}, true).value();
     runner->runTo(600);
@@ -54,7 +54,7 @@ class TestCliSimulate : public QObject {
   void summaryAndList() {
     const Run run = simulate({"--scenario", "one-robot", "--duration", "1"});
     QVERIFY(run.out.contains("Score      left 0 : 0 right") && run.err.isEmpty());
-    QVERIFY(simulate({"--list"}).out.startsWith("match-3v3"));
+    QVERIFY(simulate({"--list"}).out.startsWith("match "));
     QVERIFY(simulate({"--help"}).out.contains("pitchboard-cli simulate --scenario"));
   }
 

@@ -30,7 +30,7 @@ class TestScenario : public QObject {
 
  private slots:
   void everyBuiltInIsValidAndRoundTrips() {
-    QCOMPARE(builtInScenarios().front().name, std::string("match-3v3"));
+    QCOMPARE(builtInScenarios().front().name, std::string("match"));
     std::size_t files = 0;
     for (const Resource& resource : resources()) files += resource.path.starts_with("scenarios/");
     QCOMPARE(builtInScenarios().size(), files);

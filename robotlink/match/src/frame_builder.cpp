@@ -63,7 +63,12 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     }
   }
   out.referee.reset();
-  if (state.game) out.referee = refereeView(state);
+  out.refereeRules.clear();
+  if (state.game) {
+    out.referee = refereeView(state);
+    out.refereeRules = state.settings.referee->name;
+    out.refereeAutomatic = state.settings.referee->automatic;
+  }
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
   out.field = state.settings.field;

@@ -2,7 +2,9 @@
 #include "match_referee.h"
 
 #include <cmath>
+#include <numbers>
 
+#include <base/angles.h>
 #include <robotlink/match/referee_packet.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
@@ -13,6 +15,17 @@ constexpr telemetry::Address loopbackBroadcast{0x7fffffff};  // 127.255.255.255:
 constexpr double period = 0.5;                               // s, as all controllers
 constexpr double quickPeriod = 0.2;                          // s, after play was stopped (2026)
 constexpr int quickPackets = 5;
+
+/// Teams change sides: everybody is carried over.
+void turnEverybody(sim::Simulation& simulation) {
+  const sim::Snapshot now = simulation.snapshot();
+  for (const sim::RobotSnapshot& robot : now.robots) {
+    if (simulation.state().game->teamOf(robot.identity.team) < 0) continue;
+    const Pose& pose = robot.pose;
+    (void)simulation.placeRobot(robot.identity.id, {{-pose.position.x, -pose.position.y},
+                                                    wrapToPi(pose.yaw + std::numbers::pi)});
+  }
+}
 
 }  // namespace
 
@@ -52,7 +65,9 @@ bool MatchReferee::listen(sim::Simulation& simulation) {
     const auto* state = std::get_if<telemetry::RefereeState>(&*packet);
     if (state == nullptr || !m_tracker.accept(*state, datagram.sender, datagram.time)) continue;
     const sim::PlayState before = simulation.state().game->state;
+    const bool swapped = simulation.state().game->swapped;
     adoptPacket(*state, simulation.editState());
+    if (simulation.state().game->swapped != swapped) turnEverybody(simulation);
     const sim::PlayState now = simulation.state().game->state;
     if (now != before && (now == sim::PlayState::Ready || now == sim::PlayState::Initial)) {
       (void)simulation.placeBall({});

@@ -96,6 +96,30 @@ int playersPerTeam(const sim::WorldState& world) {
   return std::max(count[0], count[1]);
 }
 
+/// Numbers that the game does not know are given to the team of that colour, else by side; the
+/// first team of a packet defends the left goal.
+void followTeams(const telemetry::RefereeState& packet, sim::WorldState& world) {
+  GameState& game = *world.game;
+  const auto known = [&](int number) {
+    return game.teams[0].number == number || game.teams[1].number == number;
+  };
+  const bool newTeams = !known(packet.teams[0].number) || !known(packet.teams[1].number);
+  if (newTeams) {
+    std::size_t first = game.leftTeam();
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (colourCode(game.teams[i].colour) == packet.teams[0].colour) first = i;
+    }
+    game.teams[first].number = packet.teams[0].number;
+    game.teams[1 - first].number = packet.teams[1].number;
+  }
+  const bool swapped = game.teams[1].number == packet.teams[0].number;
+  if (swapped == game.swapped) return;
+  game.swapped = swapped;
+  for (sim::RobotIdentity& robot : world.robots) {
+    if (game.teamOf(robot.team) >= 0) robot.imuStartsAt180 = !robot.imuStartsAt180;
+  }
+}
+
 }  // namespace
 
 telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNumber, bool truth) {
@@ -183,6 +207,12 @@ RefereeView refereeView(const sim::WorldState& world) {
   view.stopped = game.stopped;
   view.secondsLeft = sim::secondsOf(game.clock, rate);
   if (game.secondary != 0) view.secondaryTime = sim::secondsOf(game.secondary, rate);
+  if (game.setPlay != SetPlay::None && game.setPlayTeam >= 0) {
+    view.performingTeam = game.teams[static_cast<std::size_t>(game.setPlayTeam)].number;
+    view.setPlayStep = game.step == SetPlayStep::Placing     ? "stop"
+                       : game.step == SetPlayStep::Preparing ? "prepare"
+                                                             : "ready";
+  }
   if (game.kickOff >= 0)
     view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
   const std::size_t left = game.leftTeam();
@@ -193,7 +223,15 @@ RefereeView refereeView(const sim::WorldState& world) {
     shown.colour = info(team.colour).name;
     shown.score = team.score;
     for (const sim::RobotIdentity& robot : world.robots) {
-      if (robot.team == team.colour && !refereePenalty(world, robot)) ++shown.playersLeft;
+      if (robot.team != team.colour || robot.number < 1 ||
+          robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
+        continue;
+      }
+      const sim::GamePlayer& player = team.players[static_cast<std::size_t>(robot.number - 1)];
+      if (player.penalty == sim::PenaltyKind::None) ++shown.playersLeft;
+      shown.players.push_back({robot.number, std::string(wordsOf(player.penalty)),
+                               sim::secondsOf(player.ticksLeft, rate), player.warnings,
+                               player.yellow, player.red, player.cautions, player.goalkeeper});
     }
   }
   return view;
@@ -215,6 +253,7 @@ std::optional<Penalty> refereePenalty(const sim::WorldState& world,
 
 void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) {
   GameState& game = *world.game;
+  followTeams(packet, world);
   const double rate = world.settings.tickRate;
   const auto ticks = [rate](int seconds) { return static_cast<int>(std::lround(seconds * rate)); };
   const PenaltyDialect penalties = penaltyDialect(packet.version, packet.league);
@@ -283,7 +322,9 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
         player.outside = false;
         player.sinceTicks = 0;
       }
-      player.ticksLeft = ticks(slots[i].secondsLeft);
+      // Until the next packet at least: only the program says when a penalty is over.
+      constexpr int untilNextPacket = 2;
+      player.ticksLeft = ticks(std::max(untilNextPacket, slots[i].secondsLeft));
       player.counting = false;
     }
   }

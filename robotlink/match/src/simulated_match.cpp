@@ -115,7 +115,7 @@ Result<void> SimulatedMatch::beginGame() {
   world.score = m_scenario.score;
   if (m_options.obeyReferee) {
     if (auto obeyed = m_referee->obey(*m_options.obeyReferee, m_simulation); !obeyed) return obeyed;
-  } else if (m_options.sendReferee) {
+  } else if (m_options.sendReferee || m_options.cognition != Cognition::Inline) {
     if (auto sent = m_referee->sendTo(m_options.process.refereePort); !sent) return sent;
   }
   hearReferee();

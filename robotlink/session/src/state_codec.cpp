@@ -91,7 +91,7 @@ class Reader {
     value = static_cast<sim::Posture>(limited(static_cast<std::uint64_t>(sim::Posture::GettingUp)));
   }
   template <class Enum>
-    requires requires { lastOf(Enum{}); }
+  requires requires { lastOf(Enum{}); }
   void value(Enum& value) {
     value = static_cast<Enum>(limited(static_cast<std::uint64_t>(lastOf(Enum{}))));
   }

@@ -53,7 +53,8 @@ class PublishedModel : public PhysicsModel {
 
   void sense(WorldState& world, std::span<const RobotCommand> commands,
              std::span<Percepts> percepts) override {
-    for (std::size_t i = 0; i < world.robots.size(); ++i) published::sight(world, i, commands[i], percepts[i]);
+    for (std::size_t i = 0; i < world.robots.size(); ++i)
+      published::sight(world, i, commands[i], percepts[i]);
   }
 
   void robotAdded(WorldState& world, const Pose& pose) const override {

@@ -137,8 +137,8 @@ class RigidBodyModel final : public PhysicsModel {
  private:
   rigid::Tick tickOf(WorldState& world, std::vector<Event>& events) {
     const double frames = published_frame::framesPerSecond / world.settings.tickRate;
-    return {world,  stateOf(world),   m_motions, events, 1.0 / world.settings.tickRate,
-            std::sqrt(frames)};
+    return {
+        world, stateOf(world), m_motions, events, 1.0 / world.settings.tickRate, std::sqrt(frames)};
   }
 
   // Scratch of a tick; see rigid_body_tick.h.

@@ -84,8 +84,7 @@ void applyRules(WorldState& world, RigidBodyState& state, const BallWay& way,
   std::array<Point, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), state.robots.size());
   for (std::size_t i = 0; i < count; ++i) robots[i] = state.robots[i].pose.position;
-  const Crossing crossing =
-      crossingOf(field, way, ball.position, std::span(robots).first(count));
+  const Crossing crossing = crossingOf(field, way, ball.position, std::span(robots).first(count));
   if (crossing.line == Crossing::Line::Goal) {
     scoreGoal(world, ball, crossing.right, events);
     return;

@@ -31,8 +31,8 @@ GameState newGame(const WorldState& world, const Snapshot& now) {
   }
   for (int t = 0; t < 2; ++t) {
     GameTeam& team = game.teams[static_cast<std::size_t>(t)];
-    const double goal =
-        (game.attacksRight(static_cast<std::size_t>(t)) ? -1.0 : 1.0) * world.settings.field.halfLength();
+    const double goal = (game.attacksRight(static_cast<std::size_t>(t)) ? -1.0 : 1.0) *
+                        world.settings.field.halfLength();
     double nearest = std::numeric_limits<double>::max();
     int keeper = 0;
     for (std::size_t i = 0; i < world.robots.size(); ++i) {
@@ -65,10 +65,9 @@ Result<void> validate(const RefereeRules& rules) {
 bool isPlausible(const GameState& game, std::size_t robots) {
   const auto isTeam = [](int team) { return team >= GameState::nobody && team <= 1; };
   const auto isTime = [](int ticks) { return ticks > -100'000'000 && ticks < 100'000'000; };
-  const bool teams = isTeam(game.kickOff) && isTeam(game.setPlayTeam) &&
-                     isTeam(game.restartTeam) && isTeam(game.lastTouchTeam) &&
-                     isTeam(game.dropInTeam) && isTeam(game.shooter) &&
-                     (game.firstKickOff == 0 || game.firstKickOff == 1);
+  const bool teams = isTeam(game.kickOff) && isTeam(game.setPlayTeam) && isTeam(game.restartTeam) &&
+                     isTeam(game.lastTouchTeam) && isTeam(game.dropInTeam) &&
+                     isTeam(game.shooter) && (game.firstKickOff == 0 || game.firstKickOff == 1);
   const bool times = isTime(game.clock) && isTime(game.secondary) && isTime(game.stateTicks) &&
                      isTime(game.hidden) && isTime(game.breakLeft) && isTime(game.dropInTicks);
   const bool counts = std::all_of(game.teams.begin(), game.teams.end(), [&](const GameTeam& team) {
@@ -87,8 +86,8 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
   return RefereeTable(world, now, placements, events).call(call);
 }
 
-void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way,
-                 Placements& placements, std::vector<Event>& events) {
+void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way, Placements& placements,
+                 std::vector<Event>& events) {
   RefereeTable(world, now, placements, events).tick(way);
 }
 

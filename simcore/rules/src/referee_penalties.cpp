@@ -83,8 +83,8 @@ void RefereeTable::putOutside(std::size_t robot) {
   one.outside = true;
   const bool middle = m_rules.style == RefereeStyle::Humanoid2014;
   const double own = -way(teamOf(robot));
-  const double x = middle ? own * 0.5
-                          : own * std::max(0.5, m_field.halfLength() - m_field.penaltyMarkDistance);
+  const double x =
+      middle ? own * 0.5 : own * std::max(0.5, m_field.halfLength() - m_field.penaltyMarkDistance);
   const double side = ball().y > 0.0 ? -1.0 : 1.0;
   const double beyond = std::max(m_field.robotRadius + 0.02, m_field.border * 0.6);
   const double y = side * (m_field.halfWidth() + beyond);
@@ -106,11 +106,10 @@ void RefereeTable::putOutside(std::size_t robot) {
 void RefereeTable::runPenalties() {
   if (m_game.phase == GamePhase::Timeout) return;
   const bool stands = m_game.setPlay != SetPlay::None && m_rules.clockStopsInSetPlays;
-  const bool runs = m_rules.countsAlways ||
-                    (m_game.state == PlayState::Playing && !stands) ||
-                    m_game.state == PlayState::Ready ||
-                    (m_game.state == PlayState::Set &&
-                     m_rules.style != RefereeStyle::HumanoidSoccer2026);
+  const bool runs =
+      m_rules.countsAlways || (m_game.state == PlayState::Playing && !stands) ||
+      m_game.state == PlayState::Ready ||
+      (m_game.state == PlayState::Set && m_rules.style != RefereeStyle::HumanoidSoccer2026);
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     GamePlayer* one = player(i);
     if (!one || one->penalty == PenaltyKind::None) continue;

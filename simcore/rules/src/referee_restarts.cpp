@@ -88,6 +88,7 @@ void RefereeTable::beginSetPlay(SetPlay play, int team, const Point& place) {
   m_game.ballFree = false;
   m_game.kicker = 0;
   m_game.hidden = 0;
+  m_game.kickOffStands = true;
   const bool indirect = play == SetPlay::ThrowIn || play == SetPlay::IndirectFreeKick;
   m_game.passed = !(m_rules.directGoals && indirect);
   if (m_rules.style == RefereeStyle::HumanoidSoccer2026) m_game.kickOff = team;

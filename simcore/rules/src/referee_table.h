@@ -2,9 +2,9 @@
 #pragma once
 
 // The referee at work on one tick or one call: the state of the game and everything its parts need.
-// Made anew each time; keeps nothing. referee_states.cpp has the machine of states,
-// referee_restarts.cpp goals and set plays, referee_penalties.cpp penalties, referee_judge.cpp what
-// the automatic referee sees. Metres, radians, ticks.
+// Made anew each time; keeps nothing. referee_calls.cpp has the calls, referee_states.cpp the
+// machine of states, referee_restarts.cpp goals and set plays, referee_penalties.cpp penalties,
+// referee_judge.cpp what the automatic referee sees. Metres, radians, ticks.
 
 #include <cmath>
 
@@ -97,7 +97,9 @@ class RefereeTable {
   Point place(std::size_t robot) const;  ///< where it is after what was placed in this tick
   Point ball() const { return m_placements.ball.value_or(m_now.ball); }
   void putBall(const Point& place);
-  void putRobot(std::size_t robot, const Pose& pose) { m_placements.robots.push_back({robot, pose}); }
+  void putRobot(std::size_t robot, const Pose& pose) {
+    m_placements.robots.push_back({robot, pose});
+  }
   Point clamped(const Point& p, double inside) const;
 
   WorldState& m_world;

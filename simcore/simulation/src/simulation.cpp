@@ -9,7 +9,6 @@
 #include <simcore/rules/published_rules.h>
 #include <simcore/world/parameters.h>
 
-
 namespace pitchboard::sim {
 namespace {
 

@@ -124,8 +124,13 @@ RefereeState asVersion7(const RefereeState& state) {
   for (const RefereeTeam& team : state.teams) {
     if (state.kickOffTeam == team.number) out.kickOffRaw = team.colour;
   }
+  if (state.version > 8) {
+    // A number becomes a colour; what is not the left team's is the right team's, nobody's too.
+    const bool left = state.dropInTeam == state.teams[0].number;
+    out.dropInTeam = state.teams[left ? 0 : 1].colour;
+  }
   if (out.teams[0].colour > out.teams[1].colour) std::swap(out.teams[0], out.teams[1]);
-  for (RefereeTeam& team : out.teams) team.goalColour = team.colour;
+  for (RefereeTeam& team : out.teams) team.goalColour = 1;  // always, as recorded
   return out;
 }
 

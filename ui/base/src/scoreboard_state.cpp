@@ -37,13 +37,14 @@ QString refereeTeam(const link::RefereeTeamView& team) {
   return QString::fromStdString(team.colour).toUpper();
 }
 
-QString refereeTip(const link::RefereeView& view) {
+QString refereeTip(const link::RefereeView& view, bool heard) {
   QStringList tip;
   for (const link::RefereeTeamView& team : view.teams) tip << refereeTeamText(team, view.ourTeam);
   tip << refereeStateText(view);
   if (const QString setPlay = refereeSetPlayText(view); !setPlay.isEmpty()) tip << setPlay;
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
                            : QStringLiteral("Kick-off: nobody (drop ball)"));
+  if (!heard) return tip.join(QLatin1Char('\n'));
   tip << QStringLiteral("Referee at %1, version %2, heard %3 s ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)
@@ -84,7 +85,21 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   if (!view.timedOut && !view.countdown.empty()) {
     state.state += QStringLiteral(" · %1 s").arg(*view.secondaryTime);
   }
-  state.tip = refereeTip(view);
+  if (frame.origin == link::FrameOrigin::Simulated) {
+    if (frame.paused) state.state += QStringLiteral(" · paused");
+    if (frame.finished) state.state = QStringLiteral("FINAL WHISTLE");
+  }
+  QStringList penalties;
+  for (const link::RobotFrame& robot : frame.robots) {
+    const auto& penalty =
+        robot.health && robot.health->penalty ? robot.health->penalty : robot.penalty;
+    if (!penalty) continue;
+    penalties << robotName(robot.identity) + (penalty->secondsLeft > 0
+                                                  ? QStringLiteral(" %1").arg(penalty->secondsLeft)
+                                                  : QString());
+  }
+  state.penalties = penalties.join(QStringLiteral(" · "));
+  state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
   return state;
 }
 

@@ -7,6 +7,7 @@
 #include <ui/noise/noise_dock.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/processes_dock.h>
+#include <ui/referee/refereeing_dock.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
@@ -27,6 +28,9 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, parent);
+}
+QWidget* refereeing(const StudioParts& s, QWidget* parent) {
+  return makeRefereeingDock(s.controller, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);
@@ -54,6 +58,7 @@ std::span<const DockInfo> studioDocks() {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
       {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, variables},
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, noise},
+      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 372, refereeing},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
       {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},

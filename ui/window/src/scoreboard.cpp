@@ -37,7 +37,10 @@ QSize Scoreboard::sizeHint() const {
   const QFontMetrics tag(themeFont(TypeRole::Secondary, true));
   const int words = score.horizontalAdvance(m_state.leftName + scoreText(m_state) +
                                             m_state.rightName + m_state.clock);
-  return {words + tag.horizontalAdvance(m_state.state) + scaled(this, 2 * 10 + 5 * 8 + 4 * 12 + 16),
+  const int penalties =
+      m_state.penalties.isEmpty() ? 0 : tag.horizontalAdvance(m_state.penalties) + scaled(this, 12);
+  return {words + penalties + tag.horizontalAdvance(m_state.state) +
+              scaled(this, 2 * 10 + 5 * 8 + 4 * 12 + 16),
           scaled(this, 28)};
 }
 
@@ -57,6 +60,13 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   painter.setPen(theme().text);
   painter.drawText(tag, Qt::AlignCenter, m_state.state);
   right -= tagWidth + px(8);
+  if (!m_state.penalties.isEmpty()) {
+    const int wide = QFontMetrics(tagFont).horizontalAdvance(m_state.penalties);
+    painter.setPen(theme().warningText);
+    painter.drawText(QRect(right - wide, 0, wide, height()), Qt::AlignVCenter, m_state.penalties);
+    painter.setPen(theme().text);
+    right -= wide + px(12);
+  }
 
   const QFont font = themeFont(TypeRole::Score);
   const QFontMetrics metrics(font);

@@ -14,7 +14,7 @@
 namespace pitchboard::shared {
 
 struct ScenarioOptions {
-  std::string scenario = "match-3v3";
+  std::string scenario = "match";
   std::optional<std::uint64_t> seed;
   std::string noise;    ///< name of a preset; empty: the scenario's
   std::string physics;  ///< name of a model; empty: the scenario's

@@ -82,12 +82,30 @@ Pose Striker::supportPose(const WorldModel& world, const Point& ball) const {
   return {place, direction(place, ball)};
 }
 
-Pose Striker::kickOff(const WorldModel& world) const {
+Pose Striker::kickOff(const WorldModel& world) {
   return {{-0.5 * world.field().centreCircleDiameter - 0.35, 0.0}, 0.0};
 }
 
-Pose Supporter::kickOff(const WorldModel& world) const {
-  return {{-0.25 * world.field().length, 0.22 * world.field().width}, 0.0};
+Pose Supporter::kickOff(const WorldModel& world) {
+  const double x = -0.25 * world.field().length, y = 0.22 * world.field().width;
+  // The nearer side, unless a team-mate is nearer to it: two supporters take one each. Chosen once
+  // for a kick-off, so that nobody changes sides on the way.
+  constexpr double forgets = 5.0;  // s
+  if (world.now() - m_sideAsked > forgets) {
+    m_side = world.pose().position.y >= 0.0 ? 1.0 : -1.0;
+    const Point place{x, m_side * y};
+    const double own = distance(world.pose().position, place);
+    for (const auto& mate : world.mates()) {
+      const bool supports = mate && mate->intention != Intention::Keep;
+      if (supports && distance(mate->position, place) < own - 0.05 &&
+          distance(mate->position, place) < distance(mate->position, {x, -m_side * y})) {
+        m_side = -m_side;
+        break;
+      }
+    }
+  }
+  m_sideAsked = world.now();
+  return {{x, m_side * y}, 0.0};
 }
 
 bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
@@ -104,7 +122,7 @@ bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
   return own < nearest - (m_attacking ? 0.2 : 0.8);
 }
 
-Pose Keeper::kickOff(const WorldModel& world) const {
+Pose Keeper::kickOff(const WorldModel& world) {
   return {{-world.field().halfLength() + 0.45, 0.0}, 0.0};
 }
 

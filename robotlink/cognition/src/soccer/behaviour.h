@@ -23,8 +23,8 @@ class Behaviour {
   virtual ~Behaviour() = default;
   /// The referee says play and the robot stands.
   virtual Choice play(const WorldModel& world) = 0;
-  /// Where it waits for the kick-off.
-  virtual Pose kickOff(const WorldModel& world) const = 0;
+  /// Where it waits for the kick-off: in its own half and outside the centre circle.
+  virtual Pose kickOff(const WorldModel& world) = 0;
 
   /// Referee and falls first, then play().
   Choice choose(const WorldModel& world);
@@ -46,7 +46,7 @@ class Striker : public Behaviour {
  public:
   using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
-  Pose kickOff(const WorldModel& world) const override;
+  Pose kickOff(const WorldModel& world) override;
 
  protected:
   Pose supportPose(const WorldModel& world, const Point& ball) const;
@@ -58,10 +58,14 @@ class Striker : public Behaviour {
 class Supporter : public Striker {
  public:
   using Striker::Striker;
-  Pose kickOff(const WorldModel& world) const override;
+  Pose kickOff(const WorldModel& world) override;
 
  protected:
   bool takesBall(const WorldModel& world, const Point& ball) const override;
+
+ private:
+  double m_side = 0.0;         // of its place for the kick-off: +1 left, −1 right
+  double m_sideAsked = -1e9;   // s
 };
 
 /// Stays between the ball and its own goal; clears the ball when it comes near.
@@ -69,7 +73,7 @@ class Keeper : public Behaviour {
  public:
   using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
-  Pose kickOff(const WorldModel& world) const override;
+  Pose kickOff(const WorldModel& world) override;
 
  private:
   bool m_clearing = false;
@@ -80,7 +84,7 @@ class Idle : public Behaviour {
  public:
   using Behaviour::Behaviour;
   Choice play(const WorldModel&) override { return {}; }
-  Pose kickOff(const WorldModel& world) const override { return world.pose(); }
+  Pose kickOff(const WorldModel& world) override { return world.pose(); }
 };
 
 template <class B>

@@ -115,13 +115,9 @@ Act Search::step(const WorldModel& world, Walk& walk) {
   constexpr double turnTime = 6.0;
   constexpr double placeTime = 22.0;
   if (!m_since) m_since = world.now();
-  // A ball that was last seen near a goal line and is gone is most likely at the centre again.
-  const auto last = world.lastSeenBall();
-  const bool scored = last && std::abs(last->x) > world.field().halfLength() - 0.7 &&
-                      std::abs(last->y) < world.field().goalWidth && world.localized();
-  const double time = world.now() - *m_since + (scored ? headTime + turnTime - 1.0 : 0.0);
-  if (!scored && time < headTime) return acts::gait;
-  if ((!scored && time < headTime + turnTime) || !world.localized()) return acts::turnRight;
+  const double time = world.now() - *m_since;
+  if (time < headTime) return acts::gait;
+  if (time < headTime + turnTime || !world.localized()) return acts::turnRight;
   const double x = 0.28 * world.field().length, y = 0.22 * world.field().width;
   const std::array<Point, 5> places{{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
   const auto i = static_cast<std::size_t>(std::max(0.0, time - headTime - turnTime) / placeTime) %

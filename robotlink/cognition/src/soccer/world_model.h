@@ -63,11 +63,6 @@ class WorldModel {
   /// Where the ball is on the field: seen by itself, remembered, or told by a team-mate.
   std::optional<Point> ball() const;
 
-  /// Where this robot saw the ball last, however long ago.
-  std::optional<Point> lastSeenBall() const {
-    return m_ballSeen > 0.0 ? std::optional<Point>(m_ballField) : std::nullopt;
-  }
-
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
   /// Where all team-mates stand that were heard of lately, also those that mates() has no room for.
   const std::vector<Point>& matePlaces() const { return m_matePlaces; }

@@ -31,6 +31,8 @@ struct MatchFrame {
   sim::GameSnapshot snapshot;
   std::vector<RobotFrame> robots;
   std::optional<RefereeView> referee;  ///< once one was heard
+  std::string refereeRules;            ///< of a simulated match; empty: without a referee
+  bool refereeAutomatic = false;       ///< its referee calls by itself
   std::optional<TeamBall> teamBall;    ///< while at least two robots agree
   double speed = 0.0;             ///< simulated seconds per second, measured over the last second
   double ticksPerSecond = 0.0;    ///< measured

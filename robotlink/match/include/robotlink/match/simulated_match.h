@@ -59,8 +59,8 @@ struct MatchOptions {
   bool tellSides = true;
   /// Of robots of which neither the scenario nor their behaviour says who runs.
   RuntimeChoice runtime;
-  /// The referee of the match sends packets to process.refereePort of this computer. Without it
-  /// only inline robots hear it.
+  /// With Inline: the referee of the match sends packets to process.refereePort of this computer,
+  /// as it always does where processes run separately.
   bool sendReferee = false;
   /// Instead of its own referee, the match obeys a GameController that is heard on this port.
   std::optional<int> obeyReferee;

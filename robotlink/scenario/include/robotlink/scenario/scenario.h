@@ -70,7 +70,7 @@ struct ScenarioName {
   std::string name;
   std::string title;
 };
-/// Built-in scenarios, the default (match-3v3) first.
+/// Built-in scenarios, the default (match) first.
 std::vector<ScenarioName> builtInScenarios();
 
 /// A built-in name, or else a path. Errors give file, line and the path of the offending key:

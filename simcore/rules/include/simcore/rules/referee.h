@@ -40,11 +40,11 @@ struct RefereeCall {
   CallKind kind = CallKind::State;
   PlayState state = PlayState::Initial;
   int team = GameState::nobody;  ///< index of GameState::teams
-  RobotId robot;
+  RobotId robot{};
   SetPlay setPlay = SetPlay::None;
   PenaltyKind penalty = PenaltyKind::None;
   int value = 0;
-  std::optional<Point> place;
+  std::optional<Point> place{};
   bool operator==(const RefereeCall&) const = default;
 };
 

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The referee's machine of states against the worked match of two controllers, field by field, and
+// what the automatic referee decides.
+#include <robotlink/match/referee_packet.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/simulation/simulation.h>
+#include <telemetry/wire/gamecontroller_encoder.h>
+
+#include <QtTest>
+#include <functional>
+#include <set>
+
+using namespace pitchboard;
+using sim::CallKind;
+using sim::PlayState;
+using sim::SetPlay;
+
+namespace {
+
+/// A simulation with three robots a side that stand where they are put.
+struct Game {
+  explicit Game(const char* rules, bool automatic = false, double rate = 60.0) {
+    sim::SimulationSettings settings;
+    settings.tickRate = rate;
+    settings.field = sim::fieldByName("kid-2020").value();
+    settings.referee = link::refereeRuleSet(rules).value();
+    settings.referee->automatic = automatic;
+    simulation.emplace(sim::Simulation::create(settings).value());
+    for (int i = 0; i < 6; ++i) {
+      const bool red = i >= 3;
+      sim::RobotIdentity robot{RobotId{i + 1}, red ? TeamColor::Red : TeamColor::Blue, i % 3 + 1,
+                               red};
+      const double x = (red ? 1.0 : -1.0) * (i % 3 == 0 ? 4.2 : 2.5);
+      const Pose pose{{x, i % 3 == 0 ? 0.0 : i % 3 == 1 ? 2.0 : -2.0}, red ? 3.14159 : 0.0};
+      if (!simulation->addRobot(robot, pose)) qFatal("no robot");
+    }
+    if (!simulation->setReferee(settings.referee)) qFatal("no referee");
+    commands.resize(6);
+    percepts.resize(6);
+    for (auto& command : commands) command.searchOn = 0;
+  }
+  const sim::GameState& game() const { return *simulation->state().game; }
+  double now() const {
+    return static_cast<double>(simulation->state().tick) / simulation->state().settings.tickRate;
+  }
+  void tick() {
+    simulation->step(commands, percepts);
+    for (const sim::Event& event : simulation->events()) events.push_back(event);
+  }
+  void runTo(double seconds) {
+    const auto rate = simulation->state().settings.tickRate;
+    while (simulation->state().tick < static_cast<std::uint64_t>(std::lround(seconds * rate))) {
+      tick();
+    }
+  }
+  bool call(sim::RefereeCall call) { return simulation->call(call).has_value(); }
+  /// The ball lies at a robot, and rolls away from it.
+  void touch(const Point& place, const Velocity& velocity) {
+    QVERIFY(simulation->placeBall(place));
+    tick();
+    QVERIFY(simulation->placeBall(place, velocity));
+  }
+  bool state(PlayState state) { return call({.kind = CallKind::State, .state = state}); }
+  bool happened(sim::EventKind kind) const {
+    return std::any_of(events.begin(), events.end(),
+                       [kind](const sim::Event& event) { return event.kind == kind; });
+  }
+  telemetry::RefereeState packet() const { return link::refereePacket(simulation->state(), 7); }
+
+  std::optional<sim::Simulation> simulation;
+  std::vector<sim::RobotCommand> commands;
+  std::vector<sim::Percepts> percepts;
+  std::vector<sim::Event> events;
+};
+
+/// As the worked match is written: "3 2 9[2,1] 420/15" or "3 2 4 1 420/45".
+QString written(const telemetry::RefereeState& p) {
+  QString text = QString("%1 %2 ").arg(p.state).arg(p.kickOffRaw);
+  if (p.version == 12) {
+    text += QString::number(*p.secState);
+    if (*p.secState >= 4) {
+      text += QString("[%1,%2]").arg((*p.secStateInfo)[0]).arg((*p.secStateInfo)[1]);
+    }
+  } else {
+    text += QString("%1 %2").arg(*p.setPlay).arg(*p.stopped);
+  }
+  return text + QString(" %1/%2").arg(p.secsRemaining).arg(*p.secondaryTime);
+}
+
+/// "34, 30" of the third player of team 1.
+QString third(const telemetry::RefereeState& p) {
+  const telemetry::RefereePlayer& player = p.team(1)->allSlots[2];
+  return player.penalty == 0 ? QString("0")
+                             : QString("%1, %2").arg(player.penalty).arg(player.secondsLeft);
+}
+
+struct Step {
+  double time;
+  const char* packet;
+  std::function<bool(Game&)> call = {};
+  const char* player = nullptr;
+  bool leftIsTeam2 = false;
+};
+
+void play(Game& game, const std::vector<Step>& steps) {
+  for (const Step& step : steps) {
+    game.runTo(step.time);
+    if (step.call) QVERIFY2(step.call(game), qPrintable(QString("call at %1 s").arg(step.time)));
+    const telemetry::RefereeState sent = game.packet();
+    // What robots get: through the bytes.
+    const auto bytes = telemetry::encodeReferee(sent);
+    QVERIFY2(bytes, bytes ? "" : bytes.error().text().c_str());
+    const auto heard = std::get<telemetry::RefereeState>(*telemetry::decodeReferee(*bytes));
+    QCOMPARE(QString("%1 s: ").arg(step.time) + written(heard),
+             QString("%1 s: ").arg(step.time) + step.packet);
+    if (step.player) QCOMPARE(third(heard), QString(step.player));
+    QCOMPARE(heard.teams[0].number, step.leftIsTeam2 ? 2 : 1);
+  }
+}
+
+auto to(PlayState state) {
+  return [state](Game& g) { return g.state(state); };
+}
+auto setPlay(SetPlay play, int team) {
+  return [play, team](Game& g) {
+    return g.call({.kind = CallKind::SetPlay, .team = team, .setPlay = play});
+  };
+}
+bool next(Game& g) {
+  return g.call({.kind = CallKind::NextStep});
+}
+bool goalOfTeam1(Game& g) {
+  return g.call({.kind = CallKind::Goal, .team = 0, .value = 1});
+}
+bool down(Game& g) {
+  return g.call(
+      {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = sim::PenaltyKind::Incapable});
+}
+
+}  // namespace
+
+class TestReferee : public QObject {
+  Q_OBJECT
+ private slots:
+  void workedMatchOf2024() {
+    Game game("humanoid-2021");
+    play(game, {
+                   {0, "0 1 0 600/0"},
+                   {10, "1 1 0 600/45", to(PlayState::Ready)},
+                   {55, "2 1 0 600/0"},
+                   {60, "3 1 0 600/10", to(PlayState::Playing)},
+                   {66, "3 1 0 594/4"},
+                   {70, "3 1 0 590/0"},
+                   {120, "1 2 0 540/45", goalOfTeam1},
+                   {165, "2 2 0 495/0"},
+                   {170, "3 2 0 490/10", to(PlayState::Playing)},
+                   {180, "3 2 0 480/0"},
+                   {240, "3 2 9[2,0] 420/0", setPlay(SetPlay::ThrowIn, 1)},
+                   {245, "3 2 9[2,1] 420/15", next},
+                   {260, "3 2 9[2,2] 420/0", next},
+                   {261, "3 2 0 420/10", next},
+                   {281, "3 2 0 400/0", down, "34, 30"},
+                   {311, "3 2 0 370/0", {}, "0"},
+                   {400, "3 2 6[1,0] 281/0", setPlay(SetPlay::PenaltyKick, 0)},
+                   {405, "3 2 6[1,1] 281/15", next},
+                   {420, "3 2 6[1,2] 281/0", next},
+                   {421, "3 2 0 281/10", next},
+                   {424, "1 2 0 278/45", goalOfTeam1},
+                   {469, "2 2 0 233/0"},
+                   {474, "3 2 0 228/10", to(PlayState::Playing)},
+                   {702, "4 2 0 0/0", to(PlayState::Finished)},
+                   {702.5, "0 2 0 600/0", to(PlayState::Initial), nullptr, true},
+                   {717, "1 2 0 600/45", to(PlayState::Ready), nullptr, true},
+                   {762, "2 2 0 600/0", {}, nullptr, true},
+                   {767, "3 2 0 600/10", to(PlayState::Playing), nullptr, true},
+                   {777, "3 2 0 590/0", {}, nullptr, true},
+                   {1367, "4 2 0 0/0", to(PlayState::Finished), nullptr, true},
+               });
+    QCOMPARE(game.packet().team(1)->score, 2);
+    QCOMPARE(game.packet().firstHalf, 0);
+  }
+
+  void workedMatchOf2026() {
+    Game game("humanoid-soccer-2026");
+    play(game, {
+                   {0, "0 1 0 0 600/0"},
+                   {10, "1 1 0 0 600/45", to(PlayState::Ready)},
+                   {55, "2 1 0 0 600/0"},
+                   {60, "2 1 0 0 600/0", to(PlayState::Playing)},
+                   {66, "2 1 0 0 600/0"},
+                   {70, "3 255 0 0 590/0"},
+                   {120, "1 2 0 0 540/45", goalOfTeam1},
+                   {165, "2 2 0 0 495/0"},
+                   {170, "2 2 0 0 490/0", to(PlayState::Playing)},
+                   {180, "3 255 0 0 480/0"},
+                   {240, "3 2 4 1 420/45", setPlay(SetPlay::ThrowIn, 1)},
+                   {245, "3 2 4 0 415/45", next},
+                   {255, "3 255 0 0 405/0", next},
+                   {281, "3 255 0 0 379/0", down, "5, 0"},
+                   {284, "3 255 0 0 376/0", {}, "5, 45"},
+                   {329, "3 255 0 0 331/0", {}, "0"},
+                   {400, "1 1 3 0 260/45", setPlay(SetPlay::PenaltyKick, 0)},
+                   {445, "2 1 3 0 215/0"},
+                   {450, "2 1 3 0 210/0", to(PlayState::Playing)},
+                   {460, "3 1 3 0 200/50"},
+                   {464, "1 2 0 0 196/45", goalOfTeam1},
+                   {509, "2 2 0 0 151/0"},
+                   {514, "2 2 0 0 146/0", to(PlayState::Playing)},
+                   {661, "4 255 0 0 -1/600", to(PlayState::Finished)},
+                   {961, "0 2 0 0 600/300", to(PlayState::Initial), nullptr, true},
+                   {1270, "1 2 0 0 600/45", to(PlayState::Ready), nullptr, true},
+                   {1315, "2 2 0 0 600/0", {}, nullptr, true},
+                   {1320, "2 2 0 0 600/0", to(PlayState::Playing), nullptr, true},
+                   {1330, "3 255 0 0 590/0", {}, nullptr, true},
+                   {1921, "4 255 0 0 -1/0", to(PlayState::Finished), nullptr, true},
+               });
+    QCOMPARE(game.packet().team(1)->score, 2);
+  }
+
+  void theTableOfTransitions() {
+    // REFEREE.md section 1: everything else is refused and changes nothing.
+    const auto reach = [](Game& g, PlayState state) {
+      if (state == PlayState::Initial) return;
+      QVERIFY(g.state(PlayState::Ready));
+      if (state == PlayState::Ready) return;
+      QVERIFY(g.state(PlayState::Set));
+      if (state == PlayState::Set) return;
+      QVERIFY(g.state(PlayState::Playing));
+      if (state == PlayState::Playing) return;
+      QVERIFY(g.state(PlayState::Finished));
+    };
+    const std::vector<std::pair<int, int>> allowed{{0, 1}, {1, 2}, {2, 3}, {3, 1},
+                                                   {1, 4}, {2, 4}, {3, 4}, {4, 0}};
+    for (const char* rules : {"humanoid-2014", "humanoid-2021", "humanoid-soccer-2026"}) {
+      for (int from = 0; from < 5; ++from) {
+        for (int target = 0; target < 5; ++target) {
+          Game game(rules);
+          reach(game, static_cast<PlayState>(from));
+          const sim::GameState before = game.game();
+          const bool may =
+              std::find(allowed.begin(), allowed.end(), std::pair(from, target)) != allowed.end();
+          QCOMPARE(game.state(static_cast<PlayState>(target)), may);
+          if (!may) QVERIFY(game.game() == before);
+        }
+      }
+    }
+  }
+
+  void aGoalCountsAtEveryRate_data() {
+    QTest::addColumn<double>("rate");
+    QTest::addColumn<double>("speed");
+    for (const double rate : {10.0, 30.0, 60.0, 500.0}) {
+      for (const double speed : {2.0, 8.0, 25.0}) {
+        QTest::addRow("%g Hz, %g m/s", rate, speed) << rate << speed;
+      }
+    }
+  }
+  void aGoalCountsAtEveryRate() {
+    QFETCH(double, rate);
+    QFETCH(double, speed);
+    Game game("humanoid-2021", true, rate);
+    game.simulation->editState().game->breakLeft = 0;
+    game.runTo(80);  // READY, SET, PLAYING, and the ball is everybody's
+    QCOMPARE(game.game().state, PlayState::Playing);
+    QVERIFY(game.simulation->placeBall({4.1, 0.6}, {speed, 0.0}));
+    game.runTo(81);
+    QCOMPARE(game.game().teams[0].score, 1);
+    QCOMPARE(game.game().state, PlayState::Ready);
+    QCOMPARE(game.game().kickOff, 1);
+    QVERIFY(std::hypot(game.simulation->snapshot().ball.x, game.simulation->snapshot().ball.y) <
+            1e-9);
+  }
+
+  void aBallPutBehindTheNetIsNoGoal() {
+    Game game("humanoid-2021", true);
+    game.runTo(80);
+    QVERIFY(game.simulation->placeBall({5.3, 0.0}));
+    game.runTo(81);
+    QCOMPARE(game.game().teams[0].score + game.game().teams[1].score, 0);
+    QVERIFY(game.happened(sim::EventKind::BallOut));
+  }
+
+  void theBallGoesToWhoDidNotTouchItLast() {
+    Game game("humanoid-2021", true);
+    game.runTo(80);
+    // Blue 2 stands at (-2.5, 2): the ball rolls past it over the touch line.
+    game.touch({-2.5, 2.225}, {0.0, 3.0});
+    game.runTo(82);
+    QCOMPARE(game.game().setPlay, SetPlay::ThrowIn);
+    QCOMPARE(game.game().setPlayTeam, 1);
+    game.runTo(90);
+    const Point ball = game.simulation->snapshot().ball;
+    QVERIFY2(std::abs(ball.y - 3.0) < 1e-6, qPrintable(QString::number(ball.y)));
+  }
+
+  void overTheGoalLineItIsACornerOrAGoalKick() {
+    for (const bool byDefender : {true, false}) {
+      Game game("humanoid-soccer-2026", true);
+      game.runTo(80);
+      const int robot = byDefender ? 4 : 2;  // red 1 or blue 2, before the right goal line
+      QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{4.0, 2.5}, 0.0}));
+      game.touch({4.225, 2.5}, {3.0, 0.0});
+      game.runTo(82);
+      QCOMPARE(game.game().setPlay, byDefender ? SetPlay::CornerKick : SetPlay::GoalKick);
+      QCOMPARE(game.game().setPlayTeam, byDefender ? 0 : 1);
+      QVERIFY(game.game().stopped);
+    }
+  }
+
+  void rulesCanBeSwitchedOff() {
+    Game game("humanoid-2021", true);
+    sim::RefereeRules rules = *game.simulation->state().settings.referee;
+    rules.throwIns = false;
+    rules.dropBalls = false;
+    rules.name = "ours";
+    QVERIFY(game.simulation->setReferee(rules));
+    game.runTo(80);
+    game.touch({-2.5, 2.225}, {0.0, 3.0});
+    game.runTo(82);
+    QCOMPARE(game.game().setPlay, SetPlay::None);
+    QVERIFY(std::abs(game.simulation->snapshot().ball.y) < 3.0);
+    game.runTo(200);
+    QVERIFY(!game.happened(sim::EventKind::DropBall));
+  }
+
+  void aBallThatLiesStillIsDropped() {
+    Game game("humanoid-2021", true);
+    game.runTo(60.1);
+    QCOMPARE(game.game().state, PlayState::Playing);
+    game.runTo(60 + 29);
+    QCOMPARE(game.game().state, PlayState::Playing);
+    game.runTo(60 + 32);
+    QCOMPARE(game.game().state, PlayState::Ready);
+    QCOMPARE(game.game().kickOff, sim::GameState::nobody);
+    QCOMPARE(game.packet().kickOffRaw, 128);
+  }
+
+  void whoStandsInTheOtherHalfBeginsOutside() {
+    Game game("humanoid-2021", true);
+    game.runTo(56);
+    QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 1.0}, 0.0}));
+    game.runTo(61);
+    QVERIFY(game.happened(sim::EventKind::Penalised));
+    QCOMPARE(game.game().state, PlayState::Playing);
+  }
+
+  void aPenalisedRobotIsPutOutsideAndComesBack() {
+    Game game("humanoid-soccer-2026", true);
+    game.runTo(75);
+    QVERIFY(game.call(
+        {.kind = CallKind::Penalise, .robot = RobotId{2}, .penalty = sim::PenaltyKind::Pushing}));
+    game.runTo(79);
+    const Pose pose = game.simulation->snapshot().robots[1].pose;
+    QVERIFY2(std::abs(pose.position.y) > 3.0, qPrintable(QString::number(pose.position.y)));
+    QVERIFY(pose.position.x < 0.0);
+    QCOMPARE(game.packet().team(1)->allSlots[1].penalty, 10);
+    // A second one of the team lasts ten seconds longer.
+    QVERIFY(game.call(
+        {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = sim::PenaltyKind::Pushing}));
+    QCOMPARE(sim::secondsOf(game.game().teams[0].players[2].ticksLeft, 60.0), 55);
+  }
+
+  void aTieInAKnockoutGoesOnUntilTheShootOutIsDecided() {
+    Game game("humanoid-2021", true);
+    sim::RefereeRules rules = *game.simulation->state().settings.referee;
+    rules.halfTime = rules.extraHalfTime = 60;
+    rules.knockout = true;
+    rules.shotTime = 5;
+    rules.stillTime = rules.nobodyTime = 0;
+    QVERIFY(game.simulation->setReferee(rules));
+    std::set<int> phases;
+    for (int i = 0; i < 60 * 3000 && !game.game().over; ++i) {
+      game.tick();
+      phases.insert(static_cast<int>(game.game().phase));
+      // The first team scores with its third shot.
+      if (game.game().phase == sim::GamePhase::ShootOut &&
+          game.game().state == PlayState::Playing && game.game().shooter == 0 &&
+          game.game().teams[0].penaltyShots == 3 && game.game().stateTicks == 30) {
+        QVERIFY(game.call({.kind = CallKind::Goal, .team = 0, .value = 1}));
+      }
+    }
+    QVERIFY(game.game().over);
+    QCOMPARE(phases, (std::set<int>{0, 1, 2}));
+    QCOMPARE(game.game().teams[0].singleShots, 4);
+    QCOMPARE(game.game().teams[1].singleShots, 0);
+    QVERIFY(game.happened(sim::EventKind::FinalWhistle));
+  }
+
+  void aSavedMomentGoesOnAsItDid() {
+    Game game("humanoid-2021", true);
+    game.runTo(62);
+    QVERIFY(game.simulation->placeBall({0.5, 2.9}, {0.0, 2.0}));
+    const sim::WorldState saved = game.simulation->state();
+    game.runTo(100);
+    const std::uint64_t hash = game.simulation->hash();
+    QVERIFY(game.simulation->restore(saved));
+    QCOMPARE(game.now(), 62.0);
+    game.runTo(100);
+    QCOMPARE(game.simulation->hash(), hash);
+    sim::WorldState damaged = saved;
+    damaged.game->setPlayTeam = 7;
+    QVERIFY(!game.simulation->restore(damaged));
+  }
+
+  void aMatchWithoutRefereeRefusesCalls() {
+    auto plain = sim::Simulation::create({}).value();
+    const auto called = plain.call({.kind = CallKind::DropBall});
+    QVERIFY(!called);
+    QVERIFY(QString::fromStdString(called.error().text()).contains("no referee"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestReferee)
+#include "tst_referee.moc"

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The default scenario from kick-off to the final whistle, with short halves, by each rule set. The
+// long version is the tool whole_matches (docs/REFEREE.md).
+#include <robotlink/cognition/referee_word.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+
+#include <QFile>
+#include <QtTest>
+#include <map>
+#include <optional>
+
+#include <telemetry/wire/gamecontroller.h>
+
+#include "../support/test_socket.h"
+#include "../support/whole_match.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+Scenario shortMatch(const char* rules, const char* name = "match") {
+  Scenario scenario = loadScenario(name).value();
+  scenario.settings.referee = refereeRuleSet(rules).value();
+  scenario.settings.referee->halfTime = 60;
+  scenario.settings.referee->breakTime = 10;
+  return scenario;
+}
+
+SimulatedMatch make(const Scenario& scenario) {
+  MatchOptions options;
+  options.process.particles = 200;
+  return SimulatedMatch::create(scenario, options).value();
+}
+
+double forward(const sim::GameState& game, const sim::RobotSnapshot& robot) {
+  const bool right = game.attacksRight(static_cast<std::size_t>(game.teamOf(robot.identity.team)));
+  return (right ? 1.0 : -1.0) * robot.pose.position.x;
+}
+
+}  // namespace
+
+class TestWholeMatch : public QObject {
+  Q_OBJECT
+ private slots:
+  void kickOffToFinalWhistle_data() {
+    QTest::addColumn<QString>("rules");
+    for (const char* rules : {"humanoid-2014", "humanoid-2021", "humanoid-soccer-2026"}) {
+      QTest::newRow(rules) << QString(rules);
+    }
+  }
+  void kickOffToFinalWhistle() {
+    QFETCH(QString, rules);
+    auto match = make(shortMatch(qPrintable(rules)));
+    const WholeMatch m = playWhole(match, 900);
+    QVERIFY(m.over);
+    QCOMPARE(match.finishedBy(), std::string_view("full_time"));
+    QVERIFY2(m.wrong.empty(), m.wrong.empty() ? "" : m.wrong.front().c_str());
+    QVERIFY(m.longestStuck <= 60.0);
+    QVERIFY(m.seconds > 200.0);
+    QVERIFY(match.simulation().state().game->swapped);  // the second half
+  }
+
+  void everybodyIsInItsPlaceAtKickOff() {
+    auto match = make(shortMatch("humanoid-2021", "match-4v4"));
+    sim::Snapshot now;
+    int touched = 0;
+    std::vector<Point> inSet;
+    double moved = 0.0;
+    while (match.simulation().state().game->state != sim::PlayState::Playing) {
+      match.tick();
+      match.simulation().snapshot(now);
+      const sim::PlayState state = match.simulation().state().game->state;
+      for (std::size_t i = 0; i < now.robots.size(); ++i) {
+        for (std::size_t j = 0; j < i && state == sim::PlayState::Ready; ++j) {
+          const double d =
+              std::hypot(now.robots[i].pose.position.x - now.robots[j].pose.position.x,
+                         now.robots[i].pose.position.y - now.robots[j].pose.position.y);
+          if (d < 2 * match.simulation().state().settings.field.robotRadius + 0.001) ++touched;
+        }
+        if (state != sim::PlayState::Set || match.simulation().state().game->stateTicks < 90) {
+          continue;
+        }
+        // The word is half a second old at most, and the gait needs a moment to stop.
+        if (inSet.size() <= i) inSet.push_back(now.robots[i].pose.position);
+        moved = std::max(moved, std::hypot(now.robots[i].pose.position.x - inSet[i].x,
+                                           now.robots[i].pose.position.y - inSet[i].y));
+      }
+    }
+    QCOMPARE(touched, 0);
+    QVERIFY2(moved < 0.02, qPrintable(QString::number(moved)));
+    const sim::GameState& game = *match.simulation().state().game;
+    for (const sim::RobotSnapshot& robot : now.robots) {
+      QVERIFY2(forward(game, robot) < 0.0, robot.identity.name().c_str());
+      const Point& p = robot.pose.position;
+      QVERIFY(std::hypot(p.x, p.y) >
+              match.simulation().state().settings.field.centreCircleDiameter / 2);
+      QVERIFY(std::abs(p.x) < 4.5 && std::abs(p.y) < 3.0);
+    }
+  }
+
+  void robotsHearTheRefereeInItsRhythm() {
+    auto match = make(shortMatch("humanoid-2021"));
+    const auto word = [&](int robot) {
+      return match.blackboard(RobotId{robot})->read(match.variables().comReferee);
+    };
+    QCOMPARE(word(1), refereeStop);
+    const auto wait = [&](sim::PlayState state) {
+      while (match.simulation().state().game->state != state) match.tick();
+      const std::uint64_t then = match.simulation().state().tick;
+      while (match.simulation().state().tick < then + 31) match.tick();
+    };
+    wait(sim::PlayState::Ready);
+    QCOMPARE(word(1), refereeReady);
+    wait(sim::PlayState::Set);
+    QCOMPARE(word(1), refereeSet);
+    wait(sim::PlayState::Playing);
+    QCOMPARE(word(1), refereePlay);
+    QCOMPARE(word(4), refereeSet);  // blue has the kick-off
+    QVERIFY(match.call({.kind = sim::CallKind::Penalise,
+                        .robot = RobotId{1},
+                        .penalty = sim::PenaltyKind::Manual}));
+    for (int i = 0; i < 31; ++i) match.tick();
+    QCOMPARE(word(1), refereeStop);
+  }
+
+  void itsPacketsAreHeardOnTheMatchsPort() {
+    constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
+    const TestSocket ear(loopbackBroadcast);
+    QVERIFY(ear.good());
+    MatchOptions options;
+    options.process.particles = 200;
+    options.process.refereePort = ear.port();
+    options.sendReferee = true;
+    auto match = SimulatedMatch::create(shortMatch("humanoid-2014"), options).value();
+    for (int i = 0; i < 60 * 12; ++i) match.tick();
+    std::map<int, int> versions;
+    std::optional<telemetry::RefereeState> last;
+    for (std::string text = ear.take(); !text.empty(); text = ear.take()) {
+      const auto packet = telemetry::decodeReferee(text);
+      QVERIFY(packet);
+      const auto& state = std::get<telemetry::RefereeState>(*packet);
+      ++versions[state.version];
+      if (state.version == 9) last = state;
+    }
+    // Twice a second, each with the one of version 7 behind it.
+    QVERIFY(versions[9] >= 24 && versions[9] <= 26);
+    QCOMPARE(versions[7], versions[9]);
+    QCOMPARE(last->state, 1);
+    QCOMPARE(*last->secondaryTime, 28);
+    QCOMPARE(last->teams[0].players()[3].penalty, 14);  // nobody wears this shirt
+  }
+
+  void anExternalControllerIsObeyed() {
+    const TestSocket place;  // a free port; given back before the match listens
+    int port = 0;
+    {
+      const TestSocket probe;
+      port = probe.port();
+    }
+    MatchOptions options;
+    options.process.particles = 200;
+    options.obeyReferee = port;
+    auto match = SimulatedMatch::create(shortMatch("humanoid-2021"), options).value();
+    const auto send = [&](const char* name) {
+      QFile file(QString(PITCHBOARD_TEST_DATA) + "/gamecontroller/" + name + ".bin");
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      QVERIFY(place.send(static_cast<std::uint16_t>(port), file.readAll().toStdString()));
+    };
+    const auto state = [&] {
+      match.tick();
+      return static_cast<int>(match.simulation().state().game->state);
+    };
+    for (int i = 0; i < 60 * 20; ++i) match.tick();
+    QCOMPARE(state(), 0);  // nobody has said a word
+    send("v12hl640_2017.3_PLAYING");
+    QTRY_COMPARE(state(), 3);
+    QCOMPARE(match.blackboard(RobotId{1})->read(match.variables().comReferee) != refereeStop, true);
+    send("v12hl640_2017.3_SECOND_HALF_PLAYING");
+    QTRY_COMPARE((state(), match.simulation().state().game->half), 2);
+  }
+
+  void aMatchToObeyNeedsRules() {
+    MatchOptions options;
+    options.obeyReferee = 3838;
+    const auto refused = SimulatedMatch::create(loadScenario("match-3v3").value(), options);
+    QVERIFY(!refused);
+    QVERIFY(refused.error().text().find("has no referee") != std::string::npos);
+  }
+
+  void itRepeatsToTheBit() {
+    const auto hashOf = [] {
+      auto match = make(shortMatch("humanoid-soccer-2026"));
+      for (int i = 0; i < 60 * 120; ++i) match.tick();
+      return match.simulation().hash();
+    };
+    QCOMPARE(hashOf(), hashOf());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestWholeMatch)
+#include "tst_whole_match.moc"
