@@ -237,6 +237,7 @@ Result<void> simulate(const Arguments& arguments) {
   const auto scenario = scenarioFrom(arguments, cognition->cognition, recorded);
   if (!scenario) return tl::unexpected(scenario.error());
 
+  shared::warnOfIgnoredSettings(*scenario);
   link::MatchOptions options;
   options.cognition = cognition->cognition;
   options.keyBase = arguments.keyBase;

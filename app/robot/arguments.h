@@ -20,7 +20,7 @@ struct Arguments {
   std::string config;
   std::optional<int> key;
   int keyBase = 0;
-  std::string field = "published", attack;
+  std::string field = "published", model = "published", attack;
   double telemetryRate = 1.0;  // Hz
   std::optional<int> thoughtsPort;
   link::ProcessOptions process;

@@ -54,7 +54,7 @@ inline const QList<Room>& table() {
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};
     QList<Room> made{
-        {base, {}, {"Random123/", "nlohmann/", "tl/"}},
+        {base, {}, {"Random123/", "nlohmann/", "sleef.h", "tl/"}},
         {world, {base}, {"tl/"}},
         {"simcore/rules", {base, world}, {}},
         {physics, {base, world, "simcore/rules"}, {"box2d/"}},

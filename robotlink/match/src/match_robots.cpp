@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Robots coming and going: blackboards, claims, processes; and the match as a scenario.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include <base/lined_json.h>
@@ -11,7 +12,19 @@
 #include "match_seat.h"
 
 namespace pitchboard::link {
-namespace {}  // namespace
+namespace {
+
+/// Whether the robot's processes were told something else: how it walks, kicks and how wide it is.
+bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
+  const auto told = [](const sim::RobotModel& m) {
+    return std::array{m.forwardFast,    m.forwardSlow, m.backwardFast, m.backwardSlow,
+                      m.sideways,       m.turn,        m.aroundSideways, m.aroundTurn,
+                      m.kickReach,      m.radius};
+  };
+  return told(a) != told(b) || a.kickLaw != b.kickLaw;
+}
+
+}  // namespace
 
 bool SimulatedMatch::sharesBoards() const {
   return m_options.cognition != Cognition::Inline || m_options.systemV;
@@ -55,7 +68,8 @@ Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) cons
 
 Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
   if (auto free = checkShirt(robot.identity); !free) return free;
-  if (auto added = m_simulation.addRobot(robot.identity, robot.pose); !added) return added;
+  if (auto added = m_simulation.addRobot(robot.identity, robot.pose, robot.model); !added)
+    return added;
   const RobotId id = robot.identity.id;
   const auto giveUp = [&](const Error& error) {
     m_supervisor->stop(id);
@@ -103,7 +117,7 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   for (const sim::RobotIdentity& identity : moment.state.robots) {
     if (seat(identity.id)) continue;
     const MomentRobot* known = moment.robot(identity.id);
-    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour)});
+    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour), {}});
     if (!made) return tl::unexpected(made.error());
     added.push_back(std::move(*made));
   }
@@ -169,6 +183,7 @@ ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
   options.seed = m_scenario.settings.seed;
   const sim::RobotIdentity& identity =
       m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
+  options.model = *robotModel(seat.id);
   options.facesLeft = identity.imuStartsAt180;
   auto& channel = m_teamChannels[static_cast<std::size_t>(identity.team)];
   if (!channel) channel = std::make_shared<InProcessTeamChannel>();
@@ -205,7 +220,9 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       "--particles",
       std::to_string(options.particles),
       "--field",
-      fieldToText(m_scenario.settings.field)};
+      fieldToText(m_scenario.settings.field),
+      "--robot-model",
+      robotModelToText(*robotModel(seat.id))};
   if (m_thoughts) {
     command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
   }
@@ -257,6 +274,27 @@ Result<void> SimulatedMatch::setIdentity(const sim::RobotIdentity& identity) {
   return started;
 }
 
+const sim::RobotModel* SimulatedMatch::robotModel(RobotId id) const {
+  const auto index = m_simulation.indexOf(id);
+  return index ? &m_simulation.state().models[*index] : nullptr;
+}
+
+Result<void> SimulatedMatch::setRobotModel(RobotId id, const sim::RobotModel& model) {
+  const sim::RobotModel* known = robotModel(id);
+  Seat* changed = seat(id);
+  if (!changed || !known) {
+    return failure(ErrorCode::NotFound,
+                   "there is no robot " + std::to_string(id.value) + " on the field");
+  }
+  const sim::RobotModel before = *known;
+  if (before == model) return {};
+  if (auto set = m_simulation.setRobotModel(id, model); !set) return set;
+  if (!isToldOtherwise(before, model)) return {};
+  auto started = restartProcesses(*changed);
+  if (!started) (void)m_simulation.setRobotModel(id, before);
+  return started;
+}
+
 Scenario SimulatedMatch::toScenario() const {
   const sim::WorldState& state = m_simulation.state();
   const sim::Snapshot now = m_simulation.snapshot();
@@ -283,8 +321,10 @@ Scenario SimulatedMatch::toScenario() const {
   moment.robots.clear();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];
-    moment.robots.push_back(
-        {robot.identity, {inside(robot.pose.position), robot.pose.yaw}, m_seats[i]->behaviour});
+    moment.robots.push_back({robot.identity,
+                             {inside(robot.pose.position), robot.pose.yaw},
+                             m_seats[i]->behaviour,
+                             state.models[i]});
   }
 
   moment.writes =

@@ -10,7 +10,7 @@ namespace pitchboard::link {
 namespace {
 
 // In the order in which people see them; each is resources/noise/<name>.json.
-constexpr std::array<std::string_view, 4> names{"none", "published", "paper", "realistic"};
+constexpr std::array<std::string_view, 5> names{"none", "published", "paper", "realistic", "robot"};
 
 }  // namespace
 
@@ -27,10 +27,36 @@ Result<sim::NoiseParameters> noisePreset(std::string_view name) {
   const auto root = parseJson(resourceText(path), report);
   sim::NoiseParameters noise;
   if (root) {
-    const auto keys = withKeys({"name", "title", "description"}, sim::noiseParameters);
-    readNumbers(JsonObject(report, *root, "", keys), sim::noiseParameters, noise);
+    const auto keys = withKeys({"name", "title", "description", ofModelKey}, sim::noiseParameters);
+    const JsonObject object(report, *root, "", keys);
+    noise.ofModel = object.boolean(ofModelKey, false);
+    readNumbers(object, sim::noiseParameters, noise);
   }
   if (report.failed()) return tl::unexpected(report.error());
+  return noise;
+}
+
+std::optional<sim::NoiseParameters> readNoise(const JsonObject& parent, JsonReport& report,
+                                              std::string_view key) {
+  const JsonNode* node = parent.find(key);
+  if (!node) return {};
+  sim::NoiseParameters noise;
+  const auto take = [&](std::size_t index) {
+    if (auto preset = noisePreset(names[index])) noise = *preset;
+  };
+  if (node->kind == JsonNode::Kind::Text) {
+    if (const auto preset = parent.choice(key, names, "noise preset")) take(*preset);
+    return noise;
+  }
+  if (node->kind != JsonNode::Kind::Object) {
+    parent.fail(key, "must be the name of a noise preset, in quotes, or an object in braces");
+    return noise;
+  }
+  const JsonObject object(report, *node, parent.pathOf(key),
+                          withKeys({"preset", ofModelKey}, sim::noiseParameters));
+  if (const auto preset = object.choice("preset", names, "noise preset")) take(*preset);
+  noise.ofModel = object.boolean(ofModelKey, noise.ofModel);
+  readNumbers(object, sim::noiseParameters, noise);
   return noise;
 }
 

@@ -15,7 +15,7 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within these; a match never comes near them.
 constexpr double farthest = 1e6;
@@ -80,6 +80,9 @@ class Reader {
     value = static_cast<sim::AfterGoal>(
         limited(static_cast<std::uint64_t>(sim::AfterGoal::CentreBall)));
   }
+  void value(sim::KickLaw& value) {
+    value = static_cast<sim::KickLaw>(limited(static_cast<std::uint64_t>(sim::KickLaw::Foot)));
+  }
   void value(TeamColor& value) { value = static_cast<TeamColor>(limited(teamColors.size() - 1)); }
   void value(sim::Posture& value) {
     value = static_cast<sim::Posture>(limited(static_cast<std::uint64_t>(sim::Posture::GettingUp)));
@@ -121,7 +124,7 @@ bool plausible(const sim::RigidBodyState& state) {
   for (const sim::RigidRobot& r : state.robots) {
     for (const double value : {r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed,
                                r.sidewaysSpeed, r.yawRate, r.velocity.x, r.velocity.y, r.headYaw,
-                               r.getUpRemaining, r.imuZero, r.imuDrift}) {
+                               r.getUpRemaining, r.kickElapsed, r.imuZero, r.imuDrift}) {
       if (!isNear(value)) return false;
     }
   }
@@ -172,6 +175,12 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::ParseError, "this is not a saved state of a match");
   }
   const std::uint64_t found = in.varint();
+  if (in.ok() && found < version) {
+    return failure(ErrorCode::Unsupported,
+                   "this state was saved by an earlier version of Pitchboard (form " +
+                       std::to_string(found) + ", this program reads " + std::to_string(version) +
+                       "); the recording can be looked at, but not gone on from exactly");
+  }
   if (in.ok() && found != version) {
     return failure(ErrorCode::Unsupported,
                    "this state was saved by a later version of Pitchboard (form " +

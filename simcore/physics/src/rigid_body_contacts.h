@@ -43,9 +43,9 @@ class ContactSolver {
   ContactSolver();
   ~ContactSolver();
 
-  /// Makes sure that the world fits. Allocates only when the field, the constants or the number of
-  /// robots changed.
-  void prepare(const SimulationSettings& settings, const Obstacles& obstacles, std::size_t robots);
+  /// Makes sure that the bodies fit. Allocates only when the field, the constants, or the number,
+  /// size or weight of the robots changed.
+  void prepare(const WorldState& world, const Obstacles& obstacles);
 
   /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch.
   void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt);

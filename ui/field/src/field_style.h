@@ -37,6 +37,10 @@ struct FieldStyle {
   double metres(double pixels) const { return pixels / pixelsPerMetre; }
   QRectF playingArea() const;      ///< with its border, metres
   double robotDrawRadius() const;  ///< metres; never smaller than a dot that can be hit
+  /// The same for a robot of its own size; 0 = the field's.
+  double drawRadius(double own) const {
+    return own > 0.0 ? atLeast(own, 5.0) : robotDrawRadius();
+  }
   double ballDrawRadius() const;   ///< metres
 };
 

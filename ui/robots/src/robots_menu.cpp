@@ -58,6 +58,8 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   if (controller->edits()->robot(id) == nullptr) return;
   addBehaviourMenu(&menu, controller, {id});
   addTeamMenu(&menu, controller, {id});
+  addNumberMenu(&menu, controller, id);
+  addModelMenu(&menu, controller, {id});
   menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();
   });

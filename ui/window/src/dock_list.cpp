@@ -24,7 +24,7 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
   return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings}, parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
-  return makeNoiseDock(s.controller, parent);
+  return makeNoiseDock(s.controller, s.selection, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);

@@ -14,6 +14,7 @@
 #include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/field.h>
+#include <simcore/world/robot_model.h>
 
 namespace pitchboard::link {
 
@@ -49,6 +50,7 @@ struct ProcessOptions {
   int refereePort = 3838;
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are
+  sim::RobotModel model;               ///< localization, decision: how this robot walks and kicks
   std::uint64_t seed = 1;              ///< localization: of its particles
   int particles = 5000;                ///< localization: at most this many
   bool publishedLocalization = false;  ///< localization: the published filter's parameters

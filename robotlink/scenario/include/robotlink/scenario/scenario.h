@@ -33,6 +33,7 @@ struct ScenarioRobot {
   sim::RobotIdentity identity;
   Pose pose;
   std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
+  sim::RobotModel model;
   bool operator==(const ScenarioRobot&) const = default;
 };
 
@@ -84,7 +85,22 @@ Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_vi
 /// The name of a built-in field, else an object on one line; reading it gives an equal field.
 std::string fieldToText(const sim::FieldSpec& field);
 
-/// Noise presets are data: none, published, paper, realistic.
+/// Robot models are data (resources/robots): the built-in names, "published" first.
+std::vector<std::string> robotModels();
+struct RobotModelText {
+  std::string title;        ///< a few words, for choosers
+  std::string description;  ///< which robot it is and where its numbers come from
+};
+/// What people read of a built-in model; its name when it has no title.
+RobotModelText robotModelText(std::string_view name);
+/// A built-in name, or the object that "model" has in a scenario file. Errors name `source`.
+Result<sim::RobotModel> robotModelFromText(std::string_view nameOrJson, std::string_view source);
+/// A built-in name, or else a file with such an object.
+Result<sim::RobotModel> loadRobotModel(const std::string& nameOrPath);
+/// The name of a built-in model, else an object on one line; reading it gives an equal model.
+std::string robotModelToText(const sim::RobotModel& model);
+
+/// Noise presets are data: none, published, paper, realistic; robot: each robot has its model's.
 std::vector<std::string> noisePresets();
 Result<sim::NoiseParameters> noisePreset(std::string_view name);
 
