@@ -2,6 +2,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/world/referee_parameters.h>
+
 #include "scenario_keys.h"
 
 namespace pitchboard::link {
@@ -31,6 +34,29 @@ Json rigidBodyToJson(const sim::RigidBodySettings& body, const sim::FieldSpec& f
   Json out = Json::object();
   if (body.falls != usual.falls) out[sim::fallsSwitch.key] = body.falls;
   out.update(differences(sim::rigidBodyParameters, body, usual));
+  return out;
+}
+
+Json refereeToJson(const sim::RefereeRules& rules) {
+  std::string base;
+  Json least;
+  for (const RuleSetInfo& set : refereeRuleSets()) {
+    const auto built = refereeRuleSet(set.name);
+    if (!built || !*built) continue;
+    if (**built == rules) return set.name;
+    Json changed = differences(sim::refereeParameters, rules, **built);
+    for (const auto& one : sim::refereeSwitches) {
+      if (rules.*one.member != (**built).*one.member) changed[one.key] = rules.*one.member;
+    }
+    if (rules.style != (**built).style) continue;
+    if (base.empty() || changed.size() < least.size() || rules.name == set.name) {
+      base = set.name;
+      least = std::move(changed);
+      if (rules.name == set.name) break;
+    }
+  }
+  Json out{{"rules", base}};
+  out.update(least);
   return out;
 }
 
@@ -98,6 +124,7 @@ std::string scenarioToJson(const Scenario& scenario) {
   if (Json body = rigidBodyToJson(settings.rigidBody, settings.field); !body.empty()) {
     out["rigid_body"] = std::move(body);
   }
+  if (settings.referee) out["referee"] = refereeToJson(*settings.referee);
   Json ball{{"x", jsonNumber(scenario.ball.x)}, {"y", jsonNumber(scenario.ball.y)}};
   if (scenario.ballVelocity != Velocity{}) {
     ball["vx"] = jsonNumber(scenario.ballVelocity.x);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/frame/second_sender.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/referee_json.h>
 
@@ -121,12 +122,12 @@ LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
 
 LiveRecorder::~LiveRecorder() = default;
 
-void LiveRecorder::heard(RobotId /*id*/, double time, const telemetry::DatagramView& datagram,
+void LiveRecorder::heard(RobotId id, double time, const telemetry::DatagramView& datagram,
                          const telemetry::TextDecoder& decoder,
                          const telemetry::DecodedText& decoded) {
   m_writer->append(telemetry::SessionStream::Telemetry,
                    {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
-  m_rows.take(datagram, decoded, decoder);
+  m_rows.take(datagram, decoded, decoder, slotOf(id));
 }
 
 void LiveRecorder::refereeHeard(double time, const telemetry::DatagramView& datagram,

@@ -6,7 +6,7 @@
 #include <set>
 #include <type_traits>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 #include <simcore/world/state_values.h>
 
 #include "byte_codec.h"
@@ -15,7 +15,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-constexpr std::uint64_t version = 2;
+// 2: the referee and the game; 3: kinds of robots, past moments.
+constexpr std::uint64_t version = 3;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within these; a match never comes near them.
 constexpr double farthest = 1e6;
@@ -46,6 +47,11 @@ class Writer {
   template <class Physics>
   void alternative(const Physics& physics) {
     putVarint(m_out, physics.index());
+  }
+  template <class T>
+  bool present(const std::optional<T>& value) {
+    putVarint(m_out, value ? 1 : 0);
+    return value.has_value();
   }
 
  private:
@@ -86,6 +92,17 @@ class Reader {
   void value(TeamColor& value) { value = static_cast<TeamColor>(limited(teamColors.size() - 1)); }
   void value(sim::Posture& value) {
     value = static_cast<sim::Posture>(limited(static_cast<std::uint64_t>(sim::Posture::GettingUp)));
+  }
+  template <class Enum>
+    requires requires { lastOf(Enum{}); }
+  void value(Enum& value) {
+    value = static_cast<Enum>(limited(static_cast<std::uint64_t>(lastOf(Enum{}))));
+  }
+  template <class T>
+  bool present(std::optional<T>& value) {
+    value.reset();
+    if (limited(1) == 1) value.emplace();
+    return value.has_value();
   }
   template <class T>
   void count(std::vector<T>& list) {
@@ -195,7 +212,7 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
                    "byte " + std::to_string(in.offset()));
   }
   const bool usable =
-      robotsAreDistinct(state) &&
+      robotsAreDistinct(state) && state.game.has_value() == state.settings.referee.has_value() &&
       std::visit([](const auto& physics) { return plausible(physics); }, state.physics);
   if (!usable) {
     return failure(ErrorCode::ParseError,

@@ -159,8 +159,7 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
 }
 
 telemetry::WallTime SessionRecording::zeroOfLive() const {
-  const auto clock = m_live->clock().value_or(QDateTime::currentDateTime());
-  return telemetry::WallTime(std::chrono::milliseconds(clock.toMSecsSinceEpoch()));
+  return m_live->began();
 }
 
 Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {

@@ -53,6 +53,8 @@ class LiveRecorder : public LiveObserver {
   void append(const MatchEvent& event) { happened(event); }
   /// Call after LiveWatch::stopObserving().
   Result<void> finish() { return m_writer->finish(); }
+  /// The same: rows and values that the limits of LiveRows kept out of the file.
+  const telemetry::LiveRows::Refused& refused() const { return m_rows.refused(); }
 
  private:
   LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
