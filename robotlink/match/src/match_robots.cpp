@@ -17,9 +17,8 @@ namespace {
 /// Whether the robot's processes were told something else: how it walks, kicks and how wide it is.
 bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
   const auto told = [](const sim::RobotModel& m) {
-    return std::array{m.forwardFast,    m.forwardSlow, m.backwardFast, m.backwardSlow,
-                      m.sideways,       m.turn,        m.aroundSideways, m.aroundTurn,
-                      m.kickReach,      m.radius};
+    return std::array{m.forwardFast, m.forwardSlow,    m.backwardFast, m.backwardSlow, m.sideways,
+                      m.turn,        m.aroundSideways, m.aroundTurn,   m.kickReach,    m.radius};
   };
   return told(a) != told(b) || a.kickLaw != b.kickLaw;
 }
@@ -228,10 +227,9 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       robotModelToText(*robotModel(seat.id))};
   if (const auto& game = m_simulation.state().game; game && game->teamOf(identity.team) >= 0) {
     const auto team = static_cast<std::size_t>(game->teamOf(identity.team));
-    command.insert(command.end(),
-                   {"--referee-team", std::to_string(game->teams[team].number), "--shirt",
-                    std::to_string(identity.number), "--referee-port",
-                    std::to_string(options.refereePort)});
+    command.insert(command.end(), {"--referee-team", std::to_string(game->teams[team].number),
+                                   "--shirt", std::to_string(identity.number), "--referee-port",
+                                   std::to_string(options.refereePort)});
   }
   if (m_thoughts) {
     command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});

@@ -24,8 +24,8 @@ constexpr std::size_t mostFileBytes = 1024 * 1024;
 
 // The default first, as in choosers; each is resources/scenarios/<name>.json.
 constexpr std::array<std::string_view, 9> builtInNames{
-    "match", "match-4v4", "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
-    "one-robot", "match-11v11",         "empty"};
+    "match",     "match-4v4",   "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
+    "one-robot", "match-11v11", "empty"};
 
 /// What version 0.2 called a number of a robot, in "rigid_body".
 struct EarlierKey {
@@ -72,9 +72,10 @@ class Reader {
       : m_report(report),
         m_catalog(catalog),
         m_root(report, root, "",
-               {"version", "name", "title", "description", "physics", "tick_rate", "seed",
-                "after_goal", "clock_running", "clock", "score", "field", "noise", "robot_model",
-                "rigid_body", "ball", "robots", "writes", "stop", "referee"}) {}
+               {"version",   "name",   "title",      "description",   "physics",
+                "tick_rate", "seed",   "after_goal", "clock_running", "clock",
+                "score",     "field",  "noise",      "robot_model",   "rigid_body",
+                "ball",      "robots", "writes",     "stop",          "referee"}) {}
 
   Scenario read() {
     readVersion();

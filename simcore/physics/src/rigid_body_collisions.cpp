@@ -236,9 +236,9 @@ void Collisions::advance(Tick& tick) {
       speed > 0.0 ? (speed - 0.5 * loss * rolls) * rolls * m_rolling.mean / ballSpeed : 0.0;
   const double left = speed > 0.0 ? std::max(0.0, speed - loss) * m_rolling.kept / ballSpeed : 0.0;
   m_ballVelocity = {ball.velocity.x * mean, ball.velocity.y * mean};
-  tick.ball = {ball.position,
-               {ball.position.x + m_ballVelocity.x * tick.dt,
-                ball.position.y + m_ballVelocity.y * tick.dt}};
+  tick.ball = {
+      ball.position,
+      {ball.position.x + m_ballVelocity.x * tick.dt, ball.position.y + m_ballVelocity.y * tick.dt}};
   findNeighbours(tick);
   if (!m_pairs.empty()) {
     m_solver.solve(m_bodies, m_pairs, tick.dt);

@@ -6,6 +6,10 @@
 // in its order, and are all destroyed afterwards, without warm starting or sleep. The world's own
 // search for contacts, whose order depends on the history of its tree, is refused by a filter.
 //
+// Box2D has no public way to say which contacts there are and in which order, and without that a
+// saved moment would not go on as it did. So this file casts away the const of the world's own
+// contact manager: the one place, with the version of Box2D that the build asks for (2.4).
+//
 // Box2D's tolerances are made for things of 0.1 to 10 units: a metre is ten units here.
 
 #include <memory>

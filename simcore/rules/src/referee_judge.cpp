@@ -2,24 +2,26 @@
 #include <algorithm>
 #include <array>
 
+#include <base/repeatable_math.h>
+
 #include "referee_table.h"
 
 namespace pitchboard::sim {
 namespace {
 
-constexpr double touchMargin = 0.012;    // m between two bodies that touch
-constexpr double contactMargin = 0.02;   // m, robots
-constexpr double pushersReach = 2.0;     // m to the ball (REFEREE.md section 7)
-constexpr double pushersLead = 0.1;      // m that the pushed one is nearer to the ball
-constexpr double pushingSpeed = 0.05;    // m/s towards the other
-constexpr double immunity = 2.0;         // s after a pushing was given
-constexpr double foulNearBall = 1.0;     // m: a free kick, else only removal
-constexpr double alone = 1.0;            // m
-constexpr double heap = 0.1;             // m that the ball moves in a heap of robots
-constexpr double heapReach = 0.5;        // m
-constexpr double clearTime = 10.0;       // s to leave the ball of a set play
-constexpr double atRest = 0.01;          // m/s
-constexpr double longestEnd = 10.0;      // s that a half waits for the ball
+constexpr double touchMargin = 0.012;   // m between two bodies that touch
+constexpr double contactMargin = 0.02;  // m, robots
+constexpr double pushersReach = 2.0;    // m to the ball (REFEREE.md section 7)
+constexpr double pushersLead = 0.1;     // m that the pushed one is nearer to the ball
+constexpr double pushingSpeed = 0.05;   // m/s towards the other
+constexpr double immunity = 2.0;        // s after a pushing was given
+constexpr double foulNearBall = 1.0;    // m: a free kick, else only removal
+constexpr double alone = 1.0;           // m
+constexpr double heap = 0.1;            // m that the ball moves in a heap of robots
+constexpr double heapReach = 0.5;       // m
+constexpr double clearTime = 10.0;      // s to leave the ball of a set play
+constexpr double atRest = 0.01;         // m/s
+constexpr double longestEnd = 10.0;     // s that a half waits for the ball
 
 }  // namespace
 
@@ -84,8 +86,7 @@ bool RefereeTable::judgeLines(const BallWay& way) {
   std::array<Point, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), m_now.robots.size());
   for (std::size_t i = 0; i < count; ++i) robots[i] = m_now.robots[i].pose.position;
-  Crossing crossing =
-      crossingOf(m_field, way, m_now.ball, std::span(robots).first(count));
+  Crossing crossing = crossingOf(m_field, way, m_now.ball, std::span(robots).first(count));
   if (crossing.line == Crossing::Line::None) {
     if (isInField(m_field, m_now.ball)) return false;
     // Somebody put it there.
@@ -242,7 +243,7 @@ void RefereeTable::judgePushing(std::size_t robot) {
     const double dx = other.x - pusher.pose.position.x, dy = other.y - pusher.pose.position.y;
     const double d = std::sqrt(dx * dx + dy * dy);
     // The gait that it asks for: its body does not move when the other one stands firm.
-    const double c = std::cos(pusher.pose.yaw), s = std::sin(pusher.pose.yaw);
+    const auto [s, c] = repeatable::sinCos(pusher.pose.yaw);
     const bool walksAtIt = pusher.action != 0 && d > 0.0 &&
                            ((dx * c + dy * s) / d > 0.5 ||
                             (pusher.velocity.x * dx + pusher.velocity.y * dy) / d > pushingSpeed);
@@ -259,8 +260,8 @@ void RefereeTable::judgePushing(std::size_t robot) {
 void RefereeTable::foul(std::size_t robot, PenaltyKind penalty) {
   const Point& at = m_now.robots[robot].pose.position;
   const int team = teamOf(robot);
-  const bool near = within(at, m_now.ball, foulNearBall) && m_game.setPlay == SetPlay::None &&
-                    m_game.ballFree;
+  const bool near =
+      within(at, m_now.ball, foulNearBall) && m_game.setPlay == SetPlay::None && m_game.ballFree;
   if (!near || !m_rules.freeKicks || m_rules.style == RefereeStyle::Humanoid2014) {
     penalise(robot, penalty);
     return;
@@ -306,9 +307,9 @@ void RefereeTable::judgeSetPlay() {
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       const int team = teamOf(i);
       if (!plays(i) || team == m_game.setPlayTeam) continue;
-      const bool keeper = player(i)->goalkeeper &&
-                          -way(team) * m_now.robots[i].pose.position.x >
-                              m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);
+      const bool keeper =
+          player(i)->goalkeeper && -way(team) * m_now.robots[i].pose.position.x >
+                                       m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);
       if (keeper || !within(m_now.robots[i].pose.position, m_now.ball, m_rules.distanceToBall)) {
         continue;
       }

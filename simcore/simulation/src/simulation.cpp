@@ -10,7 +10,6 @@
 #include <simcore/world/parameters.h>
 #include <simcore/world/published_frame.h>
 
-
 namespace pitchboard::sim {
 namespace {
 

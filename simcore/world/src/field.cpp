@@ -17,8 +17,8 @@ struct Ball {
 constexpr Ball fifa1{0.07, 0.205}, fifa3{0.095, 0.31}, fifa5{0.11, 0.43};
 
 // Sizes of the years' rules, from the table in docs/SCENARIOS.md; the published simulator's own
-// drawing comes first. Robots have a radius of about 0.22 of the usual height of their class, and
-// the rules allow 0.275.
+// drawing comes first. Robots have a radius of about 0.22 of the height of their class (0.5 to 0.6
+// m, 0.9 to 1.0 m, 1.3 m); the rules allow 0.275.
 const std::array<FieldSpec, 8>& fields() {
   static const std::array<FieldSpec, 8> all = [] {
     const auto rules = [](const char* name, double length, double width, double border,
@@ -46,11 +46,11 @@ const std::array<FieldSpec, 8>& fields() {
     };
     return std::array<FieldSpec, 8>{
         FieldSpec{},
-        rules("kid-2016", 9, 6, 0.7, 1.8, 1.1, 5, 0, 0, 2.1, 1.5, fifa1, 0.15),
-        rules("all-2017", 9, 6, 0.7, 2.6, 1.8, 5, 0, 0, 2.1, 1.5, fifa1, 0.15),
-        rules("kid-2020", 9, 6, 1, 2.6, 1.2, 3, 2, 5, 1.5, 1.5, fifa1, 0.18),
+        rules("kid-2016", 9, 6, 0.7, 1.8, 1.1, 5, 0, 0, 2.1, 1.5, fifa1, 0.13),
+        rules("all-2017", 9, 6, 0.7, 2.6, 1.8, 5, 0, 0, 2.1, 1.5, fifa1, 0.13),
+        rules("kid-2020", 9, 6, 1, 2.6, 1.2, 3, 2, 5, 1.5, 1.5, fifa1, 0.13),
         rules("adult-2020", 14, 9, 1, 2.6, 1.8, 4, 3, 6, 2.1, 3, fifa5, 0.28),
-        rules("small-2026", 9, 6, 1, 1.8, 1.2, 3, 2, 4, 1.5, 1.5, fifa1, 0.18),
+        rules("small-2026", 9, 6, 1, 1.8, 1.2, 3, 2, 4, 1.5, 1.5, fifa1, 0.13),
         rules("middle-2026", 14, 9, 1, 2.4, 1.5, 4, 3, 6, 2, 3, fifa3, 0.22),
         rules("large-2026", 22, 14, 1, 3.0, 2.0, 4, 3.5, 7, 2.5, 4, fifa5, 0.28),
     };
