@@ -80,6 +80,7 @@ class Health {
 int recordMatch(const Options& options) {
   auto scenario = shared::scenarioFrom(options.match);
   if (!scenario) return reportError(scenario.error());
+  shared::warnOfIgnoredSettings(*scenario);
   scenario->stop.duration =
       options.duration.value_or(scenario->stop.duration.value_or(defaultDuration));
   auto match = link::SimulatedMatch::create(*scenario, {});

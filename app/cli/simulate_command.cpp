@@ -252,6 +252,7 @@ Result<void> simulate(const Arguments& arguments) {
   if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.robots);
   if (!scenario) return tl::unexpected(scenario.error());
 
+  shared::warnOfIgnoredSettings(*scenario);
   link::MatchOptions options;
   options.cognition = cognition->cognition;
   shared::apply(arguments.robots, options);

@@ -33,6 +33,13 @@ std::string checkField(const std::string& text) {
   return field ? std::string() : field.error().text();
 }
 
+std::string checkModel(const std::string& text) {
+  const auto model = text.find('{') == std::string::npos
+                         ? link::loadRobotModel(text)
+                         : link::robotModelFromText(text, "--robot-model");
+  return model ? std::string() : model.error().text();
+}
+
 void addCommunicationOptions(CLI::App& command, Arguments& a) {
   const CLI::Range port(1, 65535);
   command
@@ -159,6 +166,13 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->type_name("NAME|{...}")
       ->capture_default_str()
       ->check(checkField);
+  command
+      .add_option("--robot-model", a.model,
+                  "Which kind of robot this is: a built-in name, a file, or an object as in "
+                  "scenario files; how fast it walks and how far it kicks")
+      ->type_name("NAME|FILE|{...}")
+      ->capture_default_str()
+      ->check(checkModel);
   command.add_option("--particles", a.process.particles, "Localization: at most this many")
       ->type_name("N")
       ->capture_default_str()
@@ -204,6 +218,11 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
   const Result<sim::FieldSpec> field = sim::fieldFromText(a.field, "--field");
   if (!field) return tl::unexpected<Error>(field.error());
   a.process.field = *field;
+  const Result<sim::RobotModel> model = a.model.find('{') == std::string::npos
+                                            ? link::loadRobotModel(a.model)
+                                            : link::robotModelFromText(a.model, "--robot-model");
+  if (!model) return tl::unexpected<Error>(model.error());
+  a.process.model = *model;
   a.process.telemetryPeriod = 1.0 / a.telemetryRate;
   a.process.setMatch(link::MatchNumber{a.match});
   if (a.telemetryPortBase) a.process.telemetryPortBase = *a.telemetryPortBase;

@@ -23,7 +23,7 @@ struct Arguments {
   std::optional<int> matchTurns;  // its place, when a match gives it turns
   // Instead of the match's.
   std::optional<int> telemetryPortBase, teamPortBase, refereePort;
-  std::string field = "published", attack;
+  std::string field = "published", model = "published", attack;
   double telemetryRate = 1.0;  // Hz
   std::optional<int> thoughtsPort;
   link::ProcessOptions process;

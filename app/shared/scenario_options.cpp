@@ -1,7 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <app/scenario_options.h>
 
+#include <cstdio>
+
 namespace pitchboard::shared {
+
+namespace {
+
+/// "NAME", "FILE", "TEAM=NAME" or "TEAM=FILE".
+Result<void> chooseModel(link::Scenario& scenario, const std::string& text) {
+  const TeamColorInfo* only = nullptr;
+  std::string name = text;
+  for (const TeamColorInfo& team : teamColors) {
+    const std::string start = std::string(team.name) + '=';
+    if (!text.starts_with(start)) continue;
+    only = &team;
+    name = text.substr(start.size());
+  }
+  const auto model = link::loadRobotModel(name);
+  if (!model) return tl::unexpected<Error>(model.error());
+  bool any = false;
+  for (link::ScenarioRobot& robot : scenario.robots) {
+    if (only && robot.identity.team != only->color) continue;
+    robot.model = *model;
+    any = true;
+  }
+  if (only && !any) {
+    return failure(ErrorCode::NotFound,
+                   "team " + std::string(only->name) + " has no robot in this scenario",
+                   "--robot-model " + text);
+  }
+  return {};
+}
+
+}  // namespace
 
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
   command.add_option("--scenario", options.scenario, "Built-in name or a JSON file")
@@ -9,9 +41,17 @@ void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
       ->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of all noise; default: the scenario's")
       ->type_name("N");
-  command.add_option("--noise", options.noise, "none, published, paper or realistic")
+  command
+      .add_option("--noise", options.noise,
+                  "none, published, paper, realistic, or robot: each robot has that of its model")
       ->type_name("PRESET");
   command.add_option("--physics", options.physics, "rigid-body or published")->type_name("MODEL");
+  command
+      .add_option(
+          "--robot-model", options.robotModels,
+          "Which kind of robot all are, or those of a team: published, darwin-op, kid-size, "
+          "adult-size or a file, as in --robot-model kid-size --robot-model red=mine.json")
+      ->type_name("[TEAM=]NAME|FILE");
 }
 
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options) {
@@ -22,7 +62,20 @@ Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& o
     if (!noise) return tl::unexpected<Error>(noise.error());
     scenario.settings.noise = *noise;
   }
+  for (const std::string& text : options.robotModels) {
+    if (auto chosen = chooseModel(scenario, text); !chosen) {
+      return tl::unexpected<Error>(chosen.error());
+    }
+  }
   return scenario;
+}
+
+void warnOfIgnoredSettings(const link::Scenario& scenario) {
+  std::vector<sim::RobotModel> models;
+  for (const link::ScenarioRobot& robot : scenario.robots) models.push_back(robot.model);
+  for (const std::string& sentence : sim::ignoredSettings(scenario.settings, models)) {
+    std::fprintf(stderr, "warning: %s\n", sentence.c_str());
+  }
 }
 
 Result<link::Scenario> scenarioFrom(const ScenarioOptions& options) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Ticks per second of the rigid-body model beside a bare Box2D world with the same bodies: robots
-// that walk where their commands send them, ball, posts, walls and nets. Argument: robots.
+// that walk where their commands send them, ball, posts, walls and nets. Argument: robots. Spread
+// out they never meet; in a heap all push towards the middle, and in a scrum towards the ball.
 
 #include <benchmark/benchmark.h>
 #include <box2d/box2d.h>
@@ -21,15 +22,31 @@ using namespace pitchboard::sim;
 constexpr int ticksPerAction = 120;
 constexpr int actions[] = {1, 17, 8, 18, 6, 7};
 
-Pose startOf(int robot) {
-  return {{-4.0 + 1.3 * (robot % 7), -2.2 + 1.4 * (robot / 7)}, 0.7 * robot};
+enum class Crowd { Spread, Heap };
+
+Pose startOf(int robot, Crowd crowd) {
+  if (crowd == Crowd::Spread) {
+    return {{-4.0 + 1.3 * (robot % 7), -2.2 + 1.4 * (robot / 7)}, 0.7 * robot};
+  }
+  // On a spiral, close together and looking at the middle, where the ball is.
+  const double angle = 2.4 * robot;
+  const double away = 0.3 + 0.17 * std::sqrt(robot);
+  return {{away * std::cos(angle), away * std::sin(angle)}, angle + 3.14159};
 }
 
-int actionOf(int robot, std::uint64_t tick) {
+Point ballOf(Crowd crowd) {
+  return crowd == Crowd::Spread ? Point{0.35, 0.1} : Point{0.0, 0.0};
+}
+Velocity ballSpeedOf(Crowd crowd) {
+  return crowd == Crowd::Spread ? Velocity{1.0, 0.5} : Velocity{};
+}
+
+int actionOf(int robot, std::uint64_t tick, Crowd crowd) {
+  if (crowd == Crowd::Heap) return 1;
   return actions[(static_cast<std::uint64_t>(robot) + tick / ticksPerAction) % std::size(actions)];
 }
 
-Simulation makeSimulation(int robots, const NoiseParameters& noise) {
+Simulation makeSimulation(int robots, const NoiseParameters& noise, Crowd crowd) {
   SimulationSettings settings;
   settings.noise = noise;
   Simulation simulation = Simulation::create(settings).value();
@@ -37,15 +54,15 @@ Simulation makeSimulation(int robots, const NoiseParameters& noise) {
     RobotIdentity identity;
     identity.id = {i + 1};
     identity.team = i % 2 == 0 ? TeamColor::Blue : TeamColor::Red;
-    (void)simulation.addRobot(identity, startOf(i));
+    (void)simulation.addRobot(identity, startOf(i, crowd));
   }
   return simulation;
 }
 
-void run(benchmark::State& state, const NoiseParameters& noise) {
+void run(benchmark::State& state, const NoiseParameters& noise, Crowd crowd) {
   const int robots = static_cast<int>(state.range(0));
-  Simulation simulation = makeSimulation(robots, noise);
-  (void)simulation.placeBall({0.35, 0.1}, {1.0, 0.5});
+  Simulation simulation = makeSimulation(robots, noise, crowd);
+  (void)simulation.placeBall(ballOf(crowd), ballSpeedOf(crowd));
   std::vector<RobotCommand> commands(static_cast<std::size_t>(robots));
   std::vector<Percepts> percepts(commands.size());
   for (auto _ : state) {
@@ -53,10 +70,10 @@ void run(benchmark::State& state, const NoiseParameters& noise) {
     if (tick % ticksPerAction == 0) {
       for (int i = 0; i < robots; ++i) {
         auto& command = commands[static_cast<std::size_t>(i)];
-        command.actionA = actionOf(i, tick);
+        command.actionA = actionOf(i, tick, crowd);
         command.actionB = 10;
       }
-      (void)simulation.placeBall(simulation.snapshot().ball, {1.0, 0.5});
+      (void)simulation.placeBall(simulation.snapshot().ball, ballSpeedOf(crowd));
     }
     simulation.step(commands, percepts);
     benchmark::DoNotOptimize(percepts.data());
@@ -65,10 +82,13 @@ void run(benchmark::State& state, const NoiseParameters& noise) {
 }
 
 void rigidBody(benchmark::State& state) {
-  run(state, {});
+  run(state, {}, Crowd::Spread);
+}
+void rigidBodyHeap(benchmark::State& state) {
+  run(state, {}, Crowd::Heap);
 }
 
-void rigidBodyRealisticNoise(benchmark::State& state) {
+NoiseParameters realistic() {
   NoiseParameters noise;
   noise.forward = noise.sideways = 0.0005;
   noise.rotation = 0.002;
@@ -84,10 +104,17 @@ void rigidBodyRealisticNoise(benchmark::State& state) {
   noise.visionDelay = 0.1;
   noise.imuWhite = 0.01;
   noise.imuDrift = 0.0005;
-  run(state, noise);
+  return noise;
 }
 
-void bareBox2D(benchmark::State& state) {
+void rigidBodyRealisticNoise(benchmark::State& state) {
+  run(state, realistic(), Crowd::Spread);
+}
+void rigidBodyHeapRealisticNoise(benchmark::State& state) {
+  run(state, realistic(), Crowd::Heap);
+}
+
+void bare(benchmark::State& state, Crowd crowd) {
   const int robots = static_cast<int>(state.range(0));
   const FieldSpec field;
   b2World world(b2Vec2(0.0F, 0.0F));
@@ -120,22 +147,23 @@ void bareBox2D(benchmark::State& state) {
   };
   std::vector<b2Body*> bodies;
   for (int i = 0; i < robots; ++i) {
-    bodies.push_back(addCircle(startOf(i).position, field.robotRadius, false));
+    bodies.push_back(addCircle(startOf(i, crowd).position, field.robotRadius, false));
   }
-  b2Body* ball = addCircle({0.35, 0.1}, field.ballRadius, true);
+  b2Body* ball = addCircle(ballOf(crowd), field.ballRadius, true);
   ball->SetLinearDamping(3.0F);
   std::vector<b2Vec2> velocities(bodies.size());
   std::uint64_t tick = 0;
   for (auto _ : state) {
     if (tick % ticksPerAction == 0) {
       for (int i = 0; i < robots; ++i) {
-        const int action = actionOf(i, tick);
-        const double yaw = startOf(i).yaw + (action == 6 ? 1.57 : action == 7 ? -1.57 : 0.0);
+        const int action = actionOf(i, tick, crowd);
+        const double yaw = startOf(i, crowd).yaw + (action == 6 ? 1.57 : action == 7 ? -1.57 : 0.0);
         const double speed = action == 17 || action == 18 ? -0.15 : 0.15;
         velocities[static_cast<std::size_t>(i)].Set(static_cast<float>(speed * std::cos(yaw)),
                                                     static_cast<float>(speed * std::sin(yaw)));
       }
-      ball->SetLinearVelocity({1.0F, 0.5F});
+      const Velocity speed = ballSpeedOf(crowd);
+      ball->SetLinearVelocity({static_cast<float>(speed.x), static_cast<float>(speed.y)});
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i]->SetLinearVelocity(velocities[i]);
     world.Step(1.0F / 60.0F, 8, 3);
@@ -144,6 +172,16 @@ void bareBox2D(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
+void bareBox2D(benchmark::State& state) {
+  bare(state, Crowd::Spread);
+}
+void bareBox2DHeap(benchmark::State& state) {
+  bare(state, Crowd::Heap);
+}
+
+BENCHMARK(bareBox2DHeap)->Arg(6)->Arg(22);
+BENCHMARK(rigidBodyHeap)->Arg(6)->Arg(22);
+BENCHMARK(rigidBodyHeapRealisticNoise)->Arg(6)->Arg(22);
 BENCHMARK(bareBox2D)->Arg(1)->Arg(6)->Arg(22);
 BENCHMARK(rigidBody)->Arg(1)->Arg(6)->Arg(22);
 BENCHMARK(rigidBodyRealisticNoise)->Arg(1)->Arg(6)->Arg(22);

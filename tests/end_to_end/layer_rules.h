@@ -32,8 +32,8 @@ inline QStringList all(const QString& library) {
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry", {"wire", "series", "mcap", "session"}},
       {"robotlink",
-       {"blackboard", "processes", "cognition", "scenario", "frame", "match", "live", "session",
-        "report", "conformance"}},
+       {"blackboard", "processes", "models", "cognition", "scenario", "frame", "match", "live",
+        "session", "report", "conformance"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "window"}}};
@@ -48,14 +48,14 @@ inline const QList<Room>& table() {
                   simulation = "simcore/simulation";
     const QString wire = "telemetry/wire", series = "telemetry/series";
     const QString board = "robotlink/blackboard", processes = "robotlink/processes",
-                  cognition = "robotlink/cognition", scenario = "robotlink/scenario",
-                  frame = "robotlink/frame", match = "robotlink/match", live = "robotlink/live",
-                  session = "robotlink/session";
+                  models = "robotlink/models", cognition = "robotlink/cognition",
+                  scenario = "robotlink/scenario", frame = "robotlink/frame",
+                  match = "robotlink/match", live = "robotlink/live", session = "robotlink/session";
     const QStringList below = all("simcore") + all("telemetry");
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};
     QList<Room> made{
-        {base, {}, {"Random123/", "nlohmann/", "tl/"}},
+        {base, {}, {"Random123/", "nlohmann/", "sleef.h", "tl/"}},
         {world, {base}, {"tl/"}},
         {"simcore/rules", {base, world}, {}},
         {physics, {base, world}, {"box2d/"}},
@@ -67,13 +67,14 @@ inline const QList<Room>& table() {
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
         {board, {base, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
+        {models, {base, world, "resources"}, {"nlohmann/"}},
         {cognition, {base, world, wire, board, processes}, {"Eigen/"}},
         {scenario,
-         {base, world, simulation, board, processes, cognition, "resources"},
+         {base, world, simulation, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
         {match,
-         all("simcore") + QStringList{wire, board, processes, cognition, scenario, frame},
+         all("simcore") + QStringList{wire, board, processes, models, cognition, scenario, frame},
          {}},
         {live, {base, world, simulation, wire, series, board, frame}, {}},
         {session,
@@ -84,9 +85,11 @@ inline const QList<Room>& table() {
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
         // What more than one program needs of its command line.
-        {"app/shared", {base, scenario, match}, {"CLI/"}},
+        {"app/shared", {base, models, scenario, match}, {"CLI/"}},
         // A robot's processes know nothing of matches, scenarios, sessions and windows.
-        {"app/robot", {base, world, wire, board, processes, cognition, "app/shared"}, {"CLI/"}},
+        {"app/robot",
+         {base, world, wire, board, processes, models, cognition, "app/shared"},
+         {"CLI/"}},
         {"app/cli", belowUi + QStringList{"app/shared"}, {"CLI/", "nlohmann/"}},
         {"app/studio",
          belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/window", "app/shared"},

@@ -70,7 +70,7 @@ class TestScenario : public QObject {
       scenario.robots[0].identity = {RobotId{1}, TeamColor::Red, 7, false};
       scenario.robots[0].pose = {{angle(random) / 2, angle(random) / 2}, angle(random)};
       scenario.settings.noise.imuWhite = std::abs(angle(random)) / 7;
-      scenario.settings.rigidBody.headSpeed = std::abs(angle(random));
+      scenario.robots[0].model.headSpeed = std::abs(angle(random));
       const auto once = read(scenarioToJson(scenario));
       QVERIFY2(once, once ? "" : once.error().text().c_str());
       QVERIFY(std::abs(once->robots[0].pose.yaw - scenario.robots[0].pose.yaw) <= 1e-15 * 8);
@@ -101,7 +101,7 @@ class TestScenario : public QObject {
     QCOMPARE(s->settings.field.border, 1.0);
     QCOMPARE(s->settings.noise.rotation, radiansFromDegrees(90));
     QCOMPARE(s->settings.noise.forward, 0.002);
-    QCOMPARE(s->settings.rigidBody.fieldOfView, radiansFromDegrees(90));
+    QCOMPARE(s->robots[0].model.fieldOfView, radiansFromDegrees(90));
     QVERIFY(s->settings.afterGoal == sim::AfterGoal::StopClock && !s->clockRunning);
     QCOMPARE(s->clock, 61.5);
     QVERIFY(s->score == (sim::Score{2, 1}));

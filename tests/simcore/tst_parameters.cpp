@@ -71,6 +71,12 @@ class TestParameters : public QObject {
     Numbers ofBody;
     sim::state_values::rigidBody(body, ofBody);
     QVERIFY(same(body, sim::rigidBodyParameters, ofBody));
+    const sim::RobotModel model;
+    Numbers ofModel, ofItsNoise;
+    sim::state_values::robotModel(model, ofModel);
+    sim::state_values::noise(model.noise, ofItsNoise);
+    for (const double* number : ofItsNoise.found) ofModel.found.erase(number);
+    QVERIFY(same(model, sim::robotModelParameters, ofModel));
     const sim::FieldSpec field;
     Numbers ofField;
     sim::state_values::field(field, ofField);
@@ -87,6 +93,7 @@ class TestParameters : public QObject {
     };
     check(sim::noiseParameters);
     check(sim::rigidBodyParameters);
+    check(sim::robotModelParameters);
   }
 
   void theEdgesOfARangeAreAllowedAndNothingBeyond() {
@@ -111,6 +118,8 @@ class TestParameters : public QObject {
           [](const auto& values) { return sim::validate(values); });
     check(sim::rigidBodyParameters, sim::RigidBodySettings{},
           [](const auto& values) { return sim::validate(values); });
+    check(sim::robotModelParameters, sim::RobotModel{},
+          [](const auto& values) { return sim::validate(values); });
     check(std::array{sim::tickRateParameter}, sim::SimulationSettings{},
           [](const auto& values) { return sim::validate(values); });
   }
@@ -133,6 +142,7 @@ class TestParameters : public QObject {
     put("fieldParameters", tableOf(sim::fieldParameters));
     put("noiseParameters", tableOf(sim::noiseParameters));
     put("rigidBodyParameters", tableOf(sim::rigidBodyParameters));
+    put("robotModelParameters", tableOf(sim::robotModelParameters));
     if (qEnvironmentVariableIsSet("PITCHBOARD_WRITE_DOCS")) {
       QVERIFY(file.open(QIODevice::WriteOnly));
       file.write(right.toUtf8());

@@ -75,7 +75,6 @@ class TestRigidBodyBall : public QObject {
     SimulationSettings settings = atRate(rate);
     settings.rigidBody.ballFriction = 1.0;  // so that speeds before and after compare
     settings.afterGoal = AfterGoal::StopClock;
-    settings.rigidBody.robotMass = 200;
     Rig r(settings);
     r.simulation.setClockRunning(false);
     // Each starts at 1 m from contact, straight at it with 4 m/s.
@@ -99,6 +98,9 @@ class TestRigidBodyBall : public QObject {
       r.placeBall(5.2 - 0.09 - 1.0, 0, 4, 0);
     } else {
       r.add({{2, 0}, 1.0});
+      RobotModel heavy;
+      heavy.mass = 200;
+      QVERIFY(r.simulation.setRobotModel({1}, heavy));
       r.placeBall(2 - 0.22 - 1.0, 0, 4, 0);
       wanted = 0.3 * 4 - 4 * 1.3 * 0.2 / 200.2;  // against 200 kg: nearly the restitution
     }

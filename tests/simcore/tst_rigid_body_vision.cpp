@@ -122,6 +122,46 @@ class TestRigidBodyVision : public QObject {
     QCOMPARE(r.percepts[0].ball.lost, std::optional<int>(1));
   }
 
+  void everythingThatIsSeenComesLate() {
+    constexpr int delay = 6;  // ticks of 0.1 s
+    SimulationSettings late;
+    late.noise.visionDelay = 0.1;
+    Rig now, then(late);
+    for (Rig* r : {&now, &then}) {
+      r->add({{0, 0}, 0});
+      r->add({{1.0, 0.3}, 2.0}, 2, TeamColor::Red);
+      r->placeBall(1.5, -0.2, 0.4, 0.1);
+      r->commands[0].actionA = 2;  // turns, so that everything moves in its view
+      r->commands[1].actionA = 1;
+      r->commands[0].actionVision = 2;
+    }
+    std::vector<Percepts> seen;
+    for (int tick = 0; tick < 120; ++tick) {
+      // Corners and the ball as a landmark by turns, asked for alike in the moment of the image
+      // and in that of the answer.
+      now.commands[0].localizationLook = tick / delay % 2;
+      then.commands[0].localizationLook = (tick / delay + 1) % 2;
+      now.step();
+      then.step();
+      seen.push_back(now.percepts[0]);
+      const Percepts& told = then.percepts[0];
+      if (tick < delay) {
+        QVERIFY(!told.robots[1]);
+        QVERIFY(!told.landmarks.bearingsDeg || (*told.landmarks.bearingsDeg)[1] == -999.0);
+        continue;
+      }
+      const Percepts& was = seen[static_cast<std::size_t>(tick - delay)];
+      QCOMPARE(told.robots[1].has_value(), was.robots[1].has_value());
+      if (was.robots[1]) {
+        QCOMPARE(told.robots[1]->distanceCm, was.robots[1]->distanceCm);
+        QCOMPARE(told.robots[1]->angleDeg, was.robots[1]->angleDeg);
+      }
+      QCOMPARE(told.landmarks.bearingsDeg, was.landmarks.bearingsDeg);
+      QCOMPARE(told.landmarks.ballTiltDeg, was.landmarks.ballTiltDeg);
+      QCOMPARE(told.landmarks.ballPanDeg, was.landmarks.ballPanDeg);
+    }
+  }
+
   void delayCanChangeWhileRunning() {
     Rig r;
     r.add({{0, 0}, 0});

@@ -16,10 +16,14 @@
 #include <cmath>
 
 #include <base/angles.h>
+#include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/blackboard/system_v.h>
 #include <robotlink/scenario/scenario.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+
+#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -70,6 +74,50 @@ class TestFieldView : public QObject {
     QTRY_VERIFY(m_controller->frame()->snapshot.ball.y < before.y - 0.3);
     m_controller->edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
+  }
+
+  // From the mouse to the segment that a team's own process reads.
+  void aDragWhileTheMatchPlaysReachesTheBlackboard() {
+    link::MatchOptions options;
+    options.cognition = link::Cognition::None;
+    options.keyBase = testKeyBase();
+    MatchController controller(options);
+    FieldView view(&controller);
+    view.resize(900, 660);
+    view.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&view));
+    auto scenario = link::loadScenario("one-robot");
+    QVERIFY(scenario);
+    scenario->robots[0].behaviour = link::noBehaviour;
+    controller.open(*scenario, false);
+    QTRY_VERIFY(controller.frame() && controller.frame()->robots.size() == 1);
+    const auto board = link::SystemVSegments::open(link::blackboardKey(RobotId{1}, options.keyBase),
+                                                   link::AttachMode::AttachOnly);
+    QVERIFY2(board, board ? "" : board.error().text().c_str());
+    const link::RobotVariables v;
+    const auto yaw = [&] { return static_cast<double>(board->read(v.imuEulerZ)); };
+    const auto ballDistance = [&] { return static_cast<double>(board->read(v.visionBallDist)); };
+    QTRY_VERIFY(std::abs(ballDistance() - 150.0) < 1.0);
+    auto* canvas = view.findChild<QGraphicsView*>();
+    const auto onScreen = [&](const Point& p) {
+      return canvas->viewportTransform().map(QPointF(p.x, p.y)).toPoint();
+    };
+    const auto dragOn = [&](QPoint from, QPoint to, Qt::KeyboardModifiers keys) {
+      QTest::mousePress(canvas->viewport(), Qt::LeftButton, keys, from);
+      for (const QPoint point : {(from + to) / 2, to}) {
+        QMouseEvent move(QEvent::MouseMove, QPointF(point),
+                         canvas->viewport()->mapToGlobal(QPointF(point)), Qt::NoButton,
+                         Qt::LeftButton, keys);
+        QCoreApplication::sendEvent(canvas->viewport(), &move);
+      }
+      QTest::mouseRelease(canvas->viewport(), Qt::LeftButton, keys, to);
+    };
+    // Half a metre nearer to the ball, then a third of a turn: the match goes on all the while.
+    dragOn(onScreen({-1.5, 0.0}), onScreen({-1.0, 0.0}), {});
+    QTRY_VERIFY(std::abs(ballDistance() - 100.0) < 3.0);
+    dragOn(onScreen({-1.0, 0.0}), onScreen({-1.0, 1.0}), Qt::ShiftModifier);
+    QTRY_VERIFY(std::abs(wrapToPi(yaw() - radiansFromDegrees(90))) < 0.06);
+    QVERIFY(!controller.isPaused());
   }
 
   void escapeGivesADragUp() {
@@ -387,12 +435,59 @@ class TestFieldView : public QObject {
     QTRY_VERIFY(near(pose(1), before));
   }
 
-  void ballEditorHasNoHeading() {
+  void shiftDragOfTheBallKicksIt() {
     const Point before = m_controller->frame()->snapshot.ball;
-    QVERIFY(trigger(before, "Ball position…"));
+    const QPoint from = at(before);
+    drag(from, from + QPoint(60, 0), Qt::ShiftModifier);
+    QTRY_VERIFY(m_controller->frame()->snapshot.ballVelocity.x > 0.5);
+    const double metresDrawn = (metres(from + QPoint(60, 0)) - metres(from)).x();
+    QVERIFY(std::abs(m_controller->frame()->snapshot.ballVelocity.x - 2 * metresDrawn) < 0.1);
+    QVERIFY(std::abs(m_controller->frame()->snapshot.ball.x - before.x) < 1e-6);
+    QCOMPARE(m_controller->edits()->undoStack()->undoText(), QString("Kick the ball"));
+    m_controller->edits()->undoStack()->undo();
+    QTRY_COMPARE(m_controller->frame()->snapshot.ballVelocity.x, 0.0);
+  }
+
+  void aGroupKeepsItsFormationAtTheWall() {
+    const Pose one = pose(1), two = pose(2);
+    m_view->select({RobotId{1}, RobotId{2}});
+    const QPoint from = at(one.position);
+    drag(from, QPoint(2, from.y()));
+    QTRY_VERIFY(pose(1).position.x < one.position.x - 0.1);
+    QTRY_VERIFY(std::abs(std::min(pose(1).position.x, pose(2).position.x) + 5.2 - 0.13) < 0.01);
+    QVERIFY(std::abs(pose(1).position.x - pose(2).position.x - one.position.x + two.position.x) <
+            1e-6);
+  }
+
+  void menuOfARobotChangesItsNumberAndModel() {
+    QVERIFY(isChecked(pose(1).position, "1"));
+    QVERIFY(trigger(pose(1).position, "7"));
+    QTRY_COMPARE(m_controller->frame()->robots[0].identity.number, 7);
+    QVERIFY(isChecked(pose(1).position, "Published robot"));
+    QVERIFY(trigger(pose(1).position, "Kid size today"));
+    QTRY_COMPARE(m_controller->frame()->robots[0].radius, 0.19);
+    m_controller->edits()->undoStack()->undo();
+    QTRY_COMPARE(m_controller->frame()->robots[0].radius, 0.0);
+  }
+
+  void ballEditorSetsPlaceAndSpeed() {
+    const Point before = m_controller->frame()->snapshot.ball;
+    QVERIFY(trigger(before, "Place and speed of the ball…"));
+    auto* speed = m_view->findChild<QDoubleSpinBox*>("speed");
+    auto* heading = m_view->findChild<QDoubleSpinBox*>("heading");
+    QVERIFY(speed && heading);
+    speed->setValue(1.5);
+    heading->setValue(90.0);
+    QTest::keyClick(speed, Qt::Key_Return);
+    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ballVelocity.y - 1.5) < 1e-6);
+    QVERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
+  }
+
+  void ballEditorTakesACommaAndIsUndone() {
+    const Point before = m_controller->frame()->snapshot.ball;
+    QVERIFY(trigger(before, "Place and speed of the ball…"));
     auto* y = m_view->findChild<QDoubleSpinBox*>("y");
     QVERIFY(y);
-    QVERIFY(!m_view->findChild<QDoubleSpinBox*>("heading"));
     // With a decimal comma, by its keys.
     y->selectAll();
     QTest::keyClicks(y, QStringLiteral("-1,25"));

@@ -60,16 +60,22 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(xOf(c, id.value), 1.5);
   }
 
-  void movesInQuickSuccessionAreOneCommand() {
+  void nudgesInQuickSuccessionAreOneCommandAndADragIsItsOwn() {
     MatchController c(inside());
     c.open(match(), true);
     QTRY_VERIFY(c.frame());
     const Pose from = c.frame()->robots[0].pose;
     const RobotId id = c.frame()->robots[0].identity.id;
     const Pose middle{{1.0, 1.5}, 0.0}, end{{1.5, 1.5}, 0.0};
-    c.edits()->moveRobots({{id, from, middle}});
-    c.edits()->moveRobots({{id, middle, end}});
+    c.edits()->nudgeRobots({{id, from, middle}});
+    c.edits()->nudgeRobots({{id, middle, end}});
     QCOMPARE(c.edits()->undoStack()->count(), 1);
+    c.edits()->moveRobots({{id, end, from}});
+    c.edits()->nudgeRobots({{id, from, middle}});
+    QCOMPARE(c.edits()->undoStack()->count(), 3);
+    c.edits()->undoStack()->undo();
+    c.edits()->undoStack()->undo();
+    QTRY_COMPARE(xOf(c, id.value), end.position.x);
     c.edits()->undoStack()->undo();
     QTRY_VERIFY(std::abs(xOf(c, id.value) - from.position.x) < 1e-9);
   }
@@ -87,6 +93,55 @@ class TestMatchController : public QObject {
     QTRY_COMPARE(count(c), std::size_t(7));
     c.edits()->undoStack()->undo();
     QTRY_COMPARE(count(c), std::size_t(6));
+  }
+
+  void behavioursNumbersAndModelsAreUndone() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    QUndoStack* stack = c.edits()->undoStack();
+    const std::string before = c.edits()->robot(RobotId{1})->behaviour;
+    c.edits()->setBehaviour({RobotId{1}, RobotId{2}}, QStringLiteral("idle"));
+    QCOMPARE(stack->count(), 1);
+    QTRY_COMPARE(c.frame()->robots[0].board->behaviour, std::string("idle"));
+    stack->undo();
+    QTRY_COMPARE(c.frame()->robots[0].board->behaviour, before);
+    c.edits()->setNumber(RobotId{1}, 9);
+    QTRY_COMPARE(c.frame()->robots[0].identity.number, 9);
+    stack->undo();
+    QTRY_COMPARE(c.frame()->robots[0].identity.number, 1);
+    c.edits()->setNumber(RobotId{1}, 2);  // is worn
+    QCOMPARE(stack->count(), 1);
+    QVERIFY(!stack->canUndo());
+    const sim::RobotModel adult = link::loadRobotModel("adult-size").value();
+    c.edits()->setModel({RobotId{1}}, adult);
+    QTRY_COMPARE(c.frame()->robots[0].radius, adult.radius);
+    QCOMPARE(c.currentMoment().robots[0].model.name, std::string("adult-size"));
+    stack->undo();
+    QTRY_COMPARE(c.frame()->robots[0].radius, 0.0);
+  }
+
+  void physicsAndAnotherScenarioAreUndone() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    QUndoStack* stack = c.edits()->undoStack();
+    const RobotId id = c.frame()->robots[0].identity.id;
+    c.edits()->moveRobots({{id, c.frame()->robots[0].pose, {{1.5, 1.5}, 0.0}}});
+    QTRY_COMPARE(xOf(c, id.value), 1.5);
+    c.edits()->setPhysics(QStringLiteral("published"));
+    QTRY_VERIFY(c.frame() && c.frame()->physics == "published");
+    c.edits()->load(link::loadScenario("one-robot").value(), QStringLiteral("Load it"));
+    QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 1);
+    QCOMPARE(stack->count(), 3);
+    stack->undo();
+    QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 6);
+    QCOMPARE(c.frame()->physics, std::string("published"));
+    stack->undo();
+    QTRY_VERIFY(c.frame() && c.frame()->physics == "rigid-body");
+    QTRY_VERIFY(std::abs(xOf(c, id.value) - 1.5) < 1e-6);
+    stack->undo();
+    QTRY_VERIFY(std::abs(xOf(c, id.value) - 1.5) > 0.1);
   }
 
   void aNumberThatIsTakenIsRefused() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/cognition/path_planner.h>
 
+#include <base/repeatable_math.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,10 +52,11 @@ void PathPlanner::activate(std::size_t obstacle) {
   m_active[obstacle] = 1;
   const Obstacle& o = m_obstacles[obstacle];
   // Circumscribed, so that an edge between two neighbours does not cut the circle.
-  const double radius = o.radius / std::cos(std::numbers::pi / corners) + rim;
+  const double radius = o.radius / repeatable::cos(std::numbers::pi / corners) + rim;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / corners;
-    const Point p{o.centre.x + radius * std::cos(angle), o.centre.y + radius * std::sin(angle)};
+    const Point p{o.centre.x + radius * repeatable::cos(angle),
+                  o.centre.y + radius * repeatable::sin(angle)};
     const auto covering =
         std::find_if(m_obstacles.begin(), m_obstacles.end(),
                      [&](const Obstacle& c) { return distance(p, c.centre) < c.radius; });

@@ -5,6 +5,7 @@
 
 #include <base/lined_json.h>
 #include <robotlink/match/simulated_match.h>
+#include <robotlink/models/robot_models.h>
 #include <robotlink/processes/robot_config.h>
 #include <simcore/world/field_text.h>
 
@@ -297,6 +298,7 @@ ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
   options.robot = seat.id;
   options.behaviour = seat.behaviour;
   options.field = m_scenario.settings.field;
+  options.model = *robotModel(seat.id);
   options.seed = m_scenario.settings.seed;
   if (m_options.tellSides) options.facesLeft = identityOf(seat.id).imuStartsAt180;
   options.teamChannel = teamChannel(seat.id);
@@ -329,7 +331,9 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       "--seed",
       std::to_string(m_scenario.settings.seed),
       "--field",
-      sim::fieldToText(m_scenario.settings.field)};
+      sim::fieldToText(m_scenario.settings.field),
+      "--robot-model",
+      robotModelToText(*robotModel(seat.id))};
   if (m_options.tellSides) {
     command.insert(command.end(), {"--attack", identity.imuStartsAt180 ? "left" : "right"});
   }

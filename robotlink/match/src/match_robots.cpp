@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Robots coming and going: blackboards, claims, processes; and the match as a scenario.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include <base/lined_json.h>
@@ -11,6 +12,18 @@
 #include "match_seat.h"
 
 namespace pitchboard::link {
+namespace {
+
+/// Whether the robot's processes were told something else: how it walks, kicks and how wide it is.
+bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
+  const auto told = [](const sim::RobotModel& m) {
+    return std::array{m.forwardFast, m.forwardSlow,    m.backwardFast, m.backwardSlow, m.sideways,
+                      m.turn,        m.aroundSideways, m.aroundTurn,   m.kickReach,    m.radius};
+  };
+  return told(a) != told(b) || a.kickLaw != b.kickLaw;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const ScenarioRobot& robot) {
   const RobotId id = robot.identity.id;
@@ -52,7 +65,8 @@ Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) cons
 
 Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
   if (auto free = checkShirt(robot.identity); !free) return free;
-  if (auto added = m_simulation.addRobot(robot.identity, robot.pose); !added) return added;
+  if (auto added = m_simulation.addRobot(robot.identity, robot.pose, robot.model); !added)
+    return added;
   const RobotId id = robot.identity.id;
   const auto giveUp = [&](const Error& error) {
     m_processes->remove(id);
@@ -238,6 +252,27 @@ Result<void> SimulatedMatch::setIdentity(const sim::RobotIdentity& identity) {
   return started;
 }
 
+const sim::RobotModel* SimulatedMatch::robotModel(RobotId id) const {
+  const auto index = m_simulation.indexOf(id);
+  return index ? &m_simulation.state().models[*index] : nullptr;
+}
+
+Result<void> SimulatedMatch::setRobotModel(RobotId id, const sim::RobotModel& model) {
+  const sim::RobotModel* known = robotModel(id);
+  Seat* changed = seat(id);
+  if (!changed || !known) {
+    return failure(ErrorCode::NotFound,
+                   "there is no robot " + std::to_string(id.value) + " on the field");
+  }
+  const sim::RobotModel before = *known;
+  if (before == model) return {};
+  if (auto set = m_simulation.setRobotModel(id, model); !set) return set;
+  if (!isToldOtherwise(before, model)) return {};
+  auto started = restartProcesses(*changed);
+  if (!started) (void)m_simulation.setRobotModel(id, before);
+  return started;
+}
+
 Scenario SimulatedMatch::toScenario() const {
   const sim::WorldState& state = m_simulation.state();
   const sim::Snapshot now = m_simulation.snapshot();
@@ -267,7 +302,8 @@ Scenario SimulatedMatch::toScenario() const {
     moment.robots.push_back({robot.identity,
                              {inside(robot.pose.position), robot.pose.yaw},
                              m_seats[i]->behaviour,
-                             m_seats[i]->choice});
+                             m_seats[i]->choice,
+                             state.models[i]});
   }
 
   moment.writes =

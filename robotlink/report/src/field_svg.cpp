@@ -83,9 +83,10 @@ void drawField(Drawing& d, const sim::FieldSpec& f) {
 std::string fieldSvg(const MatchFrame& frame) {
   Drawing d(frame.field);
   drawField(d, frame.field);
-  const double radius = 100 * frame.field.robotRadius;
   for (const RobotFrame& robot : frame.robots) {
     const char* fill = teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
+    const double radius_m = robot.radius > 0.0 ? robot.radius : frame.field.robotRadius;
+    const double radius = 100 * radius_m;
     const std::string stroke = std::string("stroke=\"") + fill + "\" stroke-width=\"3\"";
     if (frame.truthKnown && robot.board) {
       if (const auto belief = believedPose(frame.field, *robot.board)) {
@@ -94,7 +95,7 @@ std::string fieldSvg(const MatchFrame& frame) {
       }
     }
     const Point& at = robot.pose.position;
-    const double reach = 1.9 * frame.field.robotRadius;
+    const double reach = 1.9 * radius_m;
     d.line(at, {at.x + reach * std::cos(robot.pose.yaw), at.y + reach * std::sin(robot.pose.yaw)},
            stroke + " stroke-linecap=\"round\"");
     d.circle(at, radius,

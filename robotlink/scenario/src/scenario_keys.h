@@ -18,8 +18,4 @@ inline constexpr std::array<std::string_view, 2> afterGoalNames{"stop_clock", "c
 /// Of the form of scenario files; the only one so far.
 constexpr int scenarioVersion = 1;
 
-/// Degrees that radiansFromDegrees() turns into exactly `radians` where such a double exists (the
-/// shortest to write), else the nearest.
-double fileDegrees(double radians);
-
 }  // namespace pitchboard::link

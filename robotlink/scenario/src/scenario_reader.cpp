@@ -7,6 +7,7 @@
 #include <base/read_file.h>
 #include <resources/resources.h>
 #include <robotlink/cognition/process_registry.h>
+#include <robotlink/models/robot_models.h>
 #include <simcore/world/field_text.h>
 
 #include "referee_rules_json.h"
@@ -29,6 +30,22 @@ constexpr std::array<std::string_view, 9> builtInNames{
     "match",     "match-4v4",   "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
     "one-robot", "match-11v11", "empty"};
 
+/// What version 0.2 called a number of a robot, in "rigid_body".
+struct EarlierKey {
+  std::string_view key;
+  std::string_view now;
+};
+constexpr std::array<EarlierKey, 10> earlierKeys{{{"max_acceleration", "max_acceleration"},
+                                                  {"max_yaw_acceleration", "max_yaw_acceleration"},
+                                                  {"robot_mass", "mass"},
+                                                  {"fall_impulse", "fall_impulse"},
+                                                  {"get_up_time", "get_up_front"},
+                                                  {"get_up_time", "get_up_back"},
+                                                  {"head_speed", "head_speed"},
+                                                  {"field_of_view", "field_of_view"},
+                                                  {"pan_limit", "pan_limit"},
+                                                  {"vision_range", "vision_range"}}};
+
 std::string resourcePath(std::string_view name) {
   return "scenarios/" + std::string(name) + ".json";
 }
@@ -39,10 +56,10 @@ class Reader {
       : m_report(report),
         m_catalog(catalog),
         m_root(report, root, "",
-               {"version",   "name",   "title",      "description",   "physics",
-                "tick_rate", "seed",   "after_goal", "clock_running", "clock",
-                "score",     "field",  "noise",      "rigid_body",    "ball",
-                "robots",    "writes", "stop",       "referee",       "runtime"}) {}
+               {"version", "name",        "title",         "description", "physics", "tick_rate",
+                "seed",    "after_goal",  "clock_running", "clock",       "score",   "field",
+                "noise",   "robot_model", "rigid_body",    "ball",        "robots",  "writes",
+                "stop",    "referee",     "runtime"}) {}
 
   Scenario read() {
     readVersion();
@@ -57,6 +74,7 @@ class Reader {
     readSettings();
     readField();
     readNoise();
+    readRobotModel();
     readRigidBody();
     m_scenario.settings.referee = readReferee(m_report, m_root, "referee");
     readBall();
@@ -116,36 +134,38 @@ class Reader {
   }
 
   void readNoise() {
-    const JsonNode* node = m_root.find("noise");
-    if (!node) return;
-    const std::vector<std::string> presets = noisePresets();
-    const std::vector<std::string_view> known(presets.begin(), presets.end());
-    sim::NoiseParameters& noise = m_scenario.settings.noise;
-    const auto take = [&](std::size_t index) {
-      if (auto preset = noisePreset(known[index])) noise = *preset;
-    };
-    if (node->kind == JsonNode::Kind::Text) {
-      if (const auto preset = m_root.choice("noise", known, "noise preset")) take(*preset);
-      return;
+    if (const auto noise = link::readNoise(m_root, m_report, "noise")) {
+      m_scenario.settings.noise = *noise;
     }
-    if (node->kind != JsonNode::Kind::Object) {
-      m_root.fail("noise", "must be the name of a noise preset, in quotes, or an object in braces");
-      return;
+  }
+
+  void readRobotModel() {
+    if (const auto model = link::readRobotModel(m_root, m_report, "robot_model")) {
+      m_usualModel = *model;
     }
-    const JsonObject object(m_report, *node, "noise",
-                            sim::withKeys({"preset"}, sim::noiseParameters));
-    if (const auto preset = object.choice("preset", known, "noise preset")) take(*preset);
-    sim::readNumbers(object, sim::noiseParameters, noise);
   }
 
   void readRigidBody() {
+    sim::RigidBodySettings& body = m_scenario.settings.rigidBody;
+    body.ballMass = m_scenario.settings.field.ballMass;
     const JsonNode* node = m_root.find("rigid_body");
     if (!node) return;
-    const JsonObject object(m_report, *node, "rigid_body",
-                            sim::withKeys({sim::fallsSwitch.key}, sim::rigidBodyParameters));
-    sim::RigidBodySettings& body = m_scenario.settings.rigidBody;
+    std::vector<std::string_view> keys =
+        sim::withKeys({sim::fallsSwitch.key}, sim::rigidBodyParameters);
+    // Until version 0.2 numbers of the robot stood here, too: those of every robot.
+    for (const EarlierKey& earlier : earlierKeys) keys.push_back(earlier.key);
+    const JsonObject object(m_report, *node, "rigid_body", keys);
     body.falls = object.boolean(sim::fallsSwitch.key, body.falls);
     sim::readNumbers(object, sim::rigidBodyParameters, body);
+    for (const EarlierKey& earlier : earlierKeys) {
+      for (const auto& parameter : sim::robotModelParameters) {
+        const bool same = parameter.key == earlier.now;
+        if (!same || !object.find(earlier.key)) continue;
+        m_usualModel.*parameter.member =
+            parameter.stored(object.number(earlier.key, 0.0, sim::rangeOf(parameter)));
+        m_usualModel.name = "custom";
+      }
+    }
   }
 
   void readBall() {
@@ -216,7 +236,7 @@ class Reader {
     const std::string path = "robots[" + std::to_string(index) + "]";
     const JsonObject object(m_report, node, path,
                             {"team", "number", "x", "y", "heading", "behaviour", "id",
-                             "imu_starts_at_180", "blackboard", "runtime"});
+                             "imu_starts_at_180", "blackboard", "runtime", "model"});
     for (const std::string_view key : {"team", "number", "x", "y"}) object.require(key);
     std::vector<std::string_view> teams;
     for (const TeamColorInfo& color : teamColors) teams.push_back(color.name);
@@ -251,6 +271,7 @@ class Reader {
       }
     }
     readBlackboard(object, robot.identity.id);
+    robot.model = link::readRobotModel(object, m_report, "model").value_or(m_usualModel);
     m_scenario.robots.push_back(std::move(robot));
   }
 
@@ -328,6 +349,7 @@ class Reader {
   JsonReport& m_report;
   const VariableCatalog& m_catalog;
   JsonObject m_root;
+  sim::RobotModel m_usualModel;  // of robots that name none
   Scenario m_scenario;
 };
 

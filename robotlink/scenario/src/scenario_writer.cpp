@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/models/model_json.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/world/field_text.h>
 #include <simcore/world/referee_parameters.h>
@@ -13,53 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whole numbers without a decimal point, as people write them.
-Json number(double value) {
-  constexpr double exact = 9007199254740992.0;  // 2^53
-  if (value > -exact && value < exact) {
-    const auto whole = static_cast<std::int64_t>(value);
-    if (static_cast<double>(whole) == value && !(value == 0.0 && std::signbit(value))) return whole;
-  }
-  return value;
-}
-
-template <class Values, std::size_t N>
-Json differences(const std::array<sim::Parameter<Values>, N>& parameters, const Values& value,
-                 const Values& base) {
-  Json out = Json::object();
-  for (const auto& p : parameters) {
-    const double stored = value.*p.member;
-    if (stored == base.*p.member) continue;
-    out[p.key] = number(p.unit.angle ? fileDegrees(stored) : stored);
-  }
-  return out;
-}
-
 Json fieldToJson(const sim::FieldSpec& field) {
   const std::string text = sim::fieldToText(field);
   return text.starts_with('{') ? Json::parse(text, nullptr, false) : Json(text);
 }
 
-Json noiseToJson(const sim::NoiseParameters& noise) {
-  std::string base;
-  Json least;
-  for (const std::string& name : noisePresets()) {
-    const auto preset = noisePreset(name);
-    if (!preset) continue;
-    if (*preset == noise) return name;
-    Json changed = differences(sim::noiseParameters, noise, *preset);
-    if (base.empty() || changed.size() < least.size()) {
-      base = name;
-      least = std::move(changed);
-    }
-  }
-  Json out{{"preset", base}};
-  out.update(least);
-  return out;
-}
-
-Json rigidBodyToJson(const sim::RigidBodySettings& body) {
-  const sim::RigidBodySettings usual;
+Json rigidBodyToJson(const sim::RigidBodySettings& body, const sim::FieldSpec& field) {
+  sim::RigidBodySettings usual;
+  usual.ballMass = field.ballMass;
   Json out = Json::object();
   if (body.falls != usual.falls) out[sim::fallsSwitch.key] = body.falls;
   out.update(differences(sim::rigidBodyParameters, body, usual));
@@ -101,7 +63,7 @@ std::size_t addBlackboards(const Scenario& scenario, Json& robots) {
           board.contains(write.variable)) {
         break;
       }
-      board[write.variable] = number(write.value);
+      board[write.variable] = jsonNumber(write.value);
       ++taken;
     }
     if (!board.empty()) robots[i]["blackboard"] = std::move(board);
@@ -113,10 +75,11 @@ Json robotToJson(const ScenarioRobot& robot, std::size_t index) {
   const TeamColorInfo& team = info(robot.identity.team);
   Json out{{"team", team.name},
            {"number", robot.identity.number},
-           {"x", number(robot.pose.position.x)},
-           {"y", number(robot.pose.position.y)},
-           {"heading", number(fileDegrees(robot.pose.yaw))},
+           {"x", jsonNumber(robot.pose.position.x)},
+           {"y", jsonNumber(robot.pose.position.y)},
+           {"heading", jsonNumber(fileDegrees(robot.pose.yaw))},
            {"behaviour", robot.behaviour}};
+  if (robot.model != sim::RobotModel{}) out["model"] = robotModelToJson(robot.model);
   if (robot.identity.id.value != static_cast<int>(index) + 1) out["id"] = robot.identity.id.value;
   if (robot.identity.imuStartsAt180 != team.facesLeft) {
     out["imu_starts_at_180"] = robot.identity.imuStartsAt180;
@@ -134,24 +97,24 @@ std::string scenarioToJson(const Scenario& scenario) {
            {"title", scenario.title},
            {"description", scenario.description},
            {"physics", settings.physics},
-           {"tick_rate", number(settings.tickRate)},
+           {"tick_rate", jsonNumber(settings.tickRate)},
            {"seed", settings.seed},
            {"after_goal", afterGoalNames[static_cast<std::size_t>(settings.afterGoal)]},
            {"clock_running", scenario.clockRunning}};
-  if (scenario.clock != 0.0) out["clock"] = number(scenario.clock);
+  if (scenario.clock != 0.0) out["clock"] = jsonNumber(scenario.clock);
   if (scenario.score != sim::Score{}) {
     out["score"] = {{"left", scenario.score.left}, {"right", scenario.score.right}};
   }
   out["field"] = fieldToJson(settings.field);
   out["noise"] = noiseToJson(settings.noise);
-  if (Json body = rigidBodyToJson(settings.rigidBody); !body.empty()) {
+  if (Json body = rigidBodyToJson(settings.rigidBody, settings.field); !body.empty()) {
     out["rigid_body"] = std::move(body);
   }
   if (settings.referee) out["referee"] = refereeToJson(*settings.referee);
-  Json ball{{"x", number(scenario.ball.x)}, {"y", number(scenario.ball.y)}};
+  Json ball{{"x", jsonNumber(scenario.ball.x)}, {"y", jsonNumber(scenario.ball.y)}};
   if (scenario.ballVelocity != Velocity{}) {
-    ball["vx"] = number(scenario.ballVelocity.x);
-    ball["vy"] = number(scenario.ballVelocity.y);
+    ball["vx"] = jsonNumber(scenario.ballVelocity.x);
+    ball["vy"] = jsonNumber(scenario.ballVelocity.y);
   }
   out["ball"] = std::move(ball);
 
@@ -168,16 +131,16 @@ std::string scenarioToJson(const Scenario& scenario) {
   Json writes = Json::array();
   for (std::size_t i = onBoards; i < scenario.writes.size(); ++i) {
     const BlackboardWrite& write = scenario.writes[i];
-    Json entry{{"time", number(write.time)}};
+    Json entry{{"time", jsonNumber(write.time)}};
     if (write.robot.value != 0) entry["robot"] = write.robot.value;
     entry["variable"] = write.variable;
-    entry["value"] = number(write.value);
+    entry["value"] = jsonNumber(write.value);
     writes.push_back(std::move(entry));
   }
   if (!writes.empty()) out["writes"] = std::move(writes);
 
   Json stop = Json::object();
-  if (scenario.stop.duration) stop["duration"] = number(*scenario.stop.duration);
+  if (scenario.stop.duration) stop["duration"] = jsonNumber(*scenario.stop.duration);
   if (scenario.stop.goal) stop["goal"] = true;
   if (scenario.stop.ballOut) stop["ball_out"] = true;
   if (!stop.empty()) out["stop"] = std::move(stop);

@@ -97,7 +97,12 @@ class Maker {
   }
 
   void takeRobot(const RobotFrame& robot) {
-    ScenarioRobot out{robot.identity, robot.pose, m_options.behaviour};
+    ScenarioRobot out{robot.identity, robot.pose, m_options.behaviour, {}};
+    if (m_options.base) {
+      for (const ScenarioRobot& known : m_options.base->robots) {
+        if (known.identity.id == robot.identity.id) out.model = known.model;
+      }
+    }
     const std::string name = robot.identity.name();
     if (!robot.poseKnown()) {
       note(name + " never said where it is; it is left out.");

@@ -15,8 +15,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-// 2: the referee and the game.
-constexpr std::uint64_t version = 2;
+// 2: the referee and the game; 3: kinds of robots, past moments.
+constexpr std::uint64_t version = 3;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within these; a match never comes near them.
 constexpr double farthest = 1e6;
@@ -60,7 +60,7 @@ class Writer {
 
 class Reader {
  public:
-  Reader(CodecReader& in, std::uint64_t form) : m_in(in), m_form(form) {}
+  explicit Reader(CodecReader& in) : m_in(in) {}
   void value(std::string& text) {
     const std::uint64_t size = m_in.varint();
     if (size > longestText) return m_in.fail();
@@ -86,6 +86,9 @@ class Reader {
     value = static_cast<sim::AfterGoal>(
         limited(static_cast<std::uint64_t>(sim::AfterGoal::CentreBall)));
   }
+  void value(sim::KickLaw& value) {
+    value = static_cast<sim::KickLaw>(limited(static_cast<std::uint64_t>(sim::KickLaw::Foot)));
+  }
   void value(TeamColor& value) { value = static_cast<TeamColor>(limited(teamColors.size() - 1)); }
   void value(sim::Posture& value) {
     value = static_cast<sim::Posture>(limited(static_cast<std::uint64_t>(sim::Posture::GettingUp)));
@@ -98,7 +101,7 @@ class Reader {
   template <class T>
   bool present(std::optional<T>& value) {
     value.reset();
-    if (m_form > 1 && limited(1) == 1) value.emplace();
+    if (limited(1) == 1) value.emplace();
     return value.has_value();
   }
   template <class T>
@@ -128,7 +131,6 @@ class Reader {
     return 0;
   }
   CodecReader& m_in;
-  std::uint64_t m_form;
 };
 
 bool isNear(double value) {
@@ -139,7 +141,7 @@ bool plausible(const sim::RigidBodyState& state) {
   for (const sim::RigidRobot& r : state.robots) {
     for (const double value : {r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed,
                                r.sidewaysSpeed, r.yawRate, r.velocity.x, r.velocity.y, r.headYaw,
-                               r.getUpRemaining, r.imuZero, r.imuDrift}) {
+                               r.getUpRemaining, r.kickElapsed, r.imuZero, r.imuDrift}) {
       if (!isNear(value)) return false;
     }
   }
@@ -190,14 +192,20 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::ParseError, "this is not a saved state of a match");
   }
   const std::uint64_t found = in.varint();
-  if (in.ok() && (found < 1 || found > version)) {
+  if (in.ok() && found < version) {
+    return failure(ErrorCode::Unsupported,
+                   "this state was saved by an earlier version of Pitchboard (form " +
+                       std::to_string(found) + ", this program reads " + std::to_string(version) +
+                       "); the recording can be looked at, but not gone on from exactly");
+  }
+  if (in.ok() && found != version) {
     return failure(ErrorCode::Unsupported,
                    "this state was saved by a later version of Pitchboard (form " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
                        "); use that version");
   }
   sim::WorldState state;
-  Reader reader(in, found);
+  Reader reader(in);
   sim::visitValues(state, reader);
   if (!in.ok()) {
     return failure(ErrorCode::ParseError, "the saved state is cut or damaged",

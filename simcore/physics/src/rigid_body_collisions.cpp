@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <base/repeatable_math.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::sim::rigid {
@@ -38,7 +39,7 @@ void Collisions::updateRolling(double friction, double dt) {
   if (friction >= 1.0) return;
   // The published ball slows, then moves: v·f/60 + v·f²/60 + ... = v·f/(60·(1 − f)). Scaled to this
   // whole way, exponential decay gives the same place at every tick rate, and at 60 Hz each tick's.
-  m_rolling.kept = std::pow(friction, dt * published_frame::framesPerSecond);
+  m_rolling.kept = repeatable::pow(friction, dt * published_frame::framesPerSecond);
   const double way = friction / ((1.0 - friction) * published_frame::framesPerSecond);
   m_rolling.mean = way * (1.0 - m_rolling.kept) / dt;
 }
@@ -71,10 +72,12 @@ void Collisions::findNeighbours(const Tick& tick) {
   m_slots.assign(robots + 1, 0);
   m_x.resize(robots);
   m_y.resize(robots);
+  m_radius.resize(robots);
   double farthest = 0.0;
   for (std::size_t i = 0; i < robots; ++i) {
     m_x[i] = tick.state.robots[i].pose.position.x;
     m_y[i] = tick.state.robots[i].pose.position.y;
+    m_radius[i] = robotRadius(tick.world, i);
     const Velocity& v = tick.motions[i].velocity;
     const double wayX = std::abs(v.x) * tick.dt + std::abs(tick.motions[i].noise.x);
     const double wayY = std::abs(v.y) * tick.dt + std::abs(tick.motions[i].noise.y);
@@ -101,14 +104,14 @@ void Collisions::findNeighbours(const Tick& tick) {
     }
   };
   for (std::size_t i = 0; i < robots; ++i) {
-    addObstacles(i, {m_x[i], m_y[i]}, field.robotRadius, reach, 0.0);
+    addObstacles(i, {m_x[i], m_y[i]}, m_radius[i], reach, 0.0);
   }
   addObstacles(robots, ball, field.ballRadius, ballReach,
                tick.settings().rigidBody.postRestitution);
 
-  const double touching = 2.0 * field.robotRadius;
-  const double near = touching + 2.0 * reach + margin;
-  const double near2 = near * near;
+  const double largest = robots > 0 ? *std::max_element(m_radius.begin(), m_radius.end()) : 0.0;
+  const double nearest = 2.0 * largest + 2.0 * reach + margin;
+  const double near2 = nearest * nearest;
   for (std::size_t i = 1; i < robots; ++i) {
     const double x = m_x[i];
     const double y = m_y[i];
@@ -120,15 +123,16 @@ void Collisions::findNeighbours(const Tick& tick) {
     }
     for (std::size_t j = 0; any > 0 && j < i; ++j) {
       const double distance = length(m_x[j] - x, m_y[j] - y);
-      if (distance >= near) continue;
+      const double touching = m_radius[i] + m_radius[j];
+      if (distance >= touching + 2.0 * reach + margin) continue;
       const std::size_t first = addBody(tick, j);
       m_pairs.push_back({first, addBody(tick, i), false, 0.0, std::max(0.0, touching - distance)});
     }
   }
 
-  const double ballTouching = field.robotRadius + field.ballRadius;
-  const double ballNear = ballTouching + reach + ballReach + margin;
   for (std::size_t i = 0; i < robots; ++i) {
+    const double ballTouching = m_radius[i] + field.ballRadius;
+    const double ballNear = ballTouching + reach + ballReach + margin;
     const double dx = m_x[i] - ball.x;
     const double dy = m_y[i] - ball.y;
     if (dx * dx + dy * dy >= ballNear * ballNear) continue;
@@ -143,7 +147,7 @@ void Collisions::separate(const Tick& tick) {
   const FieldSpec& field = tick.settings().field;
   const std::size_t ball = tick.state.robots.size();
   const auto radius = [&](const MovingBody& moving) {
-    return moving.body == ball ? field.ballRadius : field.robotRadius;
+    return moving.body == ball ? field.ballRadius : m_radius[moving.body];
   };
   const double parting = partingSpeed * tick.dt;
   for (NearPair& pair : m_pairs) pair.overlap = std::max(0.0, pair.overlap - parting);
@@ -215,7 +219,7 @@ void Collisions::advance(Tick& tick) {
     m_obstacles = obstaclesOf(m_field);
   }
   const std::size_t robots = tick.state.robots.size();
-  m_solver.prepare(settings, m_obstacles, robots);
+  m_solver.prepare(tick.world, m_obstacles);
   if (m_bodies.capacity() <= robots) {
     m_bodies.reserve(robots + 1);
     m_pairs.reserve((robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount);
@@ -224,9 +228,14 @@ void Collisions::advance(Tick& tick) {
 
   RigidBall& ball = tick.state.ball;
   const double ballSpeed = length(ball.velocity.x, ball.velocity.y);
-  const double slowed = ballSpeed > fastestBall ? fastestBall / ballSpeed : 1.0;
-  m_ballVelocity = {ball.velocity.x * slowed * m_rolling.mean,
-                    ball.velocity.y * slowed * m_rolling.mean};
+  const double speed = std::min(ballSpeed, fastestBall);
+  // Grass takes its share evenly over the tick, or over the part in which the ball still rolls.
+  const double loss = settings.rigidBody.ballDeceleration * tick.dt;
+  const double rolls = loss > speed ? speed / loss : 1.0;
+  const double mean =
+      speed > 0.0 ? (speed - 0.5 * loss * rolls) * rolls * m_rolling.mean / ballSpeed : 0.0;
+  const double left = speed > 0.0 ? std::max(0.0, speed - loss) * m_rolling.kept / ballSpeed : 0.0;
+  m_ballVelocity = {ball.velocity.x * mean, ball.velocity.y * mean};
   tick.ball = {
       ball.position,
       {ball.position.x + m_ballVelocity.x * tick.dt, ball.position.y + m_ballVelocity.y * tick.dt}};
@@ -257,7 +266,7 @@ void Collisions::advance(Tick& tick) {
     ball.position.y += m_ballVelocity.y * tick.dt;
   }
   // The mean speed says the speed at the end; a ball without any way (friction 0) stands still.
-  const double end = m_rolling.mean > 0.0 ? m_rolling.kept / m_rolling.mean : 0.0;
+  const double end = mean > 0.0 ? left / mean : 0.0;
   ball.velocity = {m_ballVelocity.x * end, m_ballVelocity.y * end};
 }
 

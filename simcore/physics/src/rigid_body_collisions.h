@@ -39,10 +39,10 @@ class Collisions {
   Obstacles m_obstacles;
   Rolling m_rolling;
   ContactSolver m_solver;
-  Velocity m_ballVelocity;           ///< mean over the tick, m/s
-  std::vector<double> m_x, m_y;      ///< of the robots, side by side for the search
-  std::vector<MovingBody> m_bodies;  ///< those that may touch something
-  std::vector<std::size_t> m_slots;  ///< per body: index into m_bodies + 1, 0 = not there
+  Velocity m_ballVelocity;                 ///< mean over the tick, m/s
+  std::vector<double> m_x, m_y, m_radius;  ///< of the robots, side by side for the search
+  std::vector<MovingBody> m_bodies;        ///< those that may touch something
+  std::vector<std::size_t> m_slots;        ///< per body: index into m_bodies + 1, 0 = not there
   std::vector<NearPair> m_pairs;
 };
 

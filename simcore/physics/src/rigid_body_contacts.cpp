@@ -73,8 +73,29 @@ class ProxyCollector {
 }  // namespace
 
 struct ContactSolver::World {
-  World(const SimulationSettings& settings, const Obstacles& obstacles, std::size_t robotCount)
-      : field(settings.field), constants(settings.rigidBody), robots(robotCount) {
+  struct Size {
+    double radius = 0.0, mass = 0.0;
+    bool operator==(const Size&) const = default;
+  };
+  static Size sizeOf(const WorldState& state, std::size_t robot) {
+    return {robotRadius(state, robot), state.models[robot].mass};
+  }
+  bool fits(const WorldState& state) const {
+    if (robots != state.robots.size() || !(field == state.settings.field) ||
+        !(constants == state.settings.rigidBody)) {
+      return false;
+    }
+    for (std::size_t i = 0; i < robots; ++i) {
+      if (!(sizes[i] == sizeOf(state, i))) return false;
+    }
+    return true;
+  }
+
+  World(const WorldState& state, const Obstacles& obstacles)
+      : field(state.settings.field),
+        constants(state.settings.rigidBody),
+        robots(state.robots.size()) {
+    for (std::size_t i = 0; i < robots; ++i) sizes.push_back(sizeOf(state, i));
     world.SetContactFilter(&filter);
     world.SetContactListener(&impulses);
     world.SetWarmStarting(false);
@@ -103,8 +124,8 @@ struct ContactSolver::World {
     def.awake = false;
     b2Body* body = world.CreateBody(&def);
     b2CircleShape shape;
-    shape.m_radius = units(isBall ? field.ballRadius : field.robotRadius);
-    const double mass = isBall ? constants.ballMass : constants.robotMass;
+    shape.m_radius = units(isBall ? field.ballRadius : sizes[index].radius);
+    const double mass = isBall ? constants.ballMass : sizes[index].mass;
     b2FixtureDef fixture;
     fixture.shape = &shape;
     fixture.density =
@@ -169,6 +190,7 @@ struct ContactSolver::World {
   FieldSpec field;
   RigidBodySettings constants;
   std::size_t robots;
+  std::vector<Size> sizes;
   std::vector<b2Body*> bodies;           // robots, then the ball
   std::vector<b2FixtureProxy*> proxies;  // robots, ball, obstacles
 };
@@ -176,11 +198,8 @@ struct ContactSolver::World {
 ContactSolver::ContactSolver() = default;
 ContactSolver::~ContactSolver() = default;
 
-void ContactSolver::prepare(const SimulationSettings& settings, const Obstacles& obstacles,
-                            std::size_t robots) {
-  const bool fits = m_world && m_world->robots == robots && m_world->field == settings.field &&
-                    m_world->constants == settings.rigidBody;
-  if (!fits) m_world = std::make_unique<World>(settings, obstacles, robots);
+void ContactSolver::prepare(const WorldState& world, const Obstacles& obstacles) {
+  if (!m_world || !m_world->fits(world)) m_world = std::make_unique<World>(world, obstacles);
 }
 
 void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs,

@@ -6,6 +6,10 @@
 // in its order, and are all destroyed afterwards, without warm starting or sleep. The world's own
 // search for contacts, whose order depends on the history of its tree, is refused by a filter.
 //
+// Box2D has no public way to say which contacts there are and in which order, and without that a
+// saved moment would not go on as it did. So this file casts away the const of the world's own
+// contact manager: the one place, with the version of Box2D that the build asks for (2.4).
+//
 // Box2D's tolerances are made for things of 0.1 to 10 units: a metre is ten units here.
 
 #include <memory>
@@ -43,9 +47,9 @@ class ContactSolver {
   ContactSolver();
   ~ContactSolver();
 
-  /// Makes sure that the world fits. Allocates only when the field, the constants or the number of
-  /// robots changed.
-  void prepare(const SimulationSettings& settings, const Obstacles& obstacles, std::size_t robots);
+  /// Makes sure that the bodies fit. Allocates only when the field, the constants, or the number,
+  /// size or weight of the robots changed.
+  void prepare(const WorldState& world, const Obstacles& obstacles);
 
   /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch.
   void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt);

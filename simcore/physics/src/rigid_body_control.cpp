@@ -13,27 +13,10 @@ namespace {
 
 constexpr int getUpFromFront = 15;
 constexpr int getUpFromBack = 16;
-constexpr int walkSlow = 8;
-constexpr int leastFixedB = 10;         // from here on action 8 walks at the speed of the table
-constexpr double slowStep = 0.015;      // cm per frame for each unit of DECISION_ACTION_B
+constexpr int kickRight = 4;
+constexpr int weakKickRight = 21;
+constexpr int weakKickLeft = 22;
 constexpr double strongestKick = 10.0;  // cm per frame
-
-struct Speeds {
-  double forward = 0.0;   // m/s
-  double sideways = 0.0;  // m/s, left
-  double turn = 0.0;      // rad/s
-};
-
-Speeds speedsOf(const RigidRobot& robot) {
-  if (!robot.inMotion) return {};
-  const Action* action = findAction(robot.action);
-  if (!action) return {};
-  double front = action->front;
-  if (robot.action == walkSlow && robot.actionB < leastFixedB) front = slowStep * robot.actionB;
-  return {published_frame::mpsFromCmPerFrame(front),
-          published_frame::mpsFromCmPerFrame(action->drift),
-          radiansFromDegrees(action->turn) * published_frame::framesPerSecond};
-}
 
 double approach(double value, double target, double most) {
   return value < target ? std::min(value + most, target) : std::max(value - most, target);
@@ -45,31 +28,80 @@ void select(RigidRobot& robot, int code, int b, bool inMotion) {
   robot.inMotion = inMotion;
 }
 
+/// The ball as a kicking robot has it before its feet.
+struct BallAtFeet {
+  double distance = 0.0;  // m
+  double bearing = 0.0;   // rad, left positive
+};
+
+/// Speed of the ball by the published law, m/s; 0 when the kick does not reach it.
+double publishedKick(const Tick& tick, std::size_t index, const KickRule& rule,
+                     const BallAtFeet& ball) {
+  const double bearing = degreesFromRadians(ball.bearing);
+  if (bearing <= -rule.rightLimit || bearing >= rule.leftLimit) return 0.0;
+  const double reach_cm = published_frame::cmFromMetres(robotRadius(tick.world, index));
+  const double gap = (reach_cm - published_frame::cmFromMetres(ball.distance)) / rule.strength;
+  const double force =
+      std::min(strongestKick, rule.strength * repeatable::exp(-gap * gap)) * rule.share;
+  return force < leastKickForce ? 0.0 : published_frame::mpsFromCmPerFrame(force);
+}
+
+/// The same by the foot's law: full speed in front of the foot, less beside it.
+double footKick(const RobotModel& model, const Action& action, const BallAtFeet& ball) {
+  if (ball.distance > model.kickReach) return 0.0;
+  const double y = ball.distance * repeatable::sin(ball.bearing);
+  const bool pass = action.kick.direction != 0.0;
+  const bool weak = action.code == weakKickRight || action.code == weakKickLeft;
+  const bool right = action.code == kickRight || action.code == weakKickRight;
+  // The foot's own side is positive; a pass takes the foot that is nearer.
+  const double side = pass ? (y < 0.0 ? -1.0 : 1.0) : (right ? -1.0 : 1.0);
+  const double bearing = side * ball.bearing;
+  if (bearing > model.kickOuter || bearing < -(pass ? model.kickOuter : model.kickInner)) {
+    return 0.0;
+  }
+  const double beside = (side * y - model.footSide) / model.footWidth;
+  const double most = pass ? model.passSpeed : weak ? model.weakKickSpeed : model.kickSpeed;
+  return most * repeatable::exp(-0.5 * beside * beside);
+}
+
 void kick(Tick& tick, std::size_t index, const Action& action) {
   const RigidRobot& robot = tick.state.robots[index];
+  const RobotModel& model = tick.model(index);
   RigidBall& ball = tick.state.ball;
-  const KickRule& rule = action.kick;
   const double dx = ball.position.x - robot.pose.position.x;
   const double dy = ball.position.y - robot.pose.position.y;
-  const double bearing = degreesFromRadians(wrapped(std::atan2(dy, dx) - robot.pose.yaw));
-  if (bearing <= -rule.rightLimit || bearing >= rule.leftLimit) return;
+  const BallAtFeet before{repeatable::hypot(dx, dy),
+                          wrapped(repeatable::atan2(dy, dx) - robot.pose.yaw)};
+  const double hit = model.kickLaw == KickLaw::Foot
+                         ? footKick(model, action, before)
+                         : publishedKick(tick, index, action.kick, before);
+  if (hit <= 0.0) return;
 
-  const double distance_cm = published_frame::cmFromMetres(std::sqrt(dx * dx + dy * dy));
-  const double reach_cm = published_frame::cmFromMetres(tick.settings().field.robotRadius);
-  const double gap = (reach_cm - distance_cm) / rule.strength;
-  const double force = std::min(strongestKick, rule.strength * std::exp(-gap * gap)) * rule.share;
-  if (force < leastKickForce) return;
-
-  const NoiseParameters& noise = tick.settings().noise;
+  const NoiseParameters& noise = tick.noise(index);
   CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Kick,
                        tick.world.tick);
-  const double speed =
-      std::max(0.0, random.normal(published_frame::mpsFromCmPerFrame(force), noise.kickSpeed));
+  const double speed = std::max(0.0, random.normal(hit, noise.kickSpeed));
   const double direction =
-      random.normal(robot.pose.yaw + radiansFromDegrees(rule.direction), noise.kickAngle);
-  ball.velocity = {speed * std::cos(direction), speed * std::sin(direction)};
+      random.normal(robot.pose.yaw + radiansFromDegrees(action.kick.direction), noise.kickAngle);
+  const repeatable::SinCos way = repeatable::sinCos(direction);
+  ball.velocity = {speed * way.cos, speed * way.sin};
   ++tick.world.statistics[index].kicks;
   tick.report(EventKind::Kick, index, action.code);
+}
+
+/// The robot stands and swings; control listens to nobody until it is done.
+void stepKick(Tick& tick, std::size_t index, ControlPercept& percept) {
+  RigidRobot& robot = tick.state.robots[index];
+  const RobotModel& model = tick.model(index);
+  const double contact = std::min(model.kickContact, model.kickTime);
+  const double before = robot.kickElapsed;
+  robot.kickElapsed += tick.dt;
+  const Action* action = findAction(robot.action);
+  if (action && before <= contact && robot.kickElapsed > contact) kick(tick, index, *action);
+  if (robot.kickElapsed < model.kickTime) return;
+  percept.finishedAction = robot.action;
+  robot.kickElapsed = -1.0;
+  select(robot, 0, 0, false);
 }
 
 void selectUpright(Tick& tick, std::size_t index, const RobotCommand& command,
@@ -95,6 +127,11 @@ void selectUpright(Tick& tick, std::size_t index, const RobotCommand& command,
       select(robot, code, command.actionB, true);
       break;
     case ActionKind::Kick:
+      if (tick.model(index).kickTime > 0.0) {
+        select(robot, code, 0, false);
+        robot.kickElapsed = 0.0;
+        break;
+      }
       kick(tick, index, *action);
       select(robot, 0, 0, false);
       percept.finishedAction = code;
@@ -102,10 +139,11 @@ void selectUpright(Tick& tick, std::size_t index, const RobotCommand& command,
   }
 }
 
-void beginGettingUp(RigidRobot& robot, double time) {
-  select(robot, liesOnFront(robot) ? getUpFromFront : getUpFromBack, 0, false);
+void beginGettingUp(RigidRobot& robot, const RobotModel& model) {
+  const bool front = liesOnFront(robot);
+  select(robot, front ? getUpFromFront : getUpFromBack, 0, false);
   robot.posture = Posture::GettingUp;
-  robot.getUpRemaining = time;
+  robot.getUpRemaining = front ? model.getUpFront : model.getUpBack;
 }
 
 void stepDown(Tick& tick, std::size_t index, const RobotCommand& command, ControlPercept& percept) {
@@ -114,7 +152,7 @@ void stepDown(Tick& tick, std::size_t index, const RobotCommand& command, Contro
     robot.getUpRemaining -= tick.dt;
     const int right = liesOnFront(robot) ? getUpFromFront : getUpFromBack;
     if (command.actionA == right || robot.getUpRemaining <= 0.0) {
-      beginGettingUp(robot, tick.settings().rigidBody.getUpTime);
+      beginGettingUp(robot, tick.model(index));
     }
     return;
   }
@@ -133,7 +171,7 @@ struct MotionNoise {
 };
 
 MotionNoise drawNoise(const Tick& tick, std::size_t index) {
-  const NoiseParameters& noise = tick.settings().noise;
+  const NoiseParameters& noise = tick.noise(index);
   if (!tick.state.robots[index].inMotion) return {};
   if (noise.forward == 0.0 && noise.sideways == 0.0 && noise.rotation == 0.0) return {};
   CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Motion,
@@ -147,16 +185,17 @@ MotionNoise drawNoise(const Tick& tick, std::size_t index) {
 }
 
 void setMotion(Tick& tick, std::size_t index) {
-  const RigidBodySettings& settings = tick.settings().rigidBody;
+  const RobotModel& model = tick.model(index);
   RigidRobot& robot = tick.state.robots[index];
   Motion& motion = tick.motions[index];
-  const Speeds target = speedsOf(robot);
-  const double gain = settings.maxAcceleration * tick.dt;
+  const GaitSpeed target =
+      robot.inMotion ? gaitSpeed(model, robot.action, robot.actionB) : GaitSpeed{};
+  const double gain = model.maxAcceleration * tick.dt;
   motion.forward = robot.forwardSpeed;
   motion.sideways = robot.sidewaysSpeed;
   robot.forwardSpeed = approach(robot.forwardSpeed, target.forward, gain);
-  robot.sidewaysSpeed = approach(robot.sidewaysSpeed, target.sideways, gain);
-  robot.yawRate = approach(robot.yawRate, target.turn, settings.maxYawAcceleration * tick.dt);
+  robot.sidewaysSpeed = approach(robot.sidewaysSpeed, target.left, gain);
+  robot.yawRate = approach(robot.yawRate, target.turn, model.maxYawAcceleration * tick.dt);
 
   const MotionNoise noise = drawNoise(tick, index);
   motion.turned = robot.yawRate * tick.dt + noise.turn;
@@ -184,10 +223,13 @@ void stepControl(Tick& tick, std::size_t index, const RobotCommand& command, Per
     stepDown(tick, index, command, percept.control);
     // Localization must not believe that a robot on the ground walks.
     percept.control.action = robot.action;
+  } else if (robot.kickElapsed >= 0.0) {
+    stepKick(tick, index, percept.control);
   } else if (robot.action != command.actionA) {
     selectUpright(tick, index, command, percept.control);
   }
-  percept.control.moving = robot.inMotion || robot.posture == Posture::GettingUp ? 1 : 0;
+  const bool busy = robot.posture == Posture::GettingUp || robot.kickElapsed >= 0.0;
+  percept.control.moving = robot.inMotion || busy ? 1 : 0;
   setMotion(tick, index);
 }
 
@@ -196,11 +238,12 @@ void applyFall(Tick& tick, std::size_t index) {
   if (isDown(robot)) return;
   const Motion& motion = tick.motions[index];
   const Velocity& hit = motion.impulse;
-  const double most = tick.settings().rigidBody.fallImpulse;
+  const double most = tick.model(index).fallImpulse;
   if (hit.x * hit.x + hit.y * hit.y <= most * most) return;
   const double along = hit.x * motion.heading.cos() + hit.y * motion.heading.sin();
   robot.posture = along > 0.0 ? Posture::OnFront : Posture::OnBack;
   robot.getUpRemaining = lyingTime;
+  robot.kickElapsed = -1.0;
   select(robot, 0, 0, false);
   ++tick.world.statistics[index].falls;
   tick.report(EventKind::Fall, index);

@@ -16,7 +16,7 @@ struct YawErrors {
 };
 
 YawErrors drawErrors(const Tick& tick, std::size_t index) {
-  const NoiseParameters& noise = tick.settings().noise;
+  const NoiseParameters& noise = tick.noise(index);
   if (noise.imuWhite == 0.0 && noise.imuDrift == 0.0) return {};
   CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Imu,
                        tick.world.tick);

@@ -34,9 +34,10 @@ class RigidBodyModel final : public PhysicsModel {
   bool owns(const WorldState& world) const override {
     const auto* state = std::get_if<RigidBodyState>(&world.physics);
     if (!state || state->robots.size() != world.robots.size()) return false;
-    const std::size_t delay = rigid::delayTicks(world.settings);
-    return std::all_of(state->robots.begin(), state->robots.end(),
-                       [&](const RigidRobot& robot) { return robot.sightings.size() == delay; });
+    return state->past.size() == rigid::longestDelay(world) &&
+           std::all_of(state->past.begin(), state->past.end(), [&](const PastMoment& moment) {
+             return moment.robots.size() == world.robots.size();
+           });
   }
 
   BallWay move(WorldState& world, std::span<const RobotCommand> commands,
@@ -70,18 +71,20 @@ class RigidBodyModel final : public PhysicsModel {
       rigid::stepImu(tick, i, commands[i], percepts[i].imu);
       rigid::stepVision(tick, i, commands[i], percepts[i]);
     }
+    rigid::remember(tick);
   }
 
   void robotAdded(WorldState& world, const Pose& pose) const override {
     RigidRobot robot;
     robot.pose = {pose.position, rigid::wrapped(pose.yaw)};
-    robot.sightings.resize(rigid::delayTicks(world.settings));
     stateOf(world).robots.push_back(std::move(robot));
   }
 
   void robotRemoved(WorldState& world, std::size_t index) const override {
-    auto& robots = stateOf(world).robots;
-    robots.erase(robots.begin() + static_cast<std::ptrdiff_t>(index));
+    RigidBodyState& state = stateOf(world);
+    const auto offset = static_cast<std::ptrdiff_t>(index);
+    state.robots.erase(state.robots.begin() + offset);
+    for (PastMoment& moment : state.past) moment.robots.erase(moment.robots.begin() + offset);
   }
 
   void placeRobot(WorldState& world, std::size_t index, const Pose& pose) const override {
@@ -94,7 +97,7 @@ class RigidBodyModel final : public PhysicsModel {
 
   void placeHead(WorldState& world, std::size_t index, double headYaw) const override {
     RigidRobot& robot = stateOf(world).robots[index];
-    const double limit = world.settings.rigidBody.panLimit;
+    const double limit = world.models[index].panLimit;
     robot.headYaw = std::clamp(rigid::wrapped(headYaw - robot.pose.yaw), -limit, limit);
   }
 
@@ -104,15 +107,7 @@ class RigidBodyModel final : public PhysicsModel {
   }
 
   void settingsChanged(WorldState& world) const override {
-    const std::size_t delay = rigid::delayTicks(world.settings);
-    for (RigidRobot& robot : stateOf(world).robots) {
-      auto& ring = robot.sightings;
-      if (ring.size() == delay) continue;
-      // Until the new delay has passed, vision goes on with what it saw last.
-      BallSighting last;
-      if (!ring.empty() && world.tick > 0) last = ring[(world.tick - 1) % ring.size()];
-      ring.assign(delay, last);
-    }
+    rigid::resizePast(world, stateOf(world));
   }
 
   Pose robotPose(const WorldState& world, std::size_t index) const override {

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <vector>
 
+#include <base/repeatable_math.h>
 #include <simcore/world/ball_way.h>
 #include <simcore/world/event.h>
 #include <simcore/world/world_state.h>
@@ -26,8 +27,9 @@ class Heading {
   void set(double yaw) {
     if (std::bit_cast<std::uint64_t>(yaw) == std::bit_cast<std::uint64_t>(m_yaw)) return;
     m_yaw = yaw;
-    m_cos = std::cos(yaw);
-    m_sin = std::sin(yaw);
+    const repeatable::SinCos both = repeatable::sinCos(yaw);
+    m_cos = both.cos;
+    m_sin = both.sin;
   }
   double cos() const { return m_cos; }
   double sin() const { return m_sin; }
@@ -60,6 +62,10 @@ struct Tick {
   BallWay ball = {};        ///< set by the collisions
 
   const SimulationSettings& settings() const { return world.settings; }
+  const RobotModel& model(std::size_t robot) const { return world.models[robot]; }
+  const NoiseParameters& noise(std::size_t robot) const {
+    return settings().noise.ofModel ? model(robot).noise : settings().noise;
+  }
   void report(EventKind kind, std::size_t robot, int value = 0) {
     events.push_back({kind, world.tick, world.robots[robot].id, value});
   }

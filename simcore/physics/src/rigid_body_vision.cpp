@@ -17,6 +17,8 @@ namespace {
 constexpr int lookForBall = 0;
 constexpr int lookForTeamMates = 1;
 constexpr int lookForOpponents = 2;
+constexpr int lookForBallAsLandmark = 0;  // DECISION_LOCALIZATION
+constexpr int lookForCorners = 1;
 constexpr double pointingTolerance = std::numbers::pi / 180.0;  // "±1°", as published
 constexpr double landmarkHalfView = std::numbers::pi / 2.0;     // of the body, as published
 constexpr double unseenLandmark = -999.0;
@@ -27,87 +29,130 @@ struct Polar {
   double bearing = 0.0;  // from the body's heading, left positive
 };
 
-Polar polar(const RigidRobot& robot, double dx, double dy) {
-  return {std::sqrt(dx * dx + dy * dy), wrapped(std::atan2(dy, dx) - robot.pose.yaw)};
-}
+/// What a robot's vision looks at: the world as it was when the image was taken.
+class Image {
+ public:
+  Image(const Tick& tick, std::size_t index) : m_tick(tick), m_index(index) {
+    const std::size_t delay = delayTicks(tick.world, index);
+    const auto& past = tick.state.past;
+    if (delay > 0) m_past = &past[(tick.world.tick + past.size() - delay) % past.size()];
+    const RigidRobot& now = tick.state.robots[index];
+    m_self = m_past ? m_past->robots[index] : PastRobot{true, isDown(now), now.pose, now.headYaw};
+    const RobotModel& model = tick.model(index);
+    m_camera = m_self.pose.position;
+    if (model.cameraForward == 0.0) return;
+    const repeatable::SinCos heading = repeatable::sinCos(m_self.pose.yaw);
+    m_camera.x += model.cameraForward * heading.cos;
+    m_camera.y += model.cameraForward * heading.sin;
+  }
+
+  /// Whether there is an image at all.
+  bool taken() const { return m_self.there && !m_self.down; }
+  double headYaw() const { return m_self.headYaw; }
+  Point ball() const { return m_past ? m_past->ball : m_tick.state.ball.position; }
+  /// Where another robot stood, if it was on the field.
+  std::optional<Point> robot(std::size_t other) const {
+    if (!m_past) return m_tick.state.robots[other].pose.position;
+    const PastRobot& seen = m_past->robots[other];
+    return seen.there ? std::optional<Point>(seen.pose.position) : std::nullopt;
+  }
+
+  /// From the lens, along the ground.
+  Polar fromLens(const Point& place) const { return polar(m_camera, place); }
+  /// As vision tells it, of something whose middle is `height` above the ground.
+  Polar told(const Point& place, const Polar& seen, double height) const {
+    const RobotModel& model = m_tick.model(m_index);
+    if (!model.fromCamera) {
+      return model.cameraForward == 0.0 ? seen : polar(m_self.pose.position, place);
+    }
+    return {repeatable::hypot(seen.distance, model.cameraHeight - height), seen.bearing};
+  }
+
+ private:
+  Polar polar(const Point& from, const Point& place) const {
+    const double dx = place.x - from.x;
+    const double dy = place.y - from.y;
+    return {repeatable::hypot(dx, dy), wrapped(repeatable::atan2(dy, dx) - m_self.pose.yaw)};
+  }
+
+  const Tick& m_tick;
+  std::size_t m_index;
+  const PastMoment* m_past = nullptr;  // none: what is seen is the present
+  PastRobot m_self;
+  Point m_camera;
+
+ public:
+  /// Where something stands if it is within range and field of view of the head.
+  std::optional<Polar> inView(const Point& place, double height) const {
+    const RobotModel& model = m_tick.model(m_index);
+    const double dx = place.x - m_camera.x;
+    const double dy = place.y - m_camera.y;
+    if (dx * dx + dy * dy >= model.visionRange * model.visionRange) return {};
+    const Polar seen = fromLens(place);
+    if (std::abs(wrapped(seen.bearing - headYaw())) >= model.fieldOfView / 2.0) return {};
+    return told(place, seen, height);
+  }
+};
 
 CounterRandom randomOf(const Tick& tick, std::size_t index, NoiseStream stream) {
   return {tick.settings().seed, tick.world.robots[index].id.value, stream, tick.world.tick};
 }
 
-/// Where something stands if it is within range and field of view of the head.
-std::optional<Polar> inView(const Tick& tick, const RigidRobot& robot, const Point& place) {
-  const RigidBodySettings& settings = tick.settings().rigidBody;
-  const double dx = place.x - robot.pose.position.x;
-  const double dy = place.y - robot.pose.position.y;
-  if (dx * dx + dy * dy >= settings.visionRange * settings.visionRange) return {};
-  const Polar seen = polar(robot, dx, dy);
-  if (std::abs(wrapped(seen.bearing - robot.headYaw)) >= settings.fieldOfView / 2.0) return {};
-  return seen;
-}
-
-void search(const Tick& tick, RigidRobot& robot) {
-  const RigidBodySettings& settings = tick.settings().rigidBody;
-  const double step = settings.headSpeed * tick.dt;
+void search(const Tick& tick, std::size_t index, RigidRobot& robot) {
+  const RobotModel& model = tick.model(index);
+  const double step = model.headSpeed * tick.dt;
   robot.headYaw += robot.panRight ? -step : step;
-  if (std::abs(robot.headYaw) < settings.panLimit) return;
-  robot.headYaw = std::clamp(robot.headYaw, -settings.panLimit, settings.panLimit);
+  if (std::abs(robot.headYaw) < model.panLimit) return;
+  robot.headYaw = std::clamp(robot.headYaw, -model.panLimit, model.panLimit);
   robot.panRight = robot.headYaw > 0.0;
 }
 
-BallSighting lookAtBall(const Tick& tick, std::size_t index) {
-  const RigidRobot& robot = tick.state.robots[index];
-  const auto seen = inView(tick, robot, tick.state.ball.position);
+std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, const Image& image) {
+  const auto seen = image.inView(image.ball(), tick.settings().field.ballRadius);
   if (!seen) return {};
-  const NoiseParameters& noise = tick.settings().noise;
+  const NoiseParameters& noise = tick.noise(index);
   if (noise.missedDetection == 0.0 && noise.visionDistance == 0.0 && noise.visionBearing == 0.0) {
-    return {true, seen->distance, seen->bearing};
+    return seen;
   }
   CounterRandom random = randomOf(tick, index, NoiseStream::BallVision);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
       std::max(0.0, random.normal(seen->distance, noise.visionDistance * seen->distance));
-  return {true, distance, wrapped(random.normal(seen->bearing, noise.visionBearing))};
-}
-
-/// Puts a sighting into the ring and takes out the one that the delay has let through.
-BallSighting delayed(const Tick& tick, RigidRobot& robot, const BallSighting& now) {
-  if (robot.sightings.empty()) return now;
-  BallSighting& slot = robot.sightings[tick.world.tick % robot.sightings.size()];
-  const BallSighting then = slot;
-  slot = now;
-  return then;
+  return Polar{distance, wrapped(random.normal(seen->bearing, noise.visionBearing))};
 }
 
 /// Turns the head to what was seen; true when it points there.
-bool follow(const Tick& tick, RigidRobot& robot, double bearing) {
-  const RigidBodySettings& settings = tick.settings().rigidBody;
-  const double goal = std::clamp(bearing, -settings.panLimit, settings.panLimit);
-  const double step = settings.headSpeed * tick.dt;
+bool follow(const Tick& tick, std::size_t index, RigidRobot& robot, double bearing) {
+  const RobotModel& model = tick.model(index);
+  const double goal = std::clamp(bearing, -model.panLimit, model.panLimit);
+  const double step = model.headSpeed * tick.dt;
   robot.panRight = goal < robot.headYaw;
   robot.headYaw += std::clamp(goal - robot.headYaw, -step, step);
   return std::abs(goal - robot.headYaw) <= pointingTolerance;
 }
 
-void publishBall(const Tick& tick, RigidRobot& robot, const BallSighting& sighting,
+void publishBall(const Tick& tick, std::size_t index, const Image& image,
                  const RobotCommand& command, Percepts& percept) {
-  percept.ball.lost = sighting.seen ? 0 : 1;
-  if (!sighting.seen) return;
-  percept.ball.distanceCm = published_frame::cmFromMetres(sighting.distance);
-  percept.ball.angleDeg = degreesFromRadians(sighting.bearing);
+  const auto ball = lookAtBall(tick, index, image);
+  percept.ball.lost = ball ? 0 : 1;
+  if (!ball) return;
+  percept.ball.distanceCm = published_frame::cmFromMetres(ball->distance);
+  percept.ball.angleDeg = degreesFromRadians(ball->bearing);
   percept.ball.panDeg = percept.ball.angleDeg;
-  if (follow(tick, robot, sighting.bearing) && command.searchOn != 0) percept.searchOn = 0;
+  RigidRobot& robot = tick.state.robots[index];
+  if (follow(tick, index, robot, ball->bearing) && command.searchOn != 0) percept.searchOn = 0;
 }
 
-void lookAtRobots(const Tick& tick, std::size_t index, bool teamMates, Percepts& percept) {
-  const RigidRobot& robot = tick.state.robots[index];
-  const NoiseParameters& noise = tick.settings().noise;
+void lookAtRobots(const Tick& tick, std::size_t index, const Image& image, bool teamMates,
+                  Percepts& percept) {
+  const NoiseParameters& noise = tick.noise(index);
   CounterRandom random = randomOf(tick, index, NoiseStream::RobotVision);
   const std::size_t most = std::min<std::size_t>(tick.state.robots.size(), Percepts::maxSeenRobots);
   for (std::size_t other = 0; other < most; ++other) {
     const bool mate = tick.world.robots[other].team == tick.world.robots[index].team;
     if (other == index || mate != teamMates) continue;
-    const auto seen = inView(tick, robot, tick.state.robots[other].pose.position);
+    const auto place = image.robot(other);
+    const auto seen = place ? image.inView(*place, 0.0) : std::nullopt;
     if (!seen) continue;
     if (noise.missedDetection > 0.0 && random.uniform() < noise.missedDetection) continue;
     const double distance = std::max(0.0, random.normal(seen->distance, noise.robotDistance));
@@ -117,9 +162,9 @@ void lookAtRobots(const Tick& tick, std::size_t index, bool teamMates, Percepts&
   }
 }
 
-void lookAtCorners(const Tick& tick, std::size_t index, LandmarkPercept& percept) {
-  const RigidRobot& robot = tick.state.robots[index];
-  const NoiseParameters& noise = tick.settings().noise;
+void lookAtCorners(const Tick& tick, std::size_t index, const Image& image,
+                   LandmarkPercept& percept) {
+  const NoiseParameters& noise = tick.noise(index);
   const double x = tick.settings().field.halfLength();
   const double y = tick.settings().field.halfWidth();
   const std::array<Point, 4> corners{{{-x, y}, {x, y}, {-x, -y}, {x, -y}}};
@@ -127,29 +172,37 @@ void lookAtCorners(const Tick& tick, std::size_t index, LandmarkPercept& percept
   std::array<double, 4> bearings{};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     bearings[i] = unseenLandmark;
-    const Polar corner =
-        polar(robot, corners[i].x - robot.pose.position.x, corners[i].y - robot.pose.position.y);
-    if (std::abs(corner.bearing) >= landmarkHalfView) continue;
-    if (random.uniform() >= noise.landmarkProbability) continue;
+    // Whether it is seen is drawn first: most are not, and directions cost more than draws.
+    if (noise.landmarkProbability < 1.0 && random.uniform() >= noise.landmarkProbability) continue;
+    const Polar seen = image.fromLens(corners[i]);
+    if (std::abs(seen.bearing) >= landmarkHalfView) continue;
+    const Polar corner = image.told(corners[i], seen, 0.0);
     bearings[i] = degreesFromRadians(random.normal(corner.bearing, noise.landmarkBearing));
   }
   percept.bearingsDeg = bearings;
 }
 
+void unseenLandmarks(const RobotCommand& command, LandmarkPercept& percept) {
+  if (command.localizationLook == lookForCorners) {
+    percept.bearingsDeg = {unseenLandmark, unseenLandmark, unseenLandmark, unseenLandmark};
+  } else if (command.localizationLook == lookForBallAsLandmark) {
+    percept.ballTiltDeg = unseenBall;
+    percept.ballPanDeg = unseenBall;
+  }
+}
+
 /// The published VISION_TILT_DEG: the ball's distance as landmark vision sees it, with the whole
 /// front of the body as its view.
-void lookAtBallAsLandmark(const Tick& tick, std::size_t index, LandmarkPercept& percept) {
-  const RigidRobot& robot = tick.state.robots[index];
-  const Motion& motion = tick.motions[index];
-  const NoiseParameters& noise = tick.settings().noise;
-  const double dx = tick.state.ball.position.x - robot.pose.position.x;
-  const double dy = tick.state.ball.position.y - robot.pose.position.y;
-  if (dx * motion.heading.cos() + dy * motion.heading.sin() <= 0.0) {
+void lookAtBallAsLandmark(const Tick& tick, std::size_t index, const Image& image,
+                          LandmarkPercept& percept) {
+  const NoiseParameters& noise = tick.noise(index);
+  const Polar seen = image.fromLens(image.ball());
+  if (std::abs(seen.bearing) >= landmarkHalfView) {
     percept.ballTiltDeg = unseenBall;
     percept.ballPanDeg = unseenBall;
     return;
   }
-  const Polar ball = polar(robot, dx, dy);
+  const Polar ball = image.told(image.ball(), seen, tick.settings().field.ballRadius);
   CounterRandom random = randomOf(tick, index, NoiseStream::Landmarks);
   const double distance =
       std::max(0.0, random.normal(ball.distance, noise.visionDistance * ball.distance));
@@ -157,44 +210,70 @@ void lookAtBallAsLandmark(const Tick& tick, std::size_t index, LandmarkPercept& 
   percept.ballPanDeg = degreesFromRadians(random.normal(ball.bearing, noise.visionBearing));
 }
 
-void unseenLandmarks(const RobotCommand& command, LandmarkPercept& percept) {
-  if (command.localizationLook == 1) {
-    percept.bearingsDeg = {unseenLandmark, unseenLandmark, unseenLandmark, unseenLandmark};
-  } else if (command.localizationLook == 0) {
-    percept.ballTiltDeg = unseenBall;
-    percept.ballPanDeg = unseenBall;
-  }
-}
-
 }  // namespace
 
-std::size_t delayTicks(const SimulationSettings& settings) {
-  return static_cast<std::size_t>(std::lround(settings.noise.visionDelay * settings.tickRate));
+std::size_t delayTicks(const WorldState& world, std::size_t index) {
+  const SimulationSettings& settings = world.settings;
+  const NoiseParameters& noise =
+      settings.noise.ofModel ? world.models[index].noise : settings.noise;
+  return static_cast<std::size_t>(std::lround(noise.visionDelay * settings.tickRate));
+}
+
+std::size_t longestDelay(const WorldState& world) {
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < world.models.size(); ++i) {
+    longest = std::max(longest, delayTicks(world, i));
+  }
+  return longest;
 }
 
 void stepVision(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {
   RigidRobot& robot = tick.state.robots[index];
-  if (isDown(robot)) {
-    delayed(tick, robot, {});
+  if (!isDown(robot) && command.searchOn == 1) search(tick, index, robot);
+  const Image image(tick, index);
+  if (isDown(robot) || !image.taken()) {
     unseenLandmarks(command, percept.landmarks);
     if (command.actionVision == lookForBall) percept.ball.lost = 1;
     return;
   }
-  if (command.localizationLook == 1) {
-    lookAtCorners(tick, index, percept.landmarks);
-  } else if (command.localizationLook == 0) {
-    lookAtBallAsLandmark(tick, index, percept.landmarks);
+  if (command.localizationLook == lookForCorners) {
+    lookAtCorners(tick, index, image, percept.landmarks);
+  } else if (command.localizationLook == lookForBallAsLandmark) {
+    lookAtBallAsLandmark(tick, index, image, percept.landmarks);
   }
-
-  if (command.searchOn == 1) search(tick, robot);
-  const BallSighting sighting = delayed(tick, robot, lookAtBall(tick, index));
   if (command.actionVision == lookForBall) {
-    publishBall(tick, robot, sighting, command, percept);
+    publishBall(tick, index, image, command, percept);
   } else if (command.actionVision == lookForTeamMates) {
-    lookAtRobots(tick, index, true, percept);
+    lookAtRobots(tick, index, image, true, percept);
   } else if (command.actionVision == lookForOpponents) {
-    lookAtRobots(tick, index, false, percept);
+    lookAtRobots(tick, index, image, false, percept);
   }
+}
+
+void remember(Tick& tick) {
+  RigidBodyState& state = tick.state;
+  if (state.past.empty()) return;
+  PastMoment& moment = state.past[tick.world.tick % state.past.size()];
+  moment.ball = state.ball.position;
+  for (std::size_t i = 0; i < state.robots.size(); ++i) {
+    const RigidRobot& robot = state.robots[i];
+    moment.robots[i] = {true, isDown(robot), robot.pose, robot.headYaw};
+  }
+}
+
+void resizePast(WorldState& world, RigidBodyState& state) {
+  const std::size_t delay = longestDelay(world);
+  auto& ring = state.past;
+  const std::size_t before = ring.size();
+  if (before != delay) {
+    // Vision goes on with the images that it had last.
+    std::vector<PastMoment> kept(delay);
+    for (std::size_t ago = 1; ago <= std::min(delay, before) && ago <= world.tick; ++ago) {
+      kept[(world.tick - ago) % delay] = std::move(ring[(world.tick - ago) % before]);
+    }
+    ring = std::move(kept);
+  }
+  for (PastMoment& moment : ring) moment.robots.resize(state.robots.size());
 }
 
 }  // namespace pitchboard::sim::rigid

@@ -10,11 +10,19 @@
 
 namespace pitchboard::sim::rigid {
 
-/// The number of ticks of the vision delay: the size of every robot's ring of sightings.
-std::size_t delayTicks(const SimulationSettings& settings);
+/// Ticks from the moment in which robot `index` takes an image to that in which it is told.
+std::size_t delayTicks(const WorldState& world, std::size_t index);
+/// The longest of all robots: the size of the ring of past moments.
+std::size_t longestDelay(const WorldState& world);
+/// Makes the ring fit the delays and the robots; moments that it has are kept.
+void resizePast(WorldState& world, RigidBodyState& state);
 
-/// Moves the head and fills percept.landmarks, .ball, .robots and .searchOn. A robot that is down
-/// sees nothing. The delay holds for the ball, which is what the head follows.
+/// Moves the head and fills percept.landmarks, .ball, .robots and .searchOn. What is seen is the
+/// world as it was before the vision delay; what is looked for is what the robot wants now, and a
+/// robot that is down sees nothing.
 void stepVision(Tick& tick, std::size_t robot, const RobotCommand& command, Percepts& percept);
+
+/// After all robots have looked: keeps this moment for the delay to come.
+void remember(Tick& tick);
 
 }  // namespace pitchboard::sim::rigid

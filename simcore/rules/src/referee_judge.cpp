@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 
+#include <base/repeatable_math.h>
+
 #include "referee_table.h"
 
 namespace pitchboard::sim {
@@ -241,7 +243,7 @@ void RefereeTable::judgePushing(std::size_t robot) {
     const double dx = other.x - pusher.pose.position.x, dy = other.y - pusher.pose.position.y;
     const double d = std::sqrt(dx * dx + dy * dy);
     // The gait that it asks for: its body does not move when the other one stands firm.
-    const double c = std::cos(pusher.pose.yaw), s = std::sin(pusher.pose.yaw);
+    const auto [s, c] = repeatable::sinCos(pusher.pose.yaw);
     const bool walksAtIt = pusher.action != 0 && d > 0.0 &&
                            ((dx * c + dy * s) / d > 0.5 ||
                             (pusher.velocity.x * dx + pusher.velocity.y * dy) / d > pushingSpeed);

@@ -8,6 +8,7 @@
 
 #include <simcore/rules/published_rules.h>
 #include <simcore/world/parameters.h>
+#include <simcore/world/published_frame.h>
 
 namespace pitchboard::sim {
 namespace {
@@ -30,6 +31,32 @@ Point insideWalls(const FieldSpec& field, const Point& point, double radius) {
 }
 
 }  // namespace
+
+std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
+                                         std::span<const RobotModel> models) {
+  std::vector<std::string> ignored;
+  if (settings.physics != "published") return ignored;
+  const NoiseParameters& noise = settings.noise;
+  const auto add = [&](bool asked, const char* sentence) {
+    if (asked) ignored.emplace_back(sentence);
+  };
+  add(noise.imuWhite != 0.0, "The published physics has no white noise of the IMU (imu_white).");
+  add(noise.missedDetection != 0.0,
+      "The published physics misses no ball and no robot in view (missed_detection).");
+  add(noise.visionDelay != 0.0, "The published physics sees without a delay (vision_delay).");
+  add(noise.ofModel, "The published physics has no noise of robot models (noise \"robot\").");
+  RigidBodySettings usual;
+  usual.ballMass = settings.field.ballMass;
+  add(!(settings.rigidBody == usual),
+      "The published physics has constants of its own (rigid_body).");
+  add(std::any_of(models.begin(), models.end(),
+                  [](const RobotModel& model) { return !(model == RobotModel{}); }),
+      "The published physics knows one kind of robot (model).");
+  add(settings.tickRate != published_frame::framesPerSecond,
+      "The published physics has speeds per frame: at another tick rate than 60 everything moves "
+      "faster or slower (tick_rate).");
+  return ignored;
+}
 
 Simulation::Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -56,6 +83,7 @@ Result<Simulation> Simulation::create(const SimulationSettings& settings) {
     }
   }
   simulation.m_state.robots.reserve(maxRobots);
+  simulation.m_state.models.reserve(maxRobots);
   simulation.m_state.statistics.reserve(maxRobots);
   simulation.m_events.reserve(4 * maxRobots);
   simulation.m_called.reserve(4 * maxRobots);
@@ -143,7 +171,12 @@ Result<void> Simulation::restore(const WorldState& state) {
     return failure(ErrorCode::InvalidArgument, "This saved moment has a game that no referee has.");
   }
   auto model = makePhysicsModel(state.settings.physics);
-  if (!model || !model->owns(state) || state.statistics.size() != state.robots.size()) {
+  const bool fits =
+      state.models.size() == state.robots.size() && state.statistics.size() == state.robots.size();
+  for (const RobotModel& robot : state.models) {
+    if (auto valid = validate(robot); !valid) return valid;
+  }
+  if (!fits || !model || !model->owns(state)) {
     return failure(ErrorCode::InvalidArgument, "This saved moment does not fit its physics model.");
   }
   m_state = state;
@@ -160,9 +193,15 @@ void Simulation::snapshot(Snapshot& out) const {
   out.clockRunning = m_state.clockRunning;
   out.score = m_state.score;
   out.robots.resize(robotCount());
+  static const RobotModel theUsual;
+  const bool knowsModels = m_state.settings.physics != "published";
   for (std::size_t i = 0; i < robotCount(); ++i) {
     out.robots[i].identity = m_state.robots[i];
     out.robots[i].statistics = m_state.statistics[i];
+    const RobotModel& model = knowsModels ? m_state.models[i] : theUsual;
+    out.robots[i].radius = model.radius;
+    out.robots[i].fieldOfView = model.fieldOfView;
+    out.robots[i].visionRange = model.visionRange;
   }
   m_model->describe(m_state, out);
 }
@@ -186,7 +225,8 @@ std::optional<Pose> Simulation::robotPose(RobotId id) const {
   return m_model->robotPose(m_state, *index);
 }
 
-Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pose) {
+Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pose,
+                                  const RobotModel& model) {
   if (identity.id.value < 1 || identity.id.value > maxRobots) {
     return failure(ErrorCode::InvalidArgument,
                    "Robot numbers lie between 1 and " + std::to_string(maxRobots) + ".");
@@ -198,11 +238,15 @@ Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pos
   if (!isFinite(pose)) {
     return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");
   }
-  const FieldSpec& field = m_state.settings.field;
+  if (auto valid = validate(model); !valid) return valid;
   m_state.robots.push_back(identity);
+  m_state.models.push_back(model);
   m_state.statistics.emplace_back();
   if (m_state.game) m_state.game->watches.emplace_back();
-  m_model->robotAdded(m_state, {insideWalls(field, pose.position, field.robotRadius), pose.yaw});
+  const double radius = robotRadius(m_state, robotCount() - 1);
+  m_model->robotAdded(m_state,
+                      {insideWalls(m_state.settings.field, pose.position, radius), pose.yaw});
+  m_model->settingsChanged(m_state);
   return {};
 }
 
@@ -211,9 +255,11 @@ Result<void> Simulation::removeRobot(RobotId id) {
   if (!index) return noSuchRobot(id);
   const auto offset = static_cast<std::ptrdiff_t>(*index);
   m_state.robots.erase(m_state.robots.begin() + offset);
+  m_state.models.erase(m_state.models.begin() + offset);
   m_state.statistics.erase(m_state.statistics.begin() + offset);
   if (m_state.game) m_state.game->watches.erase(m_state.game->watches.begin() + offset);
   m_model->robotRemoved(m_state, *index);
+  m_model->settingsChanged(m_state);
   return {};
 }
 
@@ -223,9 +269,9 @@ Result<void> Simulation::placeRobot(RobotId id, const Pose& pose) {
   if (!isFinite(pose)) {
     return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");
   }
-  const FieldSpec& field = m_state.settings.field;
+  const double radius = robotRadius(m_state, *index);
   m_model->placeRobot(m_state, *index,
-                      {insideWalls(field, pose.position, field.robotRadius), pose.yaw});
+                      {insideWalls(m_state.settings.field, pose.position, radius), pose.yaw});
   return {};
 }
 
@@ -251,6 +297,15 @@ Result<void> Simulation::placeBall(const Point& position, const Velocity& veloci
 Result<void> Simulation::setNoise(const NoiseParameters& noise) {
   if (auto valid = validate(noise); !valid) return valid;
   m_state.settings.noise = noise;
+  m_model->settingsChanged(m_state);
+  return {};
+}
+
+Result<void> Simulation::setRobotModel(RobotId id, const RobotModel& model) {
+  const auto index = indexOf(id);
+  if (!index) return noSuchRobot(id);
+  if (auto valid = validate(model); !valid) return valid;
+  m_state.models[*index] = model;
   m_model->settingsChanged(m_state);
   return {};
 }

@@ -8,13 +8,23 @@
 namespace pitchboard::sim {
 namespace {
 
+// The balls of the leagues: FIFA sizes 1 (kid size since 2016, small), 3 (middle) and 5 (adult,
+// large).
+struct Ball {
+  double radius;  // m
+  double mass;    // kg
+};
+constexpr Ball fifa1{0.07, 0.205}, fifa3{0.095, 0.31}, fifa5{0.11, 0.43};
+
 // Sizes of the years' rules, from the table in docs/SCENARIOS.md; the published simulator's own
-// drawing comes first.
+// drawing comes first. Robots have a radius of about 0.22 of the height of their class (0.5 to 0.6
+// m, 0.9 to 1.0 m, 1.3 m); the rules allow 0.275.
 const std::array<FieldSpec, 8>& fields() {
   static const std::array<FieldSpec, 8> all = [] {
     const auto rules = [](const char* name, double length, double width, double border,
                           double goalWidth, double goalHeight, double goalAreaWidth,
-                          double penaltyLength, double penaltyWidth, double mark, double circle) {
+                          double penaltyLength, double penaltyWidth, double mark, double circle,
+                          const Ball& ball, double robotRadius) {
       FieldSpec f;
       f.name = name;
       f.length = length;
@@ -29,17 +39,20 @@ const std::array<FieldSpec, 8>& fields() {
       f.penaltyAreaWidth = penaltyWidth;
       f.penaltyMarkDistance = mark;
       f.centreCircleDiameter = circle;
+      f.ballRadius = ball.radius;
+      f.ballMass = ball.mass;
+      f.robotRadius = robotRadius;
       return f;
     };
     return std::array<FieldSpec, 8>{
         FieldSpec{},
-        rules("kid-2016", 9, 6, 0.7, 1.8, 1.1, 5, 0, 0, 2.1, 1.5),
-        rules("all-2017", 9, 6, 0.7, 2.6, 1.8, 5, 0, 0, 2.1, 1.5),
-        rules("kid-2020", 9, 6, 1, 2.6, 1.2, 3, 2, 5, 1.5, 1.5),
-        rules("adult-2020", 14, 9, 1, 2.6, 1.8, 4, 3, 6, 2.1, 3),
-        rules("small-2026", 9, 6, 1, 1.8, 1.2, 3, 2, 4, 1.5, 1.5),
-        rules("middle-2026", 14, 9, 1, 2.4, 1.5, 4, 3, 6, 2, 3),
-        rules("large-2026", 22, 14, 1, 3.0, 2.0, 4, 3.5, 7, 2.5, 4),
+        rules("kid-2016", 9, 6, 0.7, 1.8, 1.1, 5, 0, 0, 2.1, 1.5, fifa1, 0.13),
+        rules("all-2017", 9, 6, 0.7, 2.6, 1.8, 5, 0, 0, 2.1, 1.5, fifa1, 0.13),
+        rules("kid-2020", 9, 6, 1, 2.6, 1.2, 3, 2, 5, 1.5, 1.5, fifa1, 0.13),
+        rules("adult-2020", 14, 9, 1, 2.6, 1.8, 4, 3, 6, 2.1, 3, fifa5, 0.28),
+        rules("small-2026", 9, 6, 1, 1.8, 1.2, 3, 2, 4, 1.5, 1.5, fifa1, 0.13),
+        rules("middle-2026", 14, 9, 1, 2.4, 1.5, 4, 3, 6, 2, 3, fifa3, 0.22),
+        rules("large-2026", 22, 14, 1, 3.0, 2.0, 4, 3.5, 7, 2.5, 4, fifa5, 0.28),
     };
   }();
   return all;

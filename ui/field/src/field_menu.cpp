@@ -48,6 +48,8 @@ void addRobotActions(QMenu* menu, MatchController* controller, const std::vector
   addBehaviourMenu(menu, controller, ids);
   addRuntimeMenu(menu, controller, ids);
   addTeamMenu(menu, controller, ids);
+  if (ids.size() == 1) addNumberMenu(menu, controller, ids.front());
+  addModelMenu(menu, controller, ids);
 }
 
 }  // namespace
@@ -86,10 +88,10 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
                       controller, [controller, ids] { controller->edits()->removeRobots(ids); });
     }
   } else if (editable && hit.kind == FieldHit::Kind::Ball) {
-    menu->addAction(QStringLiteral("Ball position…"), menu, [actions] { actions.editBall(); });
-    menu->addAction(QStringLiteral("Ball to the centre mark"), controller, [controller, scene] {
-      controller->edits()->moveBall(scene->ball(), {0.0, 0.0});
-    });
+    menu->addAction(QStringLiteral("Place and speed of the ball…"), menu,
+                    [actions] { actions.editBall(); });
+    menu->addAction(QStringLiteral("Ball to the centre mark"), controller,
+                    [controller, scene] { controller->edits()->moveBall(scene->ball(), Point{}); });
   } else if (editable) {
     addPlaces(menu, scene, controller, metres);
   }

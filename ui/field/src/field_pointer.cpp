@@ -63,7 +63,7 @@ std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotId>& i
   return placements;
 }
 
-void FieldPointer::place(const std::vector<RobotPlacement>& placements) {
+void FieldPointer::nudgeTo(const std::vector<RobotPlacement>& placements) {
   if (placements.empty()) return;
   if (m_scene->frame()->serial != m_onTheWaySince) m_onTheWay.clear();
   m_onTheWaySince = m_scene->frame()->serial;
@@ -71,7 +71,7 @@ void FieldPointer::place(const std::vector<RobotPlacement>& placements) {
     std::erase_if(m_onTheWay, [&](const auto& moved) { return moved.id == placement.id; });
     m_onTheWay.push_back(placement);
   }
-  m_controller->edits()->moveRobots(placements);
+  m_controller->edits()->nudgeRobots(placements);
 }
 
 void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
@@ -109,7 +109,7 @@ void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
       }
       break;
     case FieldHit::Kind::Ball:
-      m_drag = Drag::Ball;
+      m_drag = modifiers & Qt::ShiftModifier ? Drag::Kick : Drag::Ball;
       m_ballFrom = m_scene->ball();
       break;
     case FieldHit::Kind::Nothing:
@@ -167,6 +167,12 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
     case Drag::Ruler:
       m_scene->ruler()->setLine(m_from, at);
       break;
+    case Drag::Kick: {
+      const Velocity speed = kick();
+      m_scene->ruler()->setArrow(toScene(m_ballFrom), at, std::hypot(speed.x, speed.y));
+      m_scene->ruler()->setVisible(canEdit());
+      break;
+    }
     case Drag::Ball:
     case Drag::None:
       break;
@@ -175,10 +181,36 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
 }
 
 void FieldPointer::dragRobots() {
+  const QPointF way = together(m_placements, m_at - m_from);
   for (RobotPlacement& placement : m_placements) {
-    placement.to.position = {placement.from.position.x + m_at.x() - m_from.x(),
-                             placement.from.position.y + m_at.y() - m_from.y()};
+    placement.to.position = {placement.from.position.x + way.x(),
+                             placement.from.position.y + way.y()};
   }
+}
+
+QPointF FieldPointer::together(const std::vector<RobotPlacement>& placements,
+                               const QPointF& way) const {
+  const sim::FieldSpec& field = m_scene->style().field;
+  const auto held = [](double wanted, double at, double most) {
+    return std::clamp(wanted, std::min(0.0, -most - at), std::max(0.0, most - at));
+  };
+  QPointF free = way;
+  for (const RobotPlacement& placement : placements) {
+    const double radius = m_scene->radius(placement.id);
+    const Point& at = placement.from.position;
+    free = {held(free.x(), at.x, field.halfLength() + field.border - radius),
+            held(free.y(), at.y, field.halfWidth() + field.border - radius)};
+  }
+  return free;
+}
+
+Velocity FieldPointer::kick() const {
+  constexpr double perSecond = 2.0;  // m/s for each metre of the arrow
+  constexpr double fastest = 20.0;   // m/s
+  const QPointF way = m_at - toScene(m_ballFrom);
+  const double length = std::hypot(way.x(), way.y());
+  const double scale = length > 0.0 ? std::min(perSecond, fastest / length) : 0.0;
+  return {way.x() * scale, way.y() * scale};
 }
 
 void FieldPointer::dragTurn() {
@@ -208,6 +240,7 @@ void FieldPointer::release(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (m_drag == Drag::None) return;
   move(at, modifiers);
   if (m_moved && canEdit()) finish();
+  if (m_drag == Drag::Kick) m_scene->ruler()->setVisible(false);
   if (!m_moved && m_drag == Drag::Robots && m_clickedOneOfSeveral) m_scene->select({m_pivot});
   m_scene->rubberBand()->setVisible(false);
   m_drag = Drag::None;
@@ -217,6 +250,10 @@ void FieldPointer::finish() {
   if (m_drag == Drag::Robots || m_drag == Drag::Turn)
     m_controller->edits()->moveRobots(m_placements);
   if (m_drag == Drag::Ball) m_controller->edits()->moveBall(m_ballFrom, fromScene(m_at));
+  if (m_drag == Drag::Kick) {
+    // It may have rolled on while the arrow was drawn; it is kicked where it is.
+    m_controller->edits()->moveBall(m_ballFrom, m_scene->ball(), kick());
+  }
 }
 
 void FieldPointer::doubleClick(const QPointF& at) {
@@ -235,7 +272,7 @@ bool FieldPointer::turnAt(const QPointF& at, double notches) {
   for (RobotPlacement& placement : placements) {
     placement.to.yaw = wrapToPi(placement.from.yaw + radiansFromDegrees(notches * degreesPerNotch));
   }
-  place(placements);
+  nudgeTo(placements);
   return true;
 }
 
@@ -256,11 +293,12 @@ bool FieldPointer::cancel() {
 void FieldPointer::nudge(const QPointF& metres) {
   if (!canEdit()) return;
   auto placements = standing(m_scene->selection());
+  const QPointF way = together(placements, metres);
   for (RobotPlacement& placement : placements) {
-    placement.to.position.x += metres.x();
-    placement.to.position.y += metres.y();
+    placement.to.position.x += way.x();
+    placement.to.position.y += way.y();
   }
-  place(placements);
+  nudgeTo(placements);
 }
 
 }  // namespace pitchboard::ui

@@ -47,15 +47,19 @@ class FieldPointer : public QObject {
   void poseRequested(pitchboard::RobotId id);
 
  private:
-  enum class Drag { None, Robots, Turn, Ball, Band, Ruler };
+  enum class Drag { None, Robots, Turn, Ball, Kick, Band, Ruler };
   void beginRobots(RobotId hit);
   void beginTurn(RobotId hit);
   void dragRobots();
   void dragTurn();
+  /// How far these robots can go towards `way` together: the first that reaches a wall holds all.
+  QPointF together(const std::vector<RobotPlacement>& placements, const QPointF& way) const;
+  /// Of the ball that is kicked along the arrow that is being drawn.
+  Velocity kick() const;
   void preview();
   void finish();
   /// Moves that the next frame will show; further ones before it start from there.
-  void place(const std::vector<RobotPlacement>& placements);
+  void nudgeTo(const std::vector<RobotPlacement>& placements);
   std::vector<RobotPlacement> standing(const std::vector<RobotId>& ids) const;
   bool canEdit() const;
 

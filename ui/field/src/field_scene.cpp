@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <robotlink/frame/belief.h>
 #include <simcore/world/published_frame.h>
@@ -193,6 +194,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   look.pose = now.pose;
   look.team = now.identity.team;
   look.number = now.identity.number;
+  look.radius = now.radius;
   look.fallen = now.fallen;
   look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
   look.followed = m_followed == id;
@@ -212,6 +214,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   // Where a robot that is heard looks, it does not say.
   robot.wedge.setVisible(!now.health && m_style.shows(FieldLayer::FieldOfView) &&
                          (look.selected || m_style.wedgeForAll));
+  robot.wedge.setCamera(now.fieldOfView, now.visionRange);
   robot.wedge.setHead(now.pose.position, now.headYaw);
   robot.belief.setVisible(now.board && now.poseKnown());
   if (now.board) robot.belief.setLook(beliefOf(now, m_style.field));
@@ -289,18 +292,19 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
   const double margin = m_style.metres(hitMargin_px);
   if (!m_style.readOnly) {
     for (const RobotId id : m_selection) {
-      const QPointF handle = RobotItem::handlePosition(m_style, m_robots.at(id)->body.look().pose);
+      const RobotLook& look = m_robots.at(id)->body.look();
+      const QPointF handle = RobotItem::handlePosition(m_style, look.pose, look.radius);
       if (distance(handle, metres) <= RobotItem::handleRadius(m_style) + margin) {
         return {FieldHit::Kind::Handle, id};
       }
     }
   }
-  const double robotReach = m_style.robotDrawRadius() + margin;
   FieldHit nearest;
-  double least = robotReach;
+  double least = std::numeric_limits<double>::infinity();
   for (const auto& [id, robot] : m_robots) {
     const double away = distance(toScene(robot->body.look().pose.position), metres);
-    if (away > least || !robot->body.isVisible()) continue;
+    const double reach = m_style.drawRadius(robot->body.look().radius) + margin;
+    if (away > reach || away > least || !robot->body.isVisible()) continue;
     least = away;
     nearest = {FieldHit::Kind::Robot, id};
   }
@@ -330,6 +334,12 @@ std::optional<Pose> FieldScene::pose(RobotId id) const {
   const auto found = m_robots.find(id);
   if (found == m_robots.end()) return {};
   return found->second->body.look().pose;
+}
+
+double FieldScene::radius(RobotId id) const {
+  const auto found = m_robots.find(id);
+  const double own = found == m_robots.end() ? 0.0 : found->second->body.look().radius;
+  return own > 0.0 ? own : m_style.field.robotRadius;
 }
 
 Point FieldScene::ball() const {

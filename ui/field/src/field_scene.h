@@ -64,6 +64,8 @@ class FieldScene : public QGraphicsScene {
   FieldHit hit(const QPointF& metres) const;
   std::vector<RobotId> robotsIn(const QRectF& metres) const;
   std::optional<Pose> pose(RobotId id) const;
+  /// Of the body, metres.
+  double radius(RobotId id) const;
   Point ball() const;
 
   void setTrailShown(RobotId id, bool shown);

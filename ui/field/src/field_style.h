@@ -37,7 +37,9 @@ struct FieldStyle {
   double metres(double pixels) const { return pixels / pixelsPerMetre; }
   QRectF playingArea() const;      ///< with its border, metres
   double robotDrawRadius() const;  ///< metres; never smaller than a dot that can be hit
-  double ballDrawRadius() const;   ///< metres
+  /// The same for a robot of its own size; 0 = the field's.
+  double drawRadius(double own) const { return own > 0.0 ? atLeast(own, 5.0) : robotDrawRadius(); }
+  double ballDrawRadius() const;  ///< metres
 };
 
 inline QPointF toScene(const Point& p) {

@@ -150,11 +150,11 @@ void FieldView::Private::openPoseEditor(RobotId id) {
   if (!pose || !editor()) return;
   const link::RobotFrame* robot = scene->frame()->robot(id);
   const QString name = robot != nullptr ? robotName(robot->identity) : QString();
-  openEditor({QStringLiteral("Pose of %1").arg(name), *pose, true,
+  openEditor({QStringLiteral("Pose of %1").arg(name), *pose, false, 0.0,
               [this, id, from = *pose](const Pose& to) {
                 controller->edits()->previewRobots({{id, from, to}});
               },
-              [this, id, from = *pose](const Pose& to) {
+              [this, id, from = *pose](const Pose& to, double) {
                 controller->edits()->moveRobots({{id, from, to}});
               }});
 }
@@ -162,11 +162,16 @@ void FieldView::Private::openPoseEditor(RobotId id) {
 void FieldView::Private::openBallEditor() {
   if (!editor() || !scene->frame()) return;
   const Point ball = scene->ball();
-  openEditor({QStringLiteral("Position of the ball"),
-              {ball, 0.0},
-              false,
+  const Velocity& v = scene->frame()->snapshot.ballVelocity;
+  openEditor({QStringLiteral("Place and speed of the ball"),
+              {ball, std::atan2(v.y, v.x)},
+              true,
+              std::hypot(v.x, v.y),
               [this](const Pose& to) { controller->edits()->previewBall(to.position); },
-              [this, ball](const Pose& to) { controller->edits()->moveBall(ball, to.position); }});
+              [this, ball](const Pose& to, double speed) {
+                controller->edits()->moveBall(ball, to.position,
+                                              {speed * std::cos(to.yaw), speed * std::sin(to.yaw)});
+              }});
 }
 
 void FieldView::Private::openEditor(PoseEdit edit) {

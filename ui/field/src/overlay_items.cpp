@@ -20,6 +20,12 @@ void RulerItem::setLine(const QPointF& from, const QPointF& to) {
   prepareGeometryChange();
   m_from = from;
   m_to = to;
+  m_speed.reset();
+}
+
+void RulerItem::setArrow(const QPointF& from, const QPointF& to, double speed) {
+  setLine(from, to);
+  m_speed = speed;
 }
 
 QRectF RulerItem::boundingRect() const {
@@ -34,7 +40,12 @@ void RulerItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   const QColor accent = theme().accentLine;
   painter->setPen(QPen(accent, 2.0, Qt::SolidLine, Qt::FlatCap));
   painter->drawLine(start, QPointF(0, 0));
-  if (length > 1) {
+  if (m_speed && length > 1) {
+    const QPointF along = -start / length;
+    const QPointF side(-along.y(), along.x());
+    painter->drawLine(QPointF(0, 0), -along * 10 + side * 6);
+    painter->drawLine(QPointF(0, 0), -along * 10 - side * 6);
+  } else if (length > 1) {
     const QPointF along = -start / length;
     const QPointF side(-along.y(), along.x());
     for (const QPointF& end : {start, QPointF(0, 0)}) {
@@ -47,7 +58,8 @@ void RulerItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
       painter->drawLine(start + along * at - side * 3, start + along * at + side * 3);
     }
   }
-  const QString text = rulerText(m_from, m_to);
+  const QString text =
+      m_speed ? fieldNumber(*m_speed, 1) + QStringLiteral(" m/s") : rulerText(m_from, m_to);
   const QFont& font = fieldFont(12, true);
   const QFontMetricsF metrics(font);
   QRectF box(0, 0, metrics.horizontalAdvance(text) + 14, metrics.height() + 6);

@@ -18,6 +18,8 @@ class RulerItem : public QGraphicsItem {
  public:
   explicit RulerItem(const FieldStyle* style) : m_style(style) {}
   void setLine(const QPointF& from, const QPointF& to);
+  /// An arrow with the speed of a kick instead, m/s.
+  void setArrow(const QPointF& from, const QPointF& to, double speed);
   QPointF from() const { return m_from; }
   QPointF to() const { return m_to; }
   void styleChanges() { prepareGeometryChange(); }
@@ -27,6 +29,7 @@ class RulerItem : public QGraphicsItem {
  private:
   const FieldStyle* m_style;
   QPointF m_from, m_to;
+  std::optional<double> m_speed;  // none: it measures
 };
 
 class RubberBandItem : public QGraphicsItem {

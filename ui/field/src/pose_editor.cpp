@@ -43,13 +43,18 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
   form->addRow(QStringLiteral("x"), m_x);
   form->addRow(QStringLiteral("y"), m_y);
   std::vector<NumberBox*> boxes{m_x, m_y};
-  if (m_edit.hasHeading) {
-    m_heading =
-        spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1, QStringLiteral("°"));
-    m_heading->setWrapping(true);
-    form->addRow(QStringLiteral("heading"), m_heading);
-    boxes.push_back(m_heading);
+  if (m_edit.isBall) {
+    constexpr double fastest = 20.0;
+    m_speed = spinBox("speed", fastest, m_edit.speed, 0.1, 2, QStringLiteral(" m/s"));
+    m_speed->setMinimum(0.0);
+    form->addRow(QStringLiteral("speed"), m_speed);
   }
+  m_heading =
+      spinBox("heading", 180.0, degreesFromRadians(m_edit.from.yaw), 5.0, 1, QStringLiteral("°"));
+  m_heading->setWrapping(true);
+  form->addRow(m_edit.isBall ? QStringLiteral("rolls to") : QStringLiteral("heading"), m_heading);
+  // A ball that is only to roll stays where it is until it is kept.
+  if (!m_edit.isBall) boxes.push_back(m_heading);
   auto* title = new QLabel(m_edit.title);
   QFont bold = title->font();
   bold.setBold(true);
@@ -68,8 +73,7 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
 }
 
 Pose PoseEditor::pose() const {
-  return {{m_x->value(), m_y->value()},
-          m_heading ? radiansFromDegrees(m_heading->value()) : m_edit.from.yaw};
+  return {{m_x->value(), m_y->value()}, radiansFromDegrees(m_heading->value())};
 }
 
 bool PoseEditor::isChanged() const {
@@ -79,7 +83,8 @@ bool PoseEditor::isChanged() const {
            QString::number(before, 'f', box->decimals());
   };
   return differs(m_x, m_edit.from.position.x) || differs(m_y, m_edit.from.position.y) ||
-         (m_heading && differs(m_heading, degreesFromRadians(m_edit.from.yaw)));
+         differs(m_heading, degreesFromRadians(m_edit.from.yaw)) ||
+         (m_speed && differs(m_speed, m_edit.speed));
 }
 
 void PoseEditor::keyPressEvent(QKeyEvent* event) {
@@ -96,7 +101,7 @@ void PoseEditor::closeEvent(QCloseEvent* event) {
   if (m_cancelled) {
     m_edit.preview(m_edit.from);
   } else if (isChanged()) {
-    m_edit.keep(pose());
+    m_edit.keep(pose(), m_speed ? m_speed->value() : 0.0);
   }
   QFrame::closeEvent(event);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A small popup with the place of a robot or of the ball as numbers: metres and degrees. Changes
+// A small popup with the place of a robot, or place and speed of the ball, as numbers: metres,
+// degrees, metres per second. Changes
 // are shown at once; Enter keeps them as one undoable command, Esc puts back what was.
 
 #include <QFrame>
@@ -18,9 +19,10 @@ class NumberBox;
 struct PoseEdit {
   QString title;
   Pose from;
-  bool hasHeading = true;
-  std::function<void(const Pose&)> preview;  ///< while typing, and `from` on Esc
-  std::function<void(const Pose&)> keep;     ///< at most once, and only for a change
+  bool isBall = false;                                  ///< the heading is that of its motion
+  double speed = 0.0;                                   ///< m/s, of the ball
+  std::function<void(const Pose&)> preview;             ///< while typing, and `from` on Esc
+  std::function<void(const Pose&, double speed)> keep;  ///< at most once, and only for a change
 };
 
 class PoseEditor : public QFrame {
@@ -41,7 +43,8 @@ class PoseEditor : public QFrame {
   bool m_cancelled = false;
   NumberBox* m_x;
   NumberBox* m_y;
-  NumberBox* m_heading = nullptr;  // none for the ball
+  NumberBox* m_heading;
+  NumberBox* m_speed = nullptr;  // of the ball
 };
 
 }  // namespace pitchboard::ui

@@ -31,7 +31,10 @@ RobotItem::RobotItem(const FieldStyle* style, RobotId id) : m_style(style), m_id
 
 void RobotItem::setLook(const RobotLook& look) {
   if (look == m_look) return;
-  if (look.selected != m_look.selected || look.word != m_look.word) prepareGeometryChange();
+  if (look.selected != m_look.selected || look.word != m_look.word ||
+      look.radius != m_look.radius) {
+    prepareGeometryChange();
+  }
   const bool moved = !(look.pose.position == m_look.pose.position);
   m_look = look;
   if (moved) setPos(toScene(look.pose.position));
@@ -39,8 +42,8 @@ void RobotItem::setLook(const RobotLook& look) {
   update();
 }
 
-QPointF RobotItem::handlePosition(const FieldStyle& style, const Pose& pose) {
-  const double reach = style.robotDrawRadius() * 1.7 + style.metres(handleGap_px);
+QPointF RobotItem::handlePosition(const FieldStyle& style, const Pose& pose, double radius) {
+  const double reach = style.drawRadius(radius) * 1.7 + style.metres(handleGap_px);
   return {pose.position.x + reach * std::cos(pose.yaw),
           pose.position.y + reach * std::sin(pose.yaw)};
 }
@@ -50,14 +53,14 @@ double RobotItem::handleRadius(const FieldStyle& style) {
 }
 
 QRectF RobotItem::boundingRect() const {
-  double reach = m_style->robotDrawRadius() * 1.8 + m_style->metres(3.0);
+  double reach = bodyRadius() * 1.8 + m_style->metres(3.0);
   if (m_look.selected) {
-    reach = m_style->robotDrawRadius() * 1.7 + m_style->metres(handleGap_px + 8.0);
+    reach = bodyRadius() * 1.7 + m_style->metres(handleGap_px + 8.0);
   }
   QRectF area(-reach, -reach, 2 * reach, 2 * reach);
   if (!m_look.word.isEmpty()) {
     const double half = m_style->metres(60.0);
-    const double tall = m_style->robotDrawRadius() + m_style->metres(28.0);
+    const double tall = bodyRadius() + m_style->metres(28.0);
     area = area.united(QRectF(-half, -tall, 2 * half, 2 * tall));
   }
   return area;
@@ -65,7 +68,7 @@ QRectF RobotItem::boundingRect() const {
 
 void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
   const ScreenPainting screen(painter, QPointF(0, 0));
-  const double radius = std::max(m_style->field.robotRadius * screen.pixelsPerMetre(), 5.0);
+  const double radius = bodyRadius() * screen.pixelsPerMetre();
   if (m_style->ornaments && (m_look.selected || m_look.followed)) {
     paintSelection(painter, screen, radius);
   }

@@ -15,6 +15,7 @@ struct RobotLook {
   Pose pose;
   TeamColor team = TeamColor::Blue;
   int number = 1;
+  double radius = 0.0;  ///< metres; 0 = the field's robot radius
   bool fallen = false;
   bool selected = false;
   bool followed = false;
@@ -34,13 +35,14 @@ class RobotItem : public QGraphicsItem {
   void styleChanges() { prepareGeometryChange(); }
 
   /// Where the turning handle is, in metres of the scene.
-  static QPointF handlePosition(const FieldStyle& style, const Pose& pose);
+  static QPointF handlePosition(const FieldStyle& style, const Pose& pose, double radius);
   static double handleRadius(const FieldStyle& style);  ///< metres
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
+  double bodyRadius() const { return m_style->drawRadius(m_look.radius); }  // metres
   void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view_wedge_item.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include <base/angles.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -11,12 +11,11 @@ namespace {
 
 constexpr int arcSteps = 28;
 
-QPolygonF sector(const QPointF& at, double yaw) {
-  const double opening = radiansFromDegrees(ViewWedgeItem::openingDegrees);
+QPolygonF sector(const QPointF& at, double yaw, double opening, double range) {
   QPolygonF corners{at};
   for (int i = 0; i <= arcSteps; ++i) {
     const double angle = yaw + opening * (static_cast<double>(i) / arcSteps - 0.5);
-    corners << at + ViewWedgeItem::range * QPointF(std::cos(angle), std::sin(angle));
+    corners << at + range * QPointF(std::cos(angle), std::sin(angle));
   }
   return corners;
 }
@@ -37,10 +36,21 @@ QPolygonF clipped(const QPolygonF& polygon, Inside inside) {
 
 }  // namespace
 
+void ViewWedgeItem::setCamera(double opening, double range) {
+  constexpr double halfRound = 3.14;  // the outline is clipped as a convex one
+  opening = std::min(opening, halfRound);
+  m_otherCamera = m_otherCamera || opening != m_opening || range != m_range;
+  m_opening = opening;
+  m_range = range;
+}
+
 void ViewWedgeItem::setHead(const Point& position, double headYaw) {
-  if (position == m_position && headYaw == m_yaw && isVisible() == !m_outline.isEmpty()) return;
+  if (!m_otherCamera && position == m_position && headYaw == m_yaw &&
+      isVisible() == !m_outline.isEmpty())
+    return;
   m_position = position;
   m_yaw = headYaw;
+  m_otherCamera = false;
   updateOutline();
 }
 
@@ -56,7 +66,7 @@ void ViewWedgeItem::updateOutline() {
   }
   const QRectF area = m_style->playingArea();
   const double x = area.right(), y = area.bottom();
-  m_outline = sector(toScene(m_position), m_yaw);
+  m_outline = sector(toScene(m_position), m_yaw, m_opening, m_range);
   m_outline = clipped(m_outline, [x](const QPointF& p) { return x - p.x(); });
   m_outline = clipped(m_outline, [x](const QPointF& p) { return x + p.x(); });
   m_outline = clipped(m_outline, [y](const QPointF& p) { return y - p.y(); });

@@ -13,12 +13,10 @@ namespace pitchboard::ui {
 
 class ViewWedgeItem : public QGraphicsItem {
  public:
-  /// Simulated vision (SYSTEM.md section 4).
-  static constexpr double openingDegrees = 70.0;
-  static constexpr double range = 3.0;  ///< metres
-
   explicit ViewWedgeItem(const FieldStyle* style) : m_style(style) {}
 
+  /// What this kind of robot sees: rad in all, metres. Shows with the next setHead().
+  void setCamera(double opening, double range);
   void setHead(const Point& position, double headYaw);
   void styleChanges();
   /// Its corners in metres of the scene; empty for a robot that sees nothing of the field.
@@ -33,6 +31,8 @@ class ViewWedgeItem : public QGraphicsItem {
   const FieldStyle* m_style;
   Point m_position;
   double m_yaw = 0.0;
+  double m_opening = 0.0, m_range = 0.0;
+  bool m_otherCamera = false;
   QPolygonF m_outline;
 };
 

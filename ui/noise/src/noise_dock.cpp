@@ -10,8 +10,10 @@
 
 #include <simcore/world/parameters.h>
 #include <ui/base/parameter_rows.h>
+#include <ui/base/robot_words.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/robot_selection.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -36,8 +38,8 @@ QLabel* remark(const QString& text, QWidget* parent) {
 
 class NoiseDock : public QScrollArea {
  public:
-  NoiseDock(MatchController* controller, QWidget* parent)
-      : QScrollArea(parent), m_controller(controller) {
+  NoiseDock(MatchController* controller, RobotSelection* selection, QWidget* parent)
+      : QScrollArea(parent), m_controller(controller), m_selection(selection) {
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -47,6 +49,7 @@ class NoiseDock : public QScrollArea {
     column->setContentsMargins(edge, 0, edge, edge);
     column->setSpacing(scaled(this, 6));
     addNoise(form, column);
+    addRobots(form, column);
     addPhysics(form, column);
     column->addStretch(1);
     setWidget(form);
@@ -59,6 +62,8 @@ class NoiseDock : public QScrollArea {
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
     connect(m_controller, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { follow(*frame); });
+    connect(m_controller->edits(), &MatchEdits::modelsChanged, this, [this] { showRobots(); });
+    connect(m_selection, &RobotSelection::changed, this, [this] { showRobots(); });
     adopt();
   }
 
@@ -96,6 +101,90 @@ class NoiseDock : public QScrollArea {
     column->addLayout(grid);
   }
 
+  void addRobots(QWidget* form, QVBoxLayout* column) {
+    m_whose = heading(QStringLiteral("Robots"), form);
+    m_whose->setObjectName(QStringLiteral("whoseModel"));
+    column->addWidget(m_whose);
+    m_robots = new QWidget(form);
+    auto* robots = new QVBoxLayout(m_robots);
+    robots->setContentsMargins(0, 0, 0, 0);
+    m_kind = new QComboBox(m_robots);
+    m_kind->setObjectName(QStringLiteral("robotModel"));
+    for (const std::string& name : link::robotModels()) {
+      const link::RobotModelText text = link::robotModelText(name);
+      m_kind->addItem(QString::fromStdString(text.title), QString::fromStdString(name));
+      m_kind->setItemData(m_kind->count() - 1, QString::fromStdString(text.description),
+                          Qt::ToolTipRole);
+    }
+    m_kind->addItem(QStringLiteral("custom"));
+    connect(m_kind, &QComboBox::activated, this, [this] {
+      const auto model = link::loadRobotModel(m_kind->currentData().toString().toStdString());
+      if (model) m_controller->edits()->setModel(edited(), *model);
+      showRobots();
+    });
+    robots->addWidget(m_kind);
+    m_kick = new QComboBox(m_robots);
+    m_kick->setObjectName(QStringLiteral("kickLaw"));
+    m_kick->addItem(QStringLiteral("Kick: published force, fades at once"));
+    m_kick->addItem(QStringLiteral("Kick: a foot with reach and sector"));
+    connect(m_kick, &QComboBox::activated, this, [this](int law) {
+      m_robot.kickLaw = static_cast<sim::KickLaw>(law);
+      changeRobots();
+    });
+    robots->addWidget(m_kick);
+    auto* grid = new QGridLayout;
+    grid->setVerticalSpacing(scaled(this, 4));
+    grid->setColumnStretch(1, 1);
+    for (const auto& p : sim::robotModelParameters) {
+      m_robotRows.push_back(rowOf(grid, p, m_robots, [this, &p](double stored) {
+        m_robot.*p.member = stored;
+        changeRobots();
+      }));
+    }
+    robots->addLayout(grid);
+    column->addWidget(m_robots);
+  }
+
+  /// The selected robots, or all.
+  std::vector<RobotId> edited() const {
+    std::vector<RobotId> ids;
+    for (const RobotId id : m_selection->ids()) {
+      if (m_controller->edits()->robot(id)) ids.push_back(id);
+    }
+    if (!ids.empty()) return ids;
+    for (int id = 1; id <= sim::Simulation::maxRobots; ++id) {
+      if (m_controller->edits()->robot({id})) ids.push_back({id});
+    }
+    return ids;
+  }
+
+  void changeRobots() {
+    m_robot.name = "custom";
+    m_controller->edits()->setModel(edited(), m_robot);
+  }
+
+  /// What the first of them is; all get what is changed.
+  void showRobots() {
+    const std::vector<RobotId> ids = edited();
+    const bool any = !ids.empty() && m_controller->scenario().settings.physics != "published";
+    m_robots->setVisible(any);
+    m_whose->setVisible(any);
+    if (!any) return;
+    const link::ScenarioRobot& first = *m_controller->edits()->robot(ids.front());
+    const bool all = m_selection->ids().empty();
+    m_whose->setText(all               ? QStringLiteral("All robots")
+                     : ids.size() == 1 ? QStringLiteral("Robot %1").arg(robotName(first.identity))
+                                       : QStringLiteral("%1 robots").arg(ids.size()));
+    m_robot = first.model;
+    const auto built = link::loadRobotModel(m_robot.name);
+    const int found = built && *built == m_robot
+                          ? m_kind->findData(QString::fromStdString(m_robot.name))
+                          : m_kind->count() - 1;
+    m_kind->setCurrentIndex(found);
+    m_kick->setCurrentIndex(static_cast<int>(m_robot.kickLaw));
+    showRows(m_robotRows, sim::robotModelParameters, m_robot);
+  }
+
   void addPhysics(QWidget* form, QVBoxLayout* column) {
     column->addWidget(heading(QStringLiteral("Physics"), form));
     m_model = new QComboBox(form);
@@ -111,13 +200,13 @@ class NoiseDock : public QScrollArea {
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
-    column->addWidget(
-        remark(QStringLiteral("Changing the model goes on from this moment with everything at "
-                              "rest and forgets what can be undone."),
-               form));
+    column->addWidget(remark(
+        QStringLiteral("Changing it goes on from this moment with everything at rest."), form));
     m_exact = remark(
         QStringLiteral("“published” follows the published simulator to the last bit: it has no "
-                       "constants to change. Choose “rigid-body” to change them."),
+                       "constants and one kind of robot, no IMU noise but drift, misses nothing, "
+                       "sees without delay, and its speeds are per frame: at another tick rate "
+                       "than 60 all is faster or slower. Choose “rigid-body” to change that."),
         form);
     column->addWidget(m_exact);
     m_body = new QWidget(form);
@@ -184,6 +273,7 @@ class NoiseDock : public QScrollArea {
 
   void showNoise() {
     showRows(m_noiseRows, sim::noiseParameters, m_noise);
+    for (ParameterRow* row : m_noiseRows) row->setEnabled(!m_noise.ofModel);
     showPreset();
   }
 
@@ -199,6 +289,7 @@ class NoiseDock : public QScrollArea {
     m_model->setCurrentIndex(m_model->findData(model));
     m_exact->setVisible(settings.physics == "published");
     m_body->setVisible(settings.physics != "published");
+    showRobots();
   }
 
   // The noise may have been changed elsewhere; our own changes arrive here a moment later.
@@ -209,6 +300,12 @@ class NoiseDock : public QScrollArea {
   }
 
   MatchController* m_controller;
+  RobotSelection* m_selection;
+  QLabel* m_whose = nullptr;
+  QWidget* m_robots = nullptr;
+  QComboBox* m_kind = nullptr;
+  QComboBox* m_kick = nullptr;
+  sim::RobotModel m_robot;
   Noise m_noise, m_shown;
   Body m_constants;
   QComboBox* m_preset = nullptr;
@@ -216,13 +313,13 @@ class NoiseDock : public QScrollArea {
   QLabel* m_exact = nullptr;
   QWidget* m_body = nullptr;
   QCheckBox* m_falls = nullptr;
-  std::vector<ParameterRow*> m_noiseRows, m_bodyRows;
+  std::vector<ParameterRow*> m_noiseRows, m_robotRows, m_bodyRows;
 };
 
 }  // namespace
 
-QWidget* makeNoiseDock(MatchController* controller, QWidget* parent) {
-  return new NoiseDock(controller, parent);
+QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection, QWidget* parent) {
+  return new NoiseDock(controller, selection, parent);
 }
 
 }  // namespace pitchboard::ui

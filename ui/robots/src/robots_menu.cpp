@@ -60,6 +60,8 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   addBehaviourMenu(&menu, controller, {id});
   addRuntimeMenu(&menu, controller, {id});
   addTeamMenu(&menu, controller, {id});
+  addNumberMenu(&menu, controller, id);
+  addModelMenu(&menu, controller, {id});
   menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();
   });

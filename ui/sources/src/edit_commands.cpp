@@ -27,7 +27,6 @@ PlacementCommand::PlacementCommand(MatchRoster* roster, std::vector<RobotPlaceme
     : m_roster(roster), m_placements(std::move(placements)) {
   setText(QStringLiteral("Move ") +
           subject(m_placements.size(), nameIn(*roster, m_placements.front().id)));
-  m_age.start();
 }
 
 void PlacementCommand::redo() {
@@ -37,39 +36,39 @@ void PlacementCommand::undo() {
   m_roster->place(m_placements, true);
 }
 
-bool PlacementCommand::mergeWith(const QUndoCommand* other) {
-  const auto& later = static_cast<const PlacementCommand&>(*other);
-  if (m_age.elapsed() > mergeMilliseconds || later.m_placements.size() != m_placements.size()) {
-    return false;
-  }
+bool PlacementCommand::continueWith(const PlacementCommand& later) {
+  if (later.m_placements.size() != m_placements.size()) return false;
   for (std::size_t i = 0; i < m_placements.size(); ++i) {
     if (later.m_placements[i].id != m_placements[i].id) return false;
   }
   for (std::size_t i = 0; i < m_placements.size(); ++i) {
     m_placements[i].to = later.m_placements[i].to;
   }
-  m_age.restart();
   return true;
 }
 
-BallCommand::BallCommand(MatchRoster* roster, Point from, Point to)
-    : m_roster(roster), m_from(from), m_to(to) {
-  setText(QStringLiteral("Move the ball"));
+NudgeCommand::NudgeCommand(MatchRoster* roster, std::vector<RobotPlacement> placements)
+    : PlacementCommand(roster, std::move(placements)) {
   m_age.start();
 }
 
+bool NudgeCommand::mergeWith(const QUndoCommand* other) {
+  if (m_age.elapsed() > mergeMilliseconds) return false;
+  m_age.restart();
+  return continueWith(static_cast<const NudgeCommand&>(*other));
+}
+
+BallCommand::BallCommand(MatchRoster* roster, Point from, Point to, Velocity velocity)
+    : m_roster(roster), m_from(from), m_to(to), m_velocity(velocity) {
+  setText(velocity == Velocity{} ? QStringLiteral("Move the ball")
+                                 : QStringLiteral("Kick the ball"));
+}
+
 void BallCommand::redo() {
-  m_roster->placeBall(m_to);
+  m_roster->placeBall(m_to, m_velocity);
 }
 void BallCommand::undo() {
   m_roster->placeBall(m_from);
-}
-
-bool BallCommand::mergeWith(const QUndoCommand* other) {
-  if (m_age.elapsed() > mergeMilliseconds) return false;
-  m_to = static_cast<const BallCommand&>(*other).m_to;
-  m_age.restart();
-  return true;
 }
 
 AddRobotCommand::AddRobotCommand(MatchRoster* roster, link::ScenarioRobot robot)
@@ -95,20 +94,69 @@ void RemoveRobotsCommand::redo() {
   for (const link::ScenarioRobot& robot : m_robots) m_roster->erase(robot.identity.id);
 }
 
-TeamCommand::TeamCommand(MatchRoster* roster, std::vector<sim::RobotIdentity> before,
-                         std::vector<sim::RobotIdentity> after)
+IdentityCommand::IdentityCommand(MatchRoster* roster, std::vector<sim::RobotIdentity> before,
+                                 std::vector<sim::RobotIdentity> after, const QString& words)
     : m_roster(roster), m_before(std::move(before)), m_after(std::move(after)) {
-  const std::string_view team = info(m_after.front().team).name;
-  setText(QStringLiteral("Put %1 in team %2")
-              .arg(subject(m_before.size(), robotName(m_before.front())),
-                   QString::fromUtf8(team.data(), static_cast<qsizetype>(team.size()))));
+  setText(words);
 }
 
-void TeamCommand::redo() {
+void IdentityCommand::redo() {
   m_roster->changeIdentities(m_after);
 }
-void TeamCommand::undo() {
+void IdentityCommand::undo() {
   m_roster->changeIdentities(m_before);
+}
+
+BehaviourCommand::BehaviourCommand(MatchRoster* roster, std::vector<Change> changes)
+    : m_roster(roster), m_changes(std::move(changes)) {
+  setText(QStringLiteral("Make %1 %2")
+              .arg(subject(m_changes.size(), nameIn(*roster, m_changes.front().id)),
+                   QString::fromStdString(m_changes.front().after)));
+}
+
+void BehaviourCommand::redo() {
+  for (const Change& change : m_changes) m_roster->setBehaviour(change.id, change.after);
+}
+void BehaviourCommand::undo() {
+  for (const Change& change : m_changes) m_roster->setBehaviour(change.id, change.before);
+}
+
+ModelCommand::ModelCommand(MatchRoster* roster, Models before, Models after)
+    : m_roster(roster), m_before(std::move(before)), m_after(std::move(after)) {
+  setText(QStringLiteral("Change the model of %1")
+              .arg(subject(m_after.size(), nameIn(*roster, m_after.front().first))));
+  m_age.start();
+}
+
+void ModelCommand::redo() {
+  m_roster->setModels(m_after);
+}
+void ModelCommand::undo() {
+  m_roster->setModels(m_before);
+}
+
+bool ModelCommand::mergeWith(const QUndoCommand* other) {
+  const auto& later = static_cast<const ModelCommand&>(*other);
+  if (m_age.elapsed() > mergeMilliseconds || later.m_after.size() != m_after.size()) return false;
+  for (std::size_t i = 0; i < m_after.size(); ++i) {
+    if (later.m_after[i].first != m_after[i].first) return false;
+  }
+  m_after = later.m_after;
+  m_age.restart();
+  return true;
+}
+
+ReopenCommand::ReopenCommand(MatchEdits* edits, link::Scenario before, link::Scenario after,
+                             const QString& words)
+    : m_edits(edits), m_before(std::move(before)), m_after(std::move(after)) {
+  setText(words);
+}
+
+void ReopenCommand::redo() {
+  m_edits->reopen(m_after);
+}
+void ReopenCommand::undo() {
+  m_edits->reopen(m_before);
 }
 
 void RemoveRobotsCommand::undo() {

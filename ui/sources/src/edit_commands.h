@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a person did by hand on the field, as undoable commands. Moves of the same things within a
-// second (arrow keys) become one command.
+// What a person did by hand, as undoable commands. Steps of the same kind within a second (arrow
+// keys, a slider) become one command.
 
 #include <QElapsedTimer>
 #include <QUndoCommand>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <ui/sources/match_edits.h>
@@ -19,27 +21,37 @@ class PlacementCommand : public QUndoCommand {
   PlacementCommand(MatchRoster* roster, std::vector<RobotPlacement> placements);
   void redo() override;
   void undo() override;
-  int id() const override { return 1; }
-  bool mergeWith(const QUndoCommand* other) override;
+
+ protected:
+  /// The end of `later` becomes the end of this; false when it moves other robots.
+  bool continueWith(const PlacementCommand& later);
 
  private:
   MatchRoster* m_roster;
   std::vector<RobotPlacement> m_placements;
+};
+
+/// Moved by arrow keys or turned by the wheel.
+class NudgeCommand : public PlacementCommand {
+ public:
+  NudgeCommand(MatchRoster* roster, std::vector<RobotPlacement> placements);
+  int id() const override { return 1; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
   QElapsedTimer m_age;
 };
 
 class BallCommand : public QUndoCommand {
  public:
-  BallCommand(MatchRoster* roster, Point from, Point to);
+  BallCommand(MatchRoster* roster, Point from, Point to, Velocity velocity);
   void redo() override;
   void undo() override;
-  int id() const override { return 2; }
-  bool mergeWith(const QUndoCommand* other) override;
 
  private:
   MatchRoster* m_roster;
   Point m_from, m_to;
-  QElapsedTimer m_age;
+  Velocity m_velocity;
 };
 
 class AddRobotCommand : public QUndoCommand {
@@ -64,16 +76,61 @@ class RemoveRobotsCommand : public QUndoCommand {
   std::vector<link::ScenarioRobot> m_robots;  // with the poses they had
 };
 
-class TeamCommand : public QUndoCommand {
+/// Another team or another number.
+class IdentityCommand : public QUndoCommand {
  public:
-  TeamCommand(MatchRoster* roster, std::vector<sim::RobotIdentity> before,
-              std::vector<sim::RobotIdentity> after);
+  IdentityCommand(MatchRoster* roster, std::vector<sim::RobotIdentity> before,
+                  std::vector<sim::RobotIdentity> after, const QString& words);
   void redo() override;
   void undo() override;
 
  private:
   MatchRoster* m_roster;
   std::vector<sim::RobotIdentity> m_before, m_after;
+};
+
+class BehaviourCommand : public QUndoCommand {
+ public:
+  struct Change {
+    RobotId id;
+    std::string before, after;
+  };
+  BehaviourCommand(MatchRoster* roster, std::vector<Change> changes);
+  void redo() override;
+  void undo() override;
+
+ private:
+  MatchRoster* m_roster;
+  std::vector<Change> m_changes;
+};
+
+/// Robots become another kind of robot.
+class ModelCommand : public QUndoCommand {
+ public:
+  using Models = std::vector<std::pair<RobotId, sim::RobotModel>>;
+  ModelCommand(MatchRoster* roster, Models before, Models after);
+  void redo() override;
+  void undo() override;
+  int id() const override { return 2; }
+  bool mergeWith(const QUndoCommand* other) override;
+
+ private:
+  MatchRoster* m_roster;
+  Models m_before, m_after;
+  QElapsedTimer m_age;
+};
+
+/// Another match, or this one anew. The moment that it leaves is kept to be gone back to.
+class ReopenCommand : public QUndoCommand {
+ public:
+  ReopenCommand(MatchEdits* edits, link::Scenario before, link::Scenario after,
+                const QString& words);
+  void redo() override;
+  void undo() override;
+
+ private:
+  MatchEdits* m_edits;
+  link::Scenario m_before, m_after;
 };
 
 }  // namespace pitchboard::ui

@@ -30,10 +30,11 @@ MatchEdits::MatchEdits(MatchController* match)
   constexpr int undoLimit = 1000;
   m_undoStack->setUndoLimit(undoLimit);
   connect(match, &MatchController::scenarioChanged, this, [this] {
-    m_undoStack->clear();
+    if (!m_reopening) m_undoStack->clear();
     m_roster->begin(m_match->isOpening() ? m_match->scenario().robots
                                          : std::vector<link::ScenarioRobot>{});
   });
+  m_roster->whenModelsChange([this] { emit modelsChanged(); });
 }
 
 MatchEdits::~MatchEdits() = default;
@@ -53,8 +54,14 @@ void MatchEdits::moveRobots(const std::vector<RobotPlacement>& placements) {
   }
 }
 
-void MatchEdits::moveBall(Point from, Point to) {
-  if (m_match->isOpen()) m_undoStack->push(new BallCommand(m_roster.get(), from, to));
+void MatchEdits::nudgeRobots(const std::vector<RobotPlacement>& placements) {
+  if (m_match->isOpen() && !placements.empty()) {
+    m_undoStack->push(new NudgeCommand(m_roster.get(), placements));
+  }
+}
+
+void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
+  if (m_match->isOpen()) m_undoStack->push(new BallCommand(m_roster.get(), from, to, velocity));
 }
 
 void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
@@ -81,6 +88,12 @@ void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> n
   entry.identity = {RobotId{smallestFree(ids)}, team, number.value_or(smallestFree(numbers)),
                     info(team).facesLeft};
   entry.pose = pose;
+  // Of the kind of its team-mates, else of that of anybody.
+  for (const auto& [id, known] : m_roster->robots()) {
+    if (known.identity.team != team) continue;
+    entry.model = known.model;
+    break;
+  }
   if (numbers.count(entry.identity.number) != 0) {
     emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
                     .arg(robotName(entry.identity)));
@@ -119,8 +132,72 @@ void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
     after.push_back({id, team, number, info(team).facesLeft});
   }
   if (!after.empty()) {
-    m_undoStack->push(new TeamCommand(m_roster.get(), std::move(before), std::move(after)));
+    const std::string_view name = info(team).name;
+    const QString words =
+        QStringLiteral("Put %1 in team %2")
+            .arg(before.size() == 1 ? robotName(before.front())
+                                    : QStringLiteral("%1 robots").arg(before.size()),
+                 QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
+    m_undoStack->push(
+        new IdentityCommand(m_roster.get(), std::move(before), std::move(after), words));
   }
+}
+
+void MatchEdits::setNumber(RobotId id, int number) {
+  const link::ScenarioRobot* known = robot(id);
+  if (!m_match->isOpen() || known == nullptr || known->identity.number == number) return;
+  sim::RobotIdentity after = known->identity;
+  after.number = number;
+  for (const auto& [other, entry] : m_roster->robots()) {
+    if (other == id || entry.identity.team != after.team || entry.identity.number != number) {
+      continue;
+    }
+    emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
+                    .arg(robotName(entry.identity)));
+    return;
+  }
+  m_undoStack->push(new IdentityCommand(
+      m_roster.get(), {known->identity}, {after},
+      QStringLiteral("Make %1 %2").arg(robotName(known->identity), robotName(after))));
+}
+
+void MatchEdits::setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour) {
+  std::vector<BehaviourCommand::Change> changes;
+  for (const RobotId id : ids) {
+    const link::ScenarioRobot* known = robot(id);
+    if (known == nullptr || known->behaviour == behaviour.toStdString()) continue;
+    changes.push_back({id, known->behaviour, behaviour.toStdString()});
+  }
+  if (m_match->isOpen() && !changes.empty()) {
+    m_undoStack->push(new BehaviourCommand(m_roster.get(), std::move(changes)));
+  }
+}
+
+void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model) {
+  ModelCommand::Models before, after;
+  for (const RobotId id : ids) {
+    const link::ScenarioRobot* known = robot(id);
+    if (known == nullptr || known->model == model) continue;
+    before.emplace_back(id, known->model);
+    after.emplace_back(id, model);
+  }
+  if (m_match->isOpen() && !after.empty()) {
+    m_undoStack->push(new ModelCommand(m_roster.get(), std::move(before), std::move(after)));
+  }
+}
+
+void MatchEdits::load(const link::Scenario& scenario, const QString& words) {
+  if (!m_match->isOpen()) {
+    m_match->open(scenario, m_match->isPaused());
+    return;
+  }
+  m_undoStack->push(new ReopenCommand(this, m_match->currentMoment(), scenario, words));
+}
+
+void MatchEdits::reopen(const link::Scenario& scenario) {
+  m_reopening = true;
+  m_match->open(scenario, m_match->isPaused());
+  m_reopening = false;
 }
 
 void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
@@ -184,12 +261,9 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
 
 void MatchEdits::setPhysics(const QString& model) {
   link::Scenario moment = m_match->currentMoment();
+  if (moment.settings.physics == model.toStdString()) return;
   moment.settings.physics = model.toStdString();
-  m_match->open(moment, m_match->isPaused());
-}
-
-void MatchEdits::setBehaviour(RobotId id, const QString& behaviour) {
-  m_roster->setBehaviour(id, behaviour.toStdString());
+  load(moment, QStringLiteral("Play with %1 physics").arg(model));
 }
 
 void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {

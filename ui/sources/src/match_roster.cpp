@@ -19,10 +19,12 @@ void MatchRoster::begin(const std::vector<link::ScenarioRobot>& robots) {
 
 void MatchRoster::adopt(const link::Moment& moment) {
   Robots robots;
-  for (const sim::RobotIdentity& identity : moment.state.robots) {
+  for (std::size_t i = 0; i < moment.state.robots.size(); ++i) {
+    const sim::RobotIdentity& identity = moment.state.robots[i];
     link::ScenarioRobot entry;
     if (const link::ScenarioRobot* known = robot(identity.id)) entry = *known;
     entry.identity = identity;
+    entry.model = moment.state.models[i];
     if (const link::MomentRobot* of = moment.robot(identity.id)) entry.behaviour = of->behaviour;
     robots.emplace(identity.id, entry);
   }
@@ -88,10 +90,23 @@ void MatchRoster::place(const std::vector<RobotPlacement>& placements, bool back
   });
 }
 
-void MatchRoster::placeBall(Point position) {
-  m_match->post(
-      {QStringLiteral("The ball cannot be placed"),
-       [position](link::SimulatedMatch& match) { return match.simulation().placeBall(position); }});
+void MatchRoster::placeBall(Point position, Velocity velocity) {
+  m_match->post({QStringLiteral("The ball cannot be placed"),
+                 [position, velocity](link::SimulatedMatch& match) {
+                   return match.simulation().placeBall(position, velocity);
+                 }});
+}
+
+void MatchRoster::setModels(const std::vector<std::pair<RobotId, sim::RobotModel>>& models) {
+  for (const auto& [id, model] : models) {
+    const auto known = m_robots.find(id);
+    if (known == m_robots.end()) continue;
+    known->second.model = model;
+    m_match->post(
+        {QStringLiteral("%1 stays the robot it was").arg(robotName(known->second.identity)),
+         [id, model](link::SimulatedMatch& match) { return match.setRobotModel(id, model); }});
+  }
+  if (m_modelsChanged) m_modelsChanged();
 }
 
 }  // namespace pitchboard::ui

@@ -5,7 +5,9 @@
 // that bring them in, move and remove them: what undoable commands are made of. Belongs to
 // MatchEdits. UI thread only.
 
+#include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <ui/sources/match_edits.h>
@@ -33,11 +35,16 @@ class MatchRoster {
   void setBehaviour(RobotId id, const std::string& behaviour);
   void setRuntime(RobotId id, const link::RuntimeChoice& choice);
   void place(const std::vector<RobotPlacement>& placements, bool back);
-  void placeBall(Point position);
+  void placeBall(Point position, Velocity velocity = {});
+  /// Does nothing for robots that are not there.
+  void setModels(const std::vector<std::pair<RobotId, sim::RobotModel>>& models);
+  /// Called whenever a robot became another kind of robot.
+  void whenModelsChange(std::function<void()> tell) { m_modelsChanged = std::move(tell); }
 
  private:
   MatchController* m_match;
   Robots m_robots;
+  std::function<void()> m_modelsChanged;
 };
 
 }  // namespace pitchboard::ui

@@ -27,7 +27,7 @@ QWidget* variables(const StudioParts& s, QWidget* parent) {
   return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings}, parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
-  return makeNoiseDock(s.controller, parent);
+  return makeNoiseDock(s.controller, s.selection, parent);
 }
 QWidget* refereeing(const StudioParts& s, QWidget* parent) {
   return makeRefereeingDock(s.controller, parent);

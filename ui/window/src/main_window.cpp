@@ -284,10 +284,12 @@ void MainWindow::connectField() {
   connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);
   connect(m_field, &FieldView::saveScenarioRequested, m_files, &ScenarioFiles::askAndSave);
   connect(m_field, &FieldView::loadMatchRequested, m_files,
-          [this] { m_files->open(QStringLiteral("match-3v3")); });
+          [this] { m_files->load(QStringLiteral("match-3v3")); });
   connect(m_field, &FieldView::resetRequested, m_controller, [this] {
-    m_controller->restart();
-    m_controller->edits()->resetScore();
+    link::Scenario again = m_controller->scenario();
+    again.score = {};
+    again.clock = 0.0;
+    m_controller->edits()->load(again, QStringLiteral("Start the match again"));
   });
   connect(m_field, &FieldView::clearRequested, m_controller, [this] {
     std::vector<RobotId> all;

@@ -7,6 +7,7 @@
 
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 
 #include "scenario_chooser.h"
 
@@ -21,13 +22,28 @@ ScenarioFiles::ScenarioFiles(MatchController* controller, FieldView* field,
       m_window(window) {}
 
 void ScenarioFiles::open(const QString& nameOrPath) {
+  read(nameOrPath, [this](const link::Scenario& scenario) {
+    m_controller->open(scenario, m_controller->isPaused());
+  });
+}
+
+void ScenarioFiles::load(const QString& nameOrPath) {
+  read(nameOrPath, [this](const link::Scenario& scenario) {
+    const std::string& title = scenario.title.empty() ? scenario.name : scenario.title;
+    m_controller->edits()->load(scenario,
+                                QStringLiteral("Load “%1”").arg(QString::fromStdString(title)));
+  });
+}
+
+void ScenarioFiles::read(const QString& nameOrPath,
+                         const std::function<void(const link::Scenario&)>& play) {
   const auto scenario = link::loadScenario(nameOrPath.toStdString());
   if (!scenario) {
     emit failed(QStringLiteral("The scenario was not opened: %1")
                     .arg(QString::fromStdString(scenario.error().text())));
     return;
   }
-  m_controller->open(*scenario, m_controller->isPaused());
+  play(*scenario);
   showCurrent(nameOrPath);
 }
 

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <robotlink/scenario/scenario.h>
 
@@ -16,15 +17,19 @@ namespace pitchboard::shared {
 struct ScenarioOptions {
   std::string scenario = "match";
   std::optional<std::uint64_t> seed;
-  std::string noise;    ///< name of a preset; empty: the scenario's
-  std::string physics;  ///< name of a model; empty: the scenario's
+  std::string noise;                     ///< name of a preset; empty: the scenario's
+  std::string physics;                   ///< name of a model; empty: the scenario's
+  std::vector<std::string> robotModels;  ///< "kid-size", "red=my-robot.json"; the last one wins
 };
 
-/// --scenario, --seed, --noise and --physics.
+/// --scenario, --seed, --noise, --physics and --robot-model.
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
 
-/// Puts seed, noise and physics into a scenario.
+/// Puts seed, noise, physics and robot models into a scenario.
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);
+
+/// What the scenario asks of its physics in vain, as warnings on stderr.
+void warnOfIgnoredSettings(const link::Scenario& scenario);
 
 /// The scenario that was named, changed. Errors as loadScenario() and noisePreset().
 Result<link::Scenario> scenarioFrom(const ScenarioOptions& options);

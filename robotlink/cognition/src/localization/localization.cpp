@@ -9,8 +9,6 @@
 #include <simcore/world/published_frame.h>
 #include "localization/monte_carlo_localization.h"
 
-#include "odometry.h"
-
 namespace pitchboard::link {
 namespace {
 
@@ -25,15 +23,16 @@ constexpr double sureEnough_cm = 1.0;  // published: landmarks are asked for abo
 // and LOCALIZATION_WORKING.
 class Localization final : public CognitiveProcess {
  public:
-  Localization(MonteCarloLocalization filter, const sim::FieldSpec& field)
-      : m_filter(std::move(filter)), m_field(field) {}
+  Localization(MonteCarloLocalization filter, const sim::FieldSpec& field,
+               const sim::RobotModel& body)
+      : m_filter(std::move(filter)), m_field(field), m_body(body) {}
 
   void step(Blackboard& board, const Clock& clock) override {
     LocalizationInput input;
     input.seconds = std::clamp(clock.seconds - m_last, 0.0, longestGap);
     m_last = clock.seconds;
-    const GaitSpeed speed =
-        gaitSpeed(board.read(m_variables.controlAction), board.read(m_variables.decisionActionB));
+    const sim::GaitSpeed speed = sim::gaitSpeed(m_body, board.read(m_variables.controlAction),
+                                                board.read(m_variables.decisionActionB));
     input.forward = speed.forward * input.seconds;
     input.left = speed.left * input.seconds;
     input.turn = speed.turn * input.seconds;
@@ -95,6 +94,7 @@ class Localization final : public CognitiveProcess {
 
   MonteCarloLocalization m_filter;
   sim::FieldSpec m_field;
+  sim::RobotModel m_body;
   RobotVariables m_variables;
   double m_last = 0.0;
   bool m_first = true;
@@ -116,7 +116,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeLocalization(const ProcessOptions&
   auto filter = MonteCarloLocalization::create(options.field, parameters, zero, options.seed,
                                                options.robot.value);
   if (!filter) return tl::unexpected<Error>(filter.error());
-  return std::make_unique<Localization>(std::move(*filter), options.field);
+  return std::make_unique<Localization>(std::move(*filter), options.field, options.model);
 }
 
 }  // namespace pitchboard::link

@@ -8,6 +8,7 @@
 
 #include <base/angles.h>
 #include <base/random.h>
+#include <base/repeatable_math.h>
 
 #include "localization/fast_noise.h"
 #include "localization/monte_carlo_imu.h"
@@ -31,6 +32,10 @@ bool usable(const std::optional<double>& value) {
 
 double finite(double value) {
   return std::isfinite(value) ? std::clamp(value, -mostDisplacement, mostDisplacement) : 0.0;
+}
+
+double cube(double x) {
+  return x * x * x;
 }
 
 /// Cell of a heading without an arc tangent: the angle measured along a square ("diamond angle").
@@ -141,12 +146,12 @@ void MonteCarloLocalization::reset(const Pose& pose, double sigma) {
 void MonteCarloLocalization::put(int i, const Pose& pose) {
   m_now.x[i] = static_cast<float>(pose.position.x);
   m_now.y[i] = static_cast<float>(pose.position.y);
-  m_now.c[i] = static_cast<float>(std::cos(pose.yaw));
-  m_now.s[i] = static_cast<float>(std::sin(pose.yaw));
+  m_now.c[i] = static_cast<float>(repeatable::cos(pose.yaw));
+  m_now.s[i] = static_cast<float>(repeatable::sin(pose.yaw));
 }
 
 Pose MonteCarloLocalization::particle(int i) const {
-  return {{m_now.x[i], m_now.y[i]}, std::atan2(m_now.s[i], m_now.c[i])};
+  return {{m_now.x[i], m_now.y[i]}, repeatable::atan2(m_now.s[i], m_now.c[i])};
 }
 
 void MonteCarloLocalization::spread(const LocalizationInput& input) {
@@ -183,7 +188,7 @@ void MonteCarloLocalization::update(const LocalizationInput& input) {
   m_resetShare = 0.0;
   if (seen > 0) {
     // The mean weight of one bearing, so that it does not depend on how many were seen.
-    const double mean = std::pow(std::max(sum, 1e-12), 1.0 / seen);
+    const double mean = repeatable::pow(std::max(sum, 1e-12), 1.0 / seen);
     if (m_slow == 0.0) m_slow = m_fast = mean;
     m_slow += std::min(1.0, m_parameters.slowRate * m_sinceBearing) * (mean - m_slow);
     m_fast += std::min(1.0, m_parameters.fastRate * m_sinceBearing) * (mean - m_fast);
@@ -221,7 +226,7 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
   }
   const double time = std::sqrt(std::clamp(input.seconds, 0.0, 10.0));
   const LocalizationParameters& p = m_parameters;
-  const double distance = std::hypot(forward, left);
+  const double distance = repeatable::hypot(forward, left);
   const auto walk = static_cast<float>(input.inMotion ? p.walkSigma * time + p.walkShare * distance
                                                       : p.restSigma * time);
   const auto rotation = static_cast<float>(
@@ -265,8 +270,8 @@ int MonteCarloLocalization::weigh(const LocalizationInput& input) {
   for (std::size_t i = 0; i < m_corners.size(); ++i) {
     if (!usable(input.corners[i])) continue;
     ++seen;
-    const auto cosine = static_cast<float>(std::cos(*input.corners[i]));
-    const auto sine = static_cast<float>(std::sin(*input.corners[i]));
+    const auto cosine = static_cast<float>(repeatable::cos(*input.corners[i]));
+    const auto sine = static_cast<float>(repeatable::sin(*input.corners[i]));
     a = static_cast<float>(m_corners[i].x) - x;
     b = static_cast<float>(m_corners[i].y) - y;
     // (u, v) = direction in which this particle saw the corner; its dot product with the direction
@@ -286,8 +291,8 @@ void MonteCarloLocalization::weighImu(double yaw) {
   const auto c = m_now.c.head(n), s = m_now.s.head(n);
   auto a = m_a.head(n);
   const double offset = m_imuZero == ImuZero::Left ? pi : 0.0;
-  a = c * static_cast<float>(std::cos(yaw + offset)) +
-      s * static_cast<float>(std::sin(yaw + offset));
+  a = c * static_cast<float>(repeatable::cos(yaw + offset)) +
+      s * static_cast<float>(repeatable::sin(yaw + offset));
   // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
   if (m_imuZero == ImuZero::Unknown) a = a.abs();
   const auto kappa = static_cast<float>(1.0 / (m_parameters.imuSigma * m_parameters.imuSigma));
@@ -316,7 +321,7 @@ int MonteCarloLocalization::wantedParticles() {
   if (occupied < 2) return p.leastParticles;
   const double k = occupied - 1;  // Fox (2003), equation 13: the Wilson-Hilferty approximation
   const double r = 2.0 / (9.0 * k);
-  const double wanted = k / (2 * p.kldError) * std::pow(1.0 - r + std::sqrt(r) * p.kldQuantile, 3);
+  const double wanted = k / (2 * p.kldError) * cube(1.0 - r + std::sqrt(r) * p.kldQuantile);
   return std::clamp(static_cast<int>(std::min(wanted, 1e6)), p.leastParticles, p.mostParticles);
 }
 
@@ -391,7 +396,8 @@ void MonteCarloLocalization::estimate() {
   const auto allX = static_cast<float>((weight * x).sum() / total);
   const auto allY = static_cast<float>((weight * y).sum() / total);
   const double variance = (weight * ((x - allX).square() + (y - allY).square())).sum() / total;
-  m_belief = {{{meanX, meanY}, std::atan2(sine, cosine)}, std::sqrt(std::max(variance, 0.0)), n};
+  m_belief = {
+      {{meanX, meanY}, repeatable::atan2(sine, cosine)}, std::sqrt(std::max(variance, 0.0)), n};
 }
 
 }  // namespace pitchboard::link

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <base/random.h>
+#include <base/repeatable_math.h>
 #include "localization/monte_carlo_localization.h"
 
 #include "localization/monte_carlo_imu.h"
@@ -46,13 +47,14 @@ Pose MonteCarloLocalization::drawFromSensors(CounterRandom& random) const {
         1 + static_cast<std::size_t>(random.uniform() * static_cast<double>(count - 1));
     const std::size_t i = known[first], j = known[(first + step) % count];
     const double u = lineOf(i), v = lineOf(j);
-    const double cross = std::sin(v - u);
+    const double cross = repeatable::sin(v - u);
     if (std::abs(cross) > 0.05) {
       // p = corner_i - t * (cos u, sin u) = corner_j - r * (cos v, sin v)
       const double dx = m_corners[i].x - m_corners[j].x, dy = m_corners[i].y - m_corners[j].y;
-      const double t = (dx * std::sin(v) - dy * std::cos(v)) / cross;
-      const double r = (dx * std::sin(u) - dy * std::cos(u)) / cross;
-      const Point p{m_corners[i].x - t * std::cos(u), m_corners[i].y - t * std::sin(u)};
+      const double t = (dx * repeatable::sin(v) - dy * repeatable::cos(v)) / cross;
+      const double r = (dx * repeatable::sin(u) - dy * repeatable::cos(u)) / cross;
+      const Point p{m_corners[i].x - t * repeatable::cos(u),
+                    m_corners[i].y - t * repeatable::sin(u)};
       if (t > 0 && r > 0 && onField(p)) return {p, yaw};
     }
   }
@@ -60,8 +62,8 @@ Pose MonteCarloLocalization::drawFromSensors(CounterRandom& random) const {
     const std::size_t i =
         known[static_cast<std::size_t>(random.uniform() * static_cast<double>(count))];
     const double u = lineOf(i);
-    const double t = random.uniform() * 2 * std::hypot(m_halfLength, m_halfWidth);
-    const Point p{m_corners[i].x - t * std::cos(u), m_corners[i].y - t * std::sin(u)};
+    const double t = random.uniform() * 2 * repeatable::hypot(m_halfLength, m_halfWidth);
+    const Point p{m_corners[i].x - t * repeatable::cos(u), m_corners[i].y - t * repeatable::sin(u)};
     if (onField(p)) return {p, yaw};
   }
   const double x = (2 * random.uniform() - 1) * m_halfLength;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <base/angles.h>
+#include <base/repeatable_math.h>
 
 namespace pitchboard::link {
 Choice Behaviour::choose(const WorldModel& world) {
@@ -150,8 +151,8 @@ Choice Keeper::play(const WorldModel& world) {
   // On the line from the ball to the goal, on an arc before it that covers the posts.
   const double arc = 0.40 * world.field().goalWidth;
   const double angle = std::clamp(direction(world.ownGoal(), *ball), -1.2, 1.2);
-  const Point place{world.ownGoal().x + 0.2 + 0.6 * arc * std::cos(angle),
-                    world.ownGoal().y + arc * std::sin(angle)};
+  const Point place{world.ownGoal().x + 0.2 + 0.6 * arc * repeatable::cos(angle),
+                    world.ownGoal().y + arc * repeatable::sin(angle)};
   Choice choice = walkTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
   choice.search = !world.seesBall();
   return choice;

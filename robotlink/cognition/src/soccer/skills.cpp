@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include <base/angles.h>
-
-#include "odometry.h"
+#include <base/repeatable_math.h>
 
 namespace pitchboard::link {
 namespace {
@@ -18,9 +17,11 @@ constexpr double planPeriod = 0.2;       // s: 5 Hz
 constexpr double robotClearance = 0.12;  // m between two bodies
 constexpr double postClearance = 0.06;
 constexpr double ballClearance = 0.08;
-constexpr double behindBall = 0.36;     // m from the ball, where an attack begins
-constexpr double kickDistance = 0.245;  // m: the body touches at 0.22
-constexpr double kickBearing = 0.42;    // rad: the kick's sector reaches 30 degrees
+// Of the distance to the ball, beyond that at which the body touches it (0.22 m for the published
+// robot and ball):
+constexpr double behindBall = 0.14;  // m, where an attack begins
+constexpr double kickDistance = 0.025;
+constexpr double kickBearing = 0.42;  // rad: the published kick's sector reaches 30 degrees
 
 struct Gait {
   Act act;
@@ -31,9 +32,17 @@ constexpr std::array<Gait, 4> gaits{{{acts::forward, 0.0},
                                      {acts::sidleRight, -pi / 2},
                                      {acts::backward, pi}}};
 
-double speedOf(const Act& act) {
-  const GaitSpeed speed = gaitSpeed(act.action, act.b);
-  return std::hypot(speed.forward, speed.left);
+double speedOf(const WorldModel& world, const Act& act) {
+  const sim::GaitSpeed speed = sim::gaitSpeed(world.body(), act.action, act.b);
+  return repeatable::hypot(speed.forward, speed.left);
+}
+
+/// From where this robot's foot hits the ball surely, m between the centres.
+double kicksFrom(const WorldModel& world) {
+  constexpr double surely = 0.06;  // m inside the foot's reach
+  const double near = world.touch() + kickDistance;
+  if (world.body().kickLaw == sim::KickLaw::Published) return near;
+  return std::max(near, world.body().kickReach - surely);
 }
 
 Act turn(double angle) {
@@ -86,13 +95,14 @@ std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
 
   // The time each gait needs: turning into it, walking, turning to face what the goal asks.
   constexpr double keepGait = 0.8;  // s that another gait must be better by
-  const double turnSpeed = gaitSpeed(acts::turnLeft.action, 0).turn;
+  const double turnSpeed = sim::gaitSpeed(world.body(), acts::turnLeft.action, 0).turn;
   int best = 0;
   double least = 1e9;
   for (std::size_t i = 0; i < gaits.size(); ++i) {
     const double before = wrapToPi(bearing - gaits[i].direction);
     const double after = wrapToPi(facing - before);
-    double time = (std::abs(before) + std::abs(after)) / turnSpeed + way / speedOf(gaits[i].act);
+    double time =
+        (std::abs(before) + std::abs(after)) / turnSpeed + way / speedOf(world, gaits[i].act);
     if (static_cast<int>(i) == m_gait) time -= keepGait;
     if (time < least) {
       least = time;
@@ -135,22 +145,24 @@ Act Attack::step(const WorldModel& world, Walk& walk, const Point& aim) {
       world.localized() ? wrapToPi(direction(ball, aim) - yaw) : wrapToPi(-world.imuYaw());
   const double d = world.ballDistance(), bearing = world.ballBearing();
   const double goalDistance = distance(ball, aim);
-  const double opening = std::atan2(0.35 * world.field().goalWidth, goalDistance);
+  const double opening = repeatable::atan2(0.35 * world.field().goalWidth, goalDistance);
   double tolerance = std::clamp(goalDistance > 3.0 ? 0.30 : opening, 0.12, 0.35);
   // An opponent at the ball leaves no time: forward is good enough.
   for (const Point& opponent : world.opponents()) {
     if (distance(opponent, ball) < 0.6) tolerance = std::max(tolerance, 0.7);
   }
 
-  const bool enter = d < 0.48 && std::abs(error) < 0.9 && std::abs(bearing) < 0.8;
-  const bool stay = d < 0.65 && std::abs(error) < 1.5 && std::abs(bearing) < 1.2;
+  const double touch = world.touch();
+  const bool enter = d < touch + 0.26 && std::abs(error) < 0.9 && std::abs(bearing) < 0.8;
+  const bool stay = d < touch + 0.43 && std::abs(error) < 1.5 && std::abs(bearing) < 1.2;
   m_engaged = m_engaged ? stay : enter;
   if (m_engaged) return atBall(world, error, tolerance);
   m_aligned = false;
 
   const double kickYaw = yaw + error;
-  const Point behind{ball.x - behindBall * std::cos(kickYaw),
-                     ball.y - behindBall * std::sin(kickYaw)};
+  const double back = touch + behindBall;
+  const Point behind{ball.x - back * repeatable::cos(kickYaw),
+                     ball.y - back * repeatable::sin(kickYaw)};
   const auto act = walk.step(world, {{behind, kickYaw}, 0.08, 0.5, true});
   return act.value_or(atBall(world, error, tolerance));
 }
@@ -161,18 +173,18 @@ Act Attack::atBall(const WorldModel& world, double error, double tolerance) {
   if (std::abs(error) > tolerance) m_aligned = false;
   if (!m_aligned) {
     if (std::abs(bearing) > 0.45) return turn(bearing);
-    if (d > 0.42) return acts::forwardSlow;
-    if (d < 0.235) return acts::backwardSlow;
+    if (d > world.touch() + 0.2) return acts::forwardSlow;
+    if (d < world.touch() + 0.015) return acts::backwardSlow;
     return error > 0.0 ? acts::aroundRight : acts::aroundLeft;
   }
   if (std::abs(bearing) > kickBearing - 0.04) {
     return world.ballInFront().y > 0.0 ? acts::sidleLeft : acts::sidleRight;
   }
   const bool ownWay = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
-  if (d < kickDistance && world.ballAge() < 0.3 && !ownWay) {
+  if (d < kicksFrom(world) && world.ballAge() < 0.3 && !ownWay) {
     return bearing <= 0.0 ? acts::kickRight : acts::kickLeft;
   }
-  return d > 0.34 ? acts::forward : acts::forwardSlow;
+  return d > world.touch() + 0.12 ? acts::forward : acts::forwardSlow;
 }
 
 Point aimFrom(const WorldModel& world, const Point& ball) {

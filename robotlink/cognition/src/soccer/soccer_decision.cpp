@@ -8,8 +8,9 @@ namespace {
 
 class SoccerDecision final : public CognitiveProcess {
  public:
-  SoccerDecision(const ProcessOptions& options, std::unique_ptr<Behaviour> behaviour)
-      : m_world(options.field, options.facesLeft), m_behaviour(std::move(behaviour)) {}
+  SoccerDecision(const ProcessOptions& options, const sim::FieldSpec& field,
+                 std::unique_ptr<Behaviour> behaviour)
+      : m_world(field, options.model, options.facesLeft), m_behaviour(std::move(behaviour)) {}
 
   void step(Blackboard& board, const Clock& clock) override {
     m_world.update(board, clock);
@@ -51,7 +52,12 @@ Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOption
   if (const Result<void> valid = sim::validate(options.field); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
-  return std::make_unique<SoccerDecision>(options, std::make_unique<B>(options.field));
+  if (const Result<void> valid = sim::validate(options.model); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  sim::FieldSpec field = options.field;
+  if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
+  return std::make_unique<SoccerDecision>(options, field, std::make_unique<B>(field));
 }
 
 template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(

@@ -5,9 +5,8 @@
 #include <numbers>
 
 #include <base/angles.h>
+#include <base/repeatable_math.h>
 #include <simcore/world/published_frame.h>
-
-#include "odometry.h"
 
 namespace pitchboard::link {
 namespace {
@@ -66,16 +65,16 @@ void WorldModel::findSide(double theta) {
   }
   if (!localized()) return;
   constexpr double rate = 0.05, sure = 0.3;
-  m_side += rate * (std::cos(theta - m_imuYaw) - m_side);
+  m_side += rate * (repeatable::cos(theta - m_imuYaw) - m_side);
   if (std::abs(m_side) > sure) m_attacksLeft = m_side < 0.0;
 }
 
 void WorldModel::moveWithBody(const Blackboard& board, double seconds) {
-  const GaitSpeed speed =
-      gaitSpeed(board.read(m_variables.controlAction), board.read(m_variables.decisionActionB));
+  const sim::GaitSpeed speed = sim::gaitSpeed(m_body, board.read(m_variables.controlAction),
+                                              board.read(m_variables.decisionActionB));
   const double x = m_ballLocal.x - speed.forward * seconds;
   const double y = m_ballLocal.y - speed.left * seconds;
-  const double c = std::cos(speed.turn * seconds), s = std::sin(speed.turn * seconds);
+  const double c = repeatable::cos(speed.turn * seconds), s = repeatable::sin(speed.turn * seconds);
   m_ballLocal = {c * x + s * y, c * y - s * x};
 }
 
@@ -86,7 +85,7 @@ void WorldModel::readBall(const Blackboard& board) {
   const double bearing =
       radiansFromDegrees(static_cast<double>(board.read(m_variables.visionPanDeg)));
   if (!std::isfinite(distance) || !std::isfinite(bearing) || distance <= 0.0) return;
-  const Point seen{distance * std::cos(bearing), distance * std::sin(bearing)};
+  const Point seen{distance * repeatable::cos(bearing), distance * repeatable::sin(bearing)};
   const Point change{seen.x - m_ballLocal.x, seen.y - m_ballLocal.y};
   const bool jump = length(change) > ballJump || !seesBall();
   const double gain = jump ? 1.0 : ballGain;
@@ -103,7 +102,8 @@ void WorldModel::readRobots(Blackboard& board) {
     const double bearing =
         -radiansFromDegrees(static_cast<double>(board.read(m_variables.robotAngle[i])));
     if (!(distance > 0.0) || !std::isfinite(distance) || !std::isfinite(bearing)) continue;
-    m_opponents[i] = {toField({distance * std::cos(bearing), distance * std::sin(bearing)}), m_now};
+    m_opponents[i] = {
+        toField({distance * repeatable::cos(bearing), distance * repeatable::sin(bearing)}), m_now};
   }
 }
 
@@ -176,12 +176,12 @@ std::vector<Point> WorldModel::opponents() const {
 
 Point WorldModel::toLocal(const Point& p) const {
   const double dx = p.x - m_pose.position.x, dy = p.y - m_pose.position.y;
-  const double c = std::cos(m_pose.yaw), s = std::sin(m_pose.yaw);
+  const double c = repeatable::cos(m_pose.yaw), s = repeatable::sin(m_pose.yaw);
   return {c * dx + s * dy, c * dy - s * dx};
 }
 
 Point WorldModel::toField(const Point& p) const {
-  const double c = std::cos(m_pose.yaw), s = std::sin(m_pose.yaw);
+  const double c = repeatable::cos(m_pose.yaw), s = repeatable::sin(m_pose.yaw);
   return {m_pose.position.x + c * p.x - s * p.y, m_pose.position.y + s * p.x + c * p.y};
 }
 

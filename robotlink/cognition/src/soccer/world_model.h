@@ -33,8 +33,10 @@ struct TeamMate {
 
 class WorldModel {
  public:
-  WorldModel(const sim::FieldSpec& field, std::optional<bool> facesLeft)
-      : m_field(field), m_facesLeft(facesLeft) {}
+  /// `body`: the robot whose radius is in `field`.
+  WorldModel(const sim::FieldSpec& field, const sim::RobotModel& body,
+             std::optional<bool> facesLeft)
+      : m_field(field), m_body(body), m_facesLeft(facesLeft) {}
 
   /// Once a cycle, before the behaviour. Also tells vision what to look for: the ball, and for one
   /// cycle in a while opponents (DECISION_ACTION_VISION).
@@ -44,6 +46,9 @@ class WorldModel {
   Referee referee() const { return m_referee; }
   bool fallen() const { return m_fallen; }
   const sim::FieldSpec& field() const { return m_field; }
+  const sim::RobotModel& body() const { return m_body; }
+  /// From the robot's centre to the ball's when they touch.
+  double touch() const { return m_field.robotRadius + m_field.ballRadius; }
   Point opponentGoal() const { return {m_field.halfLength(), 0.0}; }
   Point ownGoal() const { return {-m_field.halfLength(), 0.0}; }
 
@@ -93,6 +98,7 @@ class WorldModel {
   Point fromCm(double x_cm, double y_cm) const;
 
   sim::FieldSpec m_field;
+  sim::RobotModel m_body;
   std::optional<bool> m_facesLeft;
   RobotVariables m_variables;
   TeamVariables m_team;

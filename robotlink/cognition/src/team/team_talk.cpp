@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include <base/repeatable_math.h>
 #include "team/team_variables.h"
 
 namespace pitchboard::link {
@@ -115,7 +116,8 @@ class TeamTalk final : public CognitiveProcess {
     const int x = board.read(m_variables.localizationX), y = board.read(m_variables.localizationY);
     const auto rank = [x, y](const TeamMessage& m) {
       const bool attacks = m.intention == static_cast<int>(Intention::Ball);
-      const double away = std::hypot(static_cast<double>(m.x) - x, static_cast<double>(m.y) - y);
+      const double away =
+          repeatable::hypot(static_cast<double>(m.x) - x, static_cast<double>(m.y) - y);
       return std::tuple(attacks ? 0 : 1, m.ball >= 0 ? 0 : 1, away, m.robot);
     };
     std::sort(all.begin(), all.end(),

@@ -5,7 +5,7 @@
 // +x towards the right goal, +y up on the screen, yaw counter-clockwise from +x (CONVENTIONS.md).
 // And what is measured between them.
 
-#include <cmath>
+#include <base/repeatable_math.h>
 
 namespace pitchboard {
 
@@ -25,17 +25,17 @@ struct Velocity {
 
 /// From the origin to `p`, metres.
 inline double length(const Point& p) {
-  return std::hypot(p.x, p.y);
+  return repeatable::hypot(p.x, p.y);
 }
 
 /// Between two places, metres.
 inline double distance(const Point& a, const Point& b) {
-  return std::hypot(a.x - b.x, a.y - b.y);
+  return repeatable::hypot(a.x - b.x, a.y - b.y);
 }
 
 /// The way from one place to another, radians counter-clockwise from +x.
 inline double direction(const Point& from, const Point& to) {
-  return std::atan2(to.y - from.y, to.x - from.x);
+  return repeatable::atan2(to.y - from.y, to.x - from.x);
 }
 
 /// Where something stands and which way it faces.

@@ -27,11 +27,13 @@ class CounterRandom {
 
   /// Uniform in [0, 1).
   double uniform();
-  /// Normal with the given mean and standard deviation (Box-Muller). Draws nothing when sigma is 0.
+  /// Normal with the given mean and standard deviation, from one draw; none when sigma is 0.
   double normal(double mean, double sigma);
 
  private:
   void refill();
+  /// 53 random bits.
+  std::uint64_t bits();
 
   std::uint32_t m_key[2];
   std::uint32_t m_counter[4];

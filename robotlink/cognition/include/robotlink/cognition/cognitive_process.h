@@ -15,6 +15,7 @@
 #include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/field.h>
+#include <simcore/world/robot_model.h>
 
 namespace pitchboard::link {
 
@@ -53,6 +54,7 @@ struct ProcessOptions {
   int channelPortBase = 10000;  ///< robots of a team hear each other on this + `team`
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are
+  sim::RobotModel model;               ///< localization, decision: how this robot walks and kicks
   std::uint64_t seed = 1;              ///< localization: of its particles
   int particles = 5000;                ///< localization: at most this many
   bool publishedLocalization = false;  ///< localization: the published filter's parameters

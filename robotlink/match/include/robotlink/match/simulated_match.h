@@ -156,6 +156,10 @@ class SimulatedMatch {
   /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
   /// shirt is worn already.
   Result<void> setIdentity(const sim::RobotIdentity& identity);
+  /// Which kind of robot it is; nothing when there is no such robot.
+  const sim::RobotModel* robotModel(RobotId id) const;
+  /// Another kind of robot from now on; its processes start again when they have to know.
+  Result<void> setRobotModel(RobotId id, const sim::RobotModel& model);
   /// A call of the referee (a person's); see sim::Simulation::call().
   Result<void> call(const sim::RefereeCall& call) { return m_simulation.call(call); }
   /// The smallest robot number that is free (blackboard key, telemetry port).

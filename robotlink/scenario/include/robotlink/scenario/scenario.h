@@ -14,6 +14,7 @@
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/models/noise_presets.h>
 #include <robotlink/processes/runtime_profile.h>
 #include <simcore/simulation/simulation.h>
 
@@ -36,6 +37,7 @@ struct ScenarioRobot {
   Pose pose;
   std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
   RuntimeChoice runtime{};            ///< who runs; not chosen: as its team
+  sim::RobotModel model{};
   bool operator==(const ScenarioRobot&) const = default;
 };
 
@@ -83,9 +85,5 @@ Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source
 /// The same form. Reading it gives an equal scenario when that came from a file; an angle of any
 /// other origin may come back one unit in the last place away, and then stays.
 std::string scenarioToJson(const Scenario& scenario);
-
-/// Noise presets are data: none, published, paper, realistic.
-std::vector<std::string> noisePresets();
-Result<sim::NoiseParameters> noisePreset(std::string_view name);
 
 }  // namespace pitchboard::link

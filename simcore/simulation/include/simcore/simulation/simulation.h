@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,11 @@
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::sim {
+
+/// What a state of the `published` physics asks for in vain, as sentences for people; none for
+/// other models, and none when nothing is ignored.
+std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
+                                         std::span<const RobotModel> models);
 
 class Simulation {
  public:
@@ -54,7 +60,8 @@ class Simulation {
   std::optional<Pose> robotPose(RobotId id) const;
 
   // Edits by hand or by a script, between two steps. A pose outside the walls is moved inside.
-  Result<void> addRobot(const RobotIdentity& identity, const Pose& pose);
+  Result<void> addRobot(const RobotIdentity& identity, const Pose& pose,
+                        const RobotModel& model = {});
   Result<void> removeRobot(RobotId id);
   Result<void> placeRobot(RobotId id, const Pose& pose);
   /// Turns the head to `headYaw` (rad, field frame); the published `view_rot`.
@@ -63,6 +70,8 @@ class Simulation {
   Result<void> setNoise(const NoiseParameters& noise);
   void setClockRunning(bool running) { m_state.clockRunning = running; }
   void setScore(const Score& score) { m_state.score = score; }
+  /// Another kind of robot from now on; changeable while running.
+  Result<void> setRobotModel(RobotId id, const RobotModel& model);
   /// Constants of the rigid-body model; changeable while running.
   Result<void> setRigidBody(const RigidBodySettings& settings);
 

@@ -30,7 +30,8 @@ struct FieldSpec {
   double centreCircleDiameter = 1.5;
   double lineWidth = 0.05;
   double ballRadius = 0.09;
-  double robotRadius = 0.13;
+  double ballMass = 0.2;      ///< kg, unless the match says another
+  double robotRadius = 0.13;  ///< of robots whose model names none
 
   double halfLength() const { return length / 2; }
   double halfWidth() const { return width / 2; }

@@ -24,6 +24,8 @@ struct NoiseParameters {
   double visionDelay = 0.0;          ///< s between the moment seen and the moment published
   double imuWhite = 0.0;             ///< rad, on the yaw, anew each tick
   double imuDrift = 0.0;             ///< rad per 1/60 s, accumulating on the yaw
+  /// Every robot has the noise of its own model; the numbers here are not used.
+  bool ofModel = false;
 
   bool operator==(const NoiseParameters&) const = default;
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one table of the numbers that people may set: noise, the robot's body, the field, the tick
-// rate. Scenario files, the simulation's own checks, the rows of the Noise and physics dock and the
-// tables of docs/SCENARIOS.md are all made from it. Ranges are in the unit in which people write a
-// value; the only one that differs from the unit in memory is the degree. Defaults are those of the
-// structs. Constant data, for any thread.
+// The one table of the numbers that people may set: noise, kinds of robots, ball and contacts, the
+// field, the tick rate. Scenario files, the simulation's own checks, the rows of the Noise and
+// physics dock and the tables of docs/SCENARIOS.md are all made from it. Ranges are in the unit in
+// which people write a value; the only one that differs from the unit in memory is the degree.
+// Defaults are those of the structs. Constant data, for any thread.
 
 #include <array>
 
@@ -100,32 +100,81 @@ inline constexpr auto noiseParameters = std::to_array<Parameter<NoiseParameters>
 });
 
 inline constexpr auto rigidBodyParameters = std::to_array<Parameter<RigidBodySettings>>({
-    {"max_acceleration", &RigidBodySettings::maxAcceleration, units::metresPerSecondSquared, 0.01, 1000,
-     "Acceleration", "Largest of the gait", {" m/s²", 1, 0.05, 10, 2}},
-    {"max_yaw_acceleration", &RigidBodySettings::maxYawAcceleration, units::degreesPerSecondSquared, 1, 500000,
-     "Yaw acceleration", "Largest of the gait", {" °/s²", 1, 10, 2000, 0}},
-    {"robot_mass", &RigidBodySettings::robotMass, units::kilograms, 0.1, 200,
-     "Robot mass", "", {" kg", 1, 0.1, 50, 1}},
     {"ball_mass", &RigidBodySettings::ballMass, units::kilograms, 0.01, 5,
-     "Ball mass", "", {" kg", 1, 0.01, 2, 2}},
+     "Ball mass", "The default is the field's", {" kg", 1, 0.01, 2, 2}},
     {"ball_friction", &RigidBodySettings::ballFriction, units::plain, 0, 1,
      "Ball keeps", "Share of its speed kept in 1/60 s", {" %", 100, 0, 100, 1}},
+    {"ball_deceleration", &RigidBodySettings::ballDeceleration, units::metresPerSecondSquared, 0, 100,
+     "Ball slows by", "Besides; on grass about 0.35, with a ball that keeps all", {" m/s²", 1, 0, 3, 2}},
     {"post_restitution", &RigidBodySettings::postRestitution, units::plain, 0, 1,
      "Bounce off posts", "Also off walls and nets", {" %", 100, 0, 100, 0}},
     {"robot_restitution", &RigidBodySettings::robotRestitution, units::plain, 0, 1,
      "Bounce off robots", "", {" %", 100, 0, 100, 0}},
-    {"fall_impulse", &RigidBodySettings::fallImpulse, units::newtonSeconds, 0, 1000,
-     "Fall impulse", "Throws a robot down", {" N·s", 1, 0.05, 20, 2}},
-    {"get_up_time", &RigidBodySettings::getUpTime, units::seconds, 0, 600,
-     "Time to get up", "", {" s", 1, 0.1, 30, 1}},
-    {"head_speed", &RigidBodySettings::headSpeed, units::degreesPerSecond, 0, 5000,
+});
+
+inline constexpr auto robotModelParameters = std::to_array<Parameter<RobotModel>>({
+    {"forward_fast", &RobotModel::forwardFast, units::metresPerSecond, 0, 10,
+     "Forward, fast", "Action 1", {" m/s", 1, 0, 2, 2}},
+    {"forward_slow", &RobotModel::forwardSlow, units::metresPerSecond, 0, 10,
+     "Forward, slow", "Action 8; DECISION_ACTION_B below 10 takes tenths of it", {" m/s", 1, 0, 2, 2}},
+    {"backward_fast", &RobotModel::backwardFast, units::metresPerSecond, 0, 10,
+     "Backward, fast", "Action 17", {" m/s", 1, 0, 2, 2}},
+    {"backward_slow", &RobotModel::backwardSlow, units::metresPerSecond, 0, 10,
+     "Backward, slow", "Action 18", {" m/s", 1, 0, 2, 2}},
+    {"sideways", &RobotModel::sideways, units::metresPerSecond, 0, 10,
+     "Sideways", "Actions 6 and 7", {" m/s", 1, 0, 2, 2}},
+    {"turn", &RobotModel::turn, units::degreesPerSecond, 0, 1000,
+     "Turning", "Actions 2 and 3", {" °/s", 1, 0, 180, 0}},
+    {"around_sideways", &RobotModel::aroundSideways, units::metresPerSecond, 0, 10,
+     "Around the ball", "Sideways, actions 9 and 14", {" m/s", 1, 0, 2, 2}},
+    {"around_turn", &RobotModel::aroundTurn, units::degreesPerSecond, 0, 1000,
+     "Turning around it", "Actions 9 and 14", {" °/s", 1, 0, 180, 0}},
+    {"max_acceleration", &RobotModel::maxAcceleration, units::metresPerSecondSquared, 0.01, 1000,
+     "Acceleration", "Largest of the gait", {" m/s²", 1, 0.05, 10, 2}},
+    {"max_yaw_acceleration", &RobotModel::maxYawAcceleration, units::degreesPerSecondSquared, 1, 500000,
+     "Yaw acceleration", "Largest of the gait", {" °/s²", 1, 10, 2000, 0}},
+    {"kick_speed", &RobotModel::kickSpeed, units::metresPerSecond, 0, 20,
+     "Strong kick", "Speed of a ball hit squarely, actions 4 and 5", {" m/s", 1, 0, 6, 2}},
+    {"weak_kick_speed", &RobotModel::weakKickSpeed, units::metresPerSecond, 0, 20,
+     "Weak kick", "Actions 21 and 22", {" m/s", 1, 0, 6, 2}},
+    {"pass_speed", &RobotModel::passSpeed, units::metresPerSecond, 0, 20,
+     "Pass", "Actions 12 and 13", {" m/s", 1, 0, 6, 2}},
+    {"kick_reach", &RobotModel::kickReach, units::metres, 0, 3,
+     "Kick reach", "From the robot's centre to the ball's", {" cm", 100, 0, 100, 0}},
+    {"kick_outer", &RobotModel::kickOuter, units::degrees, 0, 180,
+     "Kick sector, outer", "From the heading to the foot's side; passes: to both sides", {" °", 1, 0, 90, 0}},
+    {"kick_inner", &RobotModel::kickInner, units::degrees, 0, 180,
+     "Kick sector, inner", "From the heading to the other side", {" °", 1, 0, 90, 0}},
+    {"foot_side", &RobotModel::footSide, units::metres, 0, 1,
+     "Foot", "From the middle of the robot", {" cm", 100, 0, 30, 1}},
+    {"foot_width", &RobotModel::footWidth, units::metres, 0.001, 3,
+     "Foot width", "So far beside the foot a ball gets 61 % of the speed", {" cm", 100, 1, 50, 0}},
+    {"kick_time", &RobotModel::kickTime, units::seconds, 0, 60,
+     "Kick takes", "", {" s", 1, 0, 10, 2}},
+    {"kick_contact", &RobotModel::kickContact, units::seconds, 0, 60,
+     "Foot hits after", "At most the whole kick", {" s", 1, 0, 10, 2}},
+    {"radius", &RobotModel::radius, units::metres, 0, 1,
+     "Radius", "Seen from above; 0 = the field's robot_radius", {" cm", 100, 0, 60, 1}},
+    {"mass", &RobotModel::mass, units::kilograms, 0.1, 200,
+     "Mass", "", {" kg", 1, 0.1, 50, 1}},
+    {"fall_impulse", &RobotModel::fallImpulse, units::newtonSeconds, 0, 1000,
+     "Fall impulse", "Throws it down", {" N·s", 1, 0.05, 20, 2}},
+    {"get_up_front", &RobotModel::getUpFront, units::seconds, 0, 600,
+     "Up from the front", "", {" s", 1, 0.1, 30, 1}},
+    {"get_up_back", &RobotModel::getUpBack, units::seconds, 0, 600,
+     "Up from the back", "", {" s", 1, 0.1, 30, 1}},
+    {"head_speed", &RobotModel::headSpeed, units::degreesPerSecond, 0, 5000,
      "Head speed", "", {" °/s", 1, 1, 720, 0}},
-    {"field_of_view", &RigidBodySettings::fieldOfView, units::degrees, 1, 360,
-     "Field of view", "In all", {" °", 1, 1, 360, 0}},
-    {"pan_limit", &RigidBodySettings::panLimit, units::degrees, 0, 180,
+    {"pan_limit", &RobotModel::panLimit, units::degrees, 0, 180,
      "Head pan limit", "To either side", {" °", 1, 0, 180, 0}},
-    {"vision_range", &RigidBodySettings::visionRange, units::metres, 0, 100,
+    {"field_of_view", &RobotModel::fieldOfView, units::degrees, 1, 360,
+     "Field of view", "In all", {" °", 1, 1, 360, 0}},
+    {"vision_range", &RobotModel::visionRange, units::metres, 0, 100,
      "Vision range", "", {" m", 1, 0.1, 20, 1}},
+    {"camera_forward", &RobotModel::cameraForward, units::metres, -1, 1,
+     "Camera forward", "In front of the robot's centre", {" cm", 100, -20, 20, 1}},
+    {"camera_height", &RobotModel::cameraHeight, units::metres, 0, 5,
+     "Camera height", "For distances from the lens", {" cm", 100, 0, 200, 0}},
 });
 
 inline constexpr auto fieldParameters = std::to_array<Parameter<FieldSpec>>({
@@ -159,8 +208,10 @@ inline constexpr auto fieldParameters = std::to_array<Parameter<FieldSpec>>({
      "Line width", ""},
     {"ball_radius", &FieldSpec::ballRadius, units::metres, 0.01, 0.5,
      "Ball radius", ""},
+    {"ball_mass", &FieldSpec::ballMass, units::kilograms, 0.01, 5,
+     "Ball mass", "Unless `rigid_body` says another"},
     {"robot_radius", &FieldSpec::robotRadius, units::metres, 0.02, 1,
-     "Robot radius", ""},
+     "Robot radius", "Of robots whose model names none"},
 });
 
 inline constexpr Parameter<SimulationSettings> tickRateParameter{
@@ -174,6 +225,12 @@ struct FallsSwitch {
   const char* name = "Robots fall when hit hard";
 };
 inline constexpr FallsSwitch fallsSwitch;
+
+/// Names of the values of KickLaw, in its order.
+inline constexpr std::array<const char*, 2> kickLawNames{"published", "foot"};
+
+/// From where RobotModel::fromCamera measures: no, yes.
+inline constexpr std::array<const char*, 2> distanceFromNames{"body", "camera"};
 
 // Each refuses a value that is not finite or out of its range: InvalidArgument, with the key as the
 // context ("noise.forward"). A field has more that can be wrong: validate() of field.h.

@@ -11,33 +11,34 @@
 
 namespace pitchboard::sim {
 
-/// Constants of the body that a scenario may change.
+/// Constants of ball and contacts that a scenario may change. Those of a robot are in its
+/// RobotModel.
 struct RigidBodySettings {
-  double maxAcceleration = 1.0;             ///< m/s², of the gait, forward and sideways
-  double maxYawAcceleration = 6.0;          ///< rad/s²
-  double robotMass = 4.0;                   ///< kg
-  double ballMass = 0.2;                    ///< kg
-  double ballFriction = 0.95;               ///< share of its speed that the ball keeps in 1/60 s
-  double postRestitution = 0.6;             ///< 0..1, ball against post, wall and net
-  double robotRestitution = 0.3;            ///< 0..1, ball against robot
-  bool falls = false;                       ///< robots can fall when hit hard
-  double fallImpulse = 0.8;                 ///< N·s in one tick that throws a robot down
-  double getUpTime = 3.0;                   ///< s
-  double headSpeed = 1.0471975511965976;    ///< rad/s, 1° per 1/60 s as published
-  double fieldOfView = 1.2217304763960306;  ///< rad, 70° in all
-  double panLimit = 2.356194490192345;      ///< rad, ±135°
-  double visionRange = 3.0;                 ///< m
+  double ballMass = 0.2;          ///< kg
+  double ballFriction = 0.95;     ///< share of its speed that the ball keeps in 1/60 s
+  double ballDeceleration = 0.0;  ///< m/s² that it loses besides: rolling on grass
+  double postRestitution = 0.6;   ///< 0..1, ball against post, wall and net
+  double robotRestitution = 0.3;  ///< 0..1, ball against robot
+  bool falls = false;             ///< robots can fall when hit hard
   bool operator==(const RigidBodySettings&) const = default;
 };
 
 enum class Posture : std::uint8_t { Upright, OnFront, OnBack, GettingUp };
 
-/// One look at the ball, kept until the vision delay has passed.
-struct BallSighting {
-  bool seen = false;
-  double distance = 0.0;  ///< m
-  double bearing = 0.0;   ///< rad from the body's heading, left positive
-  bool operator==(const BallSighting&) const = default;
+/// A robot as it stood at a past moment.
+struct PastRobot {
+  bool there = false;  ///< it was on the field
+  bool down = false;   ///< it lay, and saw nothing
+  Pose pose;
+  double headYaw = 0.0;  ///< rad relative to the body
+  bool operator==(const PastRobot&) const = default;
+};
+
+/// What there was to see at a past moment, kept until the vision delay has passed.
+struct PastMoment {
+  Point ball;
+  std::vector<PastRobot> robots;  ///< as many as there are now
+  bool operator==(const PastMoment&) const = default;
 };
 
 struct RigidRobot {
@@ -52,10 +53,10 @@ struct RigidRobot {
   int actionB = 0;             ///< its parameter, read when the action was chosen
   bool inMotion = false;
   Posture posture = Posture::Upright;
-  double getUpRemaining = 0.0;          ///< s: lying, until it gets up; then until it stands
-  double imuZero = 0.0;                 ///< rad, yaw at the last IMU reset
-  double imuDrift = 0.0;                ///< rad, accumulated
-  std::vector<BallSighting> sightings;  ///< ring over the vision delay; index tick % size
+  double getUpRemaining = 0.0;  ///< s: lying, until it gets up; then until it stands
+  double kickElapsed = -1.0;    ///< s since the kick that is under way began; negative: none is
+  double imuZero = 0.0;         ///< rad, yaw at the last IMU reset
+  double imuDrift = 0.0;        ///< rad, accumulated
   bool operator==(const RigidRobot&) const = default;
 };
 
@@ -68,6 +69,7 @@ struct RigidBall {
 struct RigidBodyState {
   std::vector<RigidRobot> robots;
   RigidBall ball;
+  std::vector<PastMoment> past;  ///< ring over the longest vision delay; index tick % size
   bool operator==(const RigidBodyState&) const = default;
 };
 

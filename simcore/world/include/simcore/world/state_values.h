@@ -24,21 +24,32 @@ template <class Field, class Visitor>
 void field(Field& f, Visitor& v) {
   all(v, f.name, f.length, f.width, f.border, f.goalWidth, f.goalDepth, f.goalHeight,
       f.goalPostRadius, f.goalAreaLength, f.goalAreaWidth, f.penaltyAreaLength, f.penaltyAreaWidth,
-      f.penaltyMarkDistance, f.centreCircleDiameter, f.lineWidth, f.ballRadius, f.robotRadius);
+      f.penaltyMarkDistance, f.centreCircleDiameter, f.lineWidth, f.ballRadius, f.ballMass,
+      f.robotRadius);
 }
 
 template <class Noise, class Visitor>
 void noise(Noise& n, Visitor& v) {
   all(v, n.forward, n.sideways, n.rotation, n.kickSpeed, n.kickAngle, n.visionDistance,
       n.visionBearing, n.robotDistance, n.robotBearing, n.landmarkBearing, n.landmarkProbability,
-      n.missedDetection, n.visionDelay, n.imuWhite, n.imuDrift);
+      n.missedDetection, n.visionDelay, n.imuWhite, n.imuDrift, n.ofModel);
 }
 
 template <class Body, class Visitor>
 void rigidBody(Body& s, Visitor& v) {
-  all(v, s.maxAcceleration, s.maxYawAcceleration, s.robotMass, s.ballMass, s.ballFriction,
-      s.postRestitution, s.robotRestitution, s.falls, s.fallImpulse, s.getUpTime, s.headSpeed,
-      s.fieldOfView, s.panLimit, s.visionRange);
+  all(v, s.ballMass, s.ballFriction, s.ballDeceleration, s.postRestitution, s.robotRestitution,
+      s.falls);
+}
+
+template <class Model, class Visitor>
+void robotModel(Model& m, Visitor& v) {
+  all(v, m.name, m.forwardFast, m.forwardSlow, m.backwardFast, m.backwardSlow, m.sideways, m.turn,
+      m.aroundSideways, m.aroundTurn, m.maxAcceleration, m.maxYawAcceleration, m.kickLaw,
+      m.kickSpeed, m.weakKickSpeed, m.passSpeed, m.kickReach, m.kickOuter, m.kickInner, m.footSide,
+      m.footWidth, m.kickTime, m.kickContact, m.radius, m.mass, m.fallImpulse, m.getUpFront,
+      m.getUpBack, m.headSpeed, m.panLimit, m.fieldOfView, m.visionRange, m.cameraForward,
+      m.cameraHeight, m.fromCamera);
+  noise(m.noise, v);
 }
 
 /// One of the alternatives of WorldState::physics, told apart by what its robots have.
@@ -46,12 +57,10 @@ template <class Physics, class Visitor>
 void physics(Physics& state, Visitor& v) {
   v.count(state.robots);
   for (auto& r : state.robots) {
-    if constexpr (requires { r.sightings; }) {
+    if constexpr (requires { r.posture; }) {
       all(v, r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed, r.sidewaysSpeed,
           r.yawRate, r.velocity.x, r.velocity.y, r.headYaw, r.panRight, r.action, r.actionB,
-          r.inMotion, r.posture, r.getUpRemaining, r.imuZero, r.imuDrift);
-      v.count(r.sightings);
-      for (auto& s : r.sightings) all(v, s.seen, s.distance, s.bearing);
+          r.inMotion, r.posture, r.getUpRemaining, r.kickElapsed, r.imuZero, r.imuDrift);
     } else {
       all(v, r.x, r.y, r.rotate, r.view, r.panRight, r.action, r.front, r.turn, r.drift, r.inMotion,
           r.orientationError);
@@ -60,6 +69,14 @@ void physics(Physics& state, Visitor& v) {
   auto& ball = state.ball;
   if constexpr (requires { ball.position; }) {
     all(v, ball.position.x, ball.position.y, ball.velocity.x, ball.velocity.y);
+    v.count(state.past);
+    for (auto& moment : state.past) {
+      all(v, moment.ball.x, moment.ball.y);
+      v.sameCount(moment.robots, state.robots.size());
+      for (auto& r : moment.robots) {
+        all(v, r.there, r.down, r.pose.position.x, r.pose.position.y, r.pose.yaw, r.headYaw);
+      }
+    }
   } else {
     all(v, ball.x, ball.y, ball.vx, ball.vy, ball.friction);
   }
@@ -78,6 +95,8 @@ void visitValues(World& world, Visitor& v) {
                     world.clockTicks);
   v.count(world.robots);
   for (auto& r : world.robots) state_values::all(v, r.id.value, r.team, r.number, r.imuStartsAt180);
+  v.sameCount(world.models, world.robots.size());
+  for (auto& model : world.models) state_values::robotModel(model, v);
   v.sameCount(world.statistics, world.robots.size());
   for (auto& r : world.statistics) {
     state_values::all(v, r.distanceWalked, r.kicks, r.falls, r.unknownActions, r.lastUnknownAction);

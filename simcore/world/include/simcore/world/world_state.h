@@ -18,6 +18,7 @@
 #include <simcore/world/published_state.h>
 #include <simcore/world/referee_rules.h>
 #include <simcore/world/rigid_body_state.h>
+#include <simcore/world/robot_model.h>
 
 namespace pitchboard::sim {
 
@@ -75,11 +76,18 @@ struct WorldState {
   bool clockRunning = true;
   std::uint64_t clockTicks = 0;       ///< ticks on which the clock ran
   std::vector<RobotIdentity> robots;  ///< order of creation; the index of all per-robot vectors
+  std::vector<RobotModel> models;     ///< of which kind each robot is
   std::vector<RobotStatistics> statistics;
   std::variant<RigidBodyState, PublishedState> physics;
   std::optional<GameState> game;  ///< exactly when settings.referee is there
   bool operator==(const WorldState&) const = default;
 };
+
+/// The radius of robot `index`, m.
+inline double robotRadius(const WorldState& world, std::size_t index) {
+  const double own = world.models[index].radius;
+  return own > 0.0 ? own : world.settings.field.robotRadius;
+}
 
 /// 64-bit FNV-1a over every value of the state in declaration order (not over padding), so that two
 /// states have the same hash exactly when the simulation goes on in the same way.

@@ -57,6 +57,11 @@ class ParameterRow : public QObject {
     });
   }
 
+  void setEnabled(bool enabled) {
+    m_slider->setEnabled(enabled);
+    m_box->setEnabled(enabled);
+  }
+
   /// Shows a value without calling `edited`; leaves a box alone in which somebody types.
   void show(double value) {
     if (m_box->hasFocus() || m_slider->isSliderDown()) return;

@@ -2,9 +2,10 @@
 #pragma once
 
 // Everything that is done by hand to the match being simulated: robots and ball are placed, added,
-// removed, which can be undone; behaviours, processes, noise, physics, words of the blackboards,
-// which cannot. Belongs to the MatchController and ends with it. UI thread only; what is ordered is
-// carried out on the match's thread between two ticks.
+// removed, get another behaviour, number or model, the match gets another physics or starts anew,
+// all of which can be undone; processes, noise, constants, words of the blackboards, which cannot.
+// Belongs to the MatchController and ends with it. UI thread only; what is ordered is carried out
+// on the match's thread between two ticks.
 
 #include <QObject>
 #include <QString>
@@ -42,11 +43,26 @@ class MatchEdits : public QObject {
 
   // Edits by hand: take effect at once and can be undone.
   void moveRobots(const std::vector<RobotPlacement>& placements);
-  void moveBall(Point from, Point to);
+  /// The same by arrow keys and wheel: those of a second become one command, but never one with a
+  /// drag.
+  void nudgeRobots(const std::vector<RobotPlacement>& placements);
+  /// `velocity`: with which it leaves `to`, m/s.
+  void moveBall(Point from, Point to, Velocity velocity = {});
   void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
   void removeRobots(const std::vector<RobotId>& ids);
   /// These robots play for another team, each with the smallest shirt number that is free there.
   void setTeam(const std::vector<RobotId>& ids, TeamColor team);
+  /// Another number on the shirt; `failed` when a team-mate wears it.
+  void setNumber(RobotId id, int number);
+  /// Another decision process takes the robots over.
+  void setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour);
+  /// They become robots of this kind. Changes of one thing within a second are one command.
+  void setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model);
+  /// The model of motion and collisions: starts the present moment anew with it.
+  void setPhysics(const QString& model);
+  /// Plays another scenario, or this one from its beginning; undone, the match goes on from the
+  /// moment that it had. `words`: what was done.
+  void load(const link::Scenario& scenario, const QString& words);
 
   // While a drag is going on the world follows, but only its end is one undoable command:
   /// Shows robots at their `to` pose without an entry on the undo stack.
@@ -63,10 +79,6 @@ class MatchEdits : public QObject {
   void writeVariable(RobotId id, const QString& name, double value);
   void setNoise(const sim::NoiseParameters& noise);
   void setRigidBody(const sim::RigidBodySettings& settings);
-  /// The model of motion and collisions: starts the present moment anew with it.
-  void setPhysics(const QString& model);
-  /// Another decision process takes the robot over.
-  void setBehaviour(RobotId id, const QString& behaviour);
   /// Who runs for the robot; all its processes start anew.
   void setRuntime(RobotId id, const link::RuntimeChoice& choice);
   // One of the separate processes, by ProcessStatus::id.
@@ -79,13 +91,19 @@ class MatchEdits : public QObject {
 
  signals:
   void failed(const QString& sentence);
+  /// A robot became another kind of robot, by hand or by undo.
+  void modelsChanged();
   /// `time`: of the tick after which it was written, simulated s.
   void variableWritten(pitchboard::RobotId id, const QString& name, double time);
 
  private:
+  friend class ReopenCommand;
+  void reopen(const link::Scenario& scenario);
+
   MatchController* m_match;
   std::unique_ptr<MatchRoster> m_roster;
   QUndoStack* m_undoStack;
+  bool m_reopening = false;  // a command opens a match: what was done before can still be undone
 };
 
 }  // namespace pitchboard::ui

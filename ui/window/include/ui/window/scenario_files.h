@@ -4,8 +4,11 @@
 // Scenarios and pictures in files: opens, saves, exports. Never modal but for the file dialogs.
 
 #include <QObject>
+#include <functional>
 
 class QWidget;
+
+#include <robotlink/scenario/scenario.h>
 
 namespace pitchboard::ui {
 
@@ -21,6 +24,8 @@ class ScenarioFiles : public QObject {
 
   /// A built-in name or a path; on failure the running match goes on and `failed` tells why.
   void open(const QString& nameOrPath);
+  /// The same, as something that can be undone.
+  void load(const QString& nameOrPath);
   /// The present moment.
   void save(const QString& path);
   /// The field as PNG.
@@ -35,6 +40,8 @@ class ScenarioFiles : public QObject {
   void failed(const QString& sentence);
 
  private:
+  void read(const QString& nameOrPath, const std::function<void(const link::Scenario&)>& play);
+
   MatchController* m_controller;
   FieldView* m_field;
   ScenarioChooser* m_chooser;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/models/robot_models.h>
+
+#include <algorithm>
+#include <array>
+
+#include <base/read_file.h>
+#include <resources/resources.h>
+#include <robotlink/models/noise_presets.h>
+#include <simcore/world/parameter_reading.h>
+
+namespace pitchboard::link {
+namespace {
+
+// In the order in which people see them; each is resources/robots/<name>.json.
+constexpr std::array<std::string_view, 4> names{"published", "darwin-op", "kid-size", "adult-size"};
+constexpr std::size_t longestName = 64;
+constexpr std::size_t longestText = 2000;
+constexpr std::size_t mostFileBytes = 64 * 1024;
+
+std::string pathOf(std::string_view name) {
+  return "robots/" + std::string(name) + ".json";
+}
+
+sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
+                                     const std::string& path);
+
+Result<sim::RobotModel> modelFromJson(std::string_view text, std::string_view source) {
+  JsonReport report(source);
+  const auto root = parseJson(text, report, mostFileBytes);
+  sim::RobotModel model;
+  if (root) model = readRobotModelObject(report, *root, "");
+  if (report.failed()) return tl::unexpected(report.error());
+  return model;
+}
+
+/// Where each number is from, for people: any key of the model, and a text.
+void checkSources(JsonReport& report, const JsonObject& model) {
+  const JsonNode* node = model.find("sources");
+  if (!node) return;
+  const auto keys =
+      sim::withKeys({"kick_law", "distance_from", "noise"}, sim::robotModelParameters);
+  const JsonObject sources(report, *node, model.pathOf("sources"), keys);
+  for (const std::string_view key : keys) (void)sources.text(key, "", longestText);
+}
+
+sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
+                                     const std::string& path) {
+  const JsonObject object(report, node, path,
+                          sim::withKeys({"name", "title", "description", "base", "kick_law",
+                                         "distance_from", "noise", "sources"},
+                                        sim::robotModelParameters));
+  sim::RobotModel model;
+  if (const auto base = object.choice("base", names, "robot model")) {
+    if (auto built = robotModelFromText(names[*base], "base")) model = *built;
+  }
+  model.name = object.text("name", "custom", longestName);
+  if (model.name.empty()) object.fail("name", "must not be empty");
+  (void)object.text("title", "", longestText);
+  (void)object.text("description", "", longestText);
+  checkSources(report, object);
+  sim::readNumbers(object, sim::robotModelParameters, model);
+  const auto choose = [&](std::string_view key, const auto& known, std::string_view what,
+                          std::size_t now) {
+    const std::vector<std::string_view> words(known.begin(), known.end());
+    return object.choice(key, words, what).value_or(now);
+  };
+  model.kickLaw = static_cast<sim::KickLaw>(choose("kick_law", sim::kickLawNames, "law of kicking",
+                                                   static_cast<std::size_t>(model.kickLaw)));
+  model.fromCamera = choose("distance_from", sim::distanceFromNames, "place to measure from",
+                            model.fromCamera ? 1 : 0) == 1;
+  if (const auto noise = readNoise(object, report, "noise")) model.noise = *noise;
+  if (report.failed()) return model;
+  if (const auto valid = sim::validate(model); !valid) {
+    const std::string key = valid.error().context.substr(valid.error().context.find('.') + 1);
+    object.fail(key.substr(0, key.find('.')), valid.error().message);
+  }
+  return model;
+}
+
+}  // namespace
+
+std::vector<std::string> robotModels() {
+  return {names.begin(), names.end()};
+}
+
+std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonReport& report,
+                                              std::string_view key) {
+  const JsonNode* node = parent.find(key);
+  if (!node) return {};
+  if (node->kind == JsonNode::Kind::Object) {
+    return readRobotModelObject(report, *node, parent.pathOf(key));
+  }
+  if (node->kind != JsonNode::Kind::Text) {
+    parent.fail(key, "must be the name of a robot model, in quotes, or an object in braces");
+    return {};
+  }
+  const auto built = parent.choice(key, names, "robot model");
+  if (!built) return {};
+  const auto model = robotModelFromText(names[*built], "");
+  return model ? std::optional<sim::RobotModel>(*model) : std::nullopt;
+}
+
+RobotModelText robotModelText(std::string_view name) {
+  RobotModelText text{std::string(name), {}};
+  if (std::find(names.begin(), names.end(), name) == names.end()) return text;
+  JsonReport report(name);
+  const auto root = parseJson(resourceText(pathOf(name)), report);
+  if (!root) return text;
+  const JsonObject object(report, *root, "");
+  text.title = object.text("title", text.title, longestText);
+  text.description = object.text("description", "", longestText);
+  return text;
+}
+
+Result<sim::RobotModel> robotModelFromText(std::string_view nameOrJson, std::string_view source) {
+  if (nameOrJson.find('{') != std::string_view::npos) return modelFromJson(nameOrJson, source);
+  if (std::find(names.begin(), names.end(), nameOrJson) != names.end()) {
+    return modelFromJson(resourceText(pathOf(nameOrJson)), pathOf(nameOrJson));
+  }
+  return failure(ErrorCode::NotFound, unknownName("robot model", nameOrJson, names),
+                 std::string(source));
+}
+
+Result<sim::RobotModel> loadRobotModel(const std::string& nameOrPath) {
+  if (std::find(names.begin(), names.end(), nameOrPath) != names.end()) {
+    return robotModelFromText(nameOrPath, nameOrPath);
+  }
+  const auto text = readFile(nameOrPath, mostFileBytes, "the robot model");
+  if (!text && text.error().code == ErrorCode::NotFound &&
+      nameOrPath.find_first_of("/.") == std::string::npos) {
+    return failure(ErrorCode::NotFound,
+                   unknownName("built-in robot model and no file", nameOrPath, names));
+  }
+  if (!text) return tl::unexpected(text.error());
+  return modelFromJson(*text, nameOrPath);
+}
+
+}  // namespace pitchboard::link
