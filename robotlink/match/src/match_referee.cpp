@@ -18,8 +18,8 @@ constexpr int quickPackets = 5;
 
 Result<void> MatchReferee::sendTo(int port) {
   if (port < 1 || port > 65535) {
-    return failure(ErrorCode::InvalidArgument, "the referee's port " + std::to_string(port) +
-                                                   " does not lie in 1..65535");
+    return failure(ErrorCode::InvalidArgument,
+                   "the referee's port " + std::to_string(port) + " does not lie in 1..65535");
   }
   auto sender = telemetry::UdpSender::to(loopbackBroadcast);
   if (!sender) return tl::unexpected(sender.error());
@@ -30,8 +30,7 @@ Result<void> MatchReferee::sendTo(int port) {
 
 Result<void> MatchReferee::obey(int port, sim::Simulation& simulation) {
   if (port < 1 || port > 65535) {
-    return failure(ErrorCode::InvalidArgument, "the GameController's port " +
-                                                   std::to_string(port) +
+    return failure(ErrorCode::InvalidArgument, "the GameController's port " + std::to_string(port) +
                                                    " does not lie in 1..65535");
   }
   telemetry::ReceiverOptions options;

@@ -75,10 +75,9 @@ void fillTeam(const sim::WorldState& world, const sim::GameTeam& team, const Dia
         std::any_of(world.robots.begin(), world.robots.end(), [&](const sim::RobotIdentity& robot) {
           return robot.team == team.colour && robot.number == number;
         });
-    slot.penalty = penaltyCode(dialect.penalties, there ? player.penalty
-                                                        : sim::PenaltyKind::Substitute);
-    slot.secondsLeft =
-        there ? penaltySeconds(player, dialect, world.settings.tickRate) : 0;
+    slot.penalty =
+        penaltyCode(dialect.penalties, there ? player.penalty : sim::PenaltyKind::Substitute);
+    slot.secondsLeft = there ? penaltySeconds(player, dialect, world.settings.tickRate) : 0;
     slot.warnings = player.warnings;
     slot.yellow = player.yellow;
     slot.red = player.red;
@@ -126,9 +125,8 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
   }
   const bool full = hidden && !game.clockBeganBefore;
   out.secsRemaining =
-      full ? static_cast<int>(std::ceil(game.phase == sim::GamePhase::ExtraTime
-                                            ? rules.extraHalfTime
-                                            : rules.halfTime))
+      full ? static_cast<int>(std::ceil(
+                 game.phase == sim::GamePhase::ExtraTime ? rules.extraHalfTime : rules.halfTime))
            : sim::secondsOf(game.clock, rate);
   out.secondaryTime = hidden ? 0 : sim::secondsOf(game.secondary, rate);
   if (dialect.soccer() && game.state == PlayState::Playing && game.ballFree &&
@@ -176,8 +174,8 @@ RefereeView refereeView(const sim::WorldState& world) {
   view.version = static_cast<int>(std::lround(rules.packetVersion));
   view.sender = rules.automatic ? "the simulated referee" : "a person";
   view.state = wordsOf(game.state);
-  view.setPlay = game.phase == sim::GamePhase::Timeout ? "timeout"
-                                                       : std::string(wordsOf(game.setPlay));
+  view.setPlay =
+      game.phase == sim::GamePhase::Timeout ? "timeout" : std::string(wordsOf(game.setPlay));
   view.phase = game.phase == sim::GamePhase::ShootOut    ? "penalty shoot-out"
                : game.phase == sim::GamePhase::ExtraTime ? "overtime"
                                                          : "";
@@ -185,7 +183,8 @@ RefereeView refereeView(const sim::WorldState& world) {
   view.stopped = game.stopped;
   view.secondsLeft = sim::secondsOf(game.clock, rate);
   if (game.secondary != 0) view.secondaryTime = sim::secondsOf(game.secondary, rate);
-  if (game.kickOff >= 0) view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
+  if (game.kickOff >= 0)
+    view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
   const std::size_t left = game.leftTeam();
   for (std::size_t side = 0; side < 2; ++side) {
     const sim::GameTeam& team = game.teams[side == 0 ? left : 1 - left];
@@ -204,8 +203,7 @@ std::optional<Penalty> refereePenalty(const sim::WorldState& world,
                                       const sim::RobotIdentity& robot) {
   if (!world.game) return {};
   const int team = world.game->teamOf(robot.team);
-  if (team < 0 || robot.number < 1 ||
-      robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
+  if (team < 0 || robot.number < 1 || robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
     return {};
   }
   const sim::GamePlayer& player = world.game->teams[static_cast<std::size_t>(team)]
@@ -233,8 +231,8 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
   game.half = packet.firstHalf != 0 ? 1 : 2;
   game.hidden = 0;
   game.stopped = packet.stopped.value_or(0) != 0;
-  const int phase = packet.gamePhase.value_or(
-      packet.secState.value_or(0) <= 3 ? packet.secState.value_or(0) : 0);
+  const int phase =
+      packet.gamePhase.value_or(packet.secState.value_or(0) <= 3 ? packet.secState.value_or(0) : 0);
   game.phase = phase == 1   ? sim::GamePhase::ShootOut
                : phase == 2 ? sim::GamePhase::ExtraTime
                : phase == 3 ? sim::GamePhase::Timeout
@@ -264,8 +262,8 @@ void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) 
                             : SetPlayStep::Taking;
     game.setPlayTeam = indexOf((*packet.secStateInfo)[0]);
   } else {
-    game.setPlayTeam = game.setPlay == SetPlay::None ? GameState::nobody
-                                                     : indexOf(packet.kickOffTeam);
+    game.setPlayTeam =
+        game.setPlay == SetPlay::None ? GameState::nobody : indexOf(packet.kickOffTeam);
   }
   game.kickOff = indexOf(packet.kickOffTeam);
   for (std::size_t side = 0; side < 2; ++side) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/session/board_columns.h>
+#include <robotlink/live/board_columns.h>
 
 #include <bit>
 #include <limits>
