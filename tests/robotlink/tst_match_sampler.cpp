@@ -15,8 +15,8 @@
 #include <base/angles.h>
 #include <resources/resources.h>
 #include <robotlink/blackboard/variable_meanings.h>
+#include <robotlink/live/board_columns.h>
 #include <robotlink/match/match_runner.h>
-#include <robotlink/session/board_columns.h>
 #include <robotlink/session/match_sampler.h>
 #include <telemetry/series/series_store.h>
 

@@ -72,7 +72,7 @@ void TeamMonitor::makeRouter() {
 
 void TeamMonitor::setProfile(Profile profile) {
   const int bits = counterBits(profile);
-  if (bits != counterBits(m_decoder->profile())) {
+  if (bits != counterBits(m_profile)) {
     for (Robot& robot : m_robots) robot.sequence = SequenceStats(bits);
   }
   m_profile = std::move(profile);
