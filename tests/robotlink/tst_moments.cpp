@@ -66,7 +66,7 @@ struct Played {
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
     runner->execute([](SimulatedMatch& m) {
       (void)m.simulation().placeBall({0.5, -1}, {1, 0.3});
-      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker"});
+      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
       (void)m.removeRobot(RobotId{2});
     });
     runner->runTo(1200);

@@ -149,7 +149,7 @@ class TestStateArchive : public QObject {
     runner->execute([](SimulatedMatch& m) { (void)m.simulation().placeBall({0.5, -1}, {1, 0.3}); });
     QVERIFY(play(333));
     runner->execute([](SimulatedMatch& m) {
-      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker"});
+      (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
       (void)m.removeRobot(RobotId{2});
       (void)m.simulation().placeRobot(RobotId{1}, {{1, 1}, 3.0});
     });
