@@ -5,8 +5,10 @@
 #include <memory>
 
 #include <base/read_file.h>
+#include <robotlink/live/live_teams.h>
 
 #include "commands.h"
+#include "listen_options.h"
 #include "live_json.h"
 
 namespace pitchboard::cli {
@@ -62,6 +64,13 @@ void put(const Options& options, Json json, const Json& body, const std::string&
   std::printf("%s\n", options.json ? dump(json).c_str() : line.c_str());
 }
 
+int decodeStoredMessages(const Options& options, const TextDecoder& decoder);
+
+bool isTextFormat(MessageFormat format) {
+  return format == MessageFormat::Words || format == MessageFormat::KeyValue ||
+         format == MessageFormat::Json || format == MessageFormat::Lua;
+}
+
 int decodeTelemetry(const Options& options) {
   Profile profile = publishedProfile();
   if (!options.profile.empty()) {
@@ -69,7 +78,8 @@ int decodeTelemetry(const Options& options) {
     if (!loaded) return reportError(loaded.error());
     profile = std::move(*loaded);
   }
-  const TextDecoder decoder(std::move(profile));
+  const TextDecoder decoder(std::move(profile), link::surroundingsOf(sim::FieldSpec{}));
+  if (!isTextFormat(decoder.profile().format)) return decodeStoredMessages(options, decoder);
   auto decoded = std::make_unique<DecodedText>();
   int exitCode = 0;
   for (const std::string& file : options.files) {
@@ -86,8 +96,9 @@ int decodeTelemetry(const Options& options) {
         head["time"] = *captured.time;
         head["sender"] = printable(captured.sender);
       }
-      put(options, std::move(head), telemetryJson(decoder, *decoded, captured.datagram),
-          telemetryLine(decoder, *decoded, captured.datagram));
+      put(options, std::move(head),
+          telemetryJson(decoder, *decoded, captured.datagram, decoded->robot),
+          telemetryLine(decoder, *decoded, captured.datagram, decoded->robot));
       if (!decoded->accepted()) exitCode = 1;
     });
   }
@@ -127,6 +138,27 @@ Result<std::vector<StoredPacket>> storedPackets(const std::string& file, const s
   });
   if (error) return tl::unexpected(*error);
   return packets;
+}
+
+/// Messages that are no text: one in a file, or lines of JSON.
+int decodeStoredMessages(const Options& options, const TextDecoder& decoder) {
+  auto decoded = std::make_unique<DecodedText>();
+  int exitCode = 0;
+  for (const std::string& file : options.files) {
+    const auto bytes = readAll(file);
+    if (!bytes) return reportError(bytes.error());
+    const auto messages = storedPackets(file, *bytes);
+    if (!messages) return reportError(messages.error());
+    for (const StoredPacket& stored : *messages) {
+      decoder.decode(stored.bytes, *decoded);
+      Json head{{"file", file}};
+      if (stored.line > 0) head["line"] = stored.line;
+      put(options, std::move(head), telemetryJson(decoder, *decoded, stored.bytes, decoded->robot),
+          telemetryLine(decoder, *decoded, stored.bytes, decoded->robot));
+      if (!decoded->accepted()) exitCode = 1;
+    }
+  }
+  return exitCode;
 }
 
 int decodeGameController(const Options& options) {
@@ -170,9 +202,13 @@ void addDecodeCommand(CLI::App& parent, int& exitCode) {
   auto text = std::make_shared<Options>();
   CLI::App* telemetry = decode->add_subcommand(
       "telemetry",
-      "Text datagrams of robots, one per line; a line may begin with time, tab, sender, tab");
+      "Datagrams of robots. Text: one per line; a line may begin with time, tab, sender, tab.\n"
+      "Binary: one per file, or lines of JSON with the bytes under \"hex\".\n"
+      "Example: pitchboard-cli decode telemetry --profile mitecom message.bin");
   telemetry->add_option("FILE", text->files, "Files; - is standard input")->required();
-  telemetry->add_option("--profile", text->profile, "Order of the fields as JSON (docs/LIVE.md)");
+  telemetry->add_option(
+      "--profile", text->profile,
+      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
   telemetry->add_flag("--json", text->json, "One JSON object per datagram");
   telemetry->callback([text, &exitCode] { exitCode = decodeTelemetry(*text); });
 

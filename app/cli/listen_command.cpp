@@ -82,8 +82,13 @@ class Printer {
     if (verdict == TeamMonitor::Verdict::SenderRefused) return;
     const TextDecoder& decoder = m_monitor.decoder();
     const DecodedText& decoded = m_monitor.decoded();
-    put("telemetry", datagram, m_json ? telemetryJson(decoder, decoded, datagram.payload) : Json(),
-        m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload));
+    const auto& teams = m_monitor.options().teams;
+    const int number = numberInTeam(decoded.robot, teams.size());
+    const TeamSetup* team = decoded.robot > 0 ? teamOf(decoded.robot, teams) : nullptr;
+    const std::string title = team != nullptr ? team->title() : std::string();
+    put("telemetry", datagram,
+        m_json ? telemetryJson(decoder, decoded, datagram.payload, number, title) : Json(),
+        m_json ? std::string() : telemetryLine(decoder, decoded, datagram.payload, number, title));
   }
 
   void printReferee(const DatagramView& datagram) {
@@ -153,13 +158,14 @@ int run(const Options& options) {
   }
 
   const InterruptGuard signals;
+  const std::vector<std::uint16_t> ports = receiver.ports;
   const auto clock = std::make_shared<const LiveClock>();
   receiver.clock = clock;
   auto network = UdpReceiver::start(std::move(receiver));
   if (!network) return reportError(network.error());
   Printer printer(std::move(*setup), options.network, options.json);
   std::map<std::size_t, std::string> told;
-  sayListening(options.network);
+  sayListening(options.network, ports);
   DatagramBatch batch;
   const auto begin = Clock::now();
   auto nextRequest = begin;
@@ -201,7 +207,8 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "given.\n"
       "Examples: pitchboard-cli listen\n"
       "          pitchboard-cli listen --json --duration 60 > match.jsonl\n"
-      "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24");
+      "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24\n"
+      "          pitchboard-cli listen --team ours.json --team theirs.json");
   command->add_option("--duration", options->duration, "Seconds; without it until Ctrl+C")
       ->check(CLI::Range(0.0, 1e9));
   addListenOptions(*command, options->network);

@@ -3,9 +3,33 @@
 
 #include <cstdio>
 
+#include <robotlink/live/live_teams.h>
+
 namespace pitchboard::cli {
 
 using namespace telemetry;
+
+std::string profileNames() {
+  std::string names;
+  std::size_t line = 0;
+  for (const std::string& name : builtInProfiles()) {
+    const bool wraps = line + name.size() > 60;
+    if (!names.empty()) names += wraps ? ",\n" : ", ";
+    line = wraps ? name.size() : line + name.size() + 2;
+    names += name;
+  }
+  return names;
+}
+
+Result<std::vector<TeamSetup>> loadTeams(const std::vector<std::string>& files) {
+  std::vector<TeamSetup> teams;
+  for (const std::string& file : files) {
+    auto team = loadTeamSetup(file);
+    if (!team) return tl::unexpected(team.error());
+    teams.push_back(std::move(*team));
+  }
+  return teams;
+}
 
 void addListenOptions(CLI::App& command, ListenOptions& options) {
   command
@@ -19,7 +43,11 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
       ->check(CLI::Range(1, 64));
   command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
       ->capture_default_str();
-  command.add_option("--profile", options.profile, "Order of the fields as JSON (docs/LIVE.md)");
+  command.add_option(
+      "--profile", options.profile,
+      "What stands in a message: a file (docs/LIVE.md), or one of\n" + profileNames());
+  command.add_option("--team", options.teams,
+                     "Team setup as JSON: ports, senders, profile, colour; may be repeated");
   command
       .add_option("--gamecontroller-version", options.refereeVersion,
                   "Only this version of the referee's packets; without it the highest")
@@ -35,7 +63,12 @@ Result<ListenSetup> listenSetup(const ListenOptions& options) {
   const auto bind = parseAddress(options.bind);
   if (!bind) return tl::unexpected(bind.error());
   setup.receiver.bind = *bind;
-  auto ports = livePorts(options.portBase, options.robots, options.refereePort);
+  auto teams = loadTeams(options.teams);
+  if (!teams) return tl::unexpected(teams.error());
+  setup.monitor.teams = std::move(*teams);
+  setup.monitor.field = link::surroundingsOf(sim::FieldSpec{});
+  auto ports =
+      teamPorts(setup.monitor.teams, options.portBase, options.robots, options.refereePort);
   if (!ports) return tl::unexpected(ports.error());
   setup.receiver.ports = std::move(*ports);
   setup.profile = publishedProfile();
@@ -54,9 +87,15 @@ Result<ListenSetup> listenSetup(const ListenOptions& options) {
   return setup;
 }
 
-void sayListening(const ListenOptions& options) {
-  std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", options.bind.c_str(),
-               options.portBase + 1, options.portBase + options.robots, options.refereePort);
+void sayListening(const ListenOptions& options, const std::vector<std::uint16_t>& ports) {
+  if (options.teams.empty()) {
+    std::fprintf(stderr, "listening at %s on UDP ports %d to %d and %d\n", options.bind.c_str(),
+                 options.portBase + 1, options.portBase + options.robots, options.refereePort);
+    return;
+  }
+  std::string text;
+  for (const std::uint16_t port : ports) text += " " + std::to_string(port);
+  std::fprintf(stderr, "listening at %s on UDP ports%s\n", options.bind.c_str(), text.c_str());
 }
 
 void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string>& told) {

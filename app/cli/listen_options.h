@@ -21,9 +21,15 @@ struct ListenOptions {
   int robots = 16;
   int refereePort = 3838;
   std::string profile;
+  std::vector<std::string> teams;
   std::vector<std::string> senders, refereeSenders;
   int refereeVersion = 0;
 };
+
+/// "b-human, barelangfc, ...": the profiles that are part of the program, over several lines.
+std::string profileNames();
+/// The first error of any of the files.
+Result<std::vector<telemetry::TeamSetup>> loadTeams(const std::vector<std::string>& files);
 
 void addListenOptions(CLI::App& command, ListenOptions& options);
 
@@ -36,7 +42,7 @@ struct ListenSetup {
 Result<ListenSetup> listenSetup(const ListenOptions& options);
 
 /// Tells on stderr what is received.
-void sayListening(const ListenOptions& options);
+void sayListening(const ListenOptions& options, const std::vector<std::uint16_t>& ports);
 /// Says on stderr which ports are not received, once for each change.
 void reportPorts(const telemetry::ReceiverStatus& status, std::map<std::size_t, std::string>& told);
 /// "; refused: 12 of senders that are not on the list, ...": nothing where nothing was.

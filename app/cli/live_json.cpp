@@ -57,9 +57,10 @@ std::string replyLine(const RobotReply& reply) {
 }  // namespace
 
 Json telemetryJson(const TextDecoder& decoder, const DecodedText& message,
-                   std::string_view datagram) {
+                   std::string_view datagram, int number, const std::string& team) {
   Json json;
-  json["robot"] = message.robot > 0 ? Json(message.robot) : Json(nullptr);
+  json["robot"] = number > 0 ? Json(number) : Json(nullptr);
+  if (!team.empty()) json["team"] = team;
   json["accepted"] = message.accepted();
   Json values = Json::object();
   const auto& fields = decoder.profile().fields;
@@ -67,7 +68,9 @@ Json telemetryJson(const TextDecoder& decoder, const DecodedText& message,
     const std::string name = decoder.name(i);
     if (!message.has(i)) {
       // An extra field may be a word; a named one is a number or nothing.
-      values[name] = i < fields.size() ? Json(nullptr) : Json(std::string(message.words[i]));
+      const bool isWord = i >= fields.size() || fields[i].type == FieldType::Text;
+      values[name] =
+          isWord && !message.words[i].empty() ? Json(std::string(message.words[i])) : Json(nullptr);
     } else if (message.values[i] == std::floor(message.values[i]) &&
                std::abs(message.values[i]) < 9e15 &&
                (i >= fields.size() || fields[i].type != FieldType::Float)) {
@@ -86,11 +89,13 @@ Json telemetryJson(const TextDecoder& decoder, const DecodedText& message,
 }
 
 std::string telemetryLine(const TextDecoder& decoder, const DecodedText& message,
-                          std::string_view datagram) {
+                          std::string_view datagram, int number, const std::string& team) {
   std::string out;
   if (message.accepted()) {
-    out = "robot " + std::to_string(message.robot);
+    if (!team.empty()) out = team + "  ";
+    if (number > 0) out += "robot " + std::to_string(number);
     for (std::size_t i = 0; i < message.count; ++i) {
+      if (message.words[i].empty()) continue;
       out += "  " + decoder.name(i) + " " + printable(message.words[i], 40);
     }
     if (message.errors.empty()) return out;

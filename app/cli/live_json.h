@@ -17,10 +17,12 @@ namespace pitchboard::cli {
 using Json = nlohmann::ordered_json;
 
 /// {"robot": 1, "values": {"X": 258, ...}, "errors": [...]}; "text" is added when there are errors.
+/// `number`: of the robot in its team; `team`: its title, empty without setups.
 Json telemetryJson(const telemetry::TextDecoder& decoder, const telemetry::DecodedText& message,
-                   std::string_view datagram);
+                   std::string_view datagram, int number, const std::string& team = {});
 std::string telemetryLine(const telemetry::TextDecoder& decoder,
-                          const telemetry::DecodedText& message, std::string_view datagram);
+                          const telemetry::DecodedText& message, std::string_view datagram,
+                          int number, const std::string& team = {});
 
 /// {"type": "health", "robot": 1, "received": 900, "lost": 300, ...}: docs/LIVE.md.
 Json healthJson(const telemetry::RobotStatus& robot, telemetry::WallTime now);

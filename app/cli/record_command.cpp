@@ -119,8 +119,10 @@ int recordLive(const Options& options) {
   live.refereePort = options.network.refereePort;
   live.profile = std::move(setup->profile);
   live.team.senders = std::move(setup->monitor.senders);
+  live.team.teams = std::move(setup->monitor.teams);
   live.refereeSenders = std::move(setup->referees);
   live.refereeVersion = options.network.refereeVersion;
+  if (const auto good = link::validate(live); !good) return reportError(good.error());
   link::LiveWatch watch(live);
   link::LiveDetails details = watch.details();
   for (; details.network.ports.empty(); details = watch.details()) {
@@ -138,7 +140,7 @@ int recordLive(const Options& options) {
   const auto recorder = link::LiveRecorder::create(options.output, live, watch.began(), recording);
   if (!recorder) return reportError(recorder.error());
   watch.observe(*recorder);
-  sayListening(options.network);
+  sayListening(options.network, setup->receiver.ports);
   {
     Health health(options.progress);
     std::map<std::size_t, std::string> told;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include <app/robots_options.h>
 #include <app/scenario_options.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/match/simulated_match.h>
@@ -40,7 +41,7 @@ struct Arguments {
   std::string trace;
   std::string moment;
   std::string robotProgram;
-  int keyBase = 0;
+  shared::RobotsOptions robots;
   bool force = false;
   bool json = false;
   bool list = false;
@@ -165,9 +166,12 @@ class ProcessNews : public link::TickObserver {
   void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
   void happened(std::span<const link::MatchEvent> events) override {
     for (const link::MatchEvent& event : events) {
-      const bool died = event.kind == link::MatchEventKind::ProcessDied;
-      if (!died && event.kind != link::MatchEventKind::ProcessEnded) continue;
-      std::fprintf(stderr, "%s%s\n", died ? "warning: " : "", link::sentenceOf(event).c_str());
+      using Kind = link::MatchEventKind;
+      constexpr std::array told{Kind::ProcessDied, Kind::ProcessEnded, Kind::ProcessRestarted,
+                                Kind::ProcessSilent, Kind::ProcessGivenUp};
+      if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
+      std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
+                   link::sentenceOf(event).c_str());
     }
   }
 };
@@ -178,6 +182,7 @@ class Playing {
   Playing(link::MatchPlayer& player, double speed)
       : m_player(player), m_match(player.match()), m_begin(Clock::now()) {
     m_player.setSpeed(speed, m_begin);
+    m_match.setPlaying(speed, false, m_begin);
   }
 
   /// Ends early when `trace` cannot be written.
@@ -205,7 +210,7 @@ class Playing {
     const auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
       m_lastPoll = now;
-      pollChildren();
+      pollProcesses();
     }
     if (m_showsProgress && now - m_lastProgress >= progressInterval) {
       m_lastProgress = now;
@@ -215,10 +220,9 @@ class Playing {
     }
   }
 
-  void pollChildren() {
-    link::ProcessSupervisor& supervisor = m_match.supervisor();
-    supervisor.poll();
-    (void)supervisor.takeLines();
+  void pollProcesses() {
+    m_match.lookAfterProcesses(Clock::now());
+    (void)m_match.processes().takeLines();
     m_player.tellEvents();
   }
 
@@ -244,12 +248,13 @@ Result<void> simulate(const Arguments& arguments) {
     if (!read) return tl::unexpected(read.error());
     recorded = std::move(*read);
   }
-  const auto scenario = scenarioFrom(arguments, cognition->cognition, recorded);
+  auto scenario = scenarioFrom(arguments, cognition->cognition, recorded);
+  if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.robots);
   if (!scenario) return tl::unexpected(scenario.error());
 
   link::MatchOptions options;
   options.cognition = cognition->cognition;
-  options.keyBase = arguments.keyBase;
+  shared::apply(arguments.robots, options);
   options.robotProgram = arguments.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
                                                         : arguments.robotProgram;
   options.obeyReferee = arguments.obeyReferee;
@@ -257,6 +262,9 @@ Result<void> simulate(const Arguments& arguments) {
   const InterruptGuard signals;
   auto match = link::SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());
+  if (const std::string notice = shared::numberNotice(*match); !notice.empty()) {
+    std::fprintf(stderr, "%s\n", notice.c_str());
+  }
   if (recorded) {
     if (auto entered = match->reenter(recorded->moment); !entered) return entered;
   }
@@ -350,10 +358,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       ->type_name("FILE.json");
   command->add_flag("--force", a.force, "Overwrite the trace or the moment if it exists");
   command->add_flag("--json", a.json, "Print the outcome as one JSON object");
-  command->add_option("--key-base", a.keyBase, "Added to the blackboard keys 100 x robot number")
-      ->type_name("B")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 2'000'000'000));
+  shared::addRobotsOptions(*command, a.robots);
   command
       ->add_option("--robot-program", a.robotProgram,
                    "Program of the external processes; default: pitchboard-robot beside this one")

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
+#include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
-#include <robotlink/scenario/scenario.h>
+#include <simcore/world/field_text.h>
 #include <telemetry/wire/datagram.h>
 
 namespace pitchboard::robot {
@@ -28,7 +29,7 @@ std::string checkAddress(const std::string& text) {
 }
 
 std::string checkField(const std::string& text) {
-  const auto field = link::fieldFromText(text, "field");
+  const auto field = sim::fieldFromText(text, "field");
   return field ? std::string() : field.error().text();
 }
 
@@ -41,22 +42,20 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str()
       ->check(checkAddress);
   command
-      .add_option("--telemetry-port-base", a.process.telemetryPortBase,
-                  "Telemetry goes to this + robot number")
-      ->type_name("PORT")
-      ->capture_default_str();
+      .add_option("--telemetry-port-base", a.telemetryPortBase,
+                  "Telemetry goes to this + robot number; default: the match's, 1240 of match 0")
+      ->type_name("PORT");
   command.add_option("--telemetry-rate", a.telemetryRate, "Telemetry datagrams a second")
       ->type_name("HZ")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 20.0));
   command
-      .add_option("--team-port-base", a.process.teamPortBase,
-                  "Team messages go to this + 1, 2, 3 and 4")
-      ->type_name("PORT")
-      ->capture_default_str();
+      .add_option("--team-port-base", a.teamPortBase,
+                  "Team messages go to this + 1, 2, 3 and 4; default: the match's, 1230 of match 0")
+      ->type_name("PORT");
   command
       .add_option("--team", a.process.team,
-                  "Robots with the same number hear each other, on UDP port 10000 + this")
+                  "Robots with the same number hear each other, on UDP port 10000 + this (match 0)")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 99));
@@ -70,9 +69,10 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
                   "Number in the GameController; the robot's number if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 20));
-  command.add_option("--referee-port", a.process.refereePort, "UDP port of the GameController")
+  command
+      .add_option("--referee-port", a.refereePort,
+                  "UDP port of the GameController; default: the match's, 3838 of match 0")
       ->type_name("PORT")
-      ->capture_default_str()
       ->check(port);
   command
       .add_option("--thoughts-port", a.thoughtsPort,
@@ -83,7 +83,7 @@ void addCommunicationOptions(CLI::App& command, Arguments& a) {
 
 CLI::Option* find(CLI::App& command, std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
-  for (const std::string_view mine : {"config", "robot", "help"}) {
+  for (const std::string_view mine : {"config", "robot", "help", "match-turns"}) {
     if (name == mine) return nullptr;
   }
   return command.get_option_no_throw("--" + name);
@@ -115,7 +115,8 @@ Result<void> takeOver(CLI::App& command, const link::IniFile& file) {
 }  // namespace
 
 int Arguments::blackboardKey() const {
-  return key.value_or(link::blackboardKey(process.robot, keyBase));
+  return key.value_or(
+      link::blackboardKey(process.robot, keyBase + link::MatchNumber{match}.keyBase()));
 }
 
 void addOptions(CLI::App& command, Arguments& a) {
@@ -130,6 +131,13 @@ void addOptions(CLI::App& command, Arguments& a) {
   command.add_option("--key-base", a.keyBase, "Added to 100 x robot number")
       ->type_name("B")
       ->capture_default_str();
+  command
+      .add_option("--match", a.match,
+                  "Number of the match on this computer: keys and ports follow from it")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(0, link::MatchNumber::most));
+  command.add_option("--match-turns", a.matchTurns)->group("");  // for the program that plays it
   command.add_option("--behaviour", a.process.behaviour, "What decision does")
       ->type_name("NAME")
       ->capture_default_str()
@@ -155,6 +163,9 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  command.add_option("--seed", a.process.seed, "Localization: of its particles")
+      ->type_name("N")
+      ->capture_default_str();
   command.add_flag("--published-localization", a.process.publishedLocalization,
                    "Localization with the published filter's parameters");
 }
@@ -190,10 +201,14 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
                     "whose process is this? Give --robot N, or --config FILE.ini with the number");
   if (!robot) return tl::unexpected<Error>(robot.error());
   a.process.robot = *robot;
-  const Result<sim::FieldSpec> field = link::fieldFromText(a.field, "--field");
+  const Result<sim::FieldSpec> field = sim::fieldFromText(a.field, "--field");
   if (!field) return tl::unexpected<Error>(field.error());
   a.process.field = *field;
   a.process.telemetryPeriod = 1.0 / a.telemetryRate;
+  a.process.setMatch(link::MatchNumber{a.match});
+  if (a.telemetryPortBase) a.process.telemetryPortBase = *a.telemetryPortBase;
+  if (a.teamPortBase) a.process.teamPortBase = *a.teamPortBase;
+  if (a.refereePort) a.process.refereePort = *a.refereePort;
   if (!a.attack.empty()) a.process.facesLeft = a.attack == "left";
   return file;
 }

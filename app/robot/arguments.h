@@ -19,7 +19,10 @@ struct Arguments {
   std::optional<long long> robot;
   std::string config;
   std::optional<int> key;
-  int keyBase = 0;
+  int keyBase = 0, match = 0;
+  std::optional<int> matchTurns;  // its place, when a match gives it turns
+  // Instead of the match's.
+  std::optional<int> telemetryPortBase, teamPortBase, refereePort;
   std::string field = "published", attack;
   double telemetryRate = 1.0;  // Hz
   std::optional<int> thoughtsPort;

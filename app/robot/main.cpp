@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
 #include <cstdio>
 
 #include <app/command_line.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
+#include <robotlink/processes/guard.h>
+#include <robotlink/processes/match_turns.h>
 
 #include "arguments.h"
 #include "management.h"
@@ -24,6 +27,11 @@ Result<link::Blackboard> joinBlackboard(int key) {
 int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
   if (const auto settled = settle(command, arguments); !settled)
     return shared::reportError(settled.error());
+  if (arguments.matchTurns) {
+    auto turns = link::ProcessTurns::join(*arguments.matchTurns);
+    if (!turns) return shared::reportError(turns.error());
+    arguments.process.turns = std::move(*turns);
+  }
   auto process = info.make(arguments.process);
   if (!process) return shared::reportError(process.error());
   const int key = arguments.blackboardKey();
@@ -40,10 +48,16 @@ int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) 
   std::string line = std::string(info.name) + " of robot " +
                      std::to_string(arguments.process.robot.value) + " on key " +
                      std::to_string(key);
-  if (info.hasBehaviour) line += ", behaviour " + arguments.process.behaviour;
+  if (info.name == "decision") line += ", behaviour " + arguments.process.behaviour;
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
-  runUntilAsked(**process, *board, arguments.process.robot, display ? &*display : nullptr);
+  const RobotId robot = arguments.process.robot;
+  link::ThoughtsSender* const shown = display ? &*display : nullptr;
+  if (arguments.process.turns) {
+    takeTurnsUntilAsked(**process, *board, robot, *arguments.process.turns, shown);
+  } else {
+    runUntilAsked(**process, *board, robot, shown);
+  }
   return 0;
 }
 
@@ -83,6 +97,10 @@ int parseAndRun(int argc, char** argv) {
   }
   CLI::App* management = add("management", managementDescription,
                              "pitchboard-robot management --robot 1 --behaviour keeper");
+  std::string guarded;
+  CLI::App* guard = app.add_subcommand(std::string(link::guardCommand));
+  guard->group("");  // a supervisor starts it for itself
+  guard->add_option("mark", guarded)->required();
   CLI::App* list = app.add_subcommand(
       "list", "shows the processes and behaviours\nExample: pitchboard-robot list");
 
@@ -90,6 +108,10 @@ int parseAndRun(int argc, char** argv) {
   CLI::App* chosen = app.get_subcommands().front();
   if (chosen == list) {
     printList();
+    return 0;
+  }
+  if (chosen == guard) {
+    link::runGuard(guarded, STDIN_FILENO);
     return 0;
   }
   if (chosen == management) {

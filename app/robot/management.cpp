@@ -8,6 +8,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/processes/management_config.h>
 #include <robotlink/processes/own_program.h>
+#include <robotlink/processes/process_manager.h>
 
 #include "process_loop.h"
 
@@ -29,8 +30,34 @@ std::vector<std::string> referenceProcesses() {
   return names;
 }
 
+std::string wordsOf(const link::ProcessNews& news) {
+  using Kind = link::ProcessNewsKind;
+  const std::string again =
+      news.restartIn < 0
+          ? std::string()
+          : "; it starts again in " + link::inSeconds(link::RestartRule::Seconds(news.restartIn));
+  switch (news.kind) {
+    case Kind::Started:
+    case Kind::Restarted:
+      return "started, process " + std::to_string(news.pid);
+    case Kind::Ended:
+    case Kind::Died:
+      return "ended: " + news.detail + again;
+    case Kind::Silent:
+      return "showed " + news.detail + " and was ended" + again;
+    case Kind::GivenUp:
+      return "is not started any more: " + news.detail;
+  }
+  return {};
+}
+
 void print(link::ProcessManager& manager) {
-  for (const std::string& message : manager.takeMessages()) std::printf("%s\n", message.c_str());
+  for (const link::ProcessLine& line : manager.takeLines()) {
+    std::printf("%s: %s\n", line.process.c_str(), line.text.c_str());
+  }
+  for (const link::ProcessNews& news : manager.takeNews()) {
+    std::printf("%s %s\n", news.process.c_str(), wordsOf(news).c_str());
+  }
   std::fflush(stdout);
 }
 
@@ -48,6 +75,8 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
 
   const std::string robot = std::to_string(arguments.process.robot.value);
   const std::string key = std::to_string(arguments.blackboardKey());
+  const bool clearedByOther = std::find(config->processes.begin(), config->processes.end(),
+                                        "communication") != config->processes.end();
   std::vector<link::ManagedProcess> processes;
   for (const std::string& name : config->processes) {
     std::vector<std::string> words;
@@ -66,24 +95,39 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
       if (!arguments.config.empty()) words.insert(words.end(), {"--config", arguments.config});
       words.insert(words.end(), given.begin(), given.end());
     }
-    processes.push_back({name, std::move(words), link::workingFlagOf(name)});
+    link::ManagedProcess process;
+    process.spec = {arguments.process.robot, name, std::move(words)};
+    process.spec.foreign = config->commands.contains(name);
+    process.restart = config->timing.restart;
+    process.delay = config->timing.startInterval.count();
+    process.silentAfter = config->timing.silentAfter;
+    process.heartbeat = link::workingFlagOf(name);
+    process.watch = link::isPresent(process.heartbeat) ? link::ManagedProcess::Watch::Variable
+                                                       : link::ManagedProcess::Watch::Sleeps;
+    process.clears = !clearedByOther;
+    processes.push_back(std::move(process));
   }
-  const bool clearedByOther = std::find(config->processes.begin(), config->processes.end(),
-                                        "communication") != config->processes.end();
 
   Result<link::Blackboard> board =
       link::SystemVSegments::open(arguments.blackboardKey(), link::AttachMode::AttachOrCreate);
   if (!board) return tl::unexpected<Error>(board.error());
   std::printf("management of robot %s on key %s\n", robot.c_str(), key.c_str());
   std::fflush(stdout);
-  link::ProcessManager manager(arguments.process.robot, std::move(processes), config->timing,
-                               *board, !clearedByOther);
+  link::ProcessManager manager;
+  if (auto kept = manager.supervisor().keepGuard(*program); !kept) return kept;
+  manager.supervisor().guardSegment(*board);
+  using Clock = std::chrono::steady_clock;
   Result<void> outcome;
+  for (const link::ManagedProcess& process : processes) {
+    if (auto added = manager.add(process, *board, Clock::now()); !added) {
+      return tl::unexpected<Error>(added.error());
+    }
+  }
   do {
-    outcome = manager.step(std::chrono::steady_clock::now());
+    outcome = manager.step(Clock::now());
     print(manager);
   } while (outcome && !askedToEnd(cycle));
-  manager.stop();
+  manager.stopAll();
   print(manager);
   return outcome;
 }

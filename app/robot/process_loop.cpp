@@ -9,12 +9,39 @@
 namespace pitchboard::robot {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 sigset_t endSignals() {
   sigset_t signals;
   sigemptyset(&signals);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
   return signals;
 }
+
+class Display {
+ public:
+  Display(const link::CognitiveProcess& process, RobotId robot, link::ThoughtsSender* sender)
+      : m_process(process), m_robot(robot), m_sender(sender) {}
+
+  /// Tells what the process has in mind, unless it was told less than `period` ago.
+  void tell(std::chrono::milliseconds period) {
+    const Clock::time_point now = Clock::now();
+    if (m_sender == nullptr || now < m_last + period) return;
+    link::RobotThoughts thoughts;
+    thoughts.robot = m_robot;
+    m_process.tellThoughts(thoughts);
+    m_sender->send(thoughts);
+    m_last = now;
+  }
+
+ private:
+  const link::CognitiveProcess& m_process;
+  RobotId m_robot;
+  link::ThoughtsSender* m_sender;
+  Clock::time_point m_last{};
+};
+
+constexpr std::chrono::milliseconds displayPeriod{200};
 
 }  // namespace
 
@@ -24,7 +51,6 @@ void holdEndSignals() {
 }
 
 bool askedToEnd(std::chrono::nanoseconds wait) {
-  using Clock = std::chrono::steady_clock;
   const sigset_t signals = endSignals();
   const Clock::time_point end = Clock::now() + wait;
   while (true) {
@@ -41,26 +67,41 @@ bool askedToEnd(std::chrono::nanoseconds wait) {
 
 void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
                    link::ThoughtsSender* display) {
-  constexpr std::chrono::milliseconds displayPeriod{200};
-  using Clock = std::chrono::steady_clock;
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
-  Clock::time_point next = start, nextDisplay = start;
+  Clock::time_point next = start;
+  Display shown(process, robot, display);
   while (true) {
     process.step(board, {std::chrono::duration<double>(Clock::now() - start).count()});
-    if (display != nullptr && Clock::now() >= nextDisplay) {
-      link::RobotThoughts thoughts;
-      thoughts.robot = robot;
-      process.tellThoughts(thoughts);
-      display->send(thoughts);
-      nextDisplay = Clock::now() + displayPeriod;
-    }
+    shown.tell(displayPeriod);
     next += period;
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;
 
     if (askedToEnd(next - Clock::now())) return;
+  }
+}
+
+void takeTurnsUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
+                         link::ProcessTurns& turns, link::ThoughtsSender* display) {
+  // While the match stands still: how soon a signal is noticed, and how often a display is told
+  // again, because it forgets what it does not hear of.
+  constexpr std::chrono::milliseconds longestWait{100}, remindPeriod{1000};
+  Display shown(process, robot, display);
+  turns.ready(process.period());
+  while (true) {
+    const auto turn = turns.wait(longestWait);
+    if (turn) {
+      process.step(board, {turn->seconds});
+      turns.done();
+    }
+    shown.tell(turn ? displayPeriod : remindPeriod);
+    sigset_t pending;
+    sigpending(&pending);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+      if (sigismember(&pending, signal) == 1) return;
+    }
   }
 }
 

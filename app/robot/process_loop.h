@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include <robotlink/cognition/cognitive_process.h>
+#include <robotlink/processes/match_turns.h>
 
 namespace pitchboard::robot {
 
@@ -23,5 +24,9 @@ bool askedToEnd(std::chrono::nanoseconds wait);
 /// has in mind, five times a second.
 void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
                    link::ThoughtsSender* display);
+
+/// The same with the time of a match: a step for every turn that it gives, and none without.
+void takeTurnsUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
+                         link::ProcessTurns& turns, link::ThoughtsSender* display);
 
 }  // namespace pitchboard::robot

@@ -27,10 +27,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
       ->type_name("X|max")
       ->capture_default_str();
-  app.add_option("--key-base", a.keyBase, "Added to 100 x robot number for a blackboard's key")
-      ->type_name("B")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 2000000000));
+  shared::addRobotsOptions(app, a.robots);
   app.add_option("--theme", a.theme, "Colours, this time only")
       ->type_name("light|dark")
       ->check(CLI::IsMember({"light", "dark"}));
@@ -69,7 +66,13 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--our-team", a.ourTeam, "Live: the referee's number of our team")
       ->type_name("N")
       ->check(CLI::Range(0, 65535));
-  app.add_option("--profile", a.profile, "Live: order of the fields as JSON")->type_name("FILE");
+  app.add_option("--profile", a.profile,
+                 "Live: what stands in a message; a file, or a name that docs/LIVE.md lists")
+      ->type_name("FILE|NAME");
+  app.add_option("--team", a.teams, "Live: team setup as JSON; may be repeated")->type_name("FILE");
+  app.add_option("--attach", a.attached,
+                 "Live: look at a System V segment of this computer as a robot; may be repeated")
+      ->type_name("KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R][,team=COLOUR]");
   CLI::Option* shot =
       app.add_option("--screenshot-to", a.screenshotFile, "Save a picture of the window, then exit")
           ->type_name("FILE.png");
@@ -175,6 +178,7 @@ Result<link::Scenario> scenarioOf(const Arguments& arguments) {
   shared::ScenarioOptions match = arguments.match;
   if (!arguments.renderScenario.empty()) match.scenario = arguments.renderScenario;
   auto scenario = shared::scenarioFrom(match);
+  if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.robots);
   if (!scenario) return scenario;
   // Asks the engine itself whether it can play this, before a window is opened.
   if (const auto trial = sim::Simulation::create(scenario->settings); !trial) {
@@ -197,6 +201,17 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
     auto profile = telemetry::loadProfile(arguments.profile);
     if (!profile) return tl::unexpected<Error>(profile.error());
     saved.profile = std::move(*profile);
+  }
+  for (const std::string& text : arguments.attached) {
+    auto board = link::parseAttachedBoard(text);
+    if (!board) return tl::unexpected<Error>(board.error());
+    saved.boards.push_back(std::move(*board));
+  }
+  for (std::size_t i = 0; i < arguments.teams.size(); ++i) {
+    auto team = telemetry::loadTeamSetup(arguments.teams[i]);
+    if (!team) return tl::unexpected<Error>(team.error());
+    if (i == 0) saved.team.teams.clear();  // in place of those that are saved
+    saved.team.teams.push_back(std::move(*team));
   }
   if (const auto good = link::validate(saved); !good) return tl::unexpected<Error>(good.error());
   return saved;

@@ -5,7 +5,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <app/robots_options.h>
 #include <app/scenario_options.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/match/simulated_match.h>
@@ -21,7 +23,7 @@ struct Arguments {
   shared::ScenarioOptions match;
   std::string cognition = "external";
   std::string speed = "1";
-  int keyBase = 0;
+  shared::RobotsOptions robots;
   std::string theme;
   bool paused = false;
   std::optional<std::uint64_t> playTo;
@@ -42,6 +44,8 @@ struct Arguments {
   std::string bind;
   std::optional<int> portBase, robots, refereePort, ourTeam;
   std::string profile;
+  std::vector<std::string> teams;     ///< team setups
+  std::vector<std::string> attached;  ///< blackboards: KEY[,catalog=FILE][,size=BYTES][,robot=N]
 };
 
 /// Fills `arguments`; returns an exit code when the program is to end here (help, bad usage).

@@ -243,7 +243,7 @@ class TestCliLive : public QObject {
     row("referee among the robots", {"listen", "--gamecontroller-port", "1245"}, "GameController");
     row("duration", {"listen", "--duration", "-1"}, "--duration");
     row("sender", {"listen", "--from", "10.0.0.0/40"}, "network");
-    row("referee", {"listen", "--referee-from", "host"}, "network");
+    row("referee", {"listen", "--referee-from", "host"}, "IPv4");
     row("version", {"listen", "--gamecontroller-version", "3"}, "--gamecontroller-version");
     row("no profile", {"listen", "--profile", "/nonexistent.json"}, "/nonexistent.json");
     row("no file", {"decode", "telemetry", "/nonexistent.txt"}, "/nonexistent.txt");

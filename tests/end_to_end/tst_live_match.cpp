@@ -2,45 +2,25 @@
 // Simulated robots and Live on one computer: an independent program plays a match, whose
 // communication processes send telemetry as a team's own would; Live sees all of them where they
 // believe they are.
-#include <QFile>
 #include <QProcess>
-#include <QTemporaryDir>
 #include <QtTest>
 
 #include <netinet/in.h>
-#include <unistd.h>
 #include <cmath>
 
+#include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/live_watch.h>
-
-#include "../support/segment_keys.h"
 
 using namespace pitchboard;
 
 class TestLiveMatch : public QObject {
   Q_OBJECT
 
-  QTemporaryDir m_folder;
-  const int m_keyBase = testKeyBase();
-  const int m_portBase = 21000 + static_cast<int>(getpid() % 400) * 20;
-
-  /// The robots' program with telemetry ports of this test.
-  QString robotProgram() {
-    const QString path = m_folder.filePath(QStringLiteral("robot.sh"));
-    QFile file(path);
-    if (!file.open(QIODevice::WriteOnly)) return {};
-    file.write(QStringLiteral("#!/bin/sh\nlast=\nfor word do\n  shift\n"
-                              "  [ \"$last\" = --telemetry-port-base ] && word=%2\n"
-                              "  set -- \"$@\" \"$word\"\n  last=$word\ndone\nexec '%1' \"$@\"\n")
-                   .arg(QStringLiteral(PITCHBOARD_BIN "/pitchboard-robot"))
-                   .arg(m_portBase)
-                   .toUtf8());
-    file.close();
-    file.setPermissions(QFile::ReadOwner | QFile::ExeOwner | QFile::WriteOwner);
-    return path;
-  }
+  // One that nobody plays: its keys and ports are ours.
+  const link::MatchNumber m_number = link::MatchClaim::takeFree().value().number();
+  const int m_keyBase = m_number.keyBase();
 
  private slots:
   void cleanup() {
@@ -51,17 +31,17 @@ class TestLiveMatch : public QObject {
 
   void liveSeesAMatchThatAnotherProgramPlays() {
     QProcess match;
-    match.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
-                {QStringLiteral("simulate"), QStringLiteral("--scenario"),
-                 QStringLiteral("match-3v3"), QStringLiteral("--cognition"),
-                 QStringLiteral("external"), QStringLiteral("--speed"), QStringLiteral("1"),
-                 QStringLiteral("--duration"), QStringLiteral("60"), QStringLiteral("--key-base"),
-                 QString::number(m_keyBase), QStringLiteral("--robot-program"), robotProgram()});
+    match.start(
+        QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
+        {QStringLiteral("simulate"), QStringLiteral("--scenario"), QStringLiteral("match-3v3"),
+         QStringLiteral("--cognition"), QStringLiteral("external"), QStringLiteral("--speed"),
+         QStringLiteral("1"), QStringLiteral("--duration"), QStringLiteral("60"),
+         QStringLiteral("--match"), QString::number(m_number.value)});
     QVERIFY(match.waitForStarted());
     link::LiveOptions options;
     options.bind = {INADDR_LOOPBACK};
-    options.portBase = m_portBase;
-    options.refereePort = m_portBase + 18;
+    options.portBase = m_number.telemetryPortBase();
+    options.refereePort = m_number.refereePort();
     link::LiveWatch live(options);
     QTRY_VERIFY_WITH_TIMEOUT(live.latest() && live.latest()->robots.size() == 6, 30000);
     // Where the telemetry says that a robot believes to be is what stands on its blackboard: robots

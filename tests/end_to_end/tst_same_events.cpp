@@ -70,7 +70,11 @@ class TestSameEvents : public QObject {
     };
     for (const char* script : {"exit 0", "echo ouch; exit 3"}) {
       runner->execute([script](SimulatedMatch& match) {
-        (void)match.supervisor().start({RobotId{2}, "test", {"/bin/sh", "-c", script}});
+        ManagedProcess process;
+        process.spec = {RobotId{2}, "test", {"/bin/sh", "-c", script}};
+        process.restart.policy = RestartPolicy::Never;
+        (void)match.processes().add(process, *match.blackboard(RobotId{2}),
+                                    std::chrono::steady_clock::now());
       });
     }
     QTRY_VERIFY_WITH_TIMEOUT(has(*take(), Kind::ProcessEnded) && has(events, Kind::ProcessDied),

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A process that shares no code with this project plays a simulated robot through its blackboard.
+#include <robotlink/match/match_runner.h>
 #include <robotlink/match/simulated_match.h>
 
 #include <QElapsedTimer>
 #include <QProcess>
+#include <QTemporaryDir>
 #include <QtTest>
 #include <chrono>
 #include <cmath>
@@ -107,6 +109,61 @@ class TestUnchangedProcess : public QObject {
       process.kill();
       QVERIFY(process.waitForFinished());
     }
+    QVERIFY(!SystemVSegments::info(m_base + 100));
+  }
+
+  // The same program, not told how fast it is played: the clocks that it sleeps by are the match's.
+  void walksToTheBallAndKicksItAtTenTimes() {
+    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+    constexpr double speed = 10.0;
+    const QTemporaryDir folder;
+    QFile profile(folder.filePath("python.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"version": 1, "name": "python", "processes": [{"name": "decision",
+      "command": ["python3", "naive_robot.py", "${key}"], "directory": ")" PITCHBOARD_SOURCE_DIR
+                  R"(/tests/end_to_end", "heartbeat": "DECISION_WORKING"}]})");
+    profile.close();
+    Scenario scenario;
+    ScenarioRobot robot;
+    robot.identity.id = {1};
+    robot.pose = {{-1.0, 0.0}, 0.0};
+    robot.runtime.profile = profile.fileName().toStdString();
+    scenario.robots = {robot};
+    scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    auto runner = MatchRunner::start(scenario, options, true);
+    QVERIFY2(runner, runner ? "" : runner.error().text().c_str());
+    (*runner)->setSpeed(speed);
+    (*runner)->setPaused(false);
+    double walkedAtKick = 0.0, ballPath = 0.0;
+    const auto kicked = [&] {
+      for (const MatchEvent& event : (*runner)->takeEvents()) {
+        if (event.kind != MatchEventKind::Kick || walkedAtKick > 0.0) continue;
+        walkedAtKick = (*runner)->latest()->robots[0].statistics.distanceWalked;
+      }
+      const Point ball = (*runner)->latest()->snapshot.ball;
+      ballPath = std::hypot(ball.x, ball.y);
+      return walkedAtKick > 0.0 && ballPath > 0.3;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(kicked(), 60'000);
+    QVERIFY2(walkedAtKick > 0.6, qPrintable(QString::number(walkedAtKick)));
+    const auto frame = (*runner)->latest();
+    QCOMPARE(frame->robots[0].processes().front().speed, speed);
+    // Stopped with the match, and not taken for silent.
+    const pid_t pid = frame->robots[0].processes().front().pid;
+    (*runner)->setPaused(true);
+    const auto state = [pid] {
+      QFile status(QStringLiteral("/proc/%1/stat").arg(pid));
+      return status.open(QIODevice::ReadOnly) ? status.readAll().split(')').last().trimmed().left(1)
+                                              : QByteArray();
+    };
+    QTRY_COMPARE(state(), QByteArray("T"));
+    (*runner)->setPaused(false);
+    QTRY_COMPARE(state(), QByteArray("S"));
+    runner->reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
 };

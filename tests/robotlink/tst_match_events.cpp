@@ -132,15 +132,20 @@ class TestMatchEvents : public QObject {
   void aProcessThatEndsAsItShouldHasNotDied() {
     auto match = SimulatedMatch::create(loadScenario("one-robot").value(), {}).value();
     (void)taken(match);
-    ProcessSupervisor& supervisor = match.supervisor();
+    using Clock = std::chrono::steady_clock;
+    int last = 0;
     std::vector<MatchEvent> events;
     const auto run = [&](const char* script, Kind until) {
       events.clear();
-      const auto handle = supervisor.start({RobotId{1}, "decision", {"/bin/sh", "-c", script}});
-      if (!handle) return false;
+      ManagedProcess process;
+      process.spec = {RobotId{1}, "decision", {"/bin/sh", "-c", script}};
+      process.restart.policy = RestartPolicy::Never;
+      const auto id = match.processes().add(process, *match.blackboard(RobotId{1}), Clock::now());
+      if (!id) return false;
+      last = *id;
       return QTest::qWaitFor(
           [&] {
-            supervisor.poll();
+            match.lookAfterProcesses(Clock::now());
             match.takeEvents(events);
             return find(events, until) != nullptr;
           },
@@ -158,7 +163,7 @@ class TestMatchEvents : public QObject {
              std::string("exit code 2; its last words: ouch"));
 
     QVERIFY(run("exec sleep 600", Kind::ProcessRestarted));
-    supervisor.stop(RobotId{1});
+    match.processes().stop(last);
     const auto stopped = taken(match);
     QCOMPARE(stopped.size(), std::size_t{1});
     QCOMPARE(stopped[0].kind, Kind::ProcessEnded);

@@ -3,7 +3,9 @@
 
 #include <QtTest>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -14,6 +16,7 @@
 #include <resources/resources.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/match/match_runner.h>
+#include <robotlink/session/board_columns.h>
 #include <robotlink/session/match_sampler.h>
 #include <telemetry/series/series_store.h>
 
@@ -137,7 +140,12 @@ class TestMatchSampler : public QObject {
             variable.type == VariableType::Int
                 ? std::bit_cast<std::uint32_t>(board.read(IntVar{variable.index}))
                 : std::bit_cast<std::uint32_t>(board.read(FloatVar{variable.index}));
-        QVERIFY2(words.at(i) == wanted, variable.name.c_str());
+        // -999 of a landmark says "not seen".
+        if (variable.name.ends_with("_LANDMARK_DEG") && std::bit_cast<float>(wanted) == -999.0F) {
+          QVERIFY(std::isnan(std::bit_cast<float>(words.at(i))));
+        } else {
+          QVERIFY2(words.at(i) == wanted, variable.name.c_str());
+        }
         QCOMPARE(view->info().columns.at(i).name, variable.name);
         ++i;
       }
@@ -224,6 +232,25 @@ class TestMatchSampler : public QObject {
     own.name = "SOMETHING";
     VariableMeanings::published().describe(own);
     QCOMPARE(own.category, std::string("Other"));
+  }
+
+  void whatSaysNotSeenIsAHole() {
+    const VariableCatalog& catalog = VariableCatalog::published();
+    const BoardColumns columns(catalog);
+    Blackboard board = Blackboard::onHeap();
+    board.write(*catalog.floatVar("VISION_RED_LANDMARK_DEG"), -999.0F);
+    board.write(*catalog.floatVar("VISION_BLUE_LANDMARK_DEG"), -99.5F);
+    board.write(*catalog.floatVar("VISION_PAN_DEG"), -999.0F);
+    std::vector<std::uint32_t> words(columns.size());
+    columns.read(board, words);
+    const auto value = [&](std::string_view name) {
+      const auto at = std::ranges::find(columns.columns(), name, &telemetry::ColumnInfo::name);
+      return std::bit_cast<float>(
+          words.at(static_cast<std::size_t>(at - columns.columns().begin())));
+    };
+    QVERIFY(std::isnan(value("VISION_RED_LANDMARK_DEG")));
+    QCOMPARE(value("VISION_BLUE_LANDMARK_DEG"), -99.5F);
+    QCOMPARE(value("VISION_PAN_DEG"), -999.0F);  // an angle as any other
   }
 
   void theResourceIsSound() {

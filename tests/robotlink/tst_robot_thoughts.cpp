@@ -2,6 +2,7 @@
 // Particles and paths on their way to a display: the datagrams, and matches with inline and with
 // separate processes.
 #include <robotlink/match/match_runner.h>
+#include <simcore/world/field_text.h>
 
 #include <QtTest>
 #include <cmath>
@@ -47,8 +48,6 @@ class TestRobotThoughts : public QObject {
     options.cognition = Cognition::External;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
-    options.process.telemetryPortBase = 60000;
-    options.process.teamPortBase = 60100;
     options.process.team = team;
     options.thoughts = thoughts;
     return options;
@@ -207,7 +206,7 @@ class TestRobotThoughts : public QObject {
     scenario.settings.field.name = "park";
     scenario.settings.field.length = 40.0;
     scenario.settings.field.width = 20.0;
-    const auto again = fieldFromText(fieldToText(scenario.settings.field), "test");
+    const auto again = sim::fieldFromText(sim::fieldToText(scenario.settings.field), "test");
     QVERIFY(again && *again == scenario.settings.field);
     const MatchOptions options = separateProcesses(82, true);
     auto runner = MatchRunner::start(scenario, options).value();

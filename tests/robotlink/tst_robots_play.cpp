@@ -73,6 +73,39 @@ class TestRobotsPlay : public QObject {
     QVERIFY(quantile(yaws, 1) < radiansFromDegrees(8));
   }
 
+  // A robot that was not told where it attacks finds it out, and never scores on its own goal.
+  void aRobotFindsItsSide_data() {
+    QTest::addColumn<bool>("left");
+    QTest::newRow("starts facing right") << false;
+    QTest::newRow("starts facing left") << true;
+  }
+  void aRobotFindsItsSide() {
+    QFETCH(bool, left);
+    int goals = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const double side = left ? 1.0 : -1.0;
+      Scenario scenario = alone("striker", left ? TeamColor::Red : TeamColor::Blue,
+                                {{side * 2.0, 0.5}, left ? std::numbers::pi : 0.0}, "realistic");
+      scenario.settings.seed = seed;
+      scenario.settings.afterGoal = sim::AfterGoal::StopClock;
+      MatchOptions options;
+      options.process.particles = 500;
+      options.tellSides = false;
+      auto match = SimulatedMatch::create(scenario, options).value();
+      std::vector<MatchEvent> events;
+      for (int i = 0; i < 120 * 60 && match.simulation().state().clockRunning; ++i) match.tick();
+      match.takeEvents(events);
+      for (const MatchEvent& event : events) {
+        if (event.kind != MatchEventKind::Goal) continue;
+        ++goals;
+        QVERIFY2((event.side == Side::Right) == left,
+                 qPrintable(QString("seed %1: an own goal").arg(seed)));
+      }
+    }
+    qInfo("%d goals in 20 matches", goals);
+    QVERIFY(goals >= 10);
+  }
+
   void localizationRecoversWhenTheUserDragsARobot() {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       auto match = make(soccerMatch("paper", seed).value()).value();

@@ -173,7 +173,7 @@ class TestSimulatedMatch : public QObject {
 
   void sharedSegmentsAreMadeAndRemoved() {
     const MatchOptions options = shared(Cognition::None);
-    const int key = blackboardKey(RobotId{1}, options.keyBase);
+    const int key = blackboardKey(RobotId{1}, *options.keyBase);
     {
       auto match = make(builtIn("one-robot"), options);
       QVERIFY(SystemVSegments::info(key));
@@ -189,7 +189,7 @@ class TestSimulatedMatch : public QObject {
 
   void aSegmentThatWasThereKeepsItsValuesAndStays() {
     const MatchOptions options = shared(Cognition::None);
-    const int key = blackboardKey(RobotId{1}, options.keyBase);
+    const int key = blackboardKey(RobotId{1}, *options.keyBase);
     QVERIFY(SystemVSegments::create(key));
     {
       auto board = SystemVSegments::open(key, AttachMode::AttachOnly).value();
@@ -210,7 +210,7 @@ class TestSimulatedMatch : public QObject {
     QVERIFY(!match);
     QVERIFY2(match.error().text().find("false-pitchboard") != std::string::npos,
              match.error().text().c_str());
-    QVERIFY(!SystemVSegments::info(blackboardKey(RobotId{1}, options.keyBase)));
+    QVERIFY(!SystemVSegments::info(blackboardKey(RobotId{1}, *options.keyBase)));
   }
 
   void aMomentIsAScenario() {

@@ -155,9 +155,14 @@ class TestSession : public QObject {
   void columnsThatComeLater() {
     QTemporaryDir folder;
     const std::string path = (folder.path() + "/wide.mcap").toStdString();
-    GroupInfo narrow{"Robot 3", {{"X"}, {"Y"}}, {{"live", "1"}, {"number", "3"}}};
+    const auto column = [](const char* name) {
+      ColumnInfo made;
+      made.name = name;
+      return made;
+    };
+    GroupInfo narrow{"Robot 3", {column("X"), column("Y")}, {{"live", "1"}, {"number", "3"}}};
     GroupInfo wide = narrow;
-    wide.columns.push_back({"TEMPERATURE"});
+    wide.columns.push_back(column("TEMPERATURE"));
     {
       auto writer = SessionWriter::create(path, rig::sessionInfo());
       QVERIFY(writer);

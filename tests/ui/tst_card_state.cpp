@@ -77,17 +77,17 @@ class TestCardState : public QObject {
   void communicationIsItsChildProcess() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
-    link::ChildStatus child;
-    child.spec.robot = RobotId{4};
-    child.spec.name = "communication";
-    const auto run = [&](link::ChildState state) {
-      child.state = state;
+    link::ProcessStatus process;
+    process.robot = RobotId{4};
+    process.name = "communication";
+    const auto run = [&](link::ProcessState state) {
+      process.state = state;
       frame.robots[0].processList =
-          std::make_shared<const std::vector<link::ChildStatus>>(1, child);
+          std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
     };
-    run(link::ChildState::Running);
+    run(link::ProcessState::Running);
     QCOMPARE(tracker.update(frame, 0)[0].lamps[0].state, LampState::Working);
-    run(link::ChildState::Failed);
+    run(link::ProcessState::Restarting);
     QCOMPARE(tracker.update(frame, 100)[0].lamps[0].state, LampState::Silent);
   }
 

@@ -126,7 +126,10 @@ class TestLiveSettings : public QObject {
                              << "Listen at";
     QTest::newRow("sender") << "senders"
                             << "1.2.3.4/77"
-                            << "Only from";
+                            << "Robots only from";
+    QTest::newRow("referee's") << "refereeSenders"
+                               << "1.2.3.4/77"
+                               << "Referee only from";
     QTest::newRow("ports") << "portBase"
                            << "65530"
                            << "port";
@@ -252,6 +255,17 @@ class TestLiveSettings : public QObject {
                 .data()
                 .toString()
                 .startsWith(QStringLiteral("robot 1")));
+    // What is refused is shown.
+    details.team.refusedByFilter = 5;
+    details.refusedReferees = 6;
+    model.update(details, {7, 8});
+    QCOMPARE(model.rowCount(), 8);
+    for (int row = 4; row < 8; ++row) {
+      QCOMPARE(model.index(row, BadMessagesModel::Count).data().toString(),
+               QString::number(row + 1));
+    }
+    details.team.refusedByFilter = details.refusedReferees = 0;
+    model.update(details);
     details.unknownReferee = 3;
     QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
     model.update(details);

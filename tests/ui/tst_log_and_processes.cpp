@@ -21,11 +21,13 @@ class TestLogAndProcesses : public QObject {
     }
     return made;
   }
-  static link::ChildStatus child(int handle, int robot, const char* name) {
-    link::ChildStatus status;
-    status.handle = handle;
-    status.spec.robot = RobotId{robot};
-    status.spec.name = name;
+  static link::ProcessStatus process(int id, const char* name) {
+    link::ProcessStatus status;
+    status.id = id;
+    status.robot = RobotId{1};
+    status.name = name;
+    status.state = link::ProcessState::Running;
+    status.pid = 4000 + id;
     return status;
   }
 
@@ -72,36 +74,54 @@ class TestLogAndProcesses : public QObject {
     QVERIFY(QString::fromStdString(line.text).contains(QStringLiteral("42")));
   }
 
-  void processesShowTheNewestOfEachName() {
+  void processesAreShownEach() {
     ProcessesModel model;
     const QAbstractItemModelTester tester(&model, Mode::QtTest);
+    const std::chrono::steady_clock::time_point begin{};
     link::MatchFrame frame;
     link::RobotFrame robot;
     robot.identity = {RobotId{1}, TeamColor::Blue, 1, false};
     frame.robots.push_back(robot);
-    std::vector<link::ChildStatus> children{child(1, 1, "decision"), child(2, 1, "communication")};
-    const auto show = [&] {
+    std::vector<link::ProcessStatus> all{process(1, "decision"), process(2, "communication")};
+    const auto show = [&](std::chrono::seconds later) {
       if (!frame.robots.empty()) {
-        frame.robots[0].processList =
-            std::make_shared<const std::vector<link::ChildStatus>>(children);
+        frame.robots[0].processList = std::make_shared<const std::vector<link::ProcessStatus>>(all);
       }
-      model.update(frame);
+      model.update(frame, begin + later);
     };
-    show();
+    const auto text = [&model](int row, int column) {
+      return model.index(row, column).data().toString();
+    };
+    show(std::chrono::seconds(125));
     QCOMPARE(model.rowCount(), 2);
-    children[0].state = link::ChildState::Failed;
-    children[0].detail = "exit code 2";
+    QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("running"));
+    QCOMPARE(text(0, ProcessesModel::Pid), QStringLiteral("4001"));
+    QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2:05"));
+    QCOMPARE(text(0, ProcessesModel::Heartbeat), QString());
+    all[0].state = link::ProcessState::Restarting;
+    all[0].pid = 0;
+    all[0].detail = "exit code 2";
+    all[0].restarts = 3;
+    all[1].heartbeatAge = 0.2;
+    all[1].cpu = 0.125;
+    all[1].memoryBytes = 4'200'000;
+    all[1].lastLines = {"one", "two"};
     QSignalSpy changed(&model, &QAbstractItemModel::dataChanged);
-    show();
-    QCOMPARE(changed.count(), 1);
-    QCOMPARE(model.index(0, ProcessesModel::State).data().toString(),
-             QStringLiteral("failed (exit code 2)"));
-    children.push_back(child(4, 1, "decision"));
-    show();
-    QCOMPARE(model.rowCount(), 2);
-    QCOMPARE(model.index(0, ProcessesModel::State).data().toString(), QStringLiteral("running"));
+    show(std::chrono::seconds(3725));
+    QCOMPARE(changed.count(), 2);
+    QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("restarting (exit code 2)"));
+    QCOMPARE(text(0, ProcessesModel::Uptime), QString());
+    QCOMPARE(text(0, ProcessesModel::Restarts), QStringLiteral("3"));
+    QCOMPARE(text(1, ProcessesModel::Uptime), QStringLiteral("1:02:05"));
+    QCOMPARE(text(1, ProcessesModel::Heartbeat), QStringLiteral("0.2 s ago"));
+    QCOMPARE(text(1, ProcessesModel::Cpu), QStringLiteral("12.5 %"));
+    QCOMPARE(text(1, ProcessesModel::Memory), QStringLiteral("4.2 MB"));
+    QCOMPARE(text(1, ProcessesModel::LastOutput), QStringLiteral("two"));
+    all.push_back(process(3, "team"));
+    show(std::chrono::seconds(3726));
+    QCOMPARE(model.rowCount(), 3);
     frame.robots.clear();
-    show();
+    show(std::chrono::seconds(3727));
     QCOMPARE(model.rowCount(), 0);
   }
 };

@@ -61,13 +61,13 @@ class TestStudioWork : public QObject {
       }
       return nullptr;
     }
-    link::ChildStatus child(int robot, const std::string& name) {
-      link::ChildStatus newest;
+    link::ProcessStatus child(int robot, const std::string& name) {
+      link::ProcessStatus newest;
       if (!controller.frame()) return newest;
       const link::RobotFrame* seen = controller.frame()->robot(RobotId{robot});
       if (seen == nullptr) return newest;
-      for (const link::ChildStatus& status : seen->processes()) {
-        if (status.spec.name == name) newest = status;
+      for (const link::ProcessStatus& status : seen->processes()) {
+        if (status.name == name) newest = status;
       }
       return newest;
     }
@@ -79,8 +79,8 @@ class TestStudioWork : public QObject {
                                {QStringLiteral("leave"), QString::number(key)}),
              0);
   }
-  // Opens the context menu of the processes table's first row and takes the entry.
-  static void chooseInProcesses(Studio& s, const QString& starts, bool& chosen) {
+  // Opens the context menu of the processes table there and takes the entry.
+  static void chooseInProcesses(Studio& s, const QString& starts, bool& chosen, const QPoint& at) {
     auto* table = s.window.findChild<QTableView*>(QStringLiteral("processesTable"));
     QTimer::singleShot(0, table, [&chosen, starts] {
       auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
@@ -92,7 +92,7 @@ class TestStudioWork : public QObject {
       }
       menu->close();
     });
-    emit table->customContextMenuRequested(QPoint(5, 5));
+    emit table->customContextMenuRequested(at);
   }
 
  private slots:
@@ -183,21 +183,33 @@ class TestStudioWork : public QObject {
     Studio s(options(link::Cognition::External));
     s.controller.open(match());
     QTRY_VERIFY_WITH_TIMEOUT(s.child(1, "communication").pid > 0, 20000);
-    const link::ChildStatus first = s.child(1, "decision");
+    const link::ProcessStatus first = s.child(1, "decision");
     QVERIFY(first.pid > 0);
-    bool chosen = false;
-    QTRY_VERIFY(s.window.findChild<QTableView*>(QStringLiteral("processesTable"))->isVisible());
-    chooseInProcesses(s, QStringLiteral("Restart all processes of B1"), chosen);
-    QVERIFY(chosen);
-    QTRY_VERIFY(s.child(1, "decision").handle != first.handle);
-    QTRY_COMPARE(s.child(1, "decision").state, link::ChildState::Running);
+    auto* table = s.window.findChild<QTableView*>(QStringLiteral("processesTable"));
+    QTRY_VERIFY(table->isVisible() && table->model()->rowCount() > 0);
+    // The row of a process decides what the entries of its menu do.
+    const auto click = [&](const QString& entry) {
+      for (int row = 0; row < table->model()->rowCount(); ++row) {
+        const QModelIndex name = table->model()->index(row, 1);
+        if (name.data().toString() != QStringLiteral("decision")) continue;
+        if (name.siblingAtColumn(0).data().toString() != QStringLiteral("B1")) continue;
+        bool chosen = false;
+        chooseInProcesses(s, entry, chosen, table->visualRect(name).center());
+        return chosen;
+      }
+      return false;
+    };
+    QVERIFY(click(QStringLiteral("Restart decision of B1")));
+    QTRY_VERIFY(s.child(1, "decision").restarts == 1);
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
     QVERIFY(s.child(1, "decision").pid != first.pid);
-    chosen = false;
-    chooseInProcesses(s, QStringLiteral("Stop all processes of B1"), chosen);
-    QVERIFY(chosen);
-    QTRY_COMPARE(s.child(1, "decision").state, link::ChildState::Ended);
-    QTRY_COMPARE(s.child(1, "communication").state, link::ChildState::Ended);
-    QCOMPARE(s.child(2, "decision").state, link::ChildState::Running);
+    QVERIFY(click(QStringLiteral("Stop decision of B1")));
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Stopped);
+    QCOMPARE(s.child(1, "communication").state, link::ProcessState::Running);
+    QVERIFY(click(QStringLiteral("Start decision of B1")));
+    QTRY_COMPARE(s.child(1, "decision").state, link::ProcessState::Running);
+    QVERIFY(click(QStringLiteral("Kill decision of B1")));
+    QTRY_VERIFY(s.child(1, "decision").restarts == 3);
   }
 
   void noiseSetInTheDockReachesTheSimulation() {

@@ -58,18 +58,25 @@ Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& opt
 }
 
 constexpr std::array processes{
-    ProcessInfo{"localization", "finds out where the robot stands", makeLocalization, true, false,
-                true, "pitchboard-robot localization --robot 1"},
-    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk, true, false,
-                true, "pitchboard-robot team --robot 1 --team 0"},
-    ProcessInfo{"decision", "chooses the robot's action", makeDecision, true, true, false,
+    ProcessInfo{"localization", "finds out where the robot stands", makeLocalization,
+                "pitchboard-robot localization --robot 1"},
+    ProcessInfo{"team", "tells team-mates pose, ball and intention", makeTeamTalk,
+                "pitchboard-robot team --robot 1 --team 0"},
+    ProcessInfo{"decision", "chooses the robot's action", makeDecision,
                 "pitchboard-robot decision --robot 1 --behaviour striker"},
     ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP",
-                makeCommunication, false, false, false,
+                makeCommunication,
                 "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},
 };
 
 }  // namespace
+
+void ProcessOptions::setMatch(MatchNumber match) {
+  telemetryPortBase = match.telemetryPortBase();
+  teamPortBase = match.teamPortBase();
+  refereePort = match.refereePort();
+  channelPortBase = match.channelPortBase();
+}
 
 std::span<const ProcessInfo> cognitiveProcesses() {
   return processes;

@@ -6,6 +6,7 @@
 
 #include <robotlink/frame/belief.h>
 #include <robotlink/frame/second_sender.h>
+#include <robotlink/live/live_teams.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::link {
@@ -271,13 +272,10 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
     out.identity.id = idOfSlot(robot.number, robot.slot);
-    out.identity.number = robot.number;
-    out.identity.team =
-        options.colourByNumber
-            ? teamColors[static_cast<std::size_t>(robot.number - 1) % teamColors.size()].color
-            : ours;
+    out.identity.number = telemetry::numberInTeam(robot.number, options.team.teams.size());
+    out.identity.team = colourOf(options, robot.number, ours, frame.referee);
     RobotHealth& health = out.health.emplace(healthOf(robot));
-    health.penalty = penaltyOf(state, options.ourTeam, robot.number);
+    health.penalty = penaltyOf(state, refereeNumberOf(options, robot.number), out.identity.number);
     out.action = health.action.value_or(0);
     if (const auto pose = poseOf(robot, options.field)) {
       health.poseKnown = true;

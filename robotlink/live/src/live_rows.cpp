@@ -155,11 +155,13 @@ void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t va
 }
 
 void LiveRows::addGroups(Robot& robot) {
-  robot.group = m_sink->addGroup({robot.name,
-                                  robot.columns,
-                                  {{"number", std::to_string(robot.number)},
-                                   {"sender", robot.sender.address.text()},
-                                   {"live", "1"}}});
+  GroupInfo group{robot.name,
+                  robot.columns,
+                  {{"number", std::to_string(robot.number)},
+                   {"sender", robot.sender.address.text()},
+                   {"live", "1"}}};
+  if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.number));
+  robot.group = m_sink->addGroup(group);
 }
 
 void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,

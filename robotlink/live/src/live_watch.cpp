@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <robotlink/frame/second_sender.h>
+#include <robotlink/live/live_teams.h>
 
 #include "live_events.h"
 #include "live_frame.h"
@@ -33,7 +34,8 @@ telemetry::ReceiverOptions receiverOptions(
   telemetry::ReceiverOptions made;
   made.bind = options.bind;
   made.clock = clock;
-  const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
+  const auto ports = telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
+                                          options.refereePort);
   if (ports) made.ports = *ports;
   if (options.monitor) made.ports.push_back(telemetry::robotStatesPort);
   return made;
@@ -55,9 +57,11 @@ void queueUp(std::vector<MatchEvent>& queue, const std::vector<MatchEvent>& item
 }  // namespace
 
 Result<void> validate(const LiveOptions& options) {
-  const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
+  const auto ports = telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
+                                          options.refereePort);
   if (!ports) return tl::unexpected<Error>(ports.error());
   if (const auto good = telemetry::validate(options.profile); !good) return good;
+  if (const auto good = validate(options.boards); !good) return good;
   return sim::validate(options.field);
 }
 
@@ -66,8 +70,10 @@ struct LiveWatch::Impl {
       : clock(std::make_shared<const telemetry::LiveClock>(std::move(source))),
         options(std::move(o)),
         onFrame(std::move(ready)),
-        monitor(options.profile, options.team),
-        referee(refereeOptions(options)) {}
+        monitor(options.profile, monitorOptions(options)),
+        referee(refereeOptions(options)) {
+    boards.set(options.boards);
+  }
 
   double arrival(WallTime time) const { return std::max(0.0, clock->seconds(time)); }
 
@@ -88,7 +94,8 @@ struct LiveWatch::Impl {
     const LiveOptions old = std::exchange(options, std::move(*pending));
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
-    monitor.setOptions(options.team);
+    monitor.setOptions(monitorOptions(options));
+    boards.set(options.boards);
     referee.setOptions(refereeOptions(options));
     monitorProblem.clear();
     const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
@@ -171,6 +178,10 @@ struct LiveWatch::Impl {
     auto made =
         std::make_shared<MatchFrame>(liveFrame(options, team, referee, clock->seconds(team.time)));
     made->serial = ++serial;
+    boards.addTo(*made);
+    boards.takeRows([this](const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
+      for (const auto& observer : observers) observer->sampled(group, rows);
+    });
     tell(happened.compare(*made));
     tell(happened.compareClock(clock->setBy(), made->snapshot.time));
     if (receiver && now >= nextPorts) {
@@ -240,6 +251,7 @@ struct LiveWatch::Impl {
   bool clearAsked = false;
   std::vector<RobotId> forgetAsked;
   TeamMonitor monitor;
+  AttachedRobots boards{[clock = clock] { return clock->seconds(clock->now()); }};
   telemetry::RefereeTracker referee;
   LiveEvents happened;
   std::uint64_t serial = 0, unknownReferee = 0, refusedReferees = 0;
@@ -294,6 +306,7 @@ LiveDetails LiveWatch::details() const {
   details.unknownReferee = m_impl->unknownReferee;
   details.unknownRefereeReason = m_impl->unknownReason;
   details.unknownRefereeSample = m_impl->unknownSample;
+  details.boards = m_impl->boards.status();
   details.refusedReferees = m_impl->refusedReferees;
   details.monitorProblem = m_impl->monitorProblem;
   return details;

@@ -2,6 +2,7 @@
 #include "frame_builder.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <robotlink/match/referee_packet.h>
 
@@ -32,7 +33,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   const sim::WorldState& state = simulation.state();
   out.snapshot = m_snapshot;
   out.robots.resize(state.robots.size());
-  takeProcesses(match.supervisor().children());
+  takeProcesses(match.processes());
   for (std::size_t i = 0; i < state.robots.size(); ++i) {
     RobotFrame& robot = out.robots[i];
     static_cast<sim::RobotSnapshot&>(robot) = m_snapshot.robots[i];
@@ -40,8 +41,17 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     const auto processes = m_processes.find(robot.id());
     robot.processList = processes == m_processes.end() ? nullptr : processes->second;
     robot.thoughts.reset();
+    robot.runtime = runtimeChoiceToText(match.runtime(robot.id()));
+    robot.ofOthers = false;
     robot.penalty = refereePenalty(state, state.robots[i]);
   }
+  for (const sim::RobotIdentity& other : match.robotsOfOthers()) {
+    out.robots[*simulation.indexOf(other.id)].ofOthers = true;
+  }
+  const auto number = match.number();
+  out.matchNumber = number ? std::optional(number->value) : std::nullopt;
+  out.inLockStep = match.inLockStep();
+  out.slowestOwnProgram = match.slowestOwnProgram();
   std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_thoughtsTime >= thoughtsInterval) {
     m_thoughts = match.thoughts();
@@ -70,14 +80,13 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
 }
 
 /// Copied when something changed; the frames of a second share one copy.
-void FrameBuilder::takeProcesses(const std::vector<ChildStatus>& children) {
-  if (children == m_children) return;
-  m_children = children;
-  std::map<RobotId, std::vector<ChildStatus>> byRobot;
-  for (const ChildStatus& child : children) byRobot[child.spec.robot].push_back(child);
+void FrameBuilder::takeProcesses(const ProcessManager& processes) {
+  if (std::exchange(m_processVersion, processes.version()) == processes.version()) return;
+  std::map<RobotId, std::vector<ProcessStatus>> byRobot;
+  for (const ProcessStatus& one : processes.statuses()) byRobot[one.robot].push_back(one);
   m_processes.clear();
   for (auto& [robot, list] : byRobot) {
-    m_processes[robot] = std::make_shared<const std::vector<ChildStatus>>(std::move(list));
+    m_processes[robot] = std::make_shared<const std::vector<ProcessStatus>>(std::move(list));
   }
 }
 

@@ -37,7 +37,7 @@ class FrameBuilder {
 
   void fillBoard(const SimulatedMatch& match, const sim::RobotIdentity& robot, Time now, bool still,
                  RobotBoardView& out);
-  void takeProcesses(const std::vector<ChildStatus>& children);
+  void takeProcesses(const ProcessManager& processes);
   void fillSpeed(const SimulatedMatch& match, Time now, bool still, MatchFrame& out);
 
   std::deque<Sample> m_samples;
@@ -45,8 +45,8 @@ class FrameBuilder {
   double m_busy = 0.0;
   std::map<RobotId, LastSeen> m_lastSeen;
   sim::Snapshot m_snapshot;  // keeps its memory
-  std::vector<ChildStatus> m_children;
-  std::map<RobotId, std::shared_ptr<const std::vector<ChildStatus>>> m_processes;
+  std::uint64_t m_processVersion = 0;
+  std::map<RobotId, std::shared_ptr<const std::vector<ProcessStatus>>> m_processes;
   std::vector<RobotThoughts> m_thoughts;  // change seldom, and cost more than the rest of a frame
   Time m_thoughtsTime{};
 };

@@ -15,11 +15,8 @@ void MatchEvents::stepped(const sim::Simulation& simulation) {
   for (const sim::Event& event : simulation.events()) add(matchEvent(event, simulation.state()));
 }
 
-void MatchEvents::look(const sim::WorldState& state, std::string_view finishedBy,
-                       const ProcessSupervisor& supervisor) {
-  const double time = static_cast<double>(state.tick) / state.settings.tickRate;
-  lookAtGame(state, time, finishedBy);
-  lookAtProcesses(state, time, supervisor);
+void MatchEvents::look(const sim::WorldState& state, std::string_view finishedBy) {
+  lookAtGame(state, static_cast<double>(state.tick) / state.settings.tickRate, finishedBy);
 }
 
 void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
@@ -38,45 +35,52 @@ void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
   add(std::move(event));
 }
 
-MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& state, double time,
-                                  const ChildStatus& child) {
-  const RobotId id = child.spec.robot;
+MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& state,
+                                  const ProcessNews& news) {
+  const double time = static_cast<double>(state.tick) / state.settings.tickRate;
   const auto robot = std::find_if(state.robots.begin(), state.robots.end(),
-                                  [id](const auto& r) { return r.id == id; });
+                                  [&news](const auto& r) { return r.id == news.robot; });
   MatchEvent event;
   if (robot != state.robots.end()) {
     event = eventOf(kind, time, *robot);
-    m_names[id] = event.name;
+    m_names[news.robot] = event.name;
   } else {
     event.kind = kind;
     event.time = time;
-    event.robot = id;
-    event.name = m_names[id];
+    event.robot = news.robot;
+    event.name = m_names[news.robot];
   }
-  event.process = child.spec.name;
+  event.process = news.process;
   return event;
 }
 
-void MatchEvents::lookAtProcesses(const sim::WorldState& state, double time,
-                                  const ProcessSupervisor& supervisor) {
-  const auto& children = supervisor.children();
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    const ChildStatus& child = children[i];
-    if (i >= m_children.size()) {
-      m_children.push_back(ChildState::Running);
-      const bool isFirst = m_everRan.emplace(child.spec.robot, child.spec.name).second;
-      MatchEvent event =
-          ofProcess(isFirst ? MatchEventKind::ProcessStarted : MatchEventKind::ProcessRestarted,
-                    state, time, child);
-      event.value = static_cast<int>(child.pid);
-      add(std::move(event));
+void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news) {
+  for (const ProcessNews& one : news) {
+    MatchEventKind kind = MatchEventKind::ProcessStarted;
+    switch (one.kind) {
+      case ProcessNewsKind::Started:
+      case ProcessNewsKind::Restarted:
+        // The first of this name since the match began, whoever started it.
+        if (!m_everRan.emplace(one.robot, one.process).second)
+          kind = MatchEventKind::ProcessRestarted;
+        break;
+      case ProcessNewsKind::Ended:
+        kind = MatchEventKind::ProcessEnded;
+        break;
+      case ProcessNewsKind::Died:
+        kind = MatchEventKind::ProcessDied;
+        break;
+      case ProcessNewsKind::Silent:
+        kind = MatchEventKind::ProcessSilent;
+        break;
+      case ProcessNewsKind::GivenUp:
+        kind = MatchEventKind::ProcessGivenUp;
+        break;
     }
-    if (std::exchange(m_children[i], child.state) == child.state) continue;
-    const bool died = child.state == ChildState::Failed;
-    MatchEvent event = ofProcess(died ? MatchEventKind::ProcessDied : MatchEventKind::ProcessEnded,
-                                 state, time, child);
-    event.detail = child.asked ? "it was asked to" : child.detail;
-    if (died && !child.lastOutput.empty()) event.detail += "; its last words: " + child.lastOutput;
+    MatchEvent event = ofProcess(kind, state, one);
+    event.detail = one.detail;
+    if (!one.lastWords.empty()) event.detail += "; its last words: " + one.lastWords;
+    if (one.detail.empty()) event.value = static_cast<int>(one.pid);
     add(std::move(event));
   }
 }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <robotlink/frame/match_event.h>
-#include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/process_manager.h>
 #include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
@@ -24,8 +24,9 @@ class MatchEvents {
   /// Right after a step.
   void stepped(const sim::Simulation& simulation);
   /// `finishedBy`: as SimulatedMatch::finishedBy().
-  void look(const sim::WorldState& state, std::string_view finishedBy,
-            const ProcessSupervisor& supervisor);
+  void look(const sim::WorldState& state, std::string_view finishedBy);
+  /// What the supervisor tells of processes.
+  void takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news);
   /// Appends what came since the last call, at most the newest 1000.
   void take(std::vector<MatchEvent>& out);
 
@@ -35,14 +36,10 @@ class MatchEvents {
 
   void add(MatchEvent event);
   void lookAtGame(const sim::WorldState& state, double time, std::string_view finishedBy);
-  void lookAtProcesses(const sim::WorldState& state, double time,
-                       const ProcessSupervisor& supervisor);
-  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, double time,
-                       const ChildStatus& child);
+  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, const ProcessNews& news);
 
   std::vector<MatchEvent> m_events;
   Game m_game = Game::Unknown;
-  std::vector<ChildState> m_children;                   // as last seen, in order of their start
   std::set<std::pair<RobotId, std::string>> m_everRan;  // robot, process
   std::map<RobotId, std::string> m_names;               // processes may outlive their robot
 };

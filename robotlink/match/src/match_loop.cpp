@@ -55,7 +55,8 @@ void MatchLoop::run(const std::stop_token& stop) {
     bool publishNow = carryOutCommands();
     auto now = Clock::now();
     if (now - m_lastPoll >= pollInterval) {
-      pollChildren();
+      pollProcesses();
+      followOwnPrograms(now);
       m_lastPoll = now;
       publishNow = publishNow || refreshesWhileStill();
     }
@@ -106,6 +107,9 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   const bool still = finished || (m_shared.paused && !runTo);
   if (std::exchange(m_shared.paceChanged, false) || still != m_still) {
     m_player.setSpeed(speed, now);
+    m_match.setPlaying(speed, still, now);
+    m_wantedSpeed = m_speed = speed;
+    m_lastFollow = now;
     m_builder.resetSpeed(now, tick);
     m_publishWanted = true;
   }
@@ -113,7 +117,12 @@ MatchLoop::Clock::time_point MatchLoop::play(Clock::time_point now) {
   lock.unlock();
 
   if (singleSteps > 0) {
-    for (int i = 0; i < singleSteps && !m_match.finished(); ++i) m_player.tick();
+    const std::chrono::duration<double> tickTime(1.0 /
+                                                 m_match.simulation().state().settings.tickRate);
+    for (int i = 0; i < singleSteps && !m_match.finished(); ++i) {
+      m_player.tick();
+      m_match.letOwnProgramsRun(tickTime);
+    }
     lock.lock();
     m_shared.singleSteps -= singleSteps;
     lock.unlock();
@@ -142,8 +151,25 @@ void MatchLoop::collectEvents() {
   m_newEvents->list.clear();
 }
 
+void MatchLoop::followOwnPrograms(Clock::time_point now) {
+  constexpr auto interval = 3s;  // so that a new speed shows what it does
+  constexpr double faster = 1.25, least = 0.1;
+  if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed || now - m_lastFollow < interval) {
+    return;
+  }
+  m_lastFollow = now;
+  const auto slowest = m_match.slowestOwnProgram();
+  const double speed = !m_match.waitsForOwnPrograms() ? m_wantedSpeed
+                       : slowest ? std::max(least, std::min(*slowest, m_wantedSpeed))
+                                 : std::min(m_wantedSpeed, m_speed * faster);
+  if (speed == m_speed) return;
+  m_speed = speed;
+  m_player.setSpeed(speed, now);
+  m_match.setPlaying(speed, m_still, now);
+}
+
 bool MatchLoop::refreshesWhileStill() const {
-  if (!m_match.supervisor().children().empty()) return true;
+  if (!m_match.processes().statuses().empty()) return true;
   const auto& robots = m_match.simulation().state().robots;
   return std::any_of(robots.begin(), robots.end(), [this](const sim::RobotIdentity& robot) {
     const Blackboard* board = m_match.blackboard(robot.id);
@@ -151,30 +177,33 @@ bool MatchLoop::refreshesWhileStill() const {
   });
 }
 
-void MatchLoop::pollChildren() {
-  ProcessSupervisor& supervisor = m_match.supervisor();
-  supervisor.poll();
-  const auto& children = supervisor.children();
-  for (const ChildLine& line : supervisor.takeLines()) {
-    const auto child = std::find_if(children.begin(), children.end(),
-                                    [&](const auto& c) { return c.handle == line.handle; });
-    if (child != children.end()) log(nameOf(child->spec), line.text, false);
+void MatchLoop::pollProcesses() {
+  // What a process says in its first moments is for those who look for it.
+  constexpr auto startingUp = 1s;
+  const auto now = Clock::now();
+  m_match.lookAfterProcesses(now);
+  const auto& all = m_match.processes().statuses();
+  for (const ProcessLine& line : m_match.processes().takeLines()) {
+    const auto process = std::find_if(all.begin(), all.end(), [&line](const ProcessStatus& one) {
+      return one.robot == line.robot && one.name == line.process;
+    });
+    const bool starting = process != all.end() && now - process->started < startingUp;
+    log(nameOf(line), line.text, starting ? LogLevel::Debug : LogLevel::Info);
   }
   m_player.tellEvents();
 }
 
-std::string MatchLoop::nameOf(const ChildSpec& child) const {
+std::string MatchLoop::nameOf(const ProcessLine& line) const {
   const auto& robots = m_match.simulation().state().robots;
-  const auto index = m_match.simulation().indexOf(child.robot);
+  const auto index = m_match.simulation().indexOf(line.robot);
   const std::string robot =
-      index ? robots[*index].name() : "robot " + std::to_string(child.robot.value);
-  return robot + ' ' + child.name;
+      index ? robots[*index].name() : "robot " + std::to_string(line.robot.value);
+  return robot + ' ' + line.process;
 }
 
-void MatchLoop::log(const std::string& origin, const std::string& text, bool warning) {
+void MatchLoop::log(const std::string& origin, const std::string& text, LogLevel level) {
   const sim::WorldState& state = m_match.simulation().state();
-  LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text,
-               logLevel(warning)};
+  LogLine line{static_cast<double>(state.tick) / state.settings.tickRate, origin, text, level};
   for (const auto& observer : m_player.observers()) observer->logged(line);
   const std::lock_guard lock(m_shared.mutex);
   pushBounded(m_shared.log, std::move(line), m_shared.droppedLogLines);

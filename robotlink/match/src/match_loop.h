@@ -78,10 +78,12 @@ class MatchLoop {
   Clock::time_point play(Clock::time_point now);
   Clock::time_point playBatch(Clock::time_point now, std::uint64_t lastTick);
   void collectEvents();
-  void pollChildren();
-  void log(const std::string& origin, const std::string& text, bool warning);
-  std::string nameOf(const ChildSpec& child) const;
+  void pollProcesses();
+  void log(const std::string& origin, const std::string& text, LogLevel level);
+  std::string nameOf(const ProcessLine& line) const;
   bool refreshesWhileStill() const;
+  /// Slower while a team's own programs cannot keep up, if that is wanted, and faster again.
+  void followOwnPrograms(Clock::time_point now);
 
   MatchRunner::Shared& m_shared;
   MatchPlayer m_player;
@@ -92,6 +94,8 @@ class MatchLoop {
   Clock::time_point m_lastPublish;
   Clock::time_point m_lastPoll;
   std::uint64_t m_serial = 0;
+  double m_wantedSpeed = 1.0, m_speed = 1.0;
+  Clock::time_point m_lastFollow;
   bool m_still = false;
   bool m_publishWanted = false;
 };

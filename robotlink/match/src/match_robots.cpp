@@ -11,31 +11,28 @@
 #include "match_seat.h"
 
 namespace pitchboard::link {
-namespace {}  // namespace
 
-bool SimulatedMatch::sharesBoards() const {
-  return m_options.cognition != Cognition::Inline || m_options.systemV;
-}
-
-Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(
-    const ScenarioRobot& robot) const {
+Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const ScenarioRobot& robot) {
   const RobotId id = robot.identity.id;
-  std::unique_ptr<Seat> seat;
+  auto runtime = runtimeFor(robot);
+  if (!runtime) return tl::unexpected(runtime.error());
+  auto seat = std::make_unique<Seat>(Blackboard::onHeap());
+  seat->id = id;
+  seat->behaviour = robot.behaviour;
+  seat->choice = m_scenario.runtimeOf(robot);
   bool fresh = true;
-  if (sharesBoards()) {
-    const int key = blackboardKey(id, m_options.keyBase);
+  if (sharesBoard(*seat, *runtime)) {
+    if (auto identified = identify(); !identified) return tl::unexpected(identified.error());
+    const int key = keyOf(id);
     auto claim = BridgeClaim::take(key);
     if (!claim) return tl::unexpected(claim.error());
     auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
     if (!board) return tl::unexpected(board.error());
     fresh = board->created();
-    seat = std::make_unique<Seat>(std::move(*board));
     seat->claim = std::move(*claim);
-  } else {
-    seat = std::make_unique<Seat>(Blackboard::onHeap());
+    seat->board = std::move(*board);
   }
-  seat->id = id;
-  seat->behaviour = robot.behaviour;
+  seat->runtime = std::move(*runtime);
   // A segment that was there belongs to processes that may be running: it is left as it is.
   if (fresh && m_variables.decisionSearchOn.index >= 0) {
     seat->board.write(m_variables.decisionSearchOn, 1);
@@ -58,7 +55,7 @@ Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
   if (auto added = m_simulation.addRobot(robot.identity, robot.pose); !added) return added;
   const RobotId id = robot.identity.id;
   const auto giveUp = [&](const Error& error) {
-    m_supervisor->stop(id);
+    m_processes->remove(id);
     (void)m_simulation.removeRobot(id);
     return tl::unexpected(error);
   };
@@ -78,7 +75,7 @@ Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
 Result<void> SimulatedMatch::removeRobot(RobotId id) {
   const auto index = m_simulation.indexOf(id);
   if (auto removed = m_simulation.removeRobot(id); !removed) return removed;
-  m_supervisor->stop(id);
+  endProcesses(*m_seats[*index]);
   m_seats.erase(m_seats.begin() + static_cast<std::ptrdiff_t>(*index));
   m_commands.resize(m_seats.size());
   m_percepts.resize(m_seats.size());
@@ -103,20 +100,20 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   for (const sim::RobotIdentity& identity : moment.state.robots) {
     if (seat(identity.id)) continue;
     const MomentRobot* known = moment.robot(identity.id);
-    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour)});
+    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour), {}});
     if (!made) return tl::unexpected(made.error());
     added.push_back(std::move(*made));
   }
   if (auto put = m_simulation.restore(moment.state); !put) return put;
   for (const auto& one : added) {
     if (auto started = startProcesses(*one); !started) {
-      for (const auto& other : added) m_supervisor->stop(other->id);
+      for (const auto& other : added) endProcesses(*other);
       (void)m_simulation.restore(before);
       return started;
     }
   }
   for (const auto& old : m_seats) {
-    if (!m_simulation.indexOf(old->id)) m_supervisor->stop(old->id);
+    if (!m_simulation.indexOf(old->id)) endProcesses(*old);
   }
   std::vector<std::unique_ptr<Seat>> seats;
   for (const sim::RobotIdentity& identity : moment.state.robots) {
@@ -137,90 +134,6 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   return {};
 }
 
-Result<void> SimulatedMatch::startProcesses(Seat& seat) {
-  if (const auto index = m_simulation.indexOf(seat.id)) {
-    seat.facesLeft = m_simulation.state().robots[*index].imuStartsAt180;
-  }
-  for (const ProcessInfo& process : cognitiveProcesses()) {
-    if (auto started = startProcess(seat, process); !started) return started;
-  }
-  return {};
-}
-
-Result<void> SimulatedMatch::startProcess(Seat& seat, const ProcessInfo& process) {
-  if (seat.behaviour == noBehaviour && process.hasBehaviour) return {};
-  if (m_options.cognition == Cognition::External) {
-    auto started =
-        m_supervisor->start({seat.id, std::string(process.name), commandOf(seat, process)});
-    if (!started) return tl::unexpected(started.error());
-  } else if (m_options.cognition == Cognition::Inline && process.deterministic) {
-    const BehaviourInfo* behaviour = findBehaviour(seat.behaviour);
-    if (process.forPose && (!behaviour || !behaviour->usesPose)) return {};
-    auto made = process.make(inlineOptions(seat));
-    if (!made) return tl::unexpected(made.error());
-    const std::uint64_t next = nextDueTick((*made)->period());
-    seat.processes.push_back({&process, std::move(*made), next});
-  }
-  return {};
-}
-
-ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
-  ProcessOptions options = m_options.process;
-  options.robot = seat.id;
-  options.behaviour = seat.behaviour;
-  options.field = m_scenario.settings.field;
-  options.seed = m_scenario.settings.seed;
-  const sim::RobotIdentity& identity =
-      m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
-  options.facesLeft = identity.imuStartsAt180;
-  auto& channel = m_teamChannels[static_cast<std::size_t>(identity.team)];
-  if (!channel) channel = std::make_shared<InProcessTeamChannel>();
-  options.teamChannel = channel;
-  return options;
-}
-
-std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
-                                                   const ProcessInfo& process) const {
-  const ProcessOptions& options = m_options.process;
-  const sim::RobotIdentity& identity =
-      m_simulation.state().robots[m_simulation.indexOf(seat.id).value()];
-  std::vector<std::string> command{
-      m_options.robotProgram,
-      std::string(process.name),
-      "--robot",
-      std::to_string(seat.id.value),
-      "--key",
-      std::to_string(blackboardKey(seat.id, m_options.keyBase)),
-      "--behaviour",
-      seat.behaviour == noBehaviour ? options.behaviour : seat.behaviour,
-      "--distance-to-kick",
-      shortest(options.distanceToKick),
-      "--udp-address",
-      options.udpAddress,
-      "--telemetry-port-base",
-      std::to_string(options.telemetryPortBase),
-      "--team-port-base",
-      std::to_string(options.teamPortBase),
-      "--team",
-      std::to_string(options.team + static_cast<int>(identity.team)),
-      "--attack",
-      identity.imuStartsAt180 ? "left" : "right",
-      "--particles",
-      std::to_string(options.particles),
-      "--field",
-      fieldToText(m_scenario.settings.field)};
-  if (const auto& game = m_simulation.state().game; game && game->teamOf(identity.team) >= 0) {
-    const auto team = static_cast<std::size_t>(game->teamOf(identity.team));
-    command.insert(command.end(), {"--referee-team", std::to_string(game->teams[team].number),
-                                   "--shirt", std::to_string(identity.number), "--referee-port",
-                                   std::to_string(options.refereePort)});
-  }
-  if (m_thoughts) {
-    command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
-  }
-  return command;
-}
-
 Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behaviour) {
   Seat* changed = seat(id);
   if (!changed) {
@@ -237,18 +150,77 @@ Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behavio
     return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
   }
   const std::string before = std::exchange(changed->behaviour, behaviour);
+  // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
+  const RuntimeProfile runtimeBefore = changed->runtime;
+  auto runtime = runtimeFor({identityOf(id), {}, behaviour, changed->choice});
+  if (!runtime) {
+    changed->behaviour = before;
+    return tl::unexpected(runtime.error());
+  }
+  changed->runtime = std::move(*runtime);
+  // What hangs on the behaviour starts anew, the rest goes on.
+  std::vector<std::unique_ptr<SeatProcess>> ended;
+  for (auto& process : changed->processes) {
+    if (process->profile.onlyFor == ProfileProcess::OnlyFor::Behaviour) {
+      if (process->id != 0) m_processes->stop(process->id);
+      ended.push_back(std::move(process));
+    }
+  }
+  std::erase(changed->processes, nullptr);
+  auto started = startProcesses(*changed);
+  if (!started) {
+    changed->behaviour = before;
+    changed->runtime = runtimeBefore;
+    for (auto& process : ended) changed->processes.push_back(std::move(process));
+    return started;
+  }
+  std::swap(changed->processes, ended);
+  endProcesses(*changed);
+  changed->processes = std::move(ended);
+  return {};
+}
+
+Result<void> SimulatedMatch::setRuntime(RobotId id, const RuntimeChoice& choice) {
+  Seat* changed = seat(id);
+  if (!changed) {
+    return failure(ErrorCode::NotFound,
+                   "there is no robot " + std::to_string(id.value) + " on the field");
+  }
+  auto runtime = runtimeFor({identityOf(id), {}, changed->behaviour, choice});
+  if (!runtime) return tl::unexpected(runtime.error());
+  if (changed->board.key() == 0 && runtime->hasOwn() && choice.isChosen()) {
+    return failure(
+        ErrorCode::Unsupported,
+        "this match runs inside one program, where no other one reaches its blackboards; "
+        "start it with separate processes");
+  }
+  const RuntimeProfile before = std::exchange(changed->runtime, std::move(*runtime));
+  const RuntimeChoice choiceBefore = std::exchange(changed->choice, choice);
   auto started = restartProcesses(*changed);
-  if (!started) changed->behaviour = before;
+  if (!started) {
+    changed->runtime = before;
+    changed->choice = choiceBefore;
+  }
   return started;
 }
 
-/// On failure inline processes go on as before.
-Result<void> SimulatedMatch::restartProcesses(Seat& seat) {
-  std::vector<InlineProcess> running = std::exchange(seat.processes, {});
-  m_supervisor->stop(seat.id);
-  auto started = startProcesses(seat);
-  if (!started) seat.processes = std::move(running);
-  return started;
+RuntimeChoice SimulatedMatch::runtime(RobotId id) const {
+  const Seat* found = seat(id);
+  return found ? found->choice : RuntimeChoice{};
+}
+
+Result<void> SimulatedMatch::restartProcess(RobotId id, const std::string& process) {
+  Seat* changed = seat(id);
+  if (changed) {
+    for (const auto& one : changed->processes) {
+      if (one->profile.name != process) continue;
+      if (one->inside) return startInside(*changed, *one);
+      m_processes->restart(one->id, std::chrono::steady_clock::now());
+      return {};
+    }
+  }
+  return failure(ErrorCode::NotFound, "robot " + std::to_string(id.value) +
+                                          " has no process called \"" + process + "\"");
 }
 
 Result<void> SimulatedMatch::setIdentity(const sim::RobotIdentity& identity) {
@@ -292,8 +264,10 @@ Scenario SimulatedMatch::toScenario() const {
   moment.robots.clear();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = now.robots[i];
-    moment.robots.push_back(
-        {robot.identity, {inside(robot.pose.position), robot.pose.yaw}, m_seats[i]->behaviour});
+    moment.robots.push_back({robot.identity,
+                             {inside(robot.pose.position), robot.pose.yaw},
+                             m_seats[i]->behaviour,
+                             m_seats[i]->choice});
   }
 
   moment.writes =

@@ -3,6 +3,7 @@
 
 // One robot's place in a simulated match: its blackboard and what runs on it. Private to robotlink.
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,19 +13,33 @@
 
 namespace pitchboard::link {
 
-struct InlineProcess {
-  const ProcessInfo* info = nullptr;
-  std::unique_ptr<CognitiveProcess> process;
-  std::uint64_t nextTick = 0;  ///< runs after the tick that ends here
+/// A process of a robot: inside this program, or separate.
+struct SeatProcess {
+  ProfileProcess profile;
+  std::unique_ptr<CognitiveProcess> inside;  ///< nothing: it is separate
+  int id = 0;                                ///< of a separate one, in the manager
+  bool known = false;                        ///< how often it wants a turn is known
+  double period = 0.0;                       ///< s, once known
+  std::uint64_t startTick = 0;               ///< after which it was started
+  std::uint64_t nextTick = 0;                ///< runs after the tick that ends here
+
+  // Of a separate one that takes turns (a reference process).
+  int place = -1;      ///< its place in the turns; below 0: it has not been started
+  bool given = false;  ///< it has been given the turn of this tick
+  std::chrono::steady_clock::time_point givenAt{};
+
+  bool takesTurns() const { return !inside && profile.isReference(); }
 };
 
 struct SimulatedMatch::Seat {
   RobotId id;
   std::string behaviour;
+  RuntimeChoice choice;              ///< as told for this robot; may be nothing
+  RuntimeProfile runtime;            ///< what that means
   bool facesLeft = false;            // what its processes were told
   std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;
-  std::vector<InlineProcess> processes;
+  std::vector<std::unique_ptr<SeatProcess>> processes;
 
   explicit Seat(Blackboard memory) : board(std::move(memory)) {}
 

@@ -32,13 +32,13 @@ SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& opt
       m_bridge(m_variables),
       m_events(std::make_unique<MatchEvents>()),
       m_referee(std::make_unique<MatchReferee>()),
-      m_supervisor(std::make_unique<ProcessSupervisor>()) {}
+      m_processes(std::make_unique<ProcessManager>()) {}
 
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
 
 SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   if (this == &other) return *this;
-  m_supervisor.reset();  // processes end before their blackboards go
+  m_processes.reset();  // processes end before their blackboards go
   m_seats.clear();
   m_scenario = std::move(other.m_scenario);
   m_options = std::move(other.m_options);
@@ -58,21 +58,22 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_thoughts = std::move(other.m_thoughts);
   m_events = std::move(other.m_events);
   m_referee = std::move(other.m_referee);
-  m_supervisor = std::move(other.m_supervisor);
+  m_claim = std::move(other.m_claim);
+  m_speed = other.m_speed;
+  m_still = other.m_still;
+  m_measured = other.m_measured;
+  m_measuredTick = other.m_measuredTick;
+  m_turns = std::move(other.m_turns);
+  m_processes = std::move(other.m_processes);
   return *this;
 }
 
 SimulatedMatch::~SimulatedMatch() {
-  m_supervisor.reset();
+  m_processes.reset();
 }
 
 Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const MatchOptions& options,
                                               const VariableCatalog& catalog) {
-  if (options.cognition == Cognition::External && options.robotProgram.empty()) {
-    return failure(ErrorCode::InvalidArgument,
-                   "the robots' processes cannot be started: the path of pitchboard-robot is not "
-                   "known; use inline cognition or give the path");
-  }
   auto simulation = sim::Simulation::create(scenario.settings);
   if (!simulation) return tl::unexpected(simulation.error());
   SimulatedMatch match(scenario, options, std::move(*simulation), catalog);
@@ -121,14 +122,22 @@ Result<void> SimulatedMatch::beginGame() {
   return {};
 }
 
-/// Inline robots have no communication process: the match writes what it would.
+/// Inline robots have no communication process, and that of a robot that takes turns would hear the
+/// packets at a time of its own: the match writes what it would.
+bool SimulatedMatch::hearsThroughMatch(const Seat& seat) const {
+  return m_options.cognition == Cognition::Inline ||
+         std::any_of(seat.processes.begin(), seat.processes.end(), [](const auto& process) {
+           return process->profile.reference == "communication";
+         });
+}
+
 void SimulatedMatch::hearReferee() {
-  if (!m_referee->tick(m_simulation) || m_options.cognition != Cognition::Inline) return;
+  if (!m_referee->tick(m_simulation)) return;
   const sim::WorldState& world = m_simulation.state();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotIdentity& robot = world.robots[i];
     const int team = world.game->teamOf(robot.team);
-    if (team < 0) continue;
+    if (team < 0 || !hearsThroughMatch(*m_seats[i])) continue;
     const int number = world.game->teams[static_cast<std::size_t>(team)].number;
     if (const auto word = refereeWord(m_referee->packet(), number, robot.number)) {
       m_seats[i]->board.write(m_variables.comReferee, *word);
@@ -189,8 +198,8 @@ void SimulatedMatch::followJump() {
       [](const ResolvedWrite& write, std::uint64_t tick) { return write.tick < tick; });
   m_nextWrite = static_cast<std::size_t>(next - m_writes.begin());
   for (const auto& seat : m_seats) {
-    for (InlineProcess& process : seat->processes) {
-      process.nextTick = nextDueTick(process.process->period());
+    for (const auto& process : seat->processes) {
+      if (process->known) process->nextTick = nextDueTick(process->period, now);
     }
   }
   m_goalSeen = m_outSeen = false;
@@ -214,29 +223,16 @@ void SimulatedMatch::tick() {
     followSides();
     hearReferee();
   }
-  runInlineProcesses();
+  runProcesses();
 }
 
-/// The first tick after now at which a multiple of `period` seconds has passed.
-std::uint64_t SimulatedMatch::nextDueTick(double period) const {
-  const std::uint64_t now = m_simulation.state().tick;
+/// The first tick after `after` at which a multiple of `period` seconds has passed.
+std::uint64_t SimulatedMatch::nextDueTick(double period, std::uint64_t after) const {
   const double rate = m_scenario.settings.tickRate;
   const double ticksPerCycle = period * rate;
-  if (!(ticksPerCycle > 1.0)) return now + 1;
-  const double cycle = std::floor((static_cast<double>(now) + tickTolerance) / ticksPerCycle) + 1;
-  return std::max(now + 1, firstTickAtOrAfter(cycle * period, rate));
-}
-
-void SimulatedMatch::runInlineProcesses() {
-  const std::uint64_t now = m_expectedTick;
-  const Clock clock{static_cast<double>(now) / m_scenario.settings.tickRate};
-  for (const auto& seat : m_seats) {
-    for (InlineProcess& process : seat->processes) {
-      if (now < process.nextTick) continue;
-      process.process->step(seat->board, clock);
-      process.nextTick = nextDueTick(process.process->period());
-    }
-  }
+  if (!(ticksPerCycle > 1.0)) return after + 1;
+  const double cycle = std::floor((static_cast<double>(after) + tickTolerance) / ticksPerCycle) + 1;
+  return std::max(after + 1, firstTickAtOrAfter(cycle * period, rate));
 }
 
 std::string_view SimulatedMatch::finishedBy() const {
@@ -252,7 +248,8 @@ std::string_view SimulatedMatch::finishedBy() const {
 }
 
 void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
-  m_events->look(m_simulation.state(), finishedBy(), *m_supervisor);
+  m_events->look(m_simulation.state(), finishedBy());
+  m_events->takeNews(m_simulation.state(), m_processes->takeNews());
   m_events->take(out);
 }
 
@@ -267,7 +264,9 @@ std::vector<RobotThoughts> SimulatedMatch::thoughts() {
   for (const auto& seat : m_seats) {
     RobotThoughts one;
     one.robot = seat->id;
-    for (const InlineProcess& process : seat->processes) process.process->tellThoughts(one);
+    for (const auto& process : seat->processes) {
+      if (process->inside) process->inside->tellThoughts(one);
+    }
     if (one.cloud || one.path) all.push_back(std::move(one));
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.robot < b.robot; });

@@ -14,15 +14,18 @@ namespace {
 constexpr std::string_view section = "Pitchboard Management";
 constexpr std::string_view commandKey = "command.";
 
+using Seconds = ManagementTiming::Seconds;
+
 struct TimeKey {
   std::string_view name;
-  ManagerTiming::Seconds ManagerTiming::*member;
+  Seconds& (*of)(ManagementTiming& timing);
 };
-constexpr std::array<TimeKey, 5> timeKeys{{{"start_interval", &ManagerTiming::startInterval},
-                                           {"silent_after", &ManagerTiming::silentAfter},
-                                           {"restart_wait", &ManagerTiming::firstWait},
-                                           {"longest_wait", &ManagerTiming::longestWait},
-                                           {"steady_after", &ManagerTiming::steadyAfter}}};
+constexpr std::array<TimeKey, 5> timeKeys{
+    {{"start_interval", [](ManagementTiming& t) -> Seconds& { return t.startInterval; }},
+     {"silent_after", [](ManagementTiming& t) -> Seconds& { return t.silentAfter; }},
+     {"restart_wait", [](ManagementTiming& t) -> Seconds& { return t.restart.firstWait; }},
+     {"longest_wait", [](ManagementTiming& t) -> Seconds& { return t.restart.longestWait; }},
+     {"steady_after", [](ManagementTiming& t) -> Seconds& { return t.restart.steadyAfter; }}}};
 
 std::vector<std::string> namesIn(std::string_view text) {
   std::vector<std::string> names;
@@ -89,7 +92,7 @@ Result<ManagementConfig> managementFromIni(const IniFile& file,
       if (error != std::errc{} || stop != end || !(seconds > 0.0 && seconds <= 3600.0)) {
         return refuse("must be a number of seconds, more than 0 and at most 3600");
       }
-      config.timing.*time->member = ManagerTiming::Seconds(seconds);
+      time->of(config.timing) = Seconds(seconds);
     } else if (entry.name == "processes") {
       config.processes = namesIn(entry.value);
       list = &entry;

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/processes/process_supervisor.h>
 
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <string_view>
 #include <thread>
 
+#include <base/system_reason.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/processes/guard.h>
 #include <robotlink/processes/spawn.h>
+
+#include "process_table.h"
 
 namespace pitchboard::link {
 namespace {
@@ -38,14 +45,66 @@ std::string describe(const siginfo_t& end) {
 
 }  // namespace
 
+ProcessSupervisor::ProcessSupervisor() {
+  static std::atomic<unsigned> made{0};
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  m_run =
+      std::to_string(::getpid()) + '.' + std::to_string(now) + '.' + std::to_string(++made) + ':';
+}
+
 ProcessSupervisor::~ProcessSupervisor() {
   stopAll();
+  if (!m_guard) return;
+  tellGuard(guardWords::done);
+  // It ends at once; only one that was stopped would keep us.
+  const auto end = std::chrono::steady_clock::now() + killPatience;
+  while (::waitpid(m_guardPid, nullptr, WNOHANG) == 0 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+std::string ProcessSupervisor::markOf(int handle) const {
+  return m_run + std::to_string(handle) + ':';
+}
+
+Result<void> ProcessSupervisor::keepGuard(const std::string& program) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    return failure(ErrorCode::SystemError,
+                   "the robots' processes cannot be guarded: " + systemReason(errno));
+  }
+  Descriptor ours(ends[0]);
+  const Descriptor its(ends[1]);
+  SpawnRequest request{{program, std::string(guardCommand), m_run}};
+  request.input = its.get();
+  request.outlives = true;
+  request.environment = {{processMark, ""}};  // nobody's: who supervises us must not end it
+  const auto started = spawn(request);
+  if (!started) return tl::unexpected(started.error());
+  m_guardPid = started->pid;
+  m_guard = std::move(ours);
+  return {};
+}
+
+void ProcessSupervisor::guardSegment(const Blackboard& board) {
+  if (!m_guard || !board.created()) return;
+  if (const auto info = SystemVSegments::info(board.key())) {
+    tellGuard(guardWords::segment(info->key, info->shmid));
+  }
+}
+
+void ProcessSupervisor::tellGuard(const std::string& line) {
+  // A guard that is gone is no reason to end: MSG_NOSIGNAL instead of SIGPIPE.
+  if (m_guard) (void)::send(m_guard.get(), line.data(), line.size(), MSG_NOSIGNAL);
 }
 
 Result<int> ProcessSupervisor::start(const ChildSpec& spec) {
-  Result<Spawned> child = spawn(spec.command);
-  if (!child) return tl::unexpected<Error>(child.error());
   const int handle = m_nextHandle++;
+  SpawnRequest request{spec.command, spec.directory, spec.environment};
+  request.environment.emplace_back(processMark, markOf(handle));
+  request.inherited = spec.inherited;
+  Result<Spawned> child = spawn(request);
+  if (!child) return tl::unexpected<Error>(child.error());
   m_children.push_back({handle, spec, child->pid, ChildState::Running, {}, {}});
   m_outputs[handle].pipe = std::move(child->output);
   return handle;
@@ -72,6 +131,7 @@ void ProcessSupervisor::collect(ChildStatus& child, Output& output) {
 
   if (!unknown) {
     ::kill(-child.pid, SIGKILL);
+    killStrays(child);
     while (::waitpid(child.pid, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
@@ -152,12 +212,40 @@ bool ProcessSupervisor::anyRunning(const std::vector<int>& handles) const {
                      [this](int handle) { return m_outputs.contains(handle); });
 }
 
+void ProcessSupervisor::signalChild(int handle, int signal) const {
+  signalGroups({handle}, signal);
+}
+
+void ProcessSupervisor::pauseChild(int handle, bool paused) {
+  const int signal = paused ? SIGSTOP : SIGCONT;
+  for (const ChildStatus& child : m_children) {
+    if (child.handle != handle || !m_outputs.contains(handle)) continue;
+    ::kill(-child.pid, signal);
+    if (!child.spec.foreign) continue;
+    for (const pid_t pid : markedProcesses(markOf(handle))) ::kill(pid, signal);
+  }
+}
+
+void ProcessSupervisor::killStrays(const ChildStatus& child) const {
+  if (!child.spec.foreign) return;
+  // What is killed may just have started another one.
+  for (int round = 0; round < 8; ++round) {
+    bool any = false;
+    for (const pid_t pid : markedProcesses(markOf(child.handle))) {
+      if (pid != child.pid) any = ::kill(pid, SIGKILL) == 0 || any;
+    }
+    if (!any) return;
+  }
+}
+
 void ProcessSupervisor::signalGroups(const std::vector<int>& handles, int signal) const {
   for (const ChildStatus& child : m_children) {
     // Not yet collected, so its number cannot belong to anybody else.
     if (m_outputs.contains(child.handle) &&
         std::find(handles.begin(), handles.end(), child.handle) != handles.end()) {
-      ::kill(-child.pid, signal);
+      ::kill(-child.pid, signal == 0 ? child.spec.stopSignal : signal);
+      // One that is stopped would never learn of it.
+      if (signal == 0) ::kill(-child.pid, SIGCONT);
     }
   }
 }
@@ -176,7 +264,8 @@ void ProcessSupervisor::stopThose(const std::vector<int>& handles,
       poll();
     }
   };
-  signalGroups(handles, SIGTERM);
+  constexpr int eachItsOwn = 0;
+  signalGroups(handles, eachItsOwn);
   waitUntil(std::chrono::steady_clock::now() + grace);
   signalGroups(handles, SIGKILL);
   waitUntil(std::chrono::steady_clock::now() + killPatience);

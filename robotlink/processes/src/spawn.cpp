@@ -7,6 +7,7 @@
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -65,9 +66,13 @@ struct ChildPlan {
   const char* path;
   char* const* arguments;
   char* const* environment;
-  int input, output, report;
+  const char* directory;  // null: ours
+  int input, output, inherited, report;
   pid_t parent;
+  bool outlives;
 };
+
+constexpr int inheritedDescriptor = 3;
 
 [[noreturn]] void fail(const ChildPlan& plan, int error) {
   while (::write(plan.report, &error, sizeof error) < 0 && errno == EINTR) {
@@ -75,22 +80,26 @@ struct ChildPlan {
   ::_exit(127);
 }
 
-void closeOthersAtExec() {
+void closeOthersAtExec(int first) {
 #ifdef SYS_close_range
   constexpr unsigned closeOnExec = 1U << 2;  // CLOSE_RANGE_CLOEXEC
-  if (::syscall(SYS_close_range, 3U, ~0U, closeOnExec) == 0) return;
+  if (::syscall(SYS_close_range, static_cast<unsigned>(first), ~0U, closeOnExec) == 0) return;
 #endif
   constexpr int usualLimit = 4096;  // for kernels before 5.11
-  for (int fd = 3; fd < usualLimit; ++fd) ::fcntl(fd, F_SETFD, FD_CLOEXEC);
+  for (int fd = first; fd < usualLimit; ++fd) ::fcntl(fd, F_SETFD, FD_CLOEXEC);
 }
 
 // Runs in the child; all signals are blocked until its handlers are reset, so that no handler of
 // the parent can run here.
 [[noreturn]] void becomeChild(const ChildPlan& plan) {
-  ::setpgid(0, 0);
-  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) fail(plan, errno);
-  // The parent may have died before the line above took effect.
-  if (::getppid() != plan.parent) ::_exit(127);
+  if (plan.outlives) {
+    ::setsid();
+  } else {
+    ::setpgid(0, 0);
+    if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) fail(plan, errno);
+    // The parent may have died before the line above took effect.
+    if (::getppid() != plan.parent) ::_exit(127);
+  }
 
   struct sigaction standard {};
   standard.sa_handler = SIG_DFL;
@@ -103,9 +112,24 @@ void closeOthersAtExec() {
       ::dup2(plan.output, STDERR_FILENO) < 0) {
     fail(plan, errno);
   }
-  closeOthersAtExec();
+  if (plan.directory != nullptr && ::chdir(plan.directory) != 0) fail(plan, errno);
+  // The way back to us lies above the one descriptor that is handed on.
+  int report = plan.report;
+  int firstClosed = inheritedDescriptor;
+  if (plan.inherited >= 0) {
+    report = ::fcntl(plan.report, F_DUPFD_CLOEXEC, inheritedDescriptor + 1);
+    const int inherited = ::fcntl(plan.inherited, F_DUPFD_CLOEXEC, inheritedDescriptor + 1);
+    if (report < 0 || inherited < 0 || ::dup2(inherited, inheritedDescriptor) < 0) {
+      fail(plan, errno);
+    }
+    ++firstClosed;
+  }
+  closeOthersAtExec(firstClosed);
   ::execve(plan.path, plan.arguments, plan.environment);
-  fail(plan, errno);
+  const int error = errno;
+  ChildPlan failed = plan;
+  failed.report = report;
+  fail(failed, error);
 }
 
 // The error of the child's exec, or 0 when it is running.
@@ -123,13 +147,35 @@ tl::unexpected<Error> cannotStart(const std::string& program, int error) {
   return failure(code, "cannot start '" + program + "': " + systemReason(error));
 }
 
-}  // namespace
+std::vector<std::string> environmentOf(const SpawnRequest& request) {
+  std::vector<std::string> all;
+  for (char** entry = ::environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    const auto replaced = [&text](const auto& added) {
+      return text.size() > added.first.size() && text.starts_with(added.first) &&
+             text[added.first.size()] == '=';
+    };
+    if (std::none_of(request.environment.begin(), request.environment.end(), replaced)) {
+      all.emplace_back(text);
+    }
+  }
+  for (const auto& [name, value] : request.environment) all.push_back(name + '=' + value);
+  return all;
+}
 
-Result<Spawned> spawn(const std::vector<std::string>& command) {
-  if (command.empty() || command.front().empty()) {
+std::vector<char*> pointersTo(const std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Refuses what the system would refuse, too, but in other words.
+Result<std::string> pathOf(const SpawnRequest& request) {
+  if (request.command.empty() || request.command.front().empty()) {
     return failure(ErrorCode::InvalidArgument, "cannot start a process: no program is given");
   }
-  const std::string& program = command.front();
+  const std::string& program = request.command.front();
   const std::string path = inPath(program);
   if (path.empty()) {
     return failure(ErrorCode::NotFound, "cannot start '" + program +
@@ -139,19 +185,39 @@ Result<Spawned> spawn(const std::vector<std::string>& command) {
   if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
     return cannotStart(program, EISDIR);
   }
+  if (!request.directory.empty() &&
+      (::stat(request.directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))) {
+    return failure(ErrorCode::NotFound, "cannot start '" + program + "' in the folder '" +
+                                            request.directory + "': there is no such folder");
+  }
+  return path;
+}
+
+}  // namespace
+
+Result<Spawned> spawn(const SpawnRequest& request) {
+  const auto path = pathOf(request);
+  if (!path) return tl::unexpected(path.error());
+  const std::string& program = request.command.front();
 
   Ends output, report;
-  const Descriptor input = aboveStandard(::open("/dev/null", O_RDONLY | O_CLOEXEC));
-  if (!input || !makePipe(output) || !makePipe(report)) return cannotStart(program, errno);
+  const Descriptor nothing = aboveStandard(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  if (!nothing || !makePipe(output) || !makePipe(report)) return cannotStart(program, errno);
   if (::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0) return cannotStart(program, errno);
 
-  std::vector<char*> arguments;
-  for (const std::string& argument : command) {
-    arguments.push_back(const_cast<char*>(argument.c_str()));
-  }
-  arguments.push_back(nullptr);
-  const ChildPlan plan{path.c_str(),       arguments.data(),   ::environ, input.get(),
-                       output.write.get(), report.write.get(), ::getpid()};
+  const std::vector<std::string> environment = environmentOf(request);
+  const std::vector<char*> arguments = pointersTo(request.command);
+  const std::vector<char*> variables = pointersTo(environment);
+  const ChildPlan plan{path->c_str(),
+                       arguments.data(),
+                       variables.data(),
+                       request.directory.empty() ? nullptr : request.directory.c_str(),
+                       request.input >= 0 ? request.input : nothing.get(),
+                       request.outlives ? nothing.get() : output.write.get(),
+                       request.inherited,
+                       report.write.get(),
+                       ::getpid(),
+                       request.outlives};
 
   sigset_t all, before;
   ::sigfillset(&all);

@@ -27,8 +27,8 @@ Result<sim::NoiseParameters> noisePreset(std::string_view name) {
   const auto root = parseJson(resourceText(path), report);
   sim::NoiseParameters noise;
   if (root) {
-    const auto keys = withKeys({"name", "title", "description"}, sim::noiseParameters);
-    readNumbers(JsonObject(report, *root, "", keys), sim::noiseParameters, noise);
+    const auto keys = sim::withKeys({"name", "title", "description"}, sim::noiseParameters);
+    sim::readNumbers(JsonObject(report, *root, "", keys), sim::noiseParameters, noise);
   }
   if (report.failed()) return tl::unexpected(report.error());
   return noise;

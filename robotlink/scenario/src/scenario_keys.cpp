@@ -32,4 +32,10 @@ double fileDegrees(double radians) {
   return best;
 }
 
+RuntimeChoice Scenario::runtimeOf(const ScenarioRobot& robot) const {
+  if (robot.runtime.isChosen()) return robot.runtime;
+  const auto team = runtimes.find(robot.identity.team);
+  return team == runtimes.end() ? RuntimeChoice{} : team->second;
+}
+
 }  // namespace pitchboard::link

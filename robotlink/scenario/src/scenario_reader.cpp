@@ -7,6 +7,7 @@
 #include <base/read_file.h>
 #include <resources/resources.h>
 #include <robotlink/cognition/process_registry.h>
+#include <simcore/world/field_text.h>
 
 #include "referee_rules_json.h"
 #include "scenario_keys.h"
@@ -20,6 +21,7 @@ constexpr int mostGoals = 1'000'000;
 constexpr double fastestBall = 50.0;  // m/s
 constexpr int highestShirtNumber = 99;
 constexpr std::size_t mostWrites = 100000;
+constexpr std::size_t longestRuntime = 4096;
 constexpr std::size_t mostFileBytes = 1024 * 1024;
 
 // The default first, as in choosers; each is resources/scenarios/<name>.json.
@@ -31,34 +33,16 @@ std::string resourcePath(std::string_view name) {
   return "scenarios/" + std::string(name) + ".json";
 }
 
-std::vector<std::string_view> fieldNames() {
-  std::vector<std::string_view> names;
-  for (const sim::FieldSpec& field : sim::builtInFields()) names.push_back(field.name);
-  return names;
-}
-
-sim::FieldSpec readFieldObject(JsonReport& report, const JsonNode& node, const std::string& path) {
-  sim::FieldSpec field;
-  const JsonObject object(report, node, path, withKeys({"name", "base"}, sim::fieldParameters));
-  if (const auto base = object.choice("base", fieldNames(), "field")) {
-    field = sim::builtInFields()[*base];
-  }
-  field.name = object.text("name", "custom", 64);
-  readNumbers(object, sim::fieldParameters, field);
-  if (const auto valid = sim::validate(field); !valid)
-    report.fail(node.line, path, valid.error().message);
-  return field;
-}
-
 class Reader {
  public:
   Reader(const JsonNode& root, JsonReport& report, const VariableCatalog& catalog)
       : m_report(report),
         m_catalog(catalog),
         m_root(report, root, "",
-               {"version", "name", "title", "description", "physics", "tick_rate", "seed",
-                "after_goal", "clock_running", "clock", "score", "field", "noise", "rigid_body",
-                "ball", "robots", "writes", "stop", "referee"}) {}
+               {"version",   "name",   "title",      "description",   "physics",
+                "tick_rate", "seed",   "after_goal", "clock_running", "clock",
+                "score",     "field",  "noise",      "rigid_body",    "ball",
+                "robots",    "writes", "stop",       "referee",       "runtime"}) {}
 
   Scenario read() {
     readVersion();
@@ -79,6 +63,7 @@ class Reader {
     m_scenario.clockRunning = m_root.boolean("clock_running", true);
     m_scenario.clock = m_root.number("clock", 0.0, {0, longestClock, "seconds"});
     readScore();
+    readRuntimes();
     readRobots();
     readWrites();
     readStop();
@@ -105,7 +90,7 @@ class Reader {
       settings.physics = models[*model];
     }
     settings.tickRate = m_root.number(sim::tickRateParameter.key, settings.tickRate,
-                                      rangeOf(sim::tickRateParameter));
+                                      sim::rangeOf(sim::tickRateParameter));
     settings.seed = m_root.unsignedInteger("seed", settings.seed);
     if (const auto rule = m_root.choice("after_goal", afterGoalNames, "rule after a goal")) {
       settings.afterGoal = static_cast<sim::AfterGoal>(*rule);
@@ -115,7 +100,7 @@ class Reader {
   void readField() {
     const JsonNode* node = m_root.find("field");
     if (!node) return;
-    const std::vector<std::string_view> known = fieldNames();
+    const std::vector<std::string_view> known = sim::fieldNames();
     sim::FieldSpec& field = m_scenario.settings.field;
     if (node->kind == JsonNode::Kind::Text) {
       if (const auto built = m_root.choice("field", known, "field")) {
@@ -127,7 +112,7 @@ class Reader {
       m_root.fail("field", "must be the name of a field, in quotes, or an object in braces");
       return;
     }
-    field = readFieldObject(m_report, *node, "field");
+    field = sim::readField(m_report, *node, "field");
   }
 
   void readNoise() {
@@ -147,19 +132,20 @@ class Reader {
       m_root.fail("noise", "must be the name of a noise preset, in quotes, or an object in braces");
       return;
     }
-    const JsonObject object(m_report, *node, "noise", withKeys({"preset"}, sim::noiseParameters));
+    const JsonObject object(m_report, *node, "noise",
+                            sim::withKeys({"preset"}, sim::noiseParameters));
     if (const auto preset = object.choice("preset", known, "noise preset")) take(*preset);
-    readNumbers(object, sim::noiseParameters, noise);
+    sim::readNumbers(object, sim::noiseParameters, noise);
   }
 
   void readRigidBody() {
     const JsonNode* node = m_root.find("rigid_body");
     if (!node) return;
     const JsonObject object(m_report, *node, "rigid_body",
-                            withKeys({sim::fallsSwitch.key}, sim::rigidBodyParameters));
+                            sim::withKeys({sim::fallsSwitch.key}, sim::rigidBodyParameters));
     sim::RigidBodySettings& body = m_scenario.settings.rigidBody;
     body.falls = object.boolean(sim::fallsSwitch.key, body.falls);
-    readNumbers(object, sim::rigidBodyParameters, body);
+    sim::readNumbers(object, sim::rigidBodyParameters, body);
   }
 
   void readBall() {
@@ -195,11 +181,42 @@ class Reader {
     }
   }
 
+  void readRuntimes() {
+    const JsonNode* node = m_root.find("runtime");
+    if (!node || m_report.failed()) return;
+    std::vector<std::string_view> teams;
+    for (const TeamColorInfo& color : teamColors) teams.push_back(color.name);
+    const JsonObject object(m_report, *node, "runtime", teams);
+    if (m_report.failed()) return;
+    for (const TeamColorInfo& color : teamColors) {
+      if (object.find(color.name)) {
+        m_scenario.runtimes[color.color] = readRuntime(object, color.name);
+      }
+    }
+  }
+
+  static RuntimeChoice readRuntime(const JsonObject& object, std::string_view key) {
+    if (!object.find(key)) return {};
+    const std::string text = object.text(key, "", longestRuntime);
+    const auto choice = runtimeChoiceFromText(text);
+    if (!choice) {
+      object.fail(key, choice.error().message);
+      return {};
+    }
+    // A file is read when the match is played, where the scenario is played.
+    if (choice->profile.find_first_of("/.") == std::string::npos) {
+      if (const auto profile = loadRuntime(*choice); !profile) {
+        object.fail(key, profile.error().text());
+      }
+    }
+    return *choice;
+  }
+
   void readRobot(const JsonNode& node, std::size_t index) {
     const std::string path = "robots[" + std::to_string(index) + "]";
     const JsonObject object(m_report, node, path,
                             {"team", "number", "x", "y", "heading", "behaviour", "id",
-                             "imu_starts_at_180", "blackboard"});
+                             "imu_starts_at_180", "blackboard", "runtime"});
     for (const std::string_view key : {"team", "number", "x", "y"}) object.require(key);
     std::vector<std::string_view> teams;
     for (const TeamColorInfo& color : teamColors) teams.push_back(color.name);
@@ -221,6 +238,7 @@ class Reader {
     if (const auto behaviour = object.choice("behaviour", known, "behaviour")) {
       robot.behaviour = known[*behaviour];
     }
+    robot.runtime = readRuntime(object, "runtime");
     for (std::size_t other = 0; other < m_scenario.robots.size(); ++other) {
       const sim::RobotIdentity& taken = m_scenario.robots[other].identity;
       const std::string where = "robots[" + std::to_string(other) + "]";
@@ -336,23 +354,6 @@ Result<Scenario> loadScenario(const std::string& nameOrPath, const VariableCatal
   }
   if (!text) return tl::unexpected(text.error());
   return scenarioFromJson(*text, nameOrPath, catalog);
-}
-
-Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source) {
-  if (nameOrJson.find('{') == std::string_view::npos) {
-    const std::vector<std::string_view> known = fieldNames();
-    const auto found = std::find(known.begin(), known.end(), nameOrJson);
-    if (found != known.end())
-      return sim::builtInFields()[static_cast<std::size_t>(found - known.begin())];
-    return failure(ErrorCode::NotFound, unknownName("field", nameOrJson, known),
-                   std::string(source));
-  }
-  JsonReport report(source);
-  const auto root = parseJson(nameOrJson, report);
-  sim::FieldSpec field;
-  if (root) field = readFieldObject(report, *root, "field");
-  if (report.failed()) return tl::unexpected(report.error());
-  return field;
 }
 
 Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source,

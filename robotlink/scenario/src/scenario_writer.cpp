@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/world/field_text.h>
 #include <simcore/world/referee_parameters.h>
 
 #include "scenario_keys.h"
@@ -35,19 +36,8 @@ Json differences(const std::array<sim::Parameter<Values>, N>& parameters, const 
 }
 
 Json fieldToJson(const sim::FieldSpec& field) {
-  const sim::FieldSpec* base = nullptr;
-  Json least;
-  for (const sim::FieldSpec& built : sim::builtInFields()) {
-    if (built == field) return field.name;
-    Json changed = differences(sim::fieldParameters, field, built);
-    if (!base || changed.size() < least.size()) {
-      base = &built;
-      least = std::move(changed);
-    }
-  }
-  Json out{{"name", field.name}, {"base", base->name}};
-  out.update(least);
-  return out;
+  const std::string text = sim::fieldToText(field);
+  return text.starts_with('{') ? Json::parse(text, nullptr, false) : Json(text);
 }
 
 Json noiseToJson(const sim::NoiseParameters& noise) {
@@ -131,16 +121,11 @@ Json robotToJson(const ScenarioRobot& robot, std::size_t index) {
   if (robot.identity.imuStartsAt180 != team.facesLeft) {
     out["imu_starts_at_180"] = robot.identity.imuStartsAt180;
   }
+  if (robot.runtime.isChosen()) out["runtime"] = runtimeChoiceToText(robot.runtime);
   return out;
 }
 
 }  // namespace
-
-std::string fieldToText(const sim::FieldSpec& field) {
-  const Json json = fieldToJson(field);
-  return json.is_string() ? json.get<std::string>()
-                          : json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 std::string scenarioToJson(const Scenario& scenario) {
   const sim::SimulationSettings& settings = scenario.settings;
@@ -170,6 +155,9 @@ std::string scenarioToJson(const Scenario& scenario) {
   }
   out["ball"] = std::move(ball);
 
+  for (const auto& [team, choice] : scenario.runtimes) {
+    out["runtime"][info(team).name] = runtimeChoiceToText(choice);
+  }
   Json robots = Json::array();
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     robots.push_back(robotToJson(scenario.robots[i], i));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <robotlink/frame/second_sender.h>
+#include <robotlink/live/live_teams.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/referee_json.h>
 
@@ -112,13 +113,15 @@ Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& pa
                                                  options.writer);
   if (!writer) return tl::unexpected(writer.error());
   (*writer)->attach(profileAttachment, "application/json", telemetry::profileText(live.profile));
-  return std::shared_ptr<LiveRecorder>(
-      new LiveRecorder(std::move(*writer), zero, live.refereePort));
+  return std::shared_ptr<LiveRecorder>(new LiveRecorder(std::move(*writer), zero, live));
 }
 
 LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
-                           telemetry::WallTime zero, int refereePort)
-    : m_writer(std::move(writer)), m_refereePort(refereePort), m_rows(m_writer, {zero, {}}) {}
+                           telemetry::WallTime zero, const LiveOptions& live)
+    : m_writer(std::move(writer)),
+      m_refereePort(live.refereePort),
+      m_rows(m_writer, rowsOptions(live, zero)),
+      m_boards(m_writer) {}
 
 LiveRecorder::~LiveRecorder() = default;
 

@@ -86,7 +86,10 @@ FrameBackdrop backdropOf(const telemetry::SessionReader& session) {
     }
   }
   if (const auto text = session.attachment("profile.json")) {
-    if (auto profile = telemetry::parseProfile(*text, "profile.json")) out.profile = *profile;
+    // Columns are of the values as they are shown.
+    if (auto profile = telemetry::parseProfile(*text, "profile.json")) {
+      out.profile = telemetry::TextDecoder(*profile).profile();
+    }
   }
   return out;
 }
@@ -279,7 +282,8 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
     board.*flagMembers[f] = flags.seen[f] >= time - flagMemory || (l.live && set);
   }
 
-  robot.identity = {id, teamOf(info), attributeNumber(info, "number", l.robot.value),
+  robot.identity = {id, teamOf(info),
+                    attributeNumber(info, "shirt", attributeNumber(info, "number", l.robot.value)),
                     attribute(info, "imu180") == "1"};
   if (l.trueX.present() && l.trueY.present()) {
     const double yaw = l.trueYaw.readOr(row, 0.0);

@@ -7,6 +7,7 @@
 #include <array>
 #include <utility>
 
+#include <robotlink/live/live_teams.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/row_slot.h>
 
@@ -70,7 +71,9 @@ struct RecordedFrames::Layout {
     lostMessages = findSlot(group, {"LOST"});
     duplicates = findSlot(group, {"DUPLICATES"});
     late = findSlot(group, {"LATE"});
-    if (!live || !profile) return;
+    // A robot of a team setup says itself what its columns mean.
+    const bool says = !attribute(group, "profile").empty();
+    if (!live || (!profile && !says)) return;
     using telemetry::FieldMeaning;
     // A team's own names.
     const std::pair<FieldMeaning, RowSlot*> meanings[] = {{FieldMeaning::X, &locX},
@@ -87,8 +90,11 @@ struct RecordedFrames::Layout {
                                                           {FieldMeaning::Decision, &flags[3]},
                                                           {FieldMeaning::Imu, &flags[4]}};
     for (const auto& [meaning, slot] : meanings) {
-      const auto place = profile->indexOf(meaning);
-      *slot = place ? findSlot(group, {profile->fields[*place].name}) : RowSlot{};
+      const auto place = says ? std::nullopt : profile->indexOf(meaning);
+      const std::string name = place  ? profile->fields[*place].name
+                               : says ? std::string(attribute(group, meaningAttribute(meaning)))
+                                      : std::string();
+      *slot = name.empty() ? RowSlot{} : findSlot(group, {name.c_str()});
     }
     action = actionA;
   }

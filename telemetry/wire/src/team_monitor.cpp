@@ -57,24 +57,31 @@ struct TeamMonitor::SenderRecord {
 };
 
 TeamMonitor::TeamMonitor(Profile profile, MonitorOptions options)
-    : m_options(std::move(options)),
-      m_decoder(std::make_shared<const TextDecoder>(std::move(profile))) {
+    : m_options(std::move(options)), m_profile(std::move(profile)) {
+  makeRouter();
   m_robots.reserve(MonitorOptions::maxRobots);
 }
 TeamMonitor::~TeamMonitor() = default;
 TeamMonitor::TeamMonitor(TeamMonitor&&) noexcept = default;
 TeamMonitor& TeamMonitor::operator=(TeamMonitor&&) noexcept = default;
 
+void TeamMonitor::makeRouter() {
+  m_router = std::make_unique<const TeamRouter>(m_profile, m_options.teams, m_options.field);
+  m_decoder = std::make_shared<const TextDecoder>(m_profile, m_options.field);
+}
+
 void TeamMonitor::setProfile(Profile profile) {
   const int bits = counterBits(profile);
   if (bits != counterBits(m_decoder->profile())) {
     for (Robot& robot : m_robots) robot.sequence = SequenceStats(bits);
   }
-  m_decoder = std::make_shared<const TextDecoder>(std::move(profile));
+  m_profile = std::move(profile);
+  makeRouter();
 }
 
 void TeamMonitor::setOptions(MonitorOptions options) {
   m_options = std::move(options);
+  makeRouter();
 }
 
 void TeamMonitor::clear() {
@@ -197,14 +204,16 @@ void TeamMonitor::forget(int number, int slot) {
 
 TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   ++m_datagrams;
-  if (!m_options.senders.allows(datagram.sender.address)) {
+  const bool isAllowed = m_options.senders.allows(datagram.sender.address);
+  const auto decoder = isAllowed ? m_router->decode(datagram, m_decoded) : nullptr;
+  if (!decoder) {
     ++m_refusedByFilter;
     m_decoded.count = 0;
     m_decoded.errors = {};
     m_decoded.robot = 0;
     return Verdict::SenderRefused;
   }
-  m_decoder->decode(datagram.payload, m_decoded);
+  m_decoder = decoder;
   if (datagram.truncated) m_decoded.errors.add(TextError::Truncated);
 
   SenderRecord* sender = findSender(datagram.sender.address);

@@ -2,179 +2,230 @@
 #include <telemetry/wire/text_decoder.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
 #include <limits>
+
+#include "field_values.h"
+#include "message_readers.h"
+#include "published_values.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-constexpr bool isSpace(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-/// Splits the text at white space while it looks at every byte once.
+/// Splits the text at white space, or at another character, while it looks at every byte once.
 class Words {
  public:
-  explicit Words(std::string_view text) : m_at(text.data()), m_end(text.data() + text.size()) {}
+  Words(std::string_view text, char separator)
+      : m_at(text.data()), m_end(text.data() + text.size()), m_separator(separator) {}
 
-  /// The next word; empty at the end of the text.
-  std::string_view next() {
+  /// The next word; false at the end of the text. Between two semicolons a word may be empty.
+  bool next(std::string_view& word) {
     while (m_at != m_end && isSpace(*m_at)) ++m_at;
+    if (m_at == m_end) return false;
     const char* begin = m_at;
-    while (m_at != m_end && !isSpace(*m_at)) ++m_at;
-    return {begin, static_cast<std::size_t>(m_at - begin)};
+    if (m_separator == ' ') {
+      while (m_at != m_end && !isSpace(*m_at)) ++m_at;
+      word = {begin, static_cast<std::size_t>(m_at - begin)};
+      return true;
+    }
+    while (m_at != m_end && *m_at != m_separator) ++m_at;
+    const char* end = m_at;
+    while (end != begin && isSpace(*(end - 1))) --end;
+    word = {begin, static_cast<std::size_t>(end - begin)};
+    if (m_at != m_end) ++m_at;
+    return true;
   }
 
  private:
   const char* m_at;
   const char* m_end;
+  char m_separator;
 };
 
-bool isText(std::string_view text) {
-  // One pass without a branch per byte.
-  bool good = true;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    good &= (byte >= 0x20 && byte < 0x7f) || byte == '\t' || byte == '\r' || byte == '\n';
-  }
-  return good;
-}
-
-struct Number {
-  double value = missing;
-  std::optional<TextError> error;
-};
-
-Number readFloat(std::string_view word) {
-  double value = 0.0;
-  const char* end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
-  if (code == std::errc::invalid_argument || stop != end) return {missing, TextError::NotANumber};
-  if (code == std::errc::result_out_of_range) {
-    // Too small is as good as zero, too large is not a value of a robot.
-    const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
-    return tiny ? Number{0.0, {}} : Number{missing, TextError::TooLarge};
-  }
-  if (!std::isfinite(value)) return {missing, TextError::NotFinite};
-  if (std::abs(value) > static_cast<double>(std::numeric_limits<float>::max())) {
-    return {missing, TextError::TooLarge};
-  }
-  return {value, {}};
-}
-
-Number readInt(std::string_view word) {
-  std::int32_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
-  if (code == std::errc{} && stop == end) return {static_cast<double>(value), {}};
-  if (code == std::errc::result_out_of_range && stop == end) return {missing, TextError::TooLarge};
-  // A whole number may be written as 258.0 where a team computes it as a float.
-  Number number = readFloat(word);
-  if (number.error) return number;
-  if (number.value != std::floor(number.value)) return {missing, TextError::NotANumber};
-  if (std::abs(number.value) > std::numeric_limits<std::int32_t>::max()) {
-    return {missing, TextError::TooLarge};
-  }
-  return number;
-}
-
-Number readFlag(std::string_view word) {
-  if (word.size() == 1 && (word[0] == '0' || word[0] == '1')) return {word[0] - '0' + 0.0, {}};
-  const Number number = readInt(word);
-  if (number.error || number.value == 0.0 || number.value == 1.0) return number;
-  return {missing, TextError::BadFlag};
-}
-
-/// A counter of 32 bits may be written without a sign.
-Number readCounter(std::string_view word) {
-  std::uint32_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, value);
-  if (code == std::errc{} && stop == end) return {static_cast<double>(value), {}};
-  return readInt(word);
-}
-
-Number read(const ProfileField& field, std::string_view word) {
-  if (field.meaning == FieldMeaning::Sequence) return readCounter(word);
-  switch (field.type) {
-    case FieldType::Int:
-      return readInt(word);
-    case FieldType::Float:
-      return readFloat(word);
-    case FieldType::Flag:
-      return readFlag(word);
-  }
-  return {};
+bool isTextFormat(MessageFormat format) {
+  return format == MessageFormat::Words || format == MessageFormat::KeyValue ||
+         format == MessageFormat::Json || format == MessageFormat::Lua;
 }
 
 }  // namespace
 
-TextDecoder::TextDecoder(Profile profile) : m_profile(std::move(profile)) {
+struct TextDecoder::Plan {
+  Plan(Profile profile, const Surroundings& where)
+      : sent(std::move(profile)), published(sent, where), keys(sent) {}
+  Profile sent;
+  PublishedValues published;
+  FieldMap keys;
+};
+
+TextDecoder::TextDecoder(Profile profile, const Surroundings& where)
+    : m_plan(std::make_unique<const Plan>(std::move(profile), where)) {
   m_places.fill(DecodedText::maxValues);
-  for (std::size_t i = 0; i < m_profile.fields.size(); ++i) {
-    m_places[static_cast<std::size_t>(m_profile.fields[i].meaning)] = i;
+  const auto& fields = m_plan->published.shown().fields;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    m_places[static_cast<std::size_t>(fields[i].meaning)] = i;
   }
   m_places[static_cast<std::size_t>(FieldMeaning::None)] = DecodedText::maxValues;
 }
 
+TextDecoder::~TextDecoder() = default;
+
+const Profile& TextDecoder::profile() const {
+  return m_plan->published.shown();
+}
+
+const Profile& TextDecoder::sentProfile() const {
+  return m_plan->sent;
+}
+
 void TextDecoder::decode(std::string_view datagram, DecodedText& out) const {
   out.robot = 0;
+  out.team.reset();
   out.errors = {};
   out.badField = 0;
   out.count = 0;
   if (datagram.size() > maxBytes) return out.errors.add(TextError::TooLong);
-  while (!datagram.empty() && (datagram.back() == '\0' || isSpace(datagram.back()))) {
-    datagram.remove_suffix(1);
-  }
-  if (!isText(datagram)) return out.errors.add(TextError::Binary);
-
-  Words words(datagram);
-  std::string_view word = words.next();
-  if (word.empty()) return out.errors.add(TextError::Empty);
-
-  const std::string_view end = m_profile.end;
-  const std::size_t fields = m_profile.fields.size();
-  std::optional<std::size_t> badField;
-  for (; !word.empty() && word != end; word = words.next()) {
-    const std::size_t i = out.count;
-    if (i == DecodedText::maxValues) {
-      out.errors.add(TextError::TooManyFields);
-      while (!word.empty() && word != end) word = words.next();
-      break;
+  const Profile& sent = m_plan->sent;
+  if (isTextFormat(sent.format)) {
+    while (!datagram.empty() && (datagram.back() == '\0' || isSpace(datagram.back()))) {
+      datagram.remove_suffix(1);
     }
-    // An extra field may be anything until the team gives it a type: text is kept as a word.
-    const Number number =
-        i < fields ? read(m_profile.fields[i], word) : Number{readFloat(word).value, {}};
-    out.values[i] = number.value;
-    out.words[i] = word;
-    ++out.count;
-    if (number.error) {
-      out.errors.add(*number.error);
-      if (!badField) badField = i;
-    }
+    const bool utf8 = sent.utf8 || sent.format != MessageFormat::Words;
+    if (!isText(datagram, utf8)) return out.errors.add(TextError::Binary);
   }
-  out.badField = badField.value_or(0);
+  if (datagram.empty()) return out.errors.add(TextError::Empty);
+  if (sent.format == MessageFormat::Words) {
+    decodeWords(datagram, out);
+  } else {
+    decodeFields(datagram, out);
+  }
+}
 
-  const auto robot = value(out, FieldMeaning::Robot);
-  if (robot && *robot >= 1.0 && *robot <= maxRobot) {
-    out.robot = static_cast<int>(*robot);
-  } else if (m_places[static_cast<std::size_t>(FieldMeaning::Robot)] < out.count) {
+void TextDecoder::decode(const DatagramView& datagram, DecodedText& out) const {
+  decode(datagram.payload, out);
+  const RobotFrom& from = m_plan->sent.robotFrom;
+  if (from.source == RobotFrom::Source::Message || !out.accepted()) return;
+  const int sent = from.source == RobotFrom::Source::Port
+                       ? int{datagram.localPort}
+                       : static_cast<int>(datagram.sender.address.value & 0xffU);
+  out.robot = std::max(0, sent - from.base);
+  if (out.robot < 1 || out.robot > maxRobot) {
+    out.robot = 0;
     out.errors.add(TextError::BadRobot);
   }
-  if (out.count < fields) out.errors.add(TextError::MissingFields);
-  if (word.empty()) {
+}
+
+void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const {
+  const Profile& sent = m_plan->sent;
+  const std::size_t fields = sent.fields.size();
+  // Values that are made of others stand between the fields and what nobody named.
+  const std::size_t shown = profile().fields.size();
+  const std::string_view end = sent.end;
+  out.made.clear();
+  Words words(datagram, sent.separator);
+  std::string_view word;
+  std::size_t read = 0;
+  bool more = false, ended = false;
+  while ((more = words.next(word))) {
+    ended = !end.empty() && word == end;
+    if (ended) break;
+    const std::size_t place = read < fields ? read : read + shown - fields;
+    if (place >= DecodedText::maxValues) {
+      out.errors.add(TextError::TooManyFields);
+      while (!ended && words.next(word)) ended = !end.empty() && word == end;
+      break;
+    }
+    if (read < fields) {
+      setWord(sent.fields[read], place, word, out);
+    } else {
+      // It may be anything until the team gives it a type: text is kept as a word.
+      out.words[place] = word;
+      out.values[place] = readFloat(word).value;
+    }
+    ++read;
+  }
+  out.count = read < fields ? read : read + shown - fields;
+  if (read < fields) {
+    findRobot(out);
+    out.errors.add(TextError::MissingFields);
+  } else {
+    findRobot(out);
+    publish(out);
+  }
+  if (end.empty()) return;
+  if (!ended) {
     out.errors.add(TextError::MissingEnd);
-  } else if (!words.next().empty()) {
+  } else if (words.next(word)) {
     out.errors.add(TextError::TrailingText);
   }
 }
 
+void TextDecoder::decodeFields(std::string_view datagram, DecodedText& out) const {
+  const Profile& sent = m_plan->sent;
+  clearFields(profile().fields.size(), out);
+  if (!sent.end.empty() && isTextFormat(sent.format)) {
+    if (!datagram.ends_with(sent.end)) return out.errors.add(TextError::MissingEnd);
+    datagram.remove_suffix(sent.end.size());
+  }
+  FieldSink sink(m_plan->keys, out);
+  const auto isGood = [&] {
+    switch (sent.format) {
+      case MessageFormat::KeyValue:
+        return readKeyValue(datagram, sent.separator, sink);
+      case MessageFormat::Json:
+        return readJson(datagram, sink);
+      case MessageFormat::Lua:
+        return readLua(datagram, sink);
+      case MessageFormat::Binary:
+        return readBinary(sent, datagram, out);
+      case MessageFormat::Mitecom:
+        return readMitecom(datagram, sink);
+      case MessageFormat::Hulks:
+        return readHulks(datagram, sink);
+      case MessageFormat::CitBrains:
+        return readCitBrains(datagram, sink);
+      case MessageFormat::Protobuf:
+        return readProtobuf(sent.message, datagram, sink);
+      case MessageFormat::Words:
+        break;
+    }
+    return false;
+  };
+  if (!isGood() && !sent.tolerant) out.errors.add(TextError::BadFormat);
+  findRobot(out);
+  publish(out);
+}
+
+void TextDecoder::findRobot(DecodedText& out) const {
+  if (const auto team = value(out, FieldMeaning::Team); team && *team >= 0.0) {
+    out.team = static_cast<int>(*team);
+  }
+  const Profile& sent = m_plan->sent;
+  if (sent.robotFrom.source != RobotFrom::Source::Message) return;
+  const std::size_t place = m_places[static_cast<std::size_t>(FieldMeaning::Robot)];
+  const auto robot = value(out, FieldMeaning::Robot);
+  if (robot && *robot >= 1.0 && *robot <= maxRobot) {
+    out.robot = static_cast<int>(*robot);
+  } else if (place < out.count) {
+    out.errors.add(TextError::BadRobot);
+  }
+}
+
+void TextDecoder::publish(DecodedText& out) const {
+  const std::size_t fields = m_plan->sent.fields.size();
+  const std::size_t shown = profile().fields.size();
+  for (std::size_t i = fields; i < shown; ++i) {
+    out.values[i] = std::numeric_limits<double>::quiet_NaN();
+    out.words[i] = {};
+  }
+  for (const std::size_t place : m_plan->published.convert(out.values)) {
+    out.words[place] =
+        std::isnan(out.values[place]) ? std::string_view() : wordOf(out.values[place], out);
+  }
+}
+
 std::string TextDecoder::name(std::size_t index) const {
-  if (index < m_profile.fields.size()) return m_profile.fields[index].name;
-  return "OTHER_" + std::to_string(index - m_profile.fields.size() + 1);
+  const auto& fields = profile().fields;
+  if (index < fields.size()) return fields[index].name;
+  return "OTHER_" + std::to_string(index - fields.size() + 1);
 }
 
 std::optional<double> TextDecoder::value(const DecodedText& decoded, FieldMeaning meaning) const {

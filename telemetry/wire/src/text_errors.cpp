@@ -20,6 +20,7 @@ constexpr std::array<Text, textErrorCount> texts{{
     {"missing-fields", "too few fields"},
     {"missing-end", "no end word"},
     {"bad-robot", "no usable robot number"},
+    {"bad-format", "not in the profile's format"},
     {"not-a-number", "text in place of a number"},
     {"not-finite", "nan or inf"},
     {"too-large", "number too large"},
@@ -63,20 +64,45 @@ std::string ErrorTally::sample(TextError error) const {
   return kind.cut ? out + "..." : out;
 }
 
+std::size_t sequenceLength(std::string_view text) {
+  if (text.empty()) return 0;
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80U) return 0;
+  }
+  // Not the shortest form, a half of a pair, beyond the last character.
+  if (byte(0) == 0xe0 && byte(1) < 0xa0) return 0;
+  if (byte(0) == 0xed && byte(1) > 0x9f) return 0;
+  if (byte(0) == 0xf0 && byte(1) < 0x90) return 0;
+  if (byte(0) == 0xf4 && byte(1) > 0x8f) return 0;
+  return length;
+}
+
 std::string printable(std::string_view bytes, std::size_t limit) {
   static constexpr char digits[] = "0123456789abcdef";
   std::string out;
-  for (const char c : bytes.substr(0, limit)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte < 0x7f) {
-      out += c;
-    } else {
-      out += "\\x";
-      out += digits[byte >> 4U];
-      out += digits[byte & 15U];
+  std::size_t i = 0;
+  while (i < bytes.size() && i < limit) {
+    const auto byte = static_cast<unsigned char>(bytes[i]);
+    const std::size_t length = sequenceLength(bytes.substr(i));
+    // U+0080 to U+009F are control characters, too.
+    const bool control = length == 1
+                             ? byte < 0x20 || byte == 0x7f
+                             : byte == 0xc2 && static_cast<unsigned char>(bytes[i + 1]) < 0xa0;
+    if (length > 0 && !control) {
+      out += bytes.substr(i, length);
+      i += length;
+      continue;
     }
+    out += "\\x";
+    out += digits[byte >> 4U];
+    out += digits[byte & 15U];
+    ++i;
   }
-  return bytes.size() > limit ? out + "..." : out;
+  return i < bytes.size() ? out + "..." : out;
 }
 
 }  // namespace pitchboard::telemetry

@@ -46,6 +46,7 @@ void addRobotActions(QMenu* menu, MatchController* controller, const std::vector
                     });
   }
   addBehaviourMenu(menu, controller, ids);
+  addRuntimeMenu(menu, controller, ids);
   addTeamMenu(menu, controller, ids);
 }
 

@@ -7,6 +7,7 @@
 #include <QAbstractTableModel>
 #include <vector>
 
+#include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
 
 namespace pitchboard::ui {

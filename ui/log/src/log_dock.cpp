@@ -4,18 +4,22 @@
 #include <QAction>
 #include <QApplication>
 #include <QClipboard>
+#include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
+#include <QSaveFile>
 #include <QScrollBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <ui/base/robot_words.h>
 #include <ui/base/table_style.h>
-#include <ui/base/words_filter.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
 
 #include "log_model.h"
 
@@ -24,11 +28,13 @@ namespace {
 
 class LogDock : public QWidget {
  public:
-  LogDock(MatchController* controller, const SourceSwitch* shown, QWidget* parent)
+  LogDock(MatchController* controller, const SourceSwitch* shown, Timeline* timeline,
+          QWidget* parent)
       : QWidget(parent),
         m_controller(controller),
+        m_timeline(timeline),
         m_model(new LogModel(this)),
-        m_filter(new WordsFilter(this)),
+        m_filter(new LogFilter(this)),
         m_table(new QTableView(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyLog"))) {
     m_model->setObjectName(QStringLiteral("logModel"));
@@ -45,6 +51,31 @@ class LogDock : public QWidget {
     words->setClearButtonEnabled(true);
     words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(words, &QLineEdit::textChanged, m_filter, &WordsFilter::setWords);
+    auto* level = new QComboBox(this);
+    level->setObjectName(QStringLiteral("logLevel"));
+    level->addItem(QStringLiteral("All lines"), static_cast<int>(LogLevel::Info));
+    level->addItem(QStringLiteral("Warnings and errors"), static_cast<int>(LogLevel::Warning));
+    level->addItem(QStringLiteral("Errors"), static_cast<int>(LogLevel::Error));
+    connect(level, &QComboBox::currentIndexChanged, this, [this, level] {
+      m_filter->setLeast(static_cast<LogLevel>(level->currentData().toInt()));
+    });
+    m_start->setObjectName(QStringLiteral("logStartLines"));
+    m_start->setCheckable(true);
+    m_start->setToolTip(QStringLiteral("Show what processes write while they start"));
+    connect(m_start, &QToolButton::toggled, this,
+            [this](bool on) { m_filter->showStartLines(on); });
+    m_follow->setObjectName(QStringLiteral("logFollow"));
+    m_follow->setText(QStringLiteral("Follow"));
+    m_follow->setCheckable(true);
+    m_follow->setChecked(true);
+    m_follow->setToolTip(QStringLiteral("Keep the newest line in view"));
+    connect(m_follow, &QToolButton::toggled, this, [this](bool on) {
+      if (on) m_table->scrollToBottom();
+    });
+    auto* save = new QToolButton(this);
+    save->setIcon(themedIcon(QStringLiteral("document-save-as")));
+    save->setToolTip(QStringLiteral("Save the lines shown…"));
+    connect(save, &QToolButton::clicked, this, [this] { askAndSave(); });
     auto* clear = new QToolButton(this);
     clear->setIcon(themedIcon(QStringLiteral("edit-clear-all")));
     clear->setToolTip(QStringLiteral("Clear the log"));
@@ -55,6 +86,10 @@ class LogDock : public QWidget {
     row->setContentsMargins(gap, gap, gap, gap);
     row->setSpacing(gap);
     row->addWidget(words, 1);
+    row->addWidget(level);
+    row->addWidget(m_start);
+    row->addWidget(m_follow);
+    row->addWidget(save);
     row->addWidget(clear);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -68,6 +103,15 @@ class LogDock : public QWidget {
     }
     connect(m_filter, &QAbstractItemModel::modelReset, this, &LogDock::showEmpty);
     showEmpty();
+    m_start->hide();
+    connect(m_table, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
+      m_timeline->seek(index.siblingAtColumn(0).data(LogModel::timeRole).toDouble());
+    });
+    // Who scrolls up wants to read there; who comes back to the end wants to see what is new.
+    connect(m_table->verticalScrollBar(), &QAbstractSlider::actionTriggered, this, [this] {
+      const QScrollBar* bar = m_table->verticalScrollBar();
+      m_follow->setChecked(bar->sliderPosition() >= bar->maximum());
+    });
 
     auto* copy = new QAction(QStringLiteral("Copy"), this);
     copy->setShortcut(QKeySequence::Copy);
@@ -101,49 +145,72 @@ class LogDock : public QWidget {
     m_table->setVisible(!empty);
     m_empty->setVisible(empty);
     m_empty->setText(
-        m_model->rowCount() > 0
-            ? QStringLiteral("No line has all of these words.")
+        m_model->rowCount() > m_model->startLines()
+            ? QStringLiteral("No line has all of these words and this level.")
             : QStringLiteral("Nothing yet. Kicks, goals, falls, errors and what the robots' "
                              "processes print appear here."));
   }
 
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {}) {
-    const QScrollBar* bar = m_table->verticalScrollBar();
-    const bool follows = bar->value() >= bar->maximum();
     m_model->append(lines, clock);
-    if (follows) m_table->scrollToBottom();
+    m_start->setText(QStringLiteral("Start-up lines: %1").arg(m_model->startLines()));
+    m_start->setVisible(m_model->startLines() > 0);
+    if (m_follow->isChecked()) m_table->scrollToBottom();
   }
 
   void appendEvents(const std::vector<link::MatchEvent>& events,
                     const std::optional<QDateTime>& clock) {
     std::vector<LogLine> lines;
-    for (const link::MatchEvent& event : events) lines.push_back(logLineOf(event));
+    for (const link::MatchEvent& event : events) {
+      lines.push_back(logLineOf(event));
+      if (event.kind == link::MatchEventKind::ProcessStarted) lines.back().level = LogLevel::Debug;
+    }
     append(lines, clock);
+  }
+
+  static QString textOf(const QModelIndex& row) {
+    QStringList cells;
+    for (int c = 0; c < LogModel::columns; ++c) cells << row.siblingAtColumn(c).data().toString();
+    return cells.join(QLatin1Char('\t'));
   }
 
   void copySelection() {
     QStringList text;
-    for (const QModelIndex& row : m_table->selectionModel()->selectedRows()) {
-      QStringList cells;
-      for (int c = 0; c < LogModel::columns; ++c) {
-        cells << row.siblingAtColumn(c).data().toString();
-      }
-      text << cells.join(QLatin1Char('\t'));
-    }
+    for (const QModelIndex& row : m_table->selectionModel()->selectedRows()) text << textOf(row);
     if (!text.isEmpty()) QApplication::clipboard()->setText(text.join(QLatin1Char('\n')));
   }
 
+  void askAndSave() {
+    const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save the log"),
+                                                      QStringLiteral("log.txt"),
+                                                      QStringLiteral("Text files (*.txt)"));
+    if (path.isEmpty()) return;
+    QSaveFile file(path);
+    bool written = file.open(QIODevice::WriteOnly);
+    for (int row = 0; written && row < m_filter->rowCount(); ++row) {
+      written = file.write(textOf(m_filter->index(row, 0)).toUtf8() + '\n') >= 0;
+    }
+    if (written && file.commit()) return;
+    QMessageBox::warning(this, QStringLiteral("Save the log"),
+                         QStringLiteral("%1 cannot be written: %2. Choose another folder.")
+                             .arg(path, file.errorString()));
+  }
+
   MatchController* m_controller;
+  Timeline* m_timeline;
   LogModel* m_model;
-  WordsFilter* m_filter;
+  LogFilter* m_filter;
   QTableView* m_table;
   QLabel* m_empty;
+  QToolButton* m_start = new QToolButton(this);
+  QToolButton* m_follow = new QToolButton(this);
 };
 
 }  // namespace
 
-QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, QWidget* parent) {
-  return new LogDock(controller, source, parent);
+QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, Timeline* timeline,
+                     QWidget* parent) {
+  return new LogDock(controller, source, timeline, parent);
 }
 
 }  // namespace pitchboard::ui

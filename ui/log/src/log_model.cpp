@@ -7,6 +7,13 @@
 #include <ui/base/time_axis.h>
 
 namespace pitchboard::ui {
+namespace {
+
+bool isStartLine(const LogLine& line) {
+  return line.level == LogLevel::Debug;
+}
+
+}  // namespace
 
 void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock) {
   const std::size_t kept = std::min(lines.size(), maxLines);
@@ -15,8 +22,10 @@ void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDa
   const std::size_t surplus =
       m_lines.size() + kept > maxLines ? m_lines.size() + kept - maxLines : 0;
   if (surplus > 0) {
+    const auto end = m_lines.begin() + static_cast<std::ptrdiff_t>(surplus);
     beginRemoveRows({}, 0, static_cast<int>(surplus) - 1);
-    m_lines.erase(m_lines.begin(), m_lines.begin() + static_cast<std::ptrdiff_t>(surplus));
+    m_startLines -= static_cast<int>(std::count_if(m_lines.begin(), end, isStartLine));
+    m_lines.erase(m_lines.begin(), end);
     m_dropped += surplus;
     endRemoveRows();
   }
@@ -25,6 +34,8 @@ void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDa
   for (std::size_t i = lines.size() - kept; i < lines.size(); ++i) {
     m_lines.push_back({lines[i], clock});
   }
+  m_startLines += static_cast<int>(
+      std::count_if(lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end(), isStartLine));
   endInsertRows();
 }
 
@@ -38,6 +49,7 @@ void LogModel::clear() {
   beginResetModel();
   m_lines.clear();
   m_dropped = 0;
+  m_startLines = 0;
   endResetModel();
 }
 
@@ -64,6 +76,8 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
         return {};
     }
   }
+  if (role == timeRole) return line.time;
+  if (role == levelRole) return static_cast<int>(line.level);
   if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
   if (role == Qt::ForegroundRole) {
     if (line.isWarning() && index.column() == Text) return theme().warningText;
@@ -77,6 +91,14 @@ QVariant LogModel::headerData(int section, Qt::Orientation orientation, int role
   const QString names[] = {QStringLiteral("Time"), QStringLiteral("Origin"),
                            QStringLiteral("Message")};
   return section >= 0 && section < columns ? names[section] : QVariant();
+}
+
+bool LogFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
+  const auto level =
+      static_cast<LogLevel>(sourceModel()->index(row, 0, parent).data(LogModel::levelRole).toInt());
+  const bool start = level == LogLevel::Debug;
+  if (start ? !m_startLinesShown : level != LogLevel::Unknown && level < m_least) return false;
+  return WordsFilter::filterAcceptsRow(row, parent);
 }
 
 }  // namespace pitchboard::ui

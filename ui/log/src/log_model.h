@@ -2,7 +2,7 @@
 #pragma once
 
 // What was said by the simulation and the robots' processes: a bounded list, the oldest lines go
-// first.
+// first; and which of them are shown. Window thread.
 
 #include <QAbstractTableModel>
 #include <QDateTime>
@@ -10,7 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include <robotlink/match/match_runner.h>
+#include <base/log_line.h>
+#include <ui/base/words_filter.h>
 
 namespace pitchboard::ui {
 
@@ -19,6 +20,8 @@ class LogModel : public QAbstractTableModel {
  public:
   enum Column { Time, Origin, Text, columns };
   static constexpr std::size_t maxLines = 10'000;
+  static constexpr int timeRole = Qt::UserRole;       ///< s of the source
+  static constexpr int levelRole = Qt::UserRole + 1;  ///< LogLevel
   using QAbstractTableModel::QAbstractTableModel;
 
   /// `clock`: the time of day at their source's second 0, where it has one.
@@ -28,6 +31,8 @@ class LogModel : public QAbstractTableModel {
   void clear();
   /// Lines that were removed to make room.
   quint64 dropped() const { return m_dropped; }
+  /// Lines of processes that are starting (LogLevel::Debug).
+  int startLines() const { return m_startLines; }
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -41,6 +46,29 @@ class LogModel : public QAbstractTableModel {
   std::deque<Line> m_lines;
   bool m_timesOfDay = true;
   quint64 m_dropped = 0;
+  int m_startLines = 0;
+};
+
+/// Lines with all of the words, of a level and above. Lines of processes that are starting are
+/// folded away unless asked for.
+class LogFilter : public WordsFilter {
+ public:
+  using WordsFilter::WordsFilter;
+  void setLeast(LogLevel least) {
+    m_least = least;
+    invalidateFilter();
+  }
+  void showStartLines(bool shown) {
+    m_startLinesShown = shown;
+    invalidateFilter();
+  }
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+
+ private:
+  LogLevel m_least = LogLevel::Info;
+  bool m_startLinesShown = false;
 };
 
 }  // namespace pitchboard::ui

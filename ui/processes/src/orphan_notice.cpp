@@ -14,7 +14,8 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
   std::vector<int> keys;
   QStringList names;
   for (const link::SegmentInfo& segment :
-       link::SystemVSegments::list(controller->options().keyBase)) {
+       link::SystemVSegments::list(controller->options().keyBase.value_or(
+           link::MatchNumber{controller->options().match.value_or(0)}.keyBase()))) {
     if (!segment.orphan) continue;
     keys.push_back(segment.key);
     names << QString::number(segment.key);

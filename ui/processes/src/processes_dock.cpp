@@ -5,6 +5,8 @@
 #include <QMenu>
 #include <QStackedWidget>
 #include <QTimer>
+#include <algorithm>
+#include <chrono>
 
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
@@ -53,9 +55,10 @@ class ProcessesDock : public QStackedWidget {
     constexpr int refreshMilliseconds = 250;
     m_table->setObjectName(QStringLiteral("processesTable"));
     m_table->setModel(m_model);
+    m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     styleTable(m_table);
-    const int widths[] = {68, 140, 84, 220};
-    for (int column = 0; column < 4; ++column) {
+    const int widths[ProcessesModel::columns] = {56, 110, 190, 64, 64, 64, 60, 76, 80, 220};
+    for (int column = 0; column < ProcessesModel::columns; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }
     addWidget(m_table);
@@ -79,7 +82,7 @@ class ProcessesDock : public QStackedWidget {
   void refresh() {
     const bool simulated = m_source->kind() == SourceKind::Simulate;
     if (const FramePtr frame = m_source->frame())
-      m_model->update(*frame);
+      m_model->update(*frame, std::chrono::steady_clock::now());
     else
       m_model->clear();
     m_empty->setText(
@@ -90,18 +93,55 @@ class ProcessesDock : public QStackedWidget {
     setCurrentWidget(m_model->rowCount() > 0 ? static_cast<QWidget*>(m_table) : m_empty);
   }
 
+  /// What the clicked row and the selected ones stand for.
+  std::vector<link::ProcessStatus> chosen(const QModelIndex& clicked) const {
+    std::vector<link::ProcessStatus> all;
+    const QModelIndexList rows = m_table->selectionModel()->selectedRows();
+    const bool among = std::any_of(rows.begin(), rows.end(), [&clicked](const QModelIndex& row) {
+      return row.row() == clicked.row();
+    });
+    if (!among) return {m_model->statusAt(clicked.row())};
+    for (const QModelIndex& row : rows) all.push_back(m_model->statusAt(row.row()));
+    return all;
+  }
+
   void showMenu(const QPoint& at) {
     const QModelIndex index = m_table->indexAt(at);
     if (m_source->kind() != SourceKind::Simulate || !index.isValid()) return;
-    const RobotId id = m_model->robotAt(index.row());
-    const QString name = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
+    const auto processes = chosen(index);
+    const QString robot = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
+    const QString name =
+        processes.size() == 1
+            ? QStringLiteral("%1 of %2").arg(QString::fromStdString(processes.front().name), robot)
+            : QStringLiteral("%1 processes").arg(processes.size());
+    const bool anyRuns = std::any_of(processes.begin(), processes.end(),
+                                     [](const auto& one) { return one.pid != 0; });
+    const bool allRun = std::all_of(processes.begin(), processes.end(),
+                                    [](const auto& one) { return one.pid != 0; });
     QMenu menu(this);
-    menu.addAction(themedIcon(QStringLiteral("view-refresh")),
-                   QStringLiteral("Restart all processes of %1").arg(name), m_controller,
-                   [this, id] { m_controller->edits()->restartProcesses(id); });
-    menu.addAction(themedIcon(QStringLiteral("media-playback-stop")),
-                   QStringLiteral("Stop all processes of %1").arg(name), m_controller,
-                   [this, id] { m_controller->edits()->stopProcesses(id); });
+    const auto offer = [&](const char* icon, const QString& text, bool enabled,
+                           void (MatchEdits::*order)(int)) {
+      QAction* action =
+          menu.addAction(themedIcon(QString::fromUtf8(icon)), text.arg(name), m_controller,
+                         [edits = m_controller->edits(), order, processes] {
+                           for (const link::ProcessStatus& one : processes) (edits->*order)(one.id);
+                         });
+      action->setEnabled(enabled);
+    };
+    offer("media-playback-start", QStringLiteral("Start %1"), !allRun, &MatchEdits::startProcess);
+    offer("media-playback-stop", QStringLiteral("Stop %1"), true, &MatchEdits::stopProcess);
+    offer("view-refresh", QStringLiteral("Restart %1"), true, &MatchEdits::restartProcess);
+    offer("process-stop", QStringLiteral("Kill %1"), anyRuns, &MatchEdits::killProcess);
+    menu.addSeparator();
+    menu.addAction(QStringLiteral("Select all processes of %1").arg(robot), this, [this, index] {
+      const RobotId id = m_model->statusAt(index.row()).robot;
+      m_table->clearSelection();
+      for (int row = 0; row < m_model->rowCount(); ++row) {
+        if (m_model->statusAt(row).robot != id) continue;
+        m_table->selectionModel()->select(m_model->index(row, 0),
+                                          QItemSelectionModel::Select | QItemSelectionModel::Rows);
+      }
+    });
     menu.exec(m_table->viewport()->mapToGlobal(at));
   }
 

@@ -10,40 +10,52 @@
 namespace pitchboard::ui {
 namespace {
 
-QString stateText(const link::ChildStatus& status) {
+using State = link::ProcessState;
+
+QString stateText(const link::ProcessStatus& status) {
   const QString detail = QString::fromStdString(status.detail);
   const auto with = [&detail](const QString& word) {
     return detail.isEmpty() ? word : word + QStringLiteral(" (") + detail + QLatin1Char(')');
   };
   switch (status.state) {
-    case link::ChildState::Running:
+    case State::Waiting:
+      return QStringLiteral("waiting for its start");
+    case State::Running:
       return QStringLiteral("running");
-    case link::ChildState::Ended:
+    case State::Silent:
+      return with(QStringLiteral("silent"));
+    case State::Restarting:
+      return with(QStringLiteral("restarting"));
+    case State::Ended:
       return with(QStringLiteral("ended"));
-    case link::ChildState::Failed:
-      return with(QStringLiteral("failed"));
+    case State::Stopped:
+      return QStringLiteral("stopped");
+    case State::GivenUp:
+      return with(QStringLiteral("given up"));
   }
   return {};
 }
 
+/// "3:05", "1:02:07".
+QString durationText(qint64 seconds) {
+  const QString rest = QStringLiteral("%1:%2")
+                           .arg(seconds / 60 % 60, seconds >= 3600 ? 2 : 1, 10, QLatin1Char('0'))
+                           .arg(seconds % 60, 2, 10, QLatin1Char('0'));
+  return seconds >= 3600 ? QStringLiteral("%1:%2").arg(seconds / 3600).arg(rest) : rest;
+}
+
 }  // namespace
 
-void ProcessesModel::update(const link::MatchFrame& frame) {
+void ProcessesModel::update(const link::MatchFrame& frame, Time now) {
   std::vector<Row> rows;
   for (const link::RobotFrame& robot : frame.robots) {
-    const std::size_t first = rows.size();
-    for (const link::ChildStatus& child : robot.processes()) {
-      const auto same = std::find_if(
-          rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
-          [&child](const Row& row) { return row.status.spec.name == child.spec.name; });
-      if (same != rows.end())
-        same->status = child;
-      else
-        rows.push_back({child, robotName(robot.identity)});
+    for (const link::ProcessStatus& one : robot.processes()) {
+      const auto since = std::chrono::duration_cast<std::chrono::seconds>(now - one.started);
+      rows.push_back({one, robotName(robot.identity), one.pid != 0 ? qint64{since.count()} : 0});
     }
   }
   const auto sameKey = [](const Row& a, const Row& b) {
-    return a.status.spec.robot == b.status.spec.robot && a.status.spec.name == b.status.spec.name;
+    return a.status.id == b.status.id && a.status.robot == b.status.robot;
   };
   if (!std::equal(rows.begin(), rows.end(), m_rows.begin(), m_rows.end(), sameKey)) {
     beginResetModel();
@@ -65,8 +77,8 @@ void ProcessesModel::clear() {
   endResetModel();
 }
 
-RobotId ProcessesModel::robotAt(int row) const {
-  return m_rows[static_cast<std::size_t>(row)].status.spec.robot;
+const link::ProcessStatus& ProcessesModel::statusAt(int row) const {
+  return m_rows[static_cast<std::size_t>(row)].status;
 }
 
 int ProcessesModel::rowCount(const QModelIndex& parent) const {
@@ -77,39 +89,77 @@ int ProcessesModel::columnCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : columns;
 }
 
+QString ProcessesModel::text(const Row& row, int column) const {
+  const link::ProcessStatus& status = row.status;
+  const bool runs = status.pid != 0;
+  switch (column) {
+    case Robot:
+      return row.robot;
+    case Process:
+      return QString::fromStdString(status.name);
+    case State:
+      return stateText(status);
+    case Pid:
+      return runs ? QString::number(status.pid) : QString();
+    case Uptime:
+      return runs ? durationText(row.seconds) : QString();
+    case Restarts:
+      return QString::number(status.restarts);
+    case Cpu:
+      return runs ? QStringLiteral("%1 %").arg(status.cpu * 100, 0, 'f', 1) : QString();
+    case Memory:
+      return runs ? QStringLiteral("%1 MB").arg(static_cast<double>(status.memoryBytes) / 1e6, 0,
+                                                'f', 1)
+                  : QString();
+    case Heartbeat:
+      return runs && status.heartbeatAge
+                 ? QStringLiteral("%1 s ago").arg(*status.heartbeatAge, 0, 'f', 1)
+                 : QString();
+    case LastOutput:
+      return status.lastLines.empty() ? QString() : QString::fromStdString(status.lastLines.back());
+    default:
+      return {};
+  }
+}
+
 QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
   const Row& row = m_rows[static_cast<std::size_t>(index.row())];
-  if (role == Qt::DisplayRole || role == Qt::ToolTipRole) {
-    switch (index.column()) {
-      case Robot:
-        return row.robot;
-      case Process:
-        return QString::fromStdString(row.status.spec.name);
-      case Pid:
-        return QString::number(row.status.pid);
-      case State:
-        return stateText(row.status);
-      case LastOutput:
-        return QString::fromStdString(row.status.lastOutput);
-      default:
-        return {};
-    }
+  if (role == Qt::DisplayRole) return text(row, index.column());
+  if (role == Qt::ToolTipRole) {
+    if (index.column() != LastOutput) return text(row, index.column());
+    QStringList lines;
+    for (const std::string& line : row.status.lastLines) lines << QString::fromStdString(line);
+    return lines.join(QLatin1Char('\n'));
+  }
+  if (role == Qt::TextAlignmentRole && index.column() >= Pid && index.column() <= Heartbeat) {
+    return static_cast<int>(Qt::AlignRight | Qt::AlignVCenter);
   }
   if (role == Qt::ForegroundRole && index.column() == State) {
-    if (row.status.state == link::ChildState::Failed) return theme().errorText;
-    if (row.status.state == link::ChildState::Ended) return theme().secondaryText;
+    switch (row.status.state) {
+      case State::Silent:
+      case State::Restarting:
+        return theme().warningText;
+      case State::GivenUp:
+        return theme().errorText;
+      case State::Waiting:
+      case State::Stopped:
+        return theme().secondaryText;
+      case State::Ended:
+        return row.status.detail == "exit code 0" ? theme().secondaryText : theme().errorText;
+      case State::Running:
+        break;
+    }
   }
   return {};
 }
 
 QVariant ProcessesModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal) return {};
-  if (role != Qt::DisplayRole) return {};
-  const QString names[] = {QStringLiteral("Robot"), QStringLiteral("Process"),
-                           QStringLiteral("PID"), QStringLiteral("State"),
-                           QStringLiteral("Last output")};
-  return section >= 0 && section < columns ? names[section] : QVariant();
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
+  static const char* const names[columns] = {"Robot",     "Process",    "State", "PID",
+                                             "Up",        "Restarts",   "CPU",   "Memory",
+                                             "Heartbeat", "Last output"};
+  return section >= 0 && section < columns ? QString::fromUtf8(names[section]) : QVariant();
 }
 
 }  // namespace pitchboard::ui

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The robots' processes as a table: the newest of each robot and name.
+// The robots' separate processes as a table, a row for each. Window thread.
 
 #include <QAbstractTableModel>
+#include <chrono>
 #include <vector>
 
 #include <robotlink/match/match_runner.h>
@@ -13,12 +14,26 @@ namespace pitchboard::ui {
 class ProcessesModel : public QAbstractTableModel {
   Q_OBJECT
  public:
-  enum Column { Robot, Process, Pid, State, LastOutput, columns };
+  enum Column {
+    Robot,
+    Process,
+    State,
+    Pid,
+    Uptime,
+    Restarts,
+    Cpu,
+    Memory,
+    Heartbeat,
+    LastOutput,
+    columns
+  };
+  using Time = std::chrono::steady_clock::time_point;
   using QAbstractTableModel::QAbstractTableModel;
 
-  void update(const link::MatchFrame& frame);
+  /// `now`: for the time since the start.
+  void update(const link::MatchFrame& frame, Time now);
   void clear();
-  RobotId robotAt(int row) const;
+  const link::ProcessStatus& statusAt(int row) const;
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -27,10 +42,12 @@ class ProcessesModel : public QAbstractTableModel {
 
  private:
   struct Row {
-    link::ChildStatus status;
+    link::ProcessStatus status;
     QString robot;
+    qint64 seconds = 0;  // since its start
     bool operator==(const Row&) const = default;
   };
+  QString text(const Row& row, int column) const;
   std::vector<Row> m_rows;
 };
 

@@ -12,9 +12,29 @@ namespace {
 // A communication process sets no flag on its blackboard: its child process tells.
 bool communicationRuns(const link::RobotFrame& robot) {
   const auto processes = robot.processes();
-  return std::any_of(processes.begin(), processes.end(), [](const link::ChildStatus& child) {
-    return child.spec.name == "communication" && child.state == link::ChildState::Running;
+  return std::any_of(processes.begin(), processes.end(), [](const link::ProcessStatus& one) {
+    return one.name == "communication" && one.state == link::ProcessState::Running;
   });
+}
+
+/// What is wrong with the separate processes of the robot; the least of it is one that is slow.
+void tagProcesses(CardState& card, const link::RobotFrame& robot) {
+  for (const link::ProcessStatus& one : robot.processes()) {
+    const QString name = QString::fromStdString(one.name);
+    if (one.state == link::ProcessState::GivenUp) {
+      card.tagKind = TagKind::Error;
+      card.tag = QStringLiteral("%1 given up").arg(name);
+      return;
+    }
+    if (one.state == link::ProcessState::Silent) {
+      card.tagKind = TagKind::Warning;
+      card.tag = QStringLiteral("%1 silent").arg(name);
+    } else if (card.tag.isEmpty() && one.foreign && one.achieved > 0.0 &&
+               one.achieved < 0.95 * one.speed) {
+      card.tagKind = TagKind::Warning;
+      card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
+    }
+  }
 }
 
 void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int action, bool fallen) {
@@ -120,6 +140,7 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     card.detailTip = QStringLiteral("Age of the tick shown; distance walked");
     if (robot.board) card.values = boardValues(robot, *robot.board);
     chooseTag(card, robot.statistics, action, robot.fallen);
+    if (card.tagKind == TagKind::None) tagProcesses(card, robot);
     cards.push_back(std::move(card));
   }
   std::erase_if(m_robots,

@@ -58,6 +58,7 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   MatchController* controller = m_context.controller;
   if (controller->edits()->robot(id) == nullptr) return;
   addBehaviourMenu(&menu, controller, {id});
+  addRuntimeMenu(&menu, controller, {id});
   addTeamMenu(&menu, controller, {id});
   menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] {
     (new BlackboardWindow(m_context.controller, id, window()))->show();

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include <robotlink/frame/second_sender.h>
-#include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
@@ -13,8 +13,9 @@ namespace pitchboard::ui {
 /// Every message as a row of the store. Lives in the watch's thread once it observes.
 class RowKeeper : public link::LiveObserver {
  public:
-  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, telemetry::WallTime zero)
-      : m_rows(std::move(store), {zero, {}}) {}
+  RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
+            telemetry::WallTime zero)
+      : m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
   void heard(RobotId id, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
@@ -22,6 +23,9 @@ class RowKeeper : public link::LiveObserver {
     const auto& refused = m_rows.refused();
     m_refusedRows.store(refused.rows, std::memory_order_relaxed);
     m_refusedValues.store(refused.values, std::memory_order_relaxed);
+  }
+  void sampled(const telemetry::GroupInfo& group, std::span<const link::BoardRow> rows) override {
+    m_boards.take(group, rows);
   }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
   /// Any thread.
@@ -32,6 +36,7 @@ class RowKeeper : public link::LiveObserver {
 
  private:
   telemetry::LiveRows m_rows;
+  link::BoardRowKeeper m_boards;
   std::atomic<std::uint64_t> m_refusedRows = 0, m_refusedValues = 0;
 };
 
@@ -58,7 +63,7 @@ void LiveController::stop() {
   m_rows.reset();
   m_series.reset();
   m_past.clear();
-  m_pastRobots = 0;
+  m_pastBytes = 0;
   emit restarted();
 }
 
@@ -92,7 +97,7 @@ void LiveController::clear() {
   m_watch->clear();
   m_frame.reset();
   m_past.clear();
-  m_pastRobots = 0;
+  m_pastBytes = 0;
   keepRows();
   emit restarted();
 }
@@ -113,18 +118,36 @@ void LiveController::setMemoryBudget(std::size_t bytes) {
 void LiveController::keepRows() {
   if (m_rows) m_watch->stopObserving(m_rows);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
-  m_rows = std::make_shared<RowKeeper>(m_series, m_watch->began());
+  m_rows = std::make_shared<RowKeeper>(m_series, m_options, m_watch->began());
   m_watch->observe(m_rows);
 }
 
+namespace {
+
+/// What a frame takes, about: the values of its robots are nearly all of it, and anybody may send
+/// many.
+std::size_t bytesOf(const link::MatchFrame& frame) {
+  std::size_t bytes = sizeof frame;
+  for (const link::RobotFrame& robot : frame.robots) {
+    bytes += sizeof robot;
+    if (!robot.health) continue;
+    for (const link::HeardValue& value : robot.health->values) {
+      bytes += sizeof value + value.name.capacity() + value.text.capacity() + value.unit.capacity();
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
 void LiveController::remember() {
-  constexpr double step = 0.2;                // s
-  constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
+  constexpr double step = 0.2;  // s
+  constexpr std::size_t mostBytes = std::size_t{80} << 20;
   if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
   m_past.push_back(m_frame);
-  m_pastRobots += m_frame->robots.size() + 1;
-  while (m_pastRobots > mostRobots) {
-    m_pastRobots -= m_past.front()->robots.size() + 1;
+  m_pastBytes += bytesOf(*m_frame);
+  while (m_pastBytes > mostBytes) {
+    m_pastBytes -= bytesOf(*m_past.front());
     m_past.pop_front();
   }
 }

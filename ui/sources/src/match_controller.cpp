@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <algorithm>
 
+#include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 
@@ -71,6 +72,7 @@ void MatchController::Opening::start(
     link::MatchOptions inside = options;
     inside.cognition = cognition = link::Cognition::Inline;
     inside.systemV = false;
+    inside.runtime = {};
     made = link::MatchRunner::start(scenario, inside, paused, *catalog, observers);
     if (made) {
       error = QStringLiteral(
@@ -176,6 +178,7 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
 
 void MatchController::take(Opening& opening) {
   m_opening = false;
+  m_toldWhoWillNotFollow = false;
   m_cognition = opening.cognition;
   m_runner = std::move(opening.runner);
   if (m_runner) {
@@ -206,8 +209,36 @@ void MatchController::poll() {
   if (const auto lines = m_runner->takeLog(); !lines.empty()) emit logReceived(lines);
 }
 
+void MatchController::setPace(link::RobotsPace pace) {
+  m_options.pace = pace;
+  post([pace](link::SimulatedMatch& match) { match.setPace(pace); });
+  emit transportChanged();
+}
+
+void MatchController::setWaitForOwnPrograms(bool on) {
+  m_options.waitForOwnPrograms = on;
+  post([on](link::SimulatedMatch& match) { match.setWaitForOwnPrograms(on); });
+  emit transportChanged();
+}
+
+void MatchController::tellWhoWillNotFollow() {
+  if (m_toldWhoWillNotFollow || !m_frame) return;
+  QStringList names;
+  for (const link::RobotFrame& robot : m_frame->robots) {
+    if (robot.ofOthers) names << robotName(robot.identity);
+  }
+  if (names.empty()) return;
+  m_toldWhoWillNotFollow = true;
+  emit errorOccurred(
+      QStringLiteral("The processes of %1 were not started here: they go on at ×1 while the match "
+                     "stands still or runs at another speed. Choose their programs on the card, "
+                     "Runtime, and they follow.")
+          .arg(names.join(QStringLiteral(", "))));
+}
+
 void MatchController::setPaused(bool paused) {
   if (!m_runner && !m_opening) return;
+  if (paused) tellWhoWillNotFollow();
   m_paused = paused;
   m_runTo.reset();
   if (m_runner) m_runner->setPaused(paused);
@@ -232,6 +263,7 @@ void MatchController::runTo(std::uint64_t tick) {
 }
 
 void MatchController::setSpeed(double timesRealTime) {
+  if (timesRealTime != 1.0) tellWhoWillNotFollow();
   m_speed = timesRealTime;
   if (m_runner) m_runner->setSpeed(timesRealTime);
   emit transportChanged();

@@ -192,12 +192,28 @@ void MatchEdits::setBehaviour(RobotId id, const QString& behaviour) {
   m_roster->setBehaviour(id, behaviour.toStdString());
 }
 
-void MatchEdits::restartProcesses(RobotId id) {
-  if (const link::ScenarioRobot* known = robot(id)) m_roster->setBehaviour(id, known->behaviour);
+void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
+  m_roster->setRuntime(id, choice);
 }
 
-void MatchEdits::stopProcesses(RobotId id) {
-  m_match->post([id](link::SimulatedMatch& match) { match.supervisor().stop(id); });
+void MatchEdits::startProcess(int process) {
+  m_match->post([process](link::SimulatedMatch& match) {
+    match.processes().start(process, std::chrono::steady_clock::now());
+  });
+}
+
+void MatchEdits::stopProcess(int process) {
+  m_match->post([process](link::SimulatedMatch& match) { match.processes().stop(process); });
+}
+
+void MatchEdits::restartProcess(int process) {
+  m_match->post([process](link::SimulatedMatch& match) {
+    match.processes().restart(process, std::chrono::steady_clock::now());
+  });
+}
+
+void MatchEdits::killProcess(int process) {
+  m_match->post([process](link::SimulatedMatch& match) { match.processes().kill(process); });
 }
 
 void MatchEdits::setClockRunning(bool running) {

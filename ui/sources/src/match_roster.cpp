@@ -67,6 +67,18 @@ void MatchRoster::setBehaviour(RobotId id, const std::string& behaviour) {
        [id, behaviour](link::SimulatedMatch& match) { return match.setBehaviour(id, behaviour); }});
 }
 
+void MatchRoster::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
+  const auto known = m_robots.find(id);
+  if (known == m_robots.end()) return;
+  const link::RuntimeChoice before = std::exchange(known->second.runtime, choice);
+  m_match->post({QStringLiteral("%1 keeps who runs for it").arg(robotName(known->second.identity)),
+                 [id, choice](link::SimulatedMatch& match) { return match.setRuntime(id, choice); },
+                 [this, id, before] {
+                   const auto still = m_robots.find(id);
+                   if (still != m_robots.end()) still->second.runtime = before;
+                 }});
+}
+
 void MatchRoster::place(const std::vector<RobotPlacement>& placements, bool back) {
   m_match->post([placements, back](link::SimulatedMatch& match) {
     // A robot that left meanwhile has nothing to be placed.

@@ -31,6 +31,7 @@ class MatchRoster {
   void changeIdentities(const std::vector<sim::RobotIdentity>& identities);
   /// Does nothing for a robot that is not there.
   void setBehaviour(RobotId id, const std::string& behaviour);
+  void setRuntime(RobotId id, const link::RuntimeChoice& choice);
   void place(const std::vector<RobotPlacement>& placements, bool back);
   void placeBall(Point position);
 

@@ -2,6 +2,7 @@
 #include <ui/sources/robot_menus.h>
 
 #include <QActionGroup>
+#include <QFileDialog>
 #include <QMenu>
 #include <algorithm>
 
@@ -48,6 +49,62 @@ void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vecto
     offer(known.name, capitalised(known.name));
   behaviour->addSeparator();
   offer(link::noBehaviour, QStringLiteral("None (your own process)"));
+}
+
+void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
+  if (ids.empty() || !allOf(*controller, ids, [](const auto&) { return true; })) return;
+  QMenu* runtime = menu->addMenu(QStringLiteral("Runtime"));
+  runtime->setToolTipsVisible(true);
+  auto* group = new QActionGroup(runtime);
+  const auto choose = [controller](const std::vector<RobotId>& whom,
+                                   const link::RuntimeChoice& choice) {
+    for (const RobotId id : whom) controller->edits()->setRuntime(id, choice);
+  };
+  const auto isChosen = [controller, &ids](const link::RuntimeChoice& choice) {
+    return allOf(*controller, ids,
+                 [&](const link::ScenarioRobot& robot) { return robot.runtime == choice; });
+  };
+  const auto offer = [&](const QString& text, const link::RuntimeChoice& choice) {
+    QObject::connect(addChoice(group, runtime, text, isChosen(choice)), &QAction::triggered,
+                     controller, [choose, ids, choice] { choose(ids, choice); });
+  };
+  const auto askFile = [menu](const QString& title, const QString& filter) {
+    return QFileDialog::getOpenFileName(menu->parentWidget(), title, QString(), filter)
+        .toStdString();
+  };
+  offer(QStringLiteral("As its team and behaviour say"), {});
+  offer(QStringLiteral("Reference processes"), {std::string(link::referenceRuntime), {}, {}});
+  offer(QStringLiteral("Own processes, started by me"), {std::string(link::ownRuntime), {}, {}});
+  runtime->addSeparator();
+  runtime->addAction(
+      QStringLiteral("Run my program as decision…"), controller, [choose, ids, askFile] {
+        const std::string file = askFile(
+            QStringLiteral("Program that decides; its argument is the blackboard's key"), {});
+        if (!file.empty()) choose(ids, {{}, {}, file});
+      });
+  runtime->addAction(QStringLiteral("Folder of published robots…"), controller, [=] {
+    const std::string folder = QFileDialog::getExistingDirectory(
+                                   menu->parentWidget(), QStringLiteral("Folder with AI, AI2, …"))
+                                   .toStdString();
+    if (!folder.empty()) choose(ids, {"published-tree", {{"folder", folder}}, {}});
+  });
+  runtime->addAction(QStringLiteral("Profile from a file…"), controller, [choose, ids, askFile] {
+    const std::string file =
+        askFile(QStringLiteral("Runtime profile"), QStringLiteral("Runtime profiles (*.json)"));
+    if (!file.empty()) choose(ids, {file, {}, {}});
+  });
+  if (ids.size() != 1) return;
+  runtime->addSeparator();
+  runtime->addAction(QStringLiteral("My robot among reference robots"), controller, [=] {
+    std::vector<RobotId> others;
+    if (const FramePtr frame = controller->frame()) {
+      for (const link::RobotFrame& robot : frame->robots) {
+        if (robot.id() != ids.front()) others.push_back(robot.id());
+      }
+    }
+    choose(others, {std::string(link::referenceRuntime), {}, {}});
+    choose(ids, {std::string(link::ownRuntime), {}, {}});
+  });
 }
 
 void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {

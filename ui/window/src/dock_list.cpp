@@ -45,7 +45,7 @@ QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
 }
 QWidget* log(const StudioParts& s, QWidget* parent) {
-  return makeLogDock(s.controller, s.source, parent);
+  return makeLogDock(s.controller, s.source, s.timeline, parent);
 }
 QWidget* timeline(const StudioParts& s, QWidget* parent) {
   return makeTimelineDock({s.time, s.timeline, s.timelineActions, s.compared}, parent);

@@ -193,6 +193,23 @@ void StudioMenus::makeSimulation() {
   MatchController* controller = m_parts.controller;
   for (QAction* action : m_context.transport) menu->addAction(action);
   menu->addSeparator();
+  QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
+  freely->setCheckable(true);
+  freely->setToolTip(
+      QStringLiteral("As on the field, jitter included; otherwise the match waits for every "
+                     "process in every tick and gives the same result each time"));
+  QObject::connect(menu, &QMenu::aboutToShow, freely, [freely, controller] {
+    freely->setEnabled(controller->cognition() == link::Cognition::External);
+    freely->setChecked(controller->pace() == link::RobotsPace::Free);
+  });
+  QObject::connect(freely, &QAction::triggered, controller, [controller](bool on) {
+    controller->setPace(on ? link::RobotsPace::Free : link::RobotsPace::LockStep);
+  });
+  QAction* wait = menu->addAction(QStringLiteral("Slow &down to what own programs manage"));
+  wait->setCheckable(true);
+  QObject::connect(menu, &QMenu::aboutToShow, wait,
+                   [wait, controller] { wait->setChecked(controller->waitsForOwnPrograms()); });
+  QObject::connect(wait, &QAction::triggered, controller, &MatchController::setWaitForOwnPrograms);
   QAction* clock = menu->addAction(QStringLiteral("Game &clock runs"));
   clock->setCheckable(true);
   QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller, source = m_parts.source] {

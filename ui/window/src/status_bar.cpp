@@ -200,7 +200,9 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
           .arg(frame.seed));
   switch (m_context.controller->cognition()) {
     case link::Cognition::External:
-      m_processes->setText(QStringLiteral("Robot processes separate"));
+      m_processes->setText(frame.inLockStep
+                               ? QStringLiteral("Robot processes separate, in lock-step")
+                               : QStringLiteral("Robot processes separate, running freely"));
       break;
     case link::Cognition::Inline:
       m_processes->setText(QStringLiteral("Robots decide in the studio"));
@@ -208,6 +210,14 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
     case link::Cognition::None:
       m_processes->setText(QStringLiteral("Waiting for your processes"));
       break;
+  }
+  if (frame.slowestOwnProgram) {
+    m_processes->setText(QStringLiteral("%1 · own programs reach ×%2")
+                             .arg(m_processes->text(), numberText(*frame.slowestOwnProgram, 1)));
+  }
+  if (frame.matchNumber.value_or(0) > 0) {
+    m_processes->setText(
+        QStringLiteral("Match %1 · %2").arg(*frame.matchNumber).arg(m_processes->text()));
   }
 }
 

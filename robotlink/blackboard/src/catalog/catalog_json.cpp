@@ -29,11 +29,22 @@ constexpr const char* byteOrder = "native (little-endian on every known robot)";
 
 constexpr std::string_view byteOrderKey = "byte_order";
 
-void checkSegment(JsonReport& report, const JsonNode& node) {
+/// The size and the place of the floats, where a segment is only looked at.
+void readLayout(const JsonObject& segment, SegmentLayout& layout) {
+  constexpr int most = static_cast<int>(SegmentLayout::mostBytes);
+  const int bytes = segment.integer("bytes", static_cast<int>(layout.bytes), 4, most);
+  if (bytes % 4 != 0) segment.fail("bytes", "must be a multiple of 4");
+  layout.bytes = static_cast<std::size_t>(bytes);
+  layout.floatOffset =
+      segment.integer("float_offset_words", layout.floatOffset, 0, layout.words() - 1);
+}
+
+void checkSegment(JsonReport& report, const JsonNode& node, SegmentLayout& layout, bool anyLayout) {
   std::vector<std::string_view> keys{byteOrderKey};
   for (const SegmentField& field : segmentFields) keys.push_back(field.name);
   const JsonObject segment(report, node, "segment", keys);
   (void)segment.text(byteOrderKey, {}, maxCatalogBytes);
+  if (anyLayout) return readLayout(segment, layout);
   for (const SegmentField& field : segmentFields) {
     const JsonNode* value = segment.find(field.name);
     if (!value || (value->kind == JsonNode::Kind::Number && value->number == field.value)) continue;
@@ -60,6 +71,12 @@ void readBlock(JsonReport& report, const JsonNode& node, const std::string& name
 }  // namespace
 
 Result<VariableCatalog> VariableCatalog::fromJson(std::string_view text, std::string_view source) {
+  SegmentLayout layout;
+  return readJson(text, source, layout, false);
+}
+
+Result<VariableCatalog> VariableCatalog::readJson(std::string_view text, std::string_view source,
+                                                  SegmentLayout& layout, bool anyLayout) {
   if (const auto error = checkCatalogText(text, source)) return tl::unexpected(*error);
   JsonReport report(source);
   std::vector<CatalogEntry> entries;
@@ -67,13 +84,13 @@ Result<VariableCatalog> VariableCatalog::fromJson(std::string_view text, std::st
     const JsonObject top(report, *root, "", {"segment", "int", "float"});
     // In the order of the file, so that of two variables the later one is refused.
     for (const auto& [key, value] : top.members()) {
-      if (key == "segment") checkSegment(report, value);
+      if (key == "segment") checkSegment(report, value, layout, anyLayout);
       if (key == "int") readBlock(report, value, key, VariableType::Int, source, entries);
       if (key == "float") readBlock(report, value, key, VariableType::Float, source, entries);
     }
   }
   if (report.failed()) return tl::unexpected(report.error());
-  return make(entries, source);
+  return make(entries, source, layout);
 }
 
 std::string VariableCatalog::toJson() const {

@@ -2,7 +2,6 @@
 #include <robotlink/blackboard/variable_catalog.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -34,8 +33,8 @@ std::string slot(VariableType type, long long index) {
   return std::string(typeName(type)) + " " + std::to_string(index);
 }
 
-long long wordOf(const CatalogEntry& entry) {
-  return entry.type == VariableType::Int ? entry.index : Blackboard::floatOffset + entry.index;
+long long wordOf(const CatalogEntry& entry, const SegmentLayout& layout) {
+  return entry.type == VariableType::Int ? entry.index : layout.floatOffset + entry.index;
 }
 
 }  // namespace
@@ -123,15 +122,23 @@ Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path) {
   return reader(*text, path);
 }
 
+Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path, SegmentLayout& layout) {
+  if (std::filesystem::path(path).extension() != ".json") return fromFile(path);
+  const auto text = readFile(path, maxCatalogBytes, "The variable map");
+  if (!text) return tl::unexpected(text.error());
+  return readJson(*text, path, layout, true);
+}
+
 Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& entries,
-                                              std::string_view source) {
+                                              std::string_view source,
+                                              const SegmentLayout& layout) {
   if (entries.empty())
     return failure(ErrorCode::ParseError, "no variable is defined here", std::string(source));
   VariableCatalog catalog;
-  std::array<const CatalogEntry*, Blackboard::intVariables> ints{};
-  std::array<const CatalogEntry*, Blackboard::floatVariables> floats{};
+  const auto size = static_cast<std::size_t>(layout.words());
+  std::vector<const CatalogEntry*> ints(size), floats(size);
   // Both kinds by the word that they occupy.
-  std::array<const CatalogEntry*, Blackboard::words> words{};
+  std::vector<const CatalogEntry*> words(size);
   std::vector<const CatalogEntry*> accepted;
   for (const CatalogEntry& entry : entries) {
     if (!isIdentifier(entry.name))
@@ -140,7 +147,7 @@ Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& e
           inQuotes(entry.name) + " is no variable name: use letters, digits and _, a letter first",
           entry.where);
     const long long count =
-        entry.type == VariableType::Int ? Blackboard::intVariables : Blackboard::floatVariables;
+        entry.type == VariableType::Int ? layout.words() : layout.words() - layout.floatOffset;
     if (entry.index < 0 || entry.index >= count)
       return failure(
           ErrorCode::ParseError,
@@ -161,13 +168,12 @@ Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& e
                      inQuotes(entry.name) + " and " + inQuotes(place->name) + " (" + place->where +
                          ") are both " + slot(entry.type, entry.index),
                      entry.where);
-    const CatalogEntry*& word = words[static_cast<std::size_t>(wordOf(entry))];
+    const CatalogEntry*& word = words[static_cast<std::size_t>(wordOf(entry, layout))];
     if (word != nullptr)
       return failure(ErrorCode::ParseError,
                      inQuotes(entry.name) + " (" + slot(entry.type, entry.index) + ") lies on " +
                          inQuotes(word->name) + " (" + slot(word->type, word->index) + ", " +
-                         word->where + "): float 0 is word " +
-                         std::to_string(Blackboard::floatOffset),
+                         word->where + "): float 0 is word " + std::to_string(layout.floatOffset),
                      entry.where);
     place = word = &entry;
     accepted.push_back(&entry);

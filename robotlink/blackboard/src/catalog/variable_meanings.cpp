@@ -68,7 +68,7 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
     if (const auto* rules = file.array("rules", mostRules)) {
       for (std::size_t i = 0; i < rules->size(); ++i) {
         const JsonObject json(report, (*rules)[i], "rules[" + std::to_string(i) + "]",
-                              {"name", "category", "unit", "kind", "labels"});
+                              {"name", "category", "unit", "kind", "labels", "absent"});
         json.require("name");
         Rule rule;
         rule.name = json.text("name", "", longestText);
@@ -79,6 +79,7 @@ Result<VariableMeanings> VariableMeanings::parse(std::string_view text, std::str
           rule.kind = static_cast<telemetry::ColumnKind>(kind.value_or(0));
         }
         rule.labels = readLabels(json);
+        if (json.find("absent")) rule.absent = json.number("absent", 0.0, anyNumber);
         out.m_rules.push_back(std::move(rule));
       }
     }
@@ -95,6 +96,13 @@ const VariableMeanings& VariableMeanings::published() {
     return parsed ? std::move(*parsed) : VariableMeanings{};
   }();
   return meanings;
+}
+
+std::optional<double> VariableMeanings::absent(std::string_view name) const {
+  for (const Rule& rule : m_rules) {
+    if (rule.absent && fits(rule.name, name)) return rule.absent;
+  }
+  return std::nullopt;
 }
 
 void VariableMeanings::describe(telemetry::ColumnInfo& column) const {

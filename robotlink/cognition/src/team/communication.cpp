@@ -41,6 +41,9 @@ class Communication final : public CognitiveProcess {
       if (const auto word = m_referee->newWord()) board.write(m_variables.comReferee, *word);
     }
     constexpr double rounding = 1e-6;
+    // A match that was put back to an earlier moment.
+    if (m_nextTelemetry > clock.seconds + m_options.telemetryPeriod)
+      m_nextTelemetry = clock.seconds;
     if (clock.seconds < m_nextTelemetry - rounding) return;
     // By absolute time, so that the rate does not drift; what was missed is left out.
     m_nextTelemetry += m_options.telemetryPeriod;

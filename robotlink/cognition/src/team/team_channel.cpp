@@ -9,6 +9,7 @@
 
 #include <base/descriptor.h>
 #include <base/system_reason.h>
+#include <robotlink/processes/match_turns.h>
 #include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/udp_sender.h>
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr std::size_t mostWaiting = 64;
 constexpr std::size_t longestMessage = 512;
-constexpr int firstPort = 10000;
 constexpr int mostTeams = 100;
 
 class UdpTeamChannel final : public TeamChannel {
@@ -54,6 +54,25 @@ class UdpTeamChannel final : public TeamChannel {
   std::uint16_t m_port;
 };
 
+class TurnsChannel final : public TeamChannel {
+ public:
+  TurnsChannel(std::shared_ptr<ProcessTurns> turns, std::unique_ptr<TeamChannel> udp)
+      : m_turns(std::move(turns)), m_udp(std::move(udp)) {}
+
+  void post(RobotId from, std::string_view message) override {
+    if (m_turns->inLockStep()) m_turns->post(message);
+    m_udp->post(from, message);
+  }
+  std::vector<std::string> take(RobotId to) override {
+    std::vector<std::string> heard = m_udp->take(to);  // what lies there would be old news later
+    return m_turns->inLockStep() ? m_turns->messages() : heard;
+  }
+
+ private:
+  std::shared_ptr<ProcessTurns> m_turns;
+  std::unique_ptr<TeamChannel> m_udp;
+};
+
 Error systemError(const std::string& what) {
   return {ErrorCode::SystemError, what + ": " + systemReason(errno), "team messages"};
 }
@@ -80,12 +99,23 @@ std::vector<std::string> InProcessTeamChannel::take(RobotId to) {
   return messages;
 }
 
-Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team) {
+std::unique_ptr<TeamChannel> makeTurnsChannel(std::shared_ptr<ProcessTurns> turns,
+                                              std::unique_ptr<TeamChannel> udp) {
+  return std::make_unique<TurnsChannel>(std::move(turns), std::move(udp));
+}
+
+Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team,
+                                                        int portBase) {
   if (team < 0 || team >= mostTeams) {
     return failure(ErrorCode::InvalidArgument,
                    "the number of the team is " + std::to_string(team) + ", allowed are 0 to 99");
   }
-  const auto port = static_cast<std::uint16_t>(firstPort + team);
+  if (portBase < 1 || portBase + mostTeams > 65536) {
+    return failure(ErrorCode::InvalidArgument,
+                   "the port of the team would be " + std::to_string(portBase + team) +
+                       "; choose a base from 1 to " + std::to_string(65536 - mostTeams));
+  }
+  const auto port = static_cast<std::uint16_t>(portBase + team);
   // A loopback datagram reaches one socket only, a broadcast on the loopback device all of them.
   const bool onlyHere = address == "127.0.0.1" || address == "127.255.255.255";
   const auto to = telemetry::parseAddress(onlyHere ? "127.255.255.255" : address);

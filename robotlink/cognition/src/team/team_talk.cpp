@@ -156,9 +156,9 @@ class TeamTalk final : public CognitiveProcess {
 Result<std::unique_ptr<CognitiveProcess>> makeTeamTalk(const ProcessOptions& options) {
   std::shared_ptr<TeamChannel> channel = options.teamChannel;
   if (!channel) {
-    auto udp = makeUdpTeamChannel(options.udpAddress, options.team);
+    auto udp = makeUdpTeamChannel(options.udpAddress, options.team, options.channelPortBase);
     if (!udp) return tl::unexpected<Error>(udp.error());
-    channel = std::move(*udp);
+    channel = options.turns ? makeTurnsChannel(options.turns, std::move(*udp)) : std::move(*udp);
   }
   return std::make_unique<TeamTalk>(options.robot, std::move(channel));
 }

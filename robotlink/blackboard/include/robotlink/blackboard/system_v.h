@@ -53,6 +53,30 @@ class SystemVSegments {
   static Result<void> remove(int key);
 };
 
+/// Any segment of this computer, to be looked at and never written: of any size and, where its mode
+/// lets us, of any owner. The kernel keeps its memory as long as this lives, also when its key is
+/// gone. Any thread.
+class SegmentView {
+ public:
+  /// `bytes`: the size that it must have; 0: any. Errors name the key and say what to do.
+  static Result<SegmentView> attach(int key, std::size_t bytes = 0);
+  SegmentView(SegmentView&& other) noexcept;
+  SegmentView& operator=(SegmentView&& other) noexcept;
+  ~SegmentView();
+
+  std::size_t bytes() const { return m_bytes; }
+  /// A word, read atomically; 0 beyond the end.
+  std::uint32_t word(std::size_t index) const;
+  /// False once it was removed, or another one has its key.
+  bool isThere() const;
+
+ private:
+  SegmentView(const void* address, int key, int shmid, std::size_t bytes);
+  const void* m_address = nullptr;
+  int m_key = 0, m_shmid = -1;
+  std::size_t m_bytes = 0;
+};
+
 /// The right to play the simulated vision, control and IMU of one key. Two simulators on one
 /// blackboard would fight over every word; the second is refused. Held by an abstract Unix socket
 /// name, so it is freed by the kernel whatever happens to its owner.

@@ -24,6 +24,15 @@ struct Variable {
   bool operator==(const Variable&) const = default;
 };
 
+/// Where a segment has its variables: ints from word 0 on, floats from another one on.
+struct SegmentLayout {
+  static constexpr std::size_t mostBytes = std::size_t{1} << 20;
+  std::size_t bytes = Blackboard::bytes;
+  int floatOffset = Blackboard::floatOffset;  ///< words
+  int words() const { return static_cast<int>(bytes / 4); }
+  bool operator==(const SegmentLayout&) const = default;
+};
+
 struct CatalogEntry;  // a variable and the line it was read from; private to the readers
 
 /// A value that never changes once read: every variable has a name, and a word of its own.
@@ -38,6 +47,9 @@ class VariableCatalog {
   static Result<VariableCatalog> fromPython(std::string_view text, std::string_view source);
   /// Reads a file and chooses the format by its extension (.json, .h/.hpp, .py).
   static Result<VariableCatalog> fromFile(const std::string& path);
+  /// The same for a segment that is only looked at and may be laid out in another way: of the size
+  /// in `layout`, or as the file's "segment" says, which is then put there.
+  static Result<VariableCatalog> fromFile(const std::string& path, SegmentLayout& layout);
 
   /// In the form of blackboard.json.
   std::string toJson() const;
@@ -51,8 +63,10 @@ class VariableCatalog {
   bool operator==(const VariableCatalog& other) const { return m_variables == other.m_variables; }
 
  private:
+  static Result<VariableCatalog> readJson(std::string_view text, std::string_view source,
+                                          SegmentLayout& layout, bool anyLayout);
   static Result<VariableCatalog> make(const std::vector<CatalogEntry>& entries,
-                                      std::string_view source);
+                                      std::string_view source, const SegmentLayout& layout = {});
   std::vector<Variable> m_variables;
 };
 

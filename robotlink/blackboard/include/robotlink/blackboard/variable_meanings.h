@@ -24,6 +24,8 @@ class VariableMeanings {
 
   /// Fills everything but name and type.
   void describe(telemetry::ColumnInfo& column) const;
+  /// The value of this variable that says "not seen"; nothing where each is a value.
+  std::optional<double> absent(std::string_view name) const;
 
  private:
   struct Rule {
@@ -31,6 +33,7 @@ class VariableMeanings {
     std::optional<std::string> category, unit;
     std::optional<telemetry::ColumnKind> kind;
     std::map<std::int32_t, std::string> labels;
+    std::optional<double> absent;
   };
   std::vector<Rule> m_rules;
 };

@@ -11,6 +11,7 @@
 
 #include <base/ids.h>
 #include <robotlink/blackboard/blackboard.h>
+#include <robotlink/blackboard/match_number.h>
 #include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/field.h>
@@ -21,6 +22,8 @@ namespace pitchboard::link {
 struct Clock {
   double seconds = 0.0;
 };
+
+class ProcessTurns;
 
 class CognitiveProcess {
  public:
@@ -47,6 +50,7 @@ struct ProcessOptions {
   std::optional<int> refereeTeam;
   std::optional<int> shirt;  ///< number in the GameController; absent = the robot's
   int refereePort = 3838;
+  int channelPortBase = 10000;  ///< robots of a team hear each other on this + `team`
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are
   std::uint64_t seed = 1;              ///< localization: of its particles
@@ -57,6 +61,11 @@ struct ProcessOptions {
   int team = 0;  ///< team: robots of one number hear each other, 0..99
   /// team: the in-process channel of lock-step runs; empty = UDP.
   std::shared_ptr<TeamChannel> teamChannel;
+  /// Of a process whose time is that of a match; empty: the clock on the wall.
+  std::shared_ptr<ProcessTurns> turns;
+
+  /// Takes over the ports of a match.
+  void setMatch(MatchNumber match);
 };
 
 }  // namespace pitchboard::link

@@ -17,10 +17,6 @@ struct ProcessInfo {
   std::string_view name;         ///< "decision", "communication"
   std::string_view description;  ///< a sentence for --help
   Result<std::unique_ptr<CognitiveProcess>> (*make)(const ProcessOptions& options);
-  bool deterministic;  ///< may run inline (touches nothing but the blackboard)
-  bool hasBehaviour;   ///< ProcessOptions::behaviour matters to it
-  /// Only behaviours with usesPose need it: lock-step runs leave it out for the others.
-  bool forPose;
   std::string_view example;  ///< a command line for --help
 };
 

@@ -40,10 +40,19 @@ class InProcessTeamChannel final : public TeamChannel {
   std::vector<Box> m_boxes;
 };
 
-/// Broadcast on port 10000 + team, the convention of the Humanoid Soccer League 2026; a datagram
-/// has at most 512 bytes. `address` 127.0.0.1 keeps everything on this computer (127.255.255.255 is
-/// its broadcast address); a network's broadcast address reaches real robots. Fails with the reason
-/// when the address, the team (0..99) or the port cannot be used.
-Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team);
+class ProcessTurns;
+
+/// Of a process that takes its turns from a match: in lock-step messages travel with the turns, so
+/// that they arrive at the same tick in every run, else by `udp`. What is posted can be heard by
+/// UDP in any case.
+std::unique_ptr<TeamChannel> makeTurnsChannel(std::shared_ptr<ProcessTurns> turns,
+                                              std::unique_ptr<TeamChannel> udp);
+
+/// Broadcast on port `portBase` + team; 10000 is the convention of the Humanoid Soccer League 2026;
+/// a datagram has at most 512 bytes. `address` 127.0.0.1 keeps everything on this computer
+/// (127.255.255.255 is its broadcast address); a network's broadcast address reaches real robots.
+/// Fails with the reason when the address, the team (0..99) or the port cannot be used.
+Result<std::unique_ptr<TeamChannel>> makeUdpTeamChannel(const std::string& address, int team,
+                                                        int portBase = 10000);
 
 }  // namespace pitchboard::link

@@ -50,12 +50,14 @@ enum class MatchEventKind : std::uint8_t {
   ProcessRestarted,  ///< the same, when one of this name ran before
   ProcessEnded,      ///< robot, process; as it should: it was asked to, or exit code 0
   ProcessDied,       ///< robot, process; detail: how, and its last words
+  ProcessSilent,     ///< robot, process; detail: for how long there was no sign of life
+  ProcessGivenUp,    ///< robot, process; it ends again and again and is not started any more
   PortLost,          ///< value: the port; detail: why it cannot be received
   PortBack,          ///< value: the port
   Bookmark,          ///< detail: the user's note
   Other              ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 34;
+inline constexpr std::size_t matchEventKindCount = 36;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

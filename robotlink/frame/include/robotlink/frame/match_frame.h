@@ -44,6 +44,11 @@ struct MatchFrame {
   std::string physics;
   std::uint64_t seed = 0;
   double tickRate = 60.0;
+  /// Of a match that shares blackboards with other programs of this computer.
+  std::optional<int> matchNumber;
+  /// What the slowest of a team's own programs manages, times real time; nothing: all keep up.
+  std::optional<double> slowestOwnProgram;
+  bool inLockStep = true;           ///< separate reference processes are waited for in every tick
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
   std::uint64_t droppedEvents = 0;  ///< nobody took them in time
   std::uint64_t droppedLogLines = 0;

@@ -12,7 +12,7 @@
 
 #include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/frame/live_values.h>
-#include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/process_manager.h>
 #include <simcore/world/snapshot.h>
 
 namespace pitchboard::link {
@@ -42,13 +42,16 @@ struct RobotFrame : sim::RobotSnapshot {
   std::optional<Penalty> penalty;         ///< of a simulated referee
   std::optional<RobotThoughts> thoughts;  ///< of one that tells it (MatchOptions::thoughts)
   /// Shared by many frames: processes seldom change. Read with processes().
-  std::shared_ptr<const std::vector<ChildStatus>> processList;
+  std::shared_ptr<const std::vector<ProcessStatus>> processList;
+
+  std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was
+  bool ofOthers = false;  ///< its processes were started by somebody else, if by anybody
 
   RobotId id() const { return identity.id; }
   /// Those that were started for it, in order.
-  std::span<const ChildStatus> processes() const {
-    return processList ? std::span<const ChildStatus>(*processList)
-                       : std::span<const ChildStatus>{};
+  std::span<const ProcessStatus> processes() const {
+    return processList ? std::span<const ProcessStatus>(*processList)
+                       : std::span<const ProcessStatus>{};
   }
   /// It is heard, but not lately.
   bool timedOut() const { return health && health->timedOut; }

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct LiveRowsOptions {
   WallTime zero{};  ///< the moment that counts as 0 s
   /// Name of the group of a robot with this number; empty function: "Robot 3".
   std::function<std::string(int number)> name;
+  /// Further attributes of its group; empty function: none.
+  std::function<std::map<std::string, std::string>(int number)> attributes;
 };
 
 /// Not thread-safe: lives beside the TeamMonitor. Attributes of a robot's group: "number", "sender"

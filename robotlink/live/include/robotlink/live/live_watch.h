@@ -14,6 +14,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/live/attached_robots.h>
 #include <simcore/simulation/simulation.h>
 #include <telemetry/wire/live_clock.h>
 #include <telemetry/wire/monitor_request.h>
@@ -37,6 +38,7 @@ struct LiveOptions {
   TeamColor colour = TeamColor::Blue;  ///< of our robots while the referee says none
   bool colourByNumber = false;         ///< as the published telemetry: a colour for each number
   sim::FieldSpec field;
+  std::vector<AttachedBoard> boards;          ///< of robots that are this computer
   std::optional<telemetry::Address> monitor;  ///< the referee to ask for monitor mode; empty: off
   std::uint16_t monitorPort = telemetry::monitorRequestPort;
 };
@@ -53,6 +55,7 @@ struct LiveDetails {
   std::uint64_t unknownReferee = 0;  ///< packets on the referee's port that could not be decoded
   std::string unknownRefereeReason;  ///< of the last one
   std::string unknownRefereeSample;
+  std::vector<AttachedStatus> boards;
   std::uint64_t refusedReferees = 0;  ///< datagrams of senders that are not on the referee's list
   std::string monitorProblem;         ///< why the last monitor request was not sent
 };
@@ -73,6 +76,8 @@ class LiveObserver {
   virtual void happened(const MatchEvent&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
+  /// What was read of an attached blackboard since the last frame.
+  virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
 };

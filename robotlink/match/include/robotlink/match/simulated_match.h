@@ -6,7 +6,9 @@
 // runner owns it on its thread. No pacing here: tick() advances one tick whenever it is called.
 
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,29 +18,47 @@
 #include <vector>
 
 #include <robotlink/blackboard/blackboard.h>
+#include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/frame/match_event.h>
 #include <robotlink/match/blackboard_bridge.h>
-#include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/match_turns.h>
+#include <robotlink/processes/process_manager.h>
+#include <robotlink/processes/runtime_profile.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 
 enum class Cognition {
-  External,  ///< System V blackboards; reference processes are started for every robot
-  Inline,    ///< heap blackboards, deterministic processes in lock-step
-  None       ///< System V blackboards, nothing started: for a team's own processes
+  External,  ///< System V blackboards; the processes of every robot's runtime profile are started
+  Inline,    ///< heap blackboards, reference processes inside this program, in lock-step
+  None       ///< System V blackboards, nothing started: every robot is somebody else's
+};
+
+/// How separate reference processes keep time with a match that is played at ×1. At every other
+/// speed, and for a single step, they go in lock-step.
+enum class RobotsPace {
+  LockStep,  ///< the match waits for them in every tick: the same result every time
+  Free       ///< as on the field, jitter included
 };
 
 struct MatchOptions {
   Cognition cognition = Cognition::Inline;
-  bool systemV = false;      ///< with Inline: System V blackboards, for watching
-  int keyBase = 0;           ///< key = keyBase + 100 × robot number
-  std::string robotProgram;  ///< pitchboard-robot; needed for External
-  ProcessOptions process;    ///< addresses and ports for the processes
-  bool thoughts = false;     ///< hear particles and paths, for display
+  bool systemV = false;        ///< with Inline: System V blackboards, for watching
+  std::optional<int> match;    ///< number of the match; nothing: the next free one
+  std::optional<int> keyBase;  ///< key = this + 100 × robot number; nothing: the match's
+  std::string robotProgram;    ///< pitchboard-robot; needed where processes run separately
+  ProcessOptions process;      ///< for the processes; the ports are the match's
+  bool thoughts = false;       ///< hear particles and paths, for display
+  RobotsPace pace = RobotsPace::LockStep;
+  /// Played at ×n, the match slows down to what a team's own programs manage.
+  bool waitForOwnPrograms = false;
+  /// Reference processes are told where their team attacks; else they find out.
+  bool tellSides = true;
+  /// Of robots of which neither the scenario nor their behaviour says who runs.
+  RuntimeChoice runtime;
   /// With Inline: the referee of the match sends packets to process.refereePort of this computer,
   /// as it always does for separate processes.
   bool sendReferee = false;
@@ -49,6 +69,7 @@ struct MatchOptions {
 class MatchEvents;
 class MatchReferee;
 struct Moment;
+struct SeatProcess;
 
 class SimulatedMatch {
  public:
@@ -62,8 +83,9 @@ class SimulatedMatch {
   ~SimulatedMatch();  ///< ends the processes, removes the segments that it created
 
   /// Scripted writes that are due (time <= now), commands, one simulation step, percepts, then in
-  /// the order of the robots each inline process whose period has passed. Allocates nothing once
-  /// every robot is there, unless a behaviour that plans paths and talks to its team does.
+  /// the order of the robots each reference process whose period has passed; in lock-step it waits
+  /// for separate ones, but not for ever. Allocates nothing once every robot is there, unless a
+  /// behaviour that plans paths and talks to its team does.
   void tick();
   /// A stop condition of the scenario is met. Nothing keeps the caller from going on.
   bool finished() const { return !finishedBy().empty(); }
@@ -90,8 +112,32 @@ class SimulatedMatch {
   /// What the bridge read before the last tick, in the order of the simulation's robots (a robot
   /// that came since has the default). With it and the state before, that tick can be repeated.
   std::span<const sim::RobotCommand> commands() const { return m_commands; }
-  ProcessSupervisor& supervisor() { return *m_supervisor; }
-  const ProcessSupervisor& supervisor() const { return *m_supervisor; }
+  /// The separate processes.
+  ProcessManager& processes() { return *m_processes; }
+  const ProcessManager& processes() const { return *m_processes; }
+  /// Starts again what died, notices what is silent, takes what was written. About 20 times a
+  /// second, also while the match stands still.
+  void lookAfterProcesses(std::chrono::steady_clock::time_point now);
+  /// How it is played from now on: times real time, 0 = as fast as possible; standing still.
+  void setPlaying(double speed, bool still, std::chrono::steady_clock::time_point now);
+  /// Lets a team's own programs go on for this time while the match stands still.
+  void letOwnProgramsRun(std::chrono::duration<double> time);
+  void setPace(RobotsPace pace) { m_options.pace = pace; }
+  RobotsPace pace() const { return m_options.pace; }
+  void setWaitForOwnPrograms(bool on) { m_options.waitForOwnPrograms = on; }
+  bool waitsForOwnPrograms() const { return m_options.waitForOwnPrograms; }
+  /// Times real time: the slowest of a team's own programs that cannot keep up; nothing: all do.
+  std::optional<double> slowestOwnProgram() const;
+  /// Separate reference processes are waited for in every tick.
+  bool inLockStep() const {
+    return m_options.pace == RobotsPace::LockStep || m_still || m_speed != 1.0;
+  }
+  /// Its number on this computer; nothing while it shares no blackboard with others.
+  std::optional<MatchNumber> number() const;
+  /// Who plays match 0, when this one had to take another number; else empty.
+  std::string publishedHolder() const;
+  /// Robots whose processes nobody here has started, so that they do not stop with the match.
+  std::vector<sim::RobotIdentity> robotsOfOthers() const;
 
   /// A robot with its blackboard and processes; scripted writes for every robot that are past are
   /// made up for. Errors leave the match as it was. Robots must be added and removed here, not at
@@ -99,9 +145,14 @@ class SimulatedMatch {
   Result<void> addRobot(const ScenarioRobot& robot);
   /// Ends its processes and removes its segment if this match created it.
   Result<void> removeRobot(RobotId id);
-  /// Restarts the robot's processes, its decision with this behaviour (a name of behaviours(), or
-  /// noBehaviour). The robot itself and its blackboard stay as they are.
+  /// Its decision starts anew with this behaviour (a name of behaviours(), or noBehaviour); the
+  /// other processes go on, and those that only this behaviour needs come or go.
   Result<void> setBehaviour(RobotId id, const std::string& behaviour);
+  /// Who runs from now on; all processes of the robot start anew.
+  Result<void> setRuntime(RobotId id, const RuntimeChoice& choice);
+  /// Starts a process of the robot anew, separate or not; NotFound when it has none of that name.
+  Result<void> restartProcess(RobotId id, const std::string& process);
+  RuntimeChoice runtime(RobotId id) const;
   /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
   /// shirt is worn already.
   Result<void> setIdentity(const sim::RobotIdentity& identity);
@@ -135,20 +186,37 @@ class SimulatedMatch {
   void apply(const ResolvedWrite& write);
   void applyDueWrites();
   void followJump();
-  void runInlineProcesses();
+  void runProcesses();
+  std::uint64_t nextDueTick(double period, std::uint64_t after) const;
   Result<void> beginGame();
   void hearReferee();
+  bool hearsThroughMatch(const Seat& seat) const;
   void followSides();
-  std::uint64_t nextDueTick(double period) const;
   Seat* seat(RobotId id) const;
-  bool sharesBoards() const;
+  Result<RuntimeProfile> runtimeFor(const ScenarioRobot& robot) const;
+  bool sharesBoard(const Seat& seat, const RuntimeProfile& runtime) const;
+  Result<void> identify();
+  int keyOf(RobotId id) const;
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
-  Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot) const;
+  Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot);
+  bool wants(const Seat& seat, const ProfileProcess& process) const;
   Result<void> startProcesses(Seat& seat);
   Result<void> restartProcesses(Seat& seat);
-  Result<void> startProcess(Seat& seat, const ProcessInfo& info);
+  Result<std::unique_ptr<SeatProcess>> startProcess(Seat& seat, const ProfileProcess& process);
+  Result<void> startInside(Seat& seat, SeatProcess& process);
+  Result<void> startReference(Seat& seat, SeatProcess& process);
+  Result<void> startForeign(Seat& seat, SeatProcess& process);
+  Result<void> needGuard(const Seat& started);
+  void endProcesses(Seat& seat);
+  void runSeparate(Seat& seat, SeatProcess& process);
+  void runFreely(Seat& seat, SeatProcess& process);
+  bool dueNow(SeatProcess& process, std::optional<double> period);
+  void giveTurn(Seat& seat, SeatProcess& process, bool lockStep);
+  std::shared_ptr<TeamChannel> teamChannel(RobotId id);
+  const sim::RobotIdentity& identityOf(RobotId id) const;
   ProcessOptions inlineOptions(const Seat& seat);
-  std::vector<std::string> commandOf(const Seat& seat, const ProcessInfo& info) const;
+  std::vector<std::string> commandOf(const Seat& seat, const std::string& process) const;
+  std::map<std::string, std::string> valuesFor(const Seat& seat) const;
 
   Scenario m_scenario;
   MatchOptions m_options;
@@ -167,7 +235,13 @@ class SimulatedMatch {
   std::optional<ThoughtsReceiver> m_thoughts;
   std::unique_ptr<MatchEvents> m_events;
   std::unique_ptr<MatchReferee> m_referee;
-  std::unique_ptr<ProcessSupervisor> m_supervisor;
+  std::shared_ptr<MatchClaim> m_claim;
+  double m_speed = 0.0;
+  bool m_still = false;
+  std::chrono::steady_clock::time_point m_measured{};  // how fast "as fast as possible" is
+  std::uint64_t m_measuredTick = 0;
+  std::shared_ptr<MatchTurns> m_turns;
+  std::unique_ptr<ProcessManager> m_processes;
 };
 
 }  // namespace pitchboard::link

@@ -8,17 +8,25 @@
 #include <string>
 #include <vector>
 
-#include <robotlink/processes/process_manager.h>
+#include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/processes/robot_config.h>
+#include <robotlink/processes/runtime_profile.h>
 
 namespace pitchboard::link {
+
+struct ManagementTiming {
+  using Seconds = RestartRule::Seconds;
+  Seconds startInterval{0.2};  ///< between the starts of two processes
+  Seconds silentAfter{5.0};
+  RestartRule restart;
+};
 
 struct ManagementConfig {
   /// Names in the order of starting: reference processes and those that have a command.
   std::vector<std::string> processes;
   /// By name: program and arguments of a team's own process; {robot} and {key} stand for numbers.
   std::map<std::string, std::vector<std::string>> commands;
-  ManagerTiming timing;
+  ManagementTiming timing;
 };
 
 /// Without a section of its own a file starts `reference`: names of the processes that this program

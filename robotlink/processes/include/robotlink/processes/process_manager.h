@@ -1,40 +1,102 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The management process of a robot (SYSTEM.md section 1): starts its other processes in order,
-// starts one again that died or that shows no sign of life, and ends all of them.
+// The one supervisor of robots' processes, for a match (studio, command line) and for
+// `pitchboard-robot management`: starts them in order, tells what happens to them, starts one again
+// that died or that shows no sign of life, ends, stops and continues each of them.
 //
-// Signs of life. A process that has a *_WORKING variable sets it in every cycle; communication
-// clears it once a second. When it stays 0 for `silentAfter`, the process counts as silent.
-// (Without communication among the processes nobody would clear the flags, so the manager does.) A
-// process without such a variable is silent while the kernel counts no more of its sleeps, whether
-// it is stopped or calculates for ever.
+// Signs of life, one of four (Watch): a variable of the blackboard that the process keeps setting
+// (communication clears it once a second; without communication nobody would, so the manager does);
+// the kernel's count of its sleeps, for a process without such a variable; the caller, who knows
+// better (a match that gives it turns); or nobody. A process that somebody else stopped (SIGSTOP)
+// is silent, too.
 //
 // A process that has to be started again waits first: `firstWait`, twice as long every time, at
 // most `longestWait`; after `steadyAfter` of work it counts as sound again.
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/processes/fake_time.h>
 #include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/runtime_profile.h>
 
 namespace pitchboard::link {
 
+struct ProcessUse;
+
 struct ManagedProcess {
-  std::string name;                  ///< for people: "decision"
-  std::vector<std::string> command;  ///< program and arguments
-  IntVar workingFlag{-1};            ///< *_WORKING; absent: by the kernel's count
+  enum class Watch { Nobody, Variable, Sleeps, Caller };
+  using Seconds = RestartRule::Seconds;
+
+  ChildSpec spec;
+  RestartRule restart;
+  double delay = 0.0;  ///< s after the start of the robot's process before it
+  Watch watch = Watch::Nobody;
+  IntVar heartbeat{-1};    ///< with Watch::Variable
+  bool clears = false;     ///< the manager clears it
+  Seconds silentAfter{5};  ///< or stopped by somebody for so long
+  bool watchFile = false;  ///< starts again when its program is replaced
+  bool ownTime = false;    ///< a foreign program, whose clocks are to follow setSpeed()
+  /// Called before every start; may change what is started.
+  std::function<Result<void>(ChildSpec&)> prepare{};
 };
 
-struct ManagerTiming {
-  using Seconds = std::chrono::duration<double>;
-  Seconds startInterval{0.2};  ///< between the starts of two processes
-  Seconds silentAfter{5.0};
-  Seconds firstWait{0.5}, longestWait{10.0}, steadyAfter{30.0};
+enum class ProcessState : std::uint8_t {
+  Waiting,     ///< for its first start
+  Running,     ///<
+  Silent,      ///< runs, and shows no sign of life
+  Restarting,  ///< ended; it is started again
+  Ended,       ///< and is not started again
+  Stopped,     ///< by hand
+  GivenUp      ///< ended too often
+};
+
+struct ProcessStatus {
+  static constexpr std::size_t mostLastLines = 5;
+  int id = 0;  ///< unique within a manager
+  RobotId robot;
+  std::string name;  ///< "decision"
+  ProcessState state = ProcessState::Waiting;
+  pid_t pid = 0;                                      ///< 0 while it does not run
+  int restarts = 0;                                   ///<
+  std::string detail;                                 ///< how it ended, why it does not run
+  std::vector<std::string> lastLines;                 ///< the newest last
+  std::chrono::steady_clock::time_point started{};    ///< the last time
+  std::chrono::steady_clock::time_point nextStart{};  ///< while it is Restarting
+  double cpu = 0.0;                                   ///< share of a core, of the last second
+  std::uint64_t memoryBytes = 0;
+  std::optional<double> heartbeatAge{};  ///< s since a sign of life; nothing: nobody watches
+  bool foreign = false;                  ///< a program of the team
+  double speed = 0.0;  ///< of a foreign program's clocks; 0: they cannot follow the match
+  /// What it manages of that, times real time: less than `speed` when it cannot keep up. 0: nobody
+  /// has seen yet how often it works when it can.
+  double achieved = 0.0;
+  bool operator==(const ProcessStatus&) const = default;
+};
+
+enum class ProcessNewsKind : std::uint8_t { Started, Restarted, Ended, Died, Silent, GivenUp };
+
+/// What happened to a process; words are made from it by those who show it.
+struct ProcessNews {
+  ProcessNewsKind kind = ProcessNewsKind::Started;
+  RobotId robot;
+  std::string process;
+  pid_t pid = 0;
+  std::string detail;       ///< "exit code 2"; of Started: empty
+  double restartIn = -1.0;  ///< s; below 0: it is not started again
+  std::string lastWords{};  ///< of one that died
+};
+
+struct ProcessLine {
+  RobotId robot;
+  std::string process, text;
 };
 
 /// Use from one thread, which must live as long as the processes (see ProcessSupervisor).
@@ -42,53 +104,100 @@ class ProcessManager {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// `board` must outlive the manager. `clearFlags`: no process of the list clears *_WORKING.
-  ProcessManager(RobotId robot, std::vector<ManagedProcess> processes, const ManagerTiming& timing,
-                 Blackboard& board, bool clearFlags);
-  ~ProcessManager();  ///< stop()
+  ProcessManager() = default;
+  ProcessManager(const ProcessManager&) = delete;
+  ProcessManager& operator=(const ProcessManager&) = delete;
+  ~ProcessManager();  ///< ends all
+
+  ProcessSupervisor& supervisor() { return m_supervisor; }
+
+  /// Behind those that the robot has. Starts it at once when it need not wait for its turn; fails
+  /// when it cannot be started, and is then forgotten. `board` must outlive it.
+  Result<int> add(const ManagedProcess& process, Blackboard& board, Time now);
+  /// Ends all of the robot and forgets them.
+  void remove(RobotId robot);
+  /// Ends one and forgets it.
+  void removeOne(int id);
+  /// Ends all; returns when they are gone.
+  void stopAll();
 
   /// Starts what is due, collects what ended, looks for signs of life. Call it about 20 times a
   /// second; it waits only while a silent process is being ended (at most half a second). An error
-  /// is a program that cannot be executed at its first start; a restart is tried again instead.
+  /// is a program that could not be executed at its first start; it is tried again, too.
   Result<void> step(Time now);
-  /// Ends all; returns when they are gone.
-  void stop();
 
-  /// Sentences about starts, ends and restarts, and the processes' own output, since the last call.
-  std::vector<std::string> takeMessages();
-  /// Process number, or 0 while it does not run; in the order given. For tests.
-  std::vector<pid_t> pids() const;
-  /// How often one of them was started again.
-  int restarts() const { return m_restarts; }
+  // By hand; an unknown id is nobody.
+  void start(int id, Time now);
+  void stop(int id);
+  void restart(int id, Time now);
+  void kill(int id);
+  /// With Watch::Caller: it owes a sign of life, or gave one.
+  void setSilent(int id, bool silent, Time now);
+
+  /// Foreign programs: stopped and continued with the match, and how fast their clocks run.
+  void setPaused(bool paused, Time now);
+  void setSpeed(double speed, Time now);
+
+  /// All, in the order in which they were added. A new `version()` tells that something changed.
+  const std::vector<ProcessStatus>& statuses() const { return m_statuses; }
+  std::uint64_t version() const { return m_version; }
+  const ProcessStatus* status(int id) const;
+  std::vector<ProcessNews> takeNews();
+  /// What they wrote, the newest 10 000 lines.
+  std::vector<ProcessLine> takeLines();
+  std::uint64_t droppedLines() const { return m_supervisor.droppedLines(); }
 
  private:
   struct Entry {
+    int id = 0;
     ManagedProcess process;
+    Blackboard* board = nullptr;
     int handle = 0;  // of the running child, 0 = none
     bool everStarted = false;
     Time due{};  // of the next start
-    Time started{}, lastSign{};
-    ManagerTiming::Seconds wait{};
+    Time lastSign{}, stoppedSince{};
+    RestartRule::Seconds wait{};
+    int inARow = 0;  // restarts without steady work in between
     std::uint64_t sleeps = 0;
+    double cpuSeconds = 0.0;
+    double cyclesPerSecond = 0.0;  // of its own time, while it keeps up; 0: not seen yet
+    double readySeconds = 0.0;
+    std::uint64_t sampledSleeps = 0;
+    Time sampled{};
+    std::string programStamp, newStamp;  // of the program's file when it was started, and since
+    std::unique_ptr<FakeTime> time;
   };
+  Entry* find(int id);
+  ProcessStatus& statusOf(const Entry& entry);
   Result<void> startDue(Time now);
-  Result<void> start(Entry& entry, Time now);
+  Result<void> startNow(Entry& entry, Time now);
   void collectEnded(Time now);
+  void ended(Entry& entry, Time now, bool died, const std::string& detail, bool byHand);
+  void planRestart(Entry& entry, Time now, ProcessNews news);
+  void endChild(Entry& entry);
   void watch(Entry& entry, Time now);
-  void plan(Entry& entry, Time now, const std::string& what);
+  void watchFile(Entry& entry, Time now);
+  void sample(Entry& entry, Time now);
+  void measurePace(Entry& entry, const ProcessUse& use, double seconds);
+  void silenced(Entry& entry, Time now, const std::string& detail);
   void takeOutput();
+  void changed() { ++m_version; }
   const ChildStatus* child(int handle) const;
 
-  RobotId m_robot;
   std::vector<Entry> m_entries;
-  ManagerTiming m_timing;
-  Blackboard& m_board;
-  bool m_clearFlags;
+  std::vector<ProcessStatus> m_statuses;  // same order
+  std::map<RobotId, Time> m_lastStart;    // of a robot's processes, for their order
   std::optional<Time> m_last;
-  Time m_nextStart{};
-  std::vector<std::string> m_messages;
-  int m_restarts = 0;
-  ProcessSupervisor m_supervisor;
+  std::vector<ProcessNews> m_news;
+  std::vector<ProcessLine> m_lines;
+  std::uint64_t m_version = 1;
+  int m_nextId = 1;
+  bool m_paused = false;
+  double m_speed = 1.0;
+  ProcessSupervisor m_supervisor;  // last: its children end before the rest goes
 };
+
+/// Words for a time of waiting: "0.2 s".
+std::string inSeconds(RestartRule::Seconds seconds);
 
 }  // namespace pitchboard::link

@@ -7,7 +7,8 @@
 //
 // Every child leads a process group of its own, reads /dev/null, and has its standard output and
 // error collected line by line. When it ends, what it started itself ends with it: the rest of its
-// group is killed.
+// group is killed, and of a foreign program also what left the group. A guard, a process of its
+// own, does the same when this process is killed, and removes the segments that it was told of.
 
 #include <sys/types.h>
 #include <chrono>
@@ -20,6 +21,7 @@
 #include <base/descriptor.h>
 #include <base/ids.h>
 #include <base/result.h>
+#include <robotlink/blackboard/blackboard.h>
 
 namespace pitchboard::link {
 
@@ -27,6 +29,11 @@ struct ChildSpec {
   RobotId robot;
   std::string name;                  ///< for people: "decision"
   std::vector<std::string> command;  ///< program (looked for in PATH without a '/') and arguments
+  std::string directory{};           ///< to run in; empty: ours
+  std::vector<std::pair<std::string, std::string>> environment{};  ///< added
+  int inherited = -1;                                              ///< its descriptor 3
+  int stopSignal = 15;                                             ///< SIGTERM; SIGKILL follows it
+  bool foreign = false;  ///< may start others that leave its group
   bool operator==(const ChildSpec&) const = default;
 };
 
@@ -55,7 +62,7 @@ class ProcessSupervisor {
   static constexpr std::size_t maxLines = 10'000;
   static constexpr std::size_t maxLineBytes = 1000;
 
-  ProcessSupervisor() = default;
+  ProcessSupervisor();
   ProcessSupervisor(const ProcessSupervisor&) = delete;
   ProcessSupervisor& operator=(const ProcessSupervisor&) = delete;
   ~ProcessSupervisor();  ///< stopAll()
@@ -73,7 +80,19 @@ class ProcessSupervisor {
   /// How many lines were dropped because nobody took them.
   std::uint64_t droppedLines() const { return m_droppedLines; }
 
-  /// SIGTERM, then SIGKILL to what is left after the grace period. Returns when all are gone.
+  /// Stands or falls with this process: from now on a guard, run by `program` (pitchboard-robot),
+  /// ends all that was started here when this process is killed.
+  Result<void> keepGuard(const std::string& program);
+  bool isGuarded() const { return static_cast<bool>(m_guard); }
+  /// The guard removes a segment that we made, if nobody uses it any more.
+  void guardSegment(const Blackboard& board);
+
+  /// Stops it, or lets it go on, with all that it started.
+  void pauseChild(int handle, bool paused);
+  void signalChild(int handle, int signal) const;
+
+  /// Its stop signal, then SIGKILL to what is left after the grace period. Returns when all are
+  /// gone.
   void stop(RobotId robot, std::chrono::milliseconds grace = std::chrono::milliseconds(500));
   void stopAll(std::chrono::milliseconds grace = std::chrono::milliseconds(500));
   /// The same for one child.
@@ -91,6 +110,9 @@ class ProcessSupervisor {
   void stopThose(const std::vector<int>& handles, std::chrono::milliseconds grace);
   bool anyRunning(const std::vector<int>& handles) const;
   void signalGroups(const std::vector<int>& handles, int signal) const;
+  std::string markOf(int handle) const;
+  void killStrays(const ChildStatus& child) const;
+  void tellGuard(const std::string& line);
   void readOutput(ChildStatus& child, Output& output, std::size_t limit);
   void endLine(ChildStatus& child, Output& output);
   void collect(ChildStatus& child, Output& output);
@@ -100,6 +122,9 @@ class ProcessSupervisor {
   std::deque<ChildLine> m_lines;
   std::uint64_t m_droppedLines = 0;
   int m_nextHandle = 1;
+  std::string m_run;   // begins the mark of all that is started here
+  Descriptor m_guard;  // to the guard; empty: there is none
+  pid_t m_guardPid = 0;
 };
 
 }  // namespace pitchboard::link

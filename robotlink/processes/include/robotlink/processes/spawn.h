@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <base/descriptor.h>
@@ -12,13 +13,22 @@
 
 namespace pitchboard::link {
 
+struct SpawnRequest {
+  std::vector<std::string> command;  ///< program (looked for in PATH without a '/') and arguments
+  std::string directory{};           ///< to run in; empty: ours
+  std::vector<std::pair<std::string, std::string>> environment{};  ///< added to ours
+  int inherited = -1;                                              ///< becomes its descriptor 3
+  int input = -1;         ///< its standard input; else it reads /dev/null
+  bool outlives = false;  ///< not ended with us; its output is not collected
+};
+
 struct Spawned {
   pid_t pid = 0;      ///< also its process group
   Descriptor output;  ///< read end of its standard output and error; non-blocking, close-on-exec
 };
 
-/// Starts `command` (program and arguments). From a process with any number of threads: nothing but
-/// async-signal-safe calls are made between fork and exec.
-Result<Spawned> spawn(const std::vector<std::string>& command);
+/// Starts a program. From a process with any number of threads: nothing but async-signal-safe calls
+/// are made between fork and exec.
+Result<Spawned> spawn(const SpawnRequest& request);
 
 }  // namespace pitchboard::link

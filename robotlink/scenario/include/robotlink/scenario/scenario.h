@@ -5,6 +5,7 @@
 // poses in metres and degrees; here in metres and radians.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/processes/runtime_profile.h>
 #include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
@@ -33,6 +35,7 @@ struct ScenarioRobot {
   sim::RobotIdentity identity;
   Pose pose;
   std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
+  RuntimeChoice runtime{};            ///< who runs; not chosen: as its team
   bool operator==(const ScenarioRobot&) const = default;
 };
 
@@ -57,6 +60,9 @@ struct Scenario {
   sim::Score score;
   std::vector<BlackboardWrite> writes;  ///< in order of time
   StopConditions stop;
+  std::map<TeamColor, RuntimeChoice> runtimes;  ///< of teams; left out: as the match is played
+  /// What is said of this robot, or of its team; not chosen: nothing.
+  RuntimeChoice runtimeOf(const ScenarioRobot& robot) const;
   bool operator==(const Scenario&) const = default;
 };
 
@@ -77,12 +83,6 @@ Result<Scenario> scenarioFromJson(std::string_view text, std::string_view source
 /// The same form. Reading it gives an equal scenario when that came from a file; an angle of any
 /// other origin may come back one unit in the last place away, and then stays.
 std::string scenarioToJson(const Scenario& scenario);
-
-/// A field by its built-in name, or as the object that "field" has in a scenario file. Errors name
-/// `source`.
-Result<sim::FieldSpec> fieldFromText(std::string_view nameOrJson, std::string_view source);
-/// The name of a built-in field, else an object on one line; reading it gives an equal field.
-std::string fieldToText(const sim::FieldSpec& field);
 
 /// Noise presets are data: none, published, paper, realistic.
 std::vector<std::string> noisePresets();

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/session/board_columns.h>
+#include <robotlink/live/board_columns.h>
 #include <telemetry/series/row_sink.h>
 
 namespace pitchboard::link {

@@ -45,6 +45,9 @@ class LiveRecorder : public LiveObserver {
   void unusedHeard(double time, const telemetry::DatagramView& datagram) override;
   void happened(const MatchEvent& event) override;
   void reported(const telemetry::TeamStatus& team) override;
+  void sampled(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) override {
+    m_boards.take(group, rows);
+  }
   void frameMade(const MatchFrame& frame) override;
 
   // Any thread.
@@ -58,11 +61,12 @@ class LiveRecorder : public LiveObserver {
 
  private:
   LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
-               int refereePort);
+               const LiveOptions& live);
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
   const int m_refereePort;
   telemetry::LiveRows m_rows;
+  BoardRowKeeper m_boards;
   std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
 };
 

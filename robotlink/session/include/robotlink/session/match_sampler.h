@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <robotlink/live/board_columns.h>
 #include <robotlink/match/tick_observer.h>
-#include <robotlink/session/board_columns.h>
 #include <telemetry/series/row_sink.h>
 
 namespace pitchboard::link {

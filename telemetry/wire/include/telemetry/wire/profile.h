@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The order of the fields of a text datagram, as data: teams add and move fields, and a program
-// that knows only the published order would show the wrong numbers (docs/LIVE.md, "Profiles").
+// What stands where in a robot's datagram, and what it means, as data: every team sends its own
+// message, and a program that knows only the published order would show the wrong numbers
+// (docs/LIVE.md, "Profiles"). Plain values; any thread.
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,8 +20,42 @@ namespace pitchboard::telemetry {
 enum class FieldType : std::uint8_t {
   Int,    ///< whole number that fits 32 bits
   Float,  ///< number that fits IEEE single
-  Flag    ///< 0 or 1
+  Flag,   ///< 0 or 1
+  Text    ///< a word; a number only where `labels` give it one
 };
+
+/// How a datagram is written.
+enum class MessageFormat : std::uint8_t {
+  Words,      ///< values in a fixed order
+  KeyValue,   ///< key=value
+  Json,       ///< one object, flattened: "pose.x", "ball[0]"
+  Lua,        ///< one table as text, flattened as JSON
+  Binary,     ///< numbers at fixed places, little-endian
+  Mitecom,    ///< RoboCup-Humanoid-TC/mitecom: numbered values; keys "team", "robot", "0x10000"
+  Hulks,      ///< HULKs of 2024 on: 25 or 45 bytes
+  CitBrains,  ///< CIT Brains: seven packed objects
+  Protobuf    ///< Profile::message says which one
+};
+inline constexpr std::size_t messageFormatCount = 9;
+std::string_view formatName(MessageFormat format);
+
+/// A number of a binary message.
+enum class WireType : std::uint8_t {
+  None,
+  U8,
+  I8,
+  U16,
+  I16,
+  U24,
+  U32,
+  I32,
+  U64,
+  I64,
+  F32,
+  F64,
+  Text
+};
+inline constexpr std::size_t wireTypeCount = 13;
 
 /// What the program itself does with a field; None is only shown.
 enum class FieldMeaning : std::uint8_t {
@@ -39,9 +75,16 @@ enum class FieldMeaning : std::uint8_t {
   Action,
   Yaw,
   Voltage,
-  Sequence
+  Sequence,
+  Team,  ///< number of its team at the referee's
+  BallX,
+  BallY,  ///< from the robot: ahead, left
+  BallFieldX,
+  BallFieldY,  ///< in the frame of x and y
+  BallSeen,    ///< 0 or less: the rest of the ball means nothing
+  BallAge      ///< less than 0: never seen
 };
-inline constexpr std::size_t fieldMeaningCount = 17;
+inline constexpr std::size_t fieldMeaningCount = 24;
 
 /// "robot", "ball-distance", ...: as written in a profile.
 std::string_view meaningName(FieldMeaning meaning);
@@ -52,17 +95,66 @@ struct ProfileField {
   std::string unit;      ///< for the screen, e.g. "cm"; may be empty
   std::string category;  ///< under which it is shown; may be empty
   FieldMeaning meaning = FieldMeaning::None;
-  std::optional<double> absent{};  ///< the value that says "not seen": a hole in every curve
-  int bits = 0;                    ///< of a Sequence, 8, 16 or 32; 0: not known (SequenceStats)
+  /// The blackboard variable that it is; it then has that name and unit. Empty: none.
+  std::string variable{};
+  std::string key{};   ///< what it is called in the message; empty: `name`
+  double scale = 1.0;  ///< value in `unit` = scale × what is sent + offset
+  double offset = 0.0;
+  std::optional<double> absent{};                ///< sent in place of a value that there is not
+  std::map<std::int32_t, std::string> labels{};  ///< words of codes, and codes of words
+  int bits = 0;                                  ///< of a sequence number that wraps; 0: not known
+  // Of a binary message.
+  int at = 0;  ///< bytes from its beginning
+  WireType as = WireType::None;
+  int length = 0;          ///< bytes of a Text
+  std::uint32_t mask = 0;  ///< bits that count; 0: all
   bool operator==(const ProfileField&) const = default;
+  const std::string& sentName() const { return key.empty() ? name : key; }
 };
 
-/// A valid one has exactly one Robot field, unique names and at most maxFields fields.
+/// The frame of x, y, theta and a ball on the field. The default is that of LOCALIZATION_X, _Y,
+/// _THETA (CONVENTIONS.md).
+struct MessageFrame {
+  enum class XAxis : std::uint8_t { Right, Left, Opponents };
+  bool centre = false;     ///< origin: the centre mark; false: the corner where x and y are 0
+  XAxis x = XAxis::Right;  ///< to which goal +x points
+  bool yLeft = false;      ///< +y points to the left of +x; false: to its right
+  bool clockwise = false;  ///< how angles grow, from +x
+  bool operator==(const MessageFrame&) const = default;
+};
+
+/// A robot's number where the message has none.
+struct RobotFrom {
+  enum class Source : std::uint8_t { Message, Port, Address };
+  Source source = Source::Message;
+  int base = 0;  ///< number = port − base, or last byte of the sender's address − base
+  bool operator==(const RobotFrom&) const = default;
+};
+
+/// A binary message is one of this profile only where one of these values stands.
+struct WireCondition {
+  int at = 0;
+  WireType as = WireType::U8;
+  std::vector<std::int64_t> values;
+  bool operator==(const WireCondition&) const = default;
+};
+
+/// A valid one says in one way what the robot's number is, and has unique names and at most
+/// maxFields fields.
 struct Profile {
   static constexpr std::size_t maxFields = 100;
   std::string name;
-  std::string end = "OUT";  ///< the word that ends a message
+  std::string end = "OUT";  ///< the word that ends a message of words; empty: its end
   std::vector<ProfileField> fields;
+  MessageFormat format = MessageFormat::Words;
+  MessageFrame frame;
+  RobotFrom robotFrom;
+  char separator = ' ';   ///< between words or pairs; ' ': any white space
+  bool utf8 = false;      ///< of a message of words; the other texts always may
+  bool tolerant = false;  ///< what stands before a mistake of JSON or Lua is used
+  std::string begins;     ///< bytes that a binary message begins with
+  std::vector<WireCondition> when;
+  std::string message;  ///< of the format protobuf: "robocup", "nubots", "rhoban", "utra"
 
   /// Place of the field with this meaning; empty when the profile has none.
   std::optional<std::size_t> indexOf(FieldMeaning meaning) const;
@@ -71,11 +163,14 @@ struct Profile {
 
 /// The published order (resources/profiles/published.json).
 const Profile& publishedProfile();
+/// Names of the profiles that are part of the program (resources/profiles), in order.
+std::vector<std::string> builtInProfiles();
 
 /// Reads a profile; `file` is only for the messages. Errors: ParseError with "file:line: key".
 Result<Profile> parseProfile(std::string_view json, const std::string& file);
-/// Errors as parseProfile(), and NotFound or SystemError for a file that cannot be read.
-Result<Profile> loadProfile(const std::string& path);
+/// Reads a file, or takes the built-in profile of this name. Errors as parseProfile(), and NotFound
+/// or SystemError for a file that cannot be read.
+Result<Profile> loadProfile(const std::string& pathOrName);
 /// Text that parseProfile() reads back to the same value; for saving an edited profile.
 std::string profileText(const Profile& profile);
 /// Checks a profile made by hand. The error's context names the field.

@@ -18,6 +18,7 @@
 #include <telemetry/wire/process_filter.h>
 #include <telemetry/wire/sender_filter.h>
 #include <telemetry/wire/sequence_stats.h>
+#include <telemetry/wire/team_setup.h>
 #include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::telemetry {
@@ -32,11 +33,13 @@ struct MonitorOptions {
   Duration duplicateWindow = std::chrono::milliseconds(5);
   BatteryLimits battery;
   SenderFilter senders;
+  std::vector<TeamSetup> teams;  ///< empty: one team, of the profile
+  Surroundings field;
 };
 
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
-  int number = 0;
+  int number = 0;  ///< over all teams: numberInTeam(), teamPlace()
   /// 0: the robot of this number; 1, 2, ...: other programs that use the number at the same time.
   int slot = 0;
   WallTime lastMessage{};
@@ -116,7 +119,11 @@ class TeamMonitor {
   void arrive(Robot& robot, WallTime time);
   void use(Robot& robot, const DatagramView& datagram);
 
+  void makeRouter();
+
   MonitorOptions m_options;
+  Profile m_profile;
+  std::unique_ptr<const TeamRouter> m_router;
   std::shared_ptr<const TextDecoder> m_decoder;
   DecodedText m_decoded;
   std::vector<Robot> m_robots;

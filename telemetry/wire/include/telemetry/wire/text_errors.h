@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What can be wrong with a text datagram, and how much of it was seen.
+// What can be wrong with a robot's datagram, and how much of it was seen.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace pitchboard::telemetry {
 
-/// The first seven refuse the message. The others spoil a field, or nothing: the rest is used.
+/// The first eight refuse the message. The others spoil a field, or nothing: the rest is used.
 enum class TextError : std::uint8_t {
   Empty,          ///< no text at all
   TooLong,        ///< more than 64 KiB
@@ -20,6 +20,7 @@ enum class TextError : std::uint8_t {
   MissingFields,  ///< fewer fields than the profile has
   MissingEnd,     ///< no OUT
   BadRobot,       ///< the robot's number is not a whole number from 1 to 64295
+  BadFormat,      ///< does not follow the profile's format
   NotANumber,     ///< text where a number should be, or 1.5 where a whole number should be
   NotFinite,      ///< nan or inf
   TooLarge,       ///< does not fit the field's type
@@ -28,14 +29,14 @@ enum class TextError : std::uint8_t {
   TrailingText,   ///< something after OUT, e.g. a second message
   Duplicate       ///< the same message again at once
 };
-inline constexpr std::size_t textErrorCount = 14;
+inline constexpr std::size_t textErrorCount = 15;
 
 /// "missing-end": for files and JSON.
 std::string_view errorName(TextError error);
 /// "no OUT at the end": for the screen.
 std::string_view errorWords(TextError error);
 constexpr bool refuses(TextError error) {
-  return error <= TextError::BadRobot;
+  return error <= TextError::BadFormat;
 }
 
 /// A set of errors in one word.
@@ -44,7 +45,7 @@ class TextErrors {
   void add(TextError error) { m_bits |= 1U << static_cast<unsigned>(error); }
   bool has(TextError error) const { return (m_bits >> static_cast<unsigned>(error) & 1U) != 0; }
   bool empty() const { return m_bits == 0; }
-  bool refused() const { return (m_bits & ((1U << 7U) - 1U)) != 0; }
+  bool refused() const { return (m_bits & ((1U << 8U) - 1U)) != 0; }
   bool operator==(const TextErrors&) const = default;
 
  private:
@@ -73,7 +74,9 @@ class ErrorTally {
   std::array<Kind, textErrorCount> m_kinds{};
 };
 
-/// The beginning of any bytes as one printable line.
+/// Bytes of the UTF-8 character that a text begins with; 0 when it does not begin with one.
+std::size_t sequenceLength(std::string_view text);
+/// The beginning of any bytes as one printable line of UTF-8; other bytes as \xNN.
 std::string printable(std::string_view bytes, std::size_t limit = ErrorTally::sampleBytes);
 
 }  // namespace pitchboard::telemetry

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The log with a filter of words; follows the newest line until one scrolls up; Ctrl+C copies. UI
-// thread only.
+// The log with filters of words and level; follows the newest line until one scrolls up; Ctrl+C
+// copies, and what is shown can be saved. UI thread only.
 
 class QWidget;
 
@@ -10,8 +10,10 @@ namespace pitchboard::ui {
 
 class MatchController;
 class SourceSwitch;
+class Timeline;
 
-/// Both must outlive the dock.
-QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, QWidget* parent);
+/// All must outlive the dock. A double click on a line shows its moment on the timeline.
+QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, Timeline* timeline,
+                     QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -49,7 +49,7 @@ class LiveController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_series; }
   QString emptyText() const override;
-  /// From the last minutes: at most five moments a second are kept, and so many robots in all.
+  /// From the last minutes: at most five moments a second are kept, and 80 MB in all.
   FramePtr frameAt(double time) const override;
   /// The time of day at 0 s, to the nanosecond.
   telemetry::WallTime began() const;
@@ -80,7 +80,7 @@ class LiveController : public FrameSource {
   FramePtr m_frame;
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::deque<FramePtr> m_past;
-  std::size_t m_pastRobots = 0;
+  std::size_t m_pastBytes = 0;
   std::shared_ptr<RowKeeper> m_rows;
   std::shared_ptr<telemetry::SeriesStore> m_series;
 };

@@ -80,6 +80,12 @@ class MatchController : public FrameSource {
   void runTo(std::uint64_t tick);
   void setSpeed(double timesRealTime);  ///< link::MatchRunner::unlimitedSpeed = maximum
   double speed() const { return m_speed; }
+  /// How separate reference processes keep time at ×1, from now on and in later matches.
+  void setPace(link::RobotsPace pace);
+  link::RobotsPace pace() const { return m_options.pace; }
+  /// Whether the match slows down to what a team's own programs manage.
+  void setWaitForOwnPrograms(bool on);
+  bool waitsForOwnPrograms() const { return m_options.waitForOwnPrograms; }
   bool isPaused() const { return m_paused; }
   void restart();  ///< the scenario from its beginning
   /// The same; `between` runs on the worker thread when the old match is gone and the new one is
@@ -114,6 +120,8 @@ class MatchController : public FrameSource {
   /// Forgets the match; the worker ends it.
   std::shared_ptr<link::MatchRunner> retire();
   void take(Opening& opening);
+  /// Says once in a match which robots do not stop or hurry with it.
+  void tellWhoWillNotFollow();
 
   link::MatchOptions m_options;
   link::Cognition m_cognition = link::Cognition::Inline;
@@ -124,6 +132,7 @@ class MatchController : public FrameSource {
   double m_speed = 1.0;
   bool m_paused = false;
   bool m_opening = false;
+  bool m_toldWhoWillNotFollow = false;
   std::optional<std::uint64_t> m_runTo;  // once it is open
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()

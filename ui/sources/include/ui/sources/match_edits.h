@@ -67,9 +67,13 @@ class MatchEdits : public QObject {
   void setPhysics(const QString& model);
   /// Another decision process takes the robot over.
   void setBehaviour(RobotId id, const QString& behaviour);
-  /// Ends the robot's processes and starts them again.
-  void restartProcesses(RobotId id);
-  void stopProcesses(RobotId id);
+  /// Who runs for the robot; all its processes start anew.
+  void setRuntime(RobotId id, const link::RuntimeChoice& choice);
+  // One of the separate processes, by ProcessStatus::id.
+  void startProcess(int process);
+  void stopProcess(int process);
+  void restartProcess(int process);
+  void killProcess(int process);
   void setClockRunning(bool running);
   void resetScore();
 

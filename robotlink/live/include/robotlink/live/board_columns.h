@@ -21,12 +21,18 @@ class BoardColumns {
 
   const std::vector<telemetry::ColumnInfo>& columns() const { return m_columns; }
   std::size_t size() const { return m_words.size(); }
-  /// The words of the columns, in their order; `out` has size() words.
+  /// The words of the columns, in their order; `out` has size() words. A float that says "not seen"
+  /// (VariableMeanings::absent) is NaN, so that it is a hole in every curve.
   void read(const Blackboard& board, std::span<std::uint32_t> out) const;
 
  private:
   std::vector<telemetry::ColumnInfo> m_columns;
   std::vector<std::uint16_t> m_words;  // place of each column on the blackboard
+  struct Hole {
+    std::size_t column;
+    float absent;
+  };
+  std::vector<Hole> m_holes;
 };
 
 }  // namespace pitchboard::link

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <robotlink/session/board_columns.h>
+#include <robotlink/live/board_columns.h>
+
+#include <bit>
+#include <limits>
 
 #include <robotlink/blackboard/variable_meanings.h>
 
@@ -18,6 +21,9 @@ BoardColumns::BoardColumns(const VariableCatalog& catalog) {
       column.kind = telemetry::ColumnKind::Number;
       column.labels.clear();
     }
+    if (const auto absent = meanings.absent(variable.name); absent && !isInt) {
+      m_holes.push_back({m_columns.size(), static_cast<float>(*absent)});
+    }
     m_columns.push_back(std::move(column));
     m_words.push_back(
         static_cast<std::uint16_t>(variable.index + (isInt ? 0 : Blackboard::floatOffset)));
@@ -28,6 +34,11 @@ void BoardColumns::read(const Blackboard& board, std::span<std::uint32_t> out) c
   std::array<std::uint32_t, Blackboard::words> words;
   board.copyWords(words);
   for (std::size_t i = 0; i < m_words.size(); ++i) out[i] = words[m_words[i]];
+  constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+  for (const Hole& one : m_holes) {
+    std::uint32_t& word = out[one.column];
+    if (std::bit_cast<float>(word) == one.absent) word = std::bit_cast<std::uint32_t>(hole);
+  }
 }
 
 }  // namespace pitchboard::link

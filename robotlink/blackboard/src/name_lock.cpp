@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The name of an abstract Unix socket as a lock that cannot outlive its owner.
-#include <robotlink/blackboard/system_v.h>
+#include "name_lock.h"
 
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -20,12 +19,11 @@ struct Address {
   sockaddr_un value{};
   socklen_t length = 0;
 
-  explicit Address(int key) {
+  explicit Address(const std::string& name) {
     value.sun_family = AF_UNIX;
-    // The leading zero byte makes the name abstract. Names are shared by all users of the machine,
-    // segments are not: hence the user in it.
+    // The leading zero byte makes the name abstract.
     const int written = std::snprintf(value.sun_path + 1, sizeof value.sun_path - 1,
-                                      "pitchboard-bridge-%u-%d", geteuid(), key);
+                                      "pitchboard-%u-%s", geteuid(), name.c_str());
     length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 +
                                     static_cast<std::size_t>(written));
   }
@@ -60,35 +58,28 @@ std::string describeHolder(pid_t holder) {
   return (name.empty() ? "process " : name + ", process ") + std::to_string(holder);
 }
 
-Error systemError(int key, const char* call) {
-  return {ErrorCode::SystemError, std::string(call) + " failed: " + systemReason(errno),
-          "blackboard " + std::to_string(key)};
-}
-
 }  // namespace
 
-Result<BridgeClaim> BridgeClaim::take(int key) {
-  const Address address(key);
+Result<NameLock> lockName(const std::string& name, const std::string& context) {
+  const auto refused = [&context](const char* call) {
+    return failure(ErrorCode::SystemError, std::string(call) + " failed: " + systemReason(errno),
+                   context);
+  };
+  const Address address(name);
   // The holder may go away between bind and asking who it is; then the name is free.
   for (int attempt = 0; attempt < 8; ++attempt) {
     Descriptor server = newSocket();
-    if (!server) return tl::unexpected(systemError(key, "socket"));
+    if (!server) return refused("socket");
     if (bind(server.get(), address.get(), address.length) == 0) {
       // Listening is what lets the refused one learn who holds the claim.
-      if (listen(server.get(), 4) != 0) return tl::unexpected(systemError(key, "listen"));
-      return BridgeClaim(std::move(server));
+      if (listen(server.get(), 4) != 0) return refused("listen");
+      return NameLock{std::move(server), {}};
     }
-    if (errno != EADDRINUSE) return tl::unexpected(systemError(key, "bind"));
+    if (errno != EADDRINUSE) return refused("bind");
     const pid_t holder = holderOf(address);
-    if (holder == 0) continue;
-    return failure(ErrorCode::Conflict,
-                   "is being simulated already by " + describeHolder(holder) +
-                       "; end that one, or choose another robot number or key base",
-                   "blackboard " + std::to_string(key));
+    if (holder != 0) return NameLock{{}, describeHolder(holder)};
   }
-  return failure(ErrorCode::Conflict,
-                 "another program is just taking or giving up this robot; try again",
-                 "blackboard " + std::to_string(key));
+  return NameLock{};
 }
 
 }  // namespace pitchboard::link

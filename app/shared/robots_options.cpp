@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <app/robots_options.h>
+
+#include <algorithm>
+
+#include <base/lined_json.h>
+
+namespace pitchboard::shared {
+
+void addRobotsOptions(CLI::App& command, RobotsOptions& options) {
+  command
+      .add_option("--match", options.match,
+                  "Number of the match on this computer, from which keys and ports follow; "
+                  "default: the next free one, 0 as published")
+      ->type_name("N")
+      ->check(CLI::Range(0, link::MatchNumber::most));
+  command
+      .add_option("--key-base", options.keyBase,
+                  "Added to 100 x robot number for a blackboard's key; default: the match's")
+      ->type_name("B")
+      ->check(CLI::Range(0, 2'000'000'000));
+  command
+      .add_option("--pace", options.pace,
+                  "Separate reference processes at speed 1: the match waits for them in every "
+                  "tick, or they run freely, as on the field")
+      ->type_name("lock-step|free")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"lock-step", "free"}));
+  command
+      .add_option("--runtime", options.runtimes,
+                  "Who runs: a runtime profile (reference, own, published-tree:folder=..., a file) "
+                  "or program=FILE in place of decision; for one team or robot with blue= or B1= "
+                  "in front")
+      ->type_name("[WHO=]PROFILE");
+}
+
+Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions& options) {
+  for (const std::string& text : options.runtimes) {
+    const std::size_t equals = text.find('=');
+    const std::string who = equals == std::string::npos ? std::string() : text.substr(0, equals);
+    const auto team = std::find_if(teamColors.begin(), teamColors.end(),
+                                   [&who](const TeamColorInfo& one) { return one.name == who; });
+    const auto robot = std::find_if(scenario.robots.begin(), scenario.robots.end(),
+                                    [&who](const auto& one) { return one.identity.name() == who; });
+    const bool isShirt =
+        who.size() >= 2 && who.size() <= 3 && who[0] >= 'A' && who[0] <= 'Z' &&
+        std::all_of(who.begin() + 1, who.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool named = team != teamColors.end() || isShirt;
+    const auto choice = link::runtimeChoiceFromText(named ? text.substr(equals + 1) : text);
+    if (!choice) return failure(choice.error().code, choice.error().message, "--runtime");
+    if (const auto profile = link::loadRuntime(*choice); !profile) {
+      return failure(profile.error().code, profile.error().text(), "--runtime");
+    }
+    if (team != teamColors.end()) {
+      scenario.runtimes[team->color] = *choice;
+    } else if (robot != scenario.robots.end()) {
+      robot->runtime = *choice;
+    } else if (isShirt) {
+      return failure(ErrorCode::NotFound, "there is no robot " + who + " in this scenario",
+                     "--runtime");
+    } else {
+      for (const TeamColorInfo& color : teamColors) scenario.runtimes[color.color] = *choice;
+    }
+  }
+  return scenario;
+}
+
+void apply(const RobotsOptions& options, link::MatchOptions& match) {
+  match.match = options.match;
+  match.keyBase = options.keyBase;
+  match.pace = options.pace == "free" ? link::RobotsPace::Free : link::RobotsPace::LockStep;
+}
+
+std::string numberNotice(const link::SimulatedMatch& match) {
+  const auto number = match.number();
+  if (!number || number->value == 0) return {};
+  std::string text = "match " + std::to_string(number->value) + ": blackboards have keys " +
+                     std::to_string(number->keyBase()) +
+                     " + 100 x robot number, telemetry goes to " +
+                     std::to_string(number->telemetryPortBase()) + " + robot number";
+  if (!match.publishedHolder().empty()) {
+    text += ", because match 0 is played by " + match.publishedHolder();
+  }
+  return text;
+}
+
+}  // namespace pitchboard::shared

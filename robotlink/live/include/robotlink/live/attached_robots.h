@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Robots whose blackboard lies on this computer: any System V segment, looked at and never written,
+// each sampled by a thread of its own at its own rate, in real time. LiveWatch owns them and shows
+// them as it shows robots that are heard. A segment that is removed is said, and taken up when it
+// comes again.
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/frame/match_frame.h>
+#include <telemetry/series/row_sink.h>
+
+namespace pitchboard::link {
+
+struct AttachedBoard {
+  static constexpr double slowest = 0.1, fastest = 1000.0;
+  int key = 100;
+  std::string catalogFile;  ///< empty: the published map
+  std::size_t bytes = 0;    ///< of the segment; 0: as the catalog says
+  int robot = 0;            ///< number on the shirt; 0: key / 100
+  double rate = 60.0;       ///< samples per second
+  TeamColor team = TeamColor::Blue;
+  bool operator==(const AttachedBoard&) const = default;
+  int number() const { return robot > 0 ? robot : std::max(1, key / 100); }
+};
+
+/// "100,catalog=FILE,size=4096,robot=3,rate=100,team=red". Errors name the part.
+Result<AttachedBoard> parseAttachedBoard(std::string_view text);
+/// Refuses a number out of range, two boards of one key, and a catalog that cannot be read.
+Result<void> validate(const std::vector<AttachedBoard>& boards);
+
+struct BoardRow {
+  double time = 0.0;  ///< s, as AttachedRobots was told
+  std::vector<std::uint32_t> words;
+};
+
+/// How one board is doing.
+struct AttachedStatus {
+  AttachedBoard board;
+  bool attached = false;
+  std::string problem;  ///< why it is not attached; empty when it is
+  std::uint64_t samples = 0, missed = 0;
+};
+
+/// Takes the rows of a board; called with each batch.
+using BoardRowsTaker =
+    std::function<void(const telemetry::GroupInfo& group, std::span<const BoardRow> rows)>;
+
+class AttachedRobots {
+ public:
+  /// `seconds`: the time of the rows, s; called on any thread.
+  explicit AttachedRobots(std::function<double()> seconds);
+  ~AttachedRobots();
+
+  /// Attaches these and no others; a board that stays as it is goes on. They must be valid.
+  void set(const std::vector<AttachedBoard>& boards);
+  /// Adds each board that was ever attached as a robot of the frame.
+  void addTo(MatchFrame& frame) const;
+  /// The rows since the last call.
+  void takeRows(const BoardRowsTaker& take);
+  std::vector<AttachedStatus> status() const;
+
+ private:
+  class Reader;
+  const std::function<double()> m_seconds;
+  std::vector<std::unique_ptr<Reader>> m_readers;
+};
+
+/// Puts rows of boards into a sink; a group for each board.
+class BoardRowKeeper {
+ public:
+  explicit BoardRowKeeper(std::shared_ptr<telemetry::RowSink> sink) : m_sink(std::move(sink)) {}
+  void take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows);
+
+ private:
+  std::shared_ptr<telemetry::RowSink> m_sink;
+  std::map<std::string, telemetry::GroupId> m_groups;
+};
+
+}  // namespace pitchboard::link

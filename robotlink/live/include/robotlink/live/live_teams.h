@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What Live makes of team setups: whose a robot is, in which colour, under which name its rows
+// stand, and in which units its blackboard variables are. Pure functions; any thread.
+
+#include <optional>
+#include <string>
+
+#include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_watch.h>
+
+namespace pitchboard::link {
+
+/// Field and units of variables, for decoders.
+telemetry::Surroundings surroundingsOf(const sim::FieldSpec& field);
+
+/// The options of the monitor with the field of Live in them.
+telemetry::MonitorOptions monitorOptions(const LiveOptions& options);
+
+/// Of a robot's number over all teams (RobotStatus::number): the colour that it is drawn in.
+/// `ours`: of a team without a colour, as the referee says it.
+TeamColor colourOf(const LiveOptions& options, int robot, TeamColor ours,
+                   const std::optional<RefereeView>& referee);
+/// The referee's number of its team; 0: not known.
+int refereeNumberOf(const LiveOptions& options, int robot);
+/// What its team calls it; empty: nothing.
+std::string ownNameOf(const LiveOptions& options, int robot);
+
+/// Attribute of a group that names its column of this meaning, for robots of team setups.
+std::string meaningAttribute(telemetry::FieldMeaning meaning);
+
+/// Names and attributes of the groups of rows. With teams, or where the messages have blackboard
+/// variables, a robot is called as in a simulation ("B3"), else "Robot 3".
+telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, telemetry::WallTime zero);
+
+}  // namespace pitchboard::link

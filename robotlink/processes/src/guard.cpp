@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/processes/guard.h>
+
+#include <unistd.h>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include <robotlink/blackboard/system_v.h>
+
+#include "process_table.h"
+
+namespace pitchboard::link {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto patience = 10s;
+
+class Guard {
+ public:
+  /// False once there is nothing to do any more.
+  bool read(int input) {
+    std::array<char, 4096> buffer;
+    const ssize_t got = ::read(input, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) return true;
+    if (got <= 0) return false;
+    m_text.append(buffer.data(), static_cast<std::size_t>(got));
+    for (std::size_t end = m_text.find('\n'); end != std::string::npos; end = m_text.find('\n')) {
+      take(m_text.substr(0, end + 1));
+      m_text.erase(0, end + 1);
+    }
+    return !m_done;
+  }
+
+  void tidyUp(const std::string& mark) const {
+    if (m_done) return;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    for (auto left = markedProcesses(mark); !left.empty(); left = markedProcesses(mark)) {
+      for (const pid_t pid : left) ::kill(pid, SIGKILL);
+      if (std::chrono::steady_clock::now() > end) break;
+      std::this_thread::sleep_for(5ms);
+    }
+    for (const auto& [shmid, key] : m_segments) {
+      const auto info = SystemVSegments::info(key);
+      if (info && info->shmid == shmid && info->attached == 0) (void)SystemVSegments::remove(key);
+    }
+  }
+
+ private:
+  void take(const std::string& line) {
+    int key = 0, shmid = 0;
+    if (line == guardWords::done) {
+      m_done = true;
+    } else if (std::sscanf(line.c_str(), "segment %d %d", &key, &shmid) == 2) {
+      m_segments[shmid] = key;
+    }
+  }
+
+  std::string m_text;
+  std::map<int, int> m_segments;  // keys by shmid
+  bool m_done = false;
+};
+
+}  // namespace
+
+void runGuard(const std::string& mark, int input) {
+  // The same Ctrl+C or end of a terminal that ends the others must find it at work.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_IGN);
+  Guard guard;
+  while (guard.read(input)) {
+  }
+  guard.tidyUp(mark);
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "process_table.h"
+
+#include <dirent.h>
+#include <unistd.h>
+#include <charconv>
+#include <memory>
+#include <sstream>
+
+#include <base/read_file.h>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::size_t mostBytes = 4 * 1024 * 1024;
+
+std::string folderOf(pid_t pid) {
+  return "/proc/" + std::to_string(pid);
+}
+
+std::uint64_t numberAfter(std::string_view text, std::string_view key) {
+  std::uint64_t value = 0;
+  const std::size_t at = text.find(key);
+  if (at == std::string_view::npos) return value;
+  const std::size_t digit = text.find_first_of("0123456789", at + key.size());
+  if (digit == std::string_view::npos) return value;
+  std::from_chars(text.data() + digit, text.data() + text.size(), value);
+  return value;
+}
+
+}  // namespace
+
+std::optional<ProcessUse> processUse(pid_t pid) {
+  const auto stat = readFile(folderOf(pid) + "/stat", mostBytes);
+  const auto status = readFile(folderOf(pid) + "/status", mostBytes);
+  if (!stat || !status) return {};
+  // The name in brackets may hold anything, so the fields are counted from its end.
+  const std::size_t bracket = stat->rfind(')');
+  if (bracket == std::string::npos) return {};
+  std::istringstream fields(stat->substr(bracket + 1));
+  ProcessUse use;
+  std::string skipped;
+  double user = 0.0, system = 0.0;
+  fields >> use.state;
+  for (int i = 0; i < 10; ++i) fields >> skipped;
+  fields >> user >> system;
+  use.cpuSeconds = (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  use.readySeconds = use.cpuSeconds;
+  if (const auto schedule = readFile(folderOf(pid) + "/schedstat", mostBytes)) {
+    constexpr double nanoseconds = 1e9;
+    std::istringstream times(*schedule);
+    double worked = 0.0, waited = 0.0;
+    if (times >> worked >> waited) use.readySeconds = (worked + waited) / nanoseconds;
+  }
+  use.memoryBytes = numberAfter(*status, "VmRSS:") * 1024;
+  use.sleeps = numberAfter(*status, "\nvoluntary_ctxt_switches:");
+  return use;
+}
+
+std::vector<pid_t> markedProcesses(std::string_view mark) {
+  std::vector<pid_t> found;
+  const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir("/proc"), &::closedir);
+  if (!folder) return found;
+  const std::string wanted = std::string(processMark) + '=' + std::string(mark);
+  while (const dirent* entry = ::readdir(folder.get())) {
+    const std::string_view name(entry->d_name);
+    pid_t pid = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
+    if (error != std::errc{} || end != name.data() + name.size() || pid == ::getpid()) continue;
+    const auto environment = readFile(folderOf(pid) + "/environ", mostBytes);
+    if (!environment) continue;
+    const std::size_t at = environment->find(wanted);
+    if (at == std::string::npos || (at > 0 && (*environment)[at - 1] != '\0')) continue;
+    const auto use = processUse(pid);
+    if (use && use->state != 'Z' && use->state != 'X') found.push_back(pid);
+  }
+  return found;
+}
+
+}  // namespace pitchboard::link

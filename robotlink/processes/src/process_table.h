@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the kernel tells of running processes. Every child is started with a mark in its
+// environment, which what it starts inherits: so those are found again that left its group, whose
+// parent is gone. Any thread; a look at all processes costs some milliseconds.
+
+#include <sys/types.h>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pitchboard::link {
+
+inline constexpr const char* processMark = "PITCHBOARD_RUN";
+
+struct ProcessUse {
+  char state = '?';           ///< R, S, T (stopped), Z
+  double cpuSeconds = 0.0;    ///< since its start
+  double readySeconds = 0.0;  ///< in which it worked, or could have if a core had been free
+  std::uint64_t memoryBytes = 0;
+  std::uint64_t sleeps =
+      0;  ///< how often it went to sleep by itself: a periodic one does each cycle
+};
+
+/// Nothing once it is gone.
+std::optional<ProcessUse> processUse(pid_t pid);
+
+/// Living processes of this user whose mark begins with `mark`, but for ourselves.
+std::vector<pid_t> markedProcesses(std::string_view mark);
+
+}  // namespace pitchboard::link

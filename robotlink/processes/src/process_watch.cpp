@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the manager sees of processes that run: signs of life, use of the computer, pace, files.
+#include <robotlink/processes/process_manager.h>
+
+#include <sys/stat.h>
+#include <algorithm>
+
+#include "process_table.h"
+#include "program_stamp.h"
+
+namespace pitchboard::link {
+namespace {
+
+using Seconds = RestartRule::Seconds;
+using Watch = ManagedProcess::Watch;
+
+std::chrono::steady_clock::duration ticks(Seconds seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(seconds);
+}
+
+}  // namespace
+
+std::string programStamp(const ChildSpec& spec) {
+  std::string stamp;
+  for (const std::string& word : spec.command) {
+    const bool fromHere = !spec.directory.empty() && !word.starts_with('/');
+    struct stat file {};
+    if (::stat((fromHere ? spec.directory + '/' + word : word).c_str(), &file) != 0) continue;
+    if (!S_ISREG(file.st_mode)) continue;
+    for (const long long part :
+         {static_cast<long long>(file.st_ino), static_cast<long long>(file.st_size),
+          static_cast<long long>(file.st_mtim.tv_sec),
+          static_cast<long long>(file.st_mtim.tv_nsec)}) {
+      stamp += std::to_string(part) + ' ';
+    }
+  }
+  return stamp;
+}
+
+void ProcessManager::watch(Entry& entry, Time now) {
+  const ManagedProcess& process = entry.process;
+  if (process.watch == Watch::Variable && entry.board) {
+    if (readOr(*entry.board, process.heartbeat) != 0) {
+      if (process.clears) writeIfPresent(*entry.board, process.heartbeat, 0);
+      entry.lastSign = now;
+    }
+  } else if (process.watch == Watch::Sleeps) {
+    const auto use = processUse(statusOf(entry).pid);
+    if (use && use->sleeps != entry.sleeps) {
+      entry.sleeps = use->sleeps;
+      entry.lastSign = now;
+    }
+  }
+  if (m_paused && process.spec.foreign) entry.lastSign = entry.stoppedSince = now;
+  if (now - statusOf(entry).started >= ticks(process.restart.steadyAfter)) {
+    entry.wait = process.restart.firstWait;
+    entry.inARow = 0;
+  }
+  const bool listens = process.watch == Watch::Variable || process.watch == Watch::Sleeps;
+  ProcessStatus& status = statusOf(entry);
+  if (listens && now - entry.lastSign >= ticks(process.silentAfter)) {
+    silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
+  } else if (listens && status.state == ProcessState::Silent) {
+    status.state = ProcessState::Running;
+    changed();
+  }
+}
+
+void ProcessManager::silenced(Entry& entry, Time now, const std::string& detail) {
+  ProcessStatus& status = statusOf(entry);
+  const bool again =
+      entry.process.watch != Watch::Nobody && entry.process.restart.policy != RestartPolicy::Never;
+  if (!again && status.state == ProcessState::Silent) return;
+  ProcessNews news{ProcessNewsKind::Silent, entry.process.spec.robot, entry.process.spec.name,
+                   status.pid, detail};
+  status.detail = detail;
+  changed();
+  if (!again) {
+    status.state = ProcessState::Silent;
+    m_news.push_back(std::move(news));
+    return;
+  }
+  endChild(entry);
+  status.pid = 0;
+  planRestart(entry, now, std::move(news));
+}
+
+void ProcessManager::setSilent(int id, bool silent, Time now) {
+  Entry* entry = find(id);
+  if (!entry || entry->handle == 0) return;
+  ProcessStatus& status = statusOf(*entry);
+  if (silent) {
+    silenced(*entry, now, "no cycle done for " + inSeconds(entry->process.silentAfter));
+  } else if (status.state == ProcessState::Silent) {
+    status.state = ProcessState::Running;
+    changed();
+  }
+  if (!silent) entry->lastSign = now;
+}
+
+void ProcessManager::sample(Entry& entry, Time now) {
+  const auto use = processUse(statusOf(entry).pid);
+  if (!use) return;
+  ProcessStatus& status = statusOf(entry);
+  const double passed = Seconds(now - entry.sampled).count();
+  if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
+  if (entry.cpuSeconds > 0.0 && entry.time && !m_paused) measurePace(entry, *use, passed);
+  entry.sampledSleeps = use->sleeps;
+  entry.readySeconds = use->readySeconds;
+  entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
+  entry.sampled = now;
+  status.memoryBytes = use->memoryBytes;
+  if (entry.process.watch != Watch::Nobody) {
+    status.heartbeatAge = Seconds(now - entry.lastSign).count();
+  }
+  changed();
+  // Who listens for a heartbeat, or counts sleeps, notices it by that.
+  const bool listens =
+      entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
+  if (use->state != 'T' || listens) {
+    entry.stoppedSince = now;
+    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
+      status.state = ProcessState::Running;
+    }
+  } else if (now - entry.stoppedSince >= ticks(entry.process.silentAfter)) {
+    silenced(entry, now, "stopped by a signal for " + inSeconds(entry.process.silentAfter));
+  }
+}
+
+/// How many cycles a program does in a second of its own time is the same at every speed, as long
+/// as it has time to sleep. One that never sleeps is one that nobody can judge.
+void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
+  constexpr double busy = 0.9;  // share of the time in which it worked, or waited for a core
+  ProcessStatus& status = statusOf(entry);
+  const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
+  const double rate = cycles / (seconds * entry.time->speed());
+  if ((use.readySeconds - entry.readySeconds) / seconds < busy) {
+    entry.cyclesPerSecond = entry.cyclesPerSecond > 0.0 ? (entry.cyclesPerSecond + rate) / 2 : rate;
+    status.achieved = status.speed;
+  } else if (entry.cyclesPerSecond > 0.0) {
+    status.achieved = status.speed * std::min(1.0, rate / entry.cyclesPerSecond);
+  }
+}
+
+void ProcessManager::watchFile(Entry& entry, Time now) {
+  const std::string stamp = programStamp(entry.process.spec);
+  if (stamp.empty() || stamp == entry.programStamp) return;
+  // Whoever writes it may not be ready: it must have stood like this for one look.
+  if (entry.newStamp != stamp) {
+    entry.newStamp = stamp;
+  } else {
+    restart(entry.id, now);
+  }
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Reads the numbers of parameters.h from an object that people wrote: degrees in files, radians in
+// memory. Any thread.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <base/lined_json.h>
+#include <simcore/world/parameters.h>
+
+namespace pitchboard::sim {
+
+template <class Values>
+NumberRange rangeOf(const Parameter<Values>& parameter) {
+  return {parameter.least, parameter.most, parameter.unit.words};
+}
+
+/// `keys`, and those of the parameters.
+template <class Values, std::size_t N>
+std::vector<std::string_view> withKeys(std::vector<std::string_view> keys,
+                                       const std::array<Parameter<Values>, N>& parameters) {
+  for (const auto& parameter : parameters) keys.push_back(parameter.key);
+  return keys;
+}
+
+/// Reads those parameters that the object has over `values`.
+template <class Values, std::size_t N>
+void readNumbers(const JsonObject& object, const std::array<Parameter<Values>, N>& parameters,
+                 Values& values) {
+  for (const auto& parameter : parameters) {
+    if (!object.find(parameter.key)) continue;
+    const double written = object.number(parameter.key, 0.0, rangeOf(parameter));
+    values.*parameter.member = parameter.stored(written);
+  }
+}
+
+}  // namespace pitchboard::sim

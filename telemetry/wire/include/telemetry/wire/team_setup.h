@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Who is heard, as a file that a team keeps: its name and colour, where its messages come from, how
+// they are written, what its robots are called (docs/LIVE.md, "Team setups"). And the choice of the
+// team for each datagram. Values; any thread. A TeamRouter belongs to the one who decodes.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <base/ids.h>
+#include <telemetry/wire/sender_filter.h>
+#include <telemetry/wire/text_decoder.h>
+
+namespace pitchboard::telemetry {
+
+struct TeamSetup {
+  static constexpr std::size_t maxRobots = 64;
+  std::string name;                       ///< empty: title() has the number
+  int number = 0;                         ///< the referee's; 0: not known
+  std::optional<TeamColor> colour;        ///< nothing: Live chooses
+  int firstPort = 0, lastPort = 0;        ///< 0: Live's own ports
+  std::vector<std::string> senders;       ///< addresses and networks; empty: everybody
+  std::string profileName = "published";  ///< as written: a name, or a file beside the setup
+  Profile profile = publishedProfile();
+  bool attacksLeft = false;           ///< plays towards the left goal
+  std::map<int, std::string> robots;  ///< names by number
+  bool operator==(const TeamSetup&) const = default;
+
+  /// "RoboFEI", "Team 12" or "Team".
+  std::string title() const;
+};
+
+/// Reads a setup; `file` is for messages, and its folder is where profiles are looked for. Errors
+/// as parseProfile(); those of the profile name its own file.
+Result<TeamSetup> parseTeamSetup(std::string_view json, const std::string& file);
+Result<TeamSetup> loadTeamSetup(const std::string& path);
+/// Text that parseTeamSetup() reads back to the same value.
+std::string teamSetupText(const TeamSetup& setup);
+
+/// The ports of the teams; those of Live (livePorts()) where a team names none, and always the
+/// referee's. Errors as livePorts().
+Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams, int base,
+                                             int count, int referee);
+
+/// Of several teams each robot has a number of its own: that of its team's place times this, and
+/// its own. The first team's, and those of a match with one team, are as they are sent.
+inline constexpr int teamStep = 1000;
+constexpr int numberInTeam(int robot, std::size_t teams) {
+  return teams > 1 ? robot % teamStep : robot;
+}
+constexpr std::size_t teamPlace(int robot, std::size_t teams) {
+  return teams > 1 ? static_cast<std::size_t>(robot / teamStep) : 0;
+}
+/// Null without setups.
+const TeamSetup* teamOf(int robot, const std::vector<TeamSetup>& teams);
+
+class TeamRouter {
+ public:
+  /// Without teams every datagram is of the one profile.
+  TeamRouter(const Profile& profile, std::vector<TeamSetup> teams, const Surroundings& where);
+
+  /// Reads a datagram as its team writes: the first one whose ports and senders fit and whose
+  /// format it has. The robot's number is that over all teams. Null: it comes from no team.
+  std::shared_ptr<const TextDecoder> decode(const DatagramView& datagram, DecodedText& out) const;
+
+ private:
+  struct Team {
+    TeamSetup setup;
+    SenderFilter senders;
+    std::shared_ptr<const TextDecoder> decoder;
+  };
+  bool mayCome(const Team& team, const DatagramView& datagram) const;
+
+  std::vector<Team> m_teams;
+  std::shared_ptr<const TextDecoder> m_only;
+};
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One value of a message at its place: read as its field's type, scaled, its word kept. Private to
+// wire. Any thread, with a DecodedText of its own.
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include <telemetry/wire/text_decoder.h>
+
+namespace pitchboard::telemetry {
+
+/// Begins a message of `count` fields: none of them is there.
+void clearFields(std::size_t count, DecodedText& out);
+
+/// A value that was sent as text.
+void setWord(const ProfileField& field, std::size_t place, std::string_view word, DecodedText& out);
+/// A value that was sent as a number.
+void setNumber(const ProfileField& field, std::size_t place, double value, DecodedText& out);
+/// The word of a number that the message does not have as text; "" when there is no more room.
+std::string_view wordOf(double value, DecodedText& out);
+/// A text that ends with the call is kept.
+std::string_view keep(std::string_view text, DecodedText& out);
+
+/// A number as a robot writes it. NaN with an error where it cannot be used.
+struct ReadNumber {
+  double value;
+  std::optional<TextError> error;
+};
+ReadNumber readNumber(const ProfileField& field, std::string_view word);
+ReadNumber readFloat(std::string_view word);
+
+constexpr bool isSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+/// Printable ASCII and white space; with `utf8`, every valid sequence of it too.
+bool isText(std::string_view text, bool utf8);
+
+}  // namespace pitchboard::telemetry

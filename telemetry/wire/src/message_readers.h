@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The formats of datagrams that name their values (or have them at places of their own): each
+// reader gives every value with its key to a FieldSink. Memory is bounded by the datagram. Private
+// to wire; any thread.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "field_values.h"
+
+namespace pitchboard::telemetry {
+
+/// Which key belongs to which field. Immutable.
+class FieldMap {
+ public:
+  explicit FieldMap(const Profile& profile);
+  const ProfileField* find(std::string_view key, std::size_t& place) const;
+
+ private:
+  const std::vector<ProfileField>* m_fields;
+  std::vector<std::pair<std::string, std::size_t>> m_places;  // by key
+};
+
+/// Takes what the profile has a field for, and leaves the rest.
+class FieldSink {
+ public:
+  FieldSink(const FieldMap& map, DecodedText& out) : m_map(&map), m_out(&out) {}
+  void number(std::string_view key, double value);
+  /// A word that stands in the datagram.
+  void word(std::string_view key, std::string_view text);
+  /// A word that ends with the call.
+  void passingWord(std::string_view key, std::string_view text);
+
+ private:
+  const FieldMap* m_map;
+  DecodedText* m_out;
+};
+
+// Each says whether the whole datagram was of the format.
+bool readKeyValue(std::string_view text, char separator, FieldSink& sink);
+bool readJson(std::string_view text, FieldSink& sink);
+bool readLua(std::string_view text, FieldSink& sink);
+bool readMitecom(std::string_view bytes, FieldSink& sink);
+bool readHulks(std::string_view bytes, FieldSink& sink);
+bool readCitBrains(std::string_view bytes, FieldSink& sink);
+bool readProtobuf(const std::string& message, std::string_view bytes, FieldSink& sink);
+/// Numbers at fixed places; one beyond the end of a datagram is a hole.
+bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out);
+
+}  // namespace pitchboard::telemetry

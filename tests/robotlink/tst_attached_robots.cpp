@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Blackboards of this computer as robots: an independent process (python3, ctypes) makes and writes
+// the segment.
+#include <sys/ipc.h>
+#include <sys/shm.h>
+#include <unistd.h>
+
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <atomic>
+
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/live/attached_robots.h>
+#include <telemetry/series/series_store.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+/// Makes a segment of key and size, writes words (index value ...; with a point: floats), says
+/// "ready", and removes the segment at the end of its input.
+const char* const writer = R"(
+import ctypes, struct, sys
+libc = ctypes.CDLL(None, use_errno=True)
+libc.shmat.restype = ctypes.c_void_p
+libc.shmat.argtypes = [ctypes.c_int, ctypes.c_void_p, ctypes.c_int]
+key, size = int(sys.argv[1]), int(sys.argv[2])
+segment = libc.shmget(key, size, 0o1000 | 0o644)
+assert segment >= 0
+address = libc.shmat(segment, None, 0)
+for pair in sys.argv[3:]:
+    word, value = pair.split('=')
+    raw = struct.pack('<f', float(value)) if '.' in value else struct.pack('<i', int(value))
+    ctypes.memmove(address + 4 * int(word), raw, 4)
+print('ready', flush=True)
+sys.stdin.read()
+libc.shmctl(segment, 0, None)
+)";
+
+struct Peer {
+  Peer(int key, int bytes, const QStringList& words) {
+    process.start("/usr/bin/python3",
+                  QStringList{"-c", writer, QString::number(key), QString::number(bytes)} + words);
+    isReady = process.waitForReadyRead(30000);
+  }
+  ~Peer() { end(); }
+  void end() {
+    process.closeWriteChannel();
+    process.waitForFinished(30000);
+  }
+  QProcess process;
+  bool isReady = false;
+};
+
+int freeKey(int offset) {
+  return 0x5000'0000 + (static_cast<int>(getpid()) % 100000) * 64 + offset;
+}
+
+}  // namespace
+
+class TestAttachedRobots : public QObject {
+  Q_OBJECT
+ private slots:
+  void aRobotOfItsOwnMap() {
+    QTemporaryDir folder;
+    const QString map = folder.filePath("map.json");
+    QFile file(map);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"segment": {"bytes": 4096, "float_offset_words": 600},
+      "int": {"LOCALIZATION_X": 10, "LOCALIZATION_Y": 11, "LOCALIZATION_THETA": 12, "VOLTAGE": 590,
+              "VISION_WORKING": 20},
+      "float": {"VISION_BALL_DIST": 400}})");
+    file.close();
+    const int key = freeKey(1);
+    Peer peer(key, 4096, {"10=600", "11=350", "12=90", "590=160", "20=1", "1000=80.0"});
+    QVERIFY2(peer.isReady, peer.process.readAllStandardError().constData());
+
+    const auto board = parseAttachedBoard(
+        QStringLiteral("%1,catalog=%2,robot=4,rate=200,team=red").arg(key).arg(map).toStdString());
+    QVERIFY2(board, board ? "" : board.error().text().c_str());
+    std::atomic<int> calls = 0;
+    AttachedRobots robots([&calls] { return 0.25 * ++calls; });
+    robots.set({*board});
+    MatchFrame frame;
+    const auto hasRobot = [&] {
+      frame.robots.clear();
+      robots.addTo(frame);
+      return frame.robots.size() == 1;
+    };
+    QTRY_VERIFY(hasRobot());
+    const RobotFrame& robot = frame.robots[0];
+    QCOMPARE(robot.identity.name(), std::string("R4"));
+    QCOMPARE(robot.board->key, key);
+    QCOMPARE(robot.board->localizationX, 600);
+    QCOMPARE(robot.board->voltage, 160);
+    QVERIFY(robot.board->visionWorking);
+    QVERIFY(robot.poseKnown() && !robot.timedOut());
+    // The corner of a field of 9 by 6 m: 1.5 m to the right of its centre, 0.5 m below.
+    QCOMPARE(robot.pose.position.x, 1.5);
+    QCOMPARE(robot.pose.position.y, -0.5);
+
+    auto store = std::make_shared<telemetry::SeriesStore>();
+    BoardRowKeeper keeper(store);
+    const auto take = [&] {
+      robots.takeRows([&](const auto& group, auto rows) { keeper.take(group, rows); });
+      return store->groups() == 1;
+    };
+    QTRY_VERIFY(take());
+    const auto& columns = store->view(0)->info().columns;
+    QCOMPARE(columns.size(), std::size_t(6));
+    QCOMPARE(columns[5].name, std::string("VISION_BALL_DIST"));
+
+    // It disappears, and is said; it comes again.
+    peer.end();
+    QTRY_VERIFY(robots.status().at(0).problem.find("was removed") != std::string::npos);
+    QVERIFY(hasRobot());
+    QVERIFY(frame.robots[0].timedOut());
+    Peer again(key, 4096, {"10=100"});
+    QVERIFY(again.isReady);
+    QTRY_VERIFY(robots.status().at(0).attached);
+    QTRY_VERIFY(hasRobot() && frame.robots[0].board->localizationX == 100);
+  }
+
+  void itIsNeverWritten() {
+    const int key = freeKey(2);
+    Peer peer(key, 2048, {"5=7"});
+    QVERIFY(peer.isReady);
+    const auto view = SegmentView::attach(key);
+    QVERIFY(view);
+    QCOMPARE(view->word(5), 7U);
+    QCOMPARE(view->word(512), 0U);
+    QVERIFY(view->isThere());
+    const auto wrong = SegmentView::attach(key, 4096);
+    QVERIFY(!wrong);
+    QVERIFY(wrong.error().text().find("has 2048 bytes, not 4096") != std::string::npos);
+  }
+
+  void aSegmentThatIsNotThereYet() {
+    const int key = freeKey(3);
+    const auto board = parseAttachedBoard(std::to_string(key) + ",robot=2");
+    QVERIFY(board);
+    AttachedRobots robots([] { return 0.0; });
+    robots.set({*board});
+    QTRY_VERIFY(!robots.status().at(0).problem.empty());
+    Peer peer(key, 2048, {});
+    QTRY_VERIFY(robots.status().at(0).attached);
+    robots.set({});
+    QVERIFY(robots.status().empty());
+  }
+
+  void mistakesAreNamed() {
+    for (const char* text : {"", "abc", "100,size=5", "100,rate=0", "100,colour=red",
+                             "100,team=pink", "-1", "100,robot=0", "100,catalog="}) {
+      const auto board = parseAttachedBoard(text);
+      QVERIFY2(!board, text);
+      QVERIFY(board.error().text().starts_with("--attach"));
+    }
+    QVERIFY(!parseAttachedBoard("100,catalog=/nonexistent/map.json"));
+    const auto board = parseAttachedBoard("300,size=4096");
+    QVERIFY(board);
+    QCOMPARE(board->number(), 3);
+    QVERIFY(!validate(std::vector{*board, *board}));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestAttachedRobots)
+#include "tst_attached_robots.moc"

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Team setups: who is heard as whose robot, in which colour, under which name its curves stand.
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <robotlink/live/live_teams.h>
+#include <telemetry/series/series_store.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using namespace pitchboard::telemetry;
+
+namespace {
+
+const WallTime start{std::chrono::seconds(1'700'000'000)};
+
+DatagramView from(const char* address, std::uint16_t port, std::string_view payload) {
+  return {start, {*parseAddress(address), 4000}, port, false, payload};
+}
+
+TeamSetup setupOf(const char* json) {
+  const auto setup = parseTeamSetup(json, "setup.json");
+  if (!setup) qFatal("%s", setup.error().text().c_str());
+  return *setup;
+}
+
+constexpr std::string_view words = "3 450 300 90 12.5 80.0 -10.0 1 1 1 1 1 0 1.5 124 OUT";
+constexpr std::string_view lua = R"({["id"]=3,["pose"]={["x"]=1.5,["y"]=-0.5,["a"]=0}})";
+
+LiveOptions twoTeams() {
+  LiveOptions options;
+  options.team.teams = {
+      setupOf(R"({"name": "Ours", "number": 12, "colour": "blue", "robots": {"3": "Ana"}})"),
+      setupOf(R"({"number": 7, "colour": "red", "ports": [12000, 12005], "profile": "upenn"})")};
+  return options;
+}
+
+}  // namespace
+
+class TestLiveTeams : public QObject {
+  Q_OBJECT
+ private slots:
+  void twoTeamsAreHeardApart() {
+    const LiveOptions options = twoTeams();
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
+    QCOMPARE(monitor.take(from("10.0.1.3", 12003, lua)), TeamMonitor::Verdict::Used);
+    QCOMPARE(monitor.take(from("10.0.1.3", 12003, "nonsense")), TeamMonitor::Verdict::Refused);
+    const TeamStatus team = monitor.status(start);
+    QCOMPARE(team.robots.size(), std::size_t(2));
+    QVERIFY(!team.robots[0].conflict);
+    const std::size_t teams = options.team.teams.size();
+    for (const std::size_t i : {0U, 1U}) {
+      QCOMPARE(numberInTeam(team.robots[i].number, teams), 3);
+      QCOMPARE(teamPlace(team.robots[i].number, teams), i);
+    }
+    QCOMPARE(team.robots[1].value(FieldMeaning::X), std::optional(600.0));
+    QCOMPARE(colourOf(options, team.robots[0].number, TeamColor::Blue, {}), TeamColor::Blue);
+    QCOMPARE(colourOf(options, team.robots[1].number, TeamColor::Blue, {}), TeamColor::Red);
+    QCOMPARE(refereeNumberOf(options, team.robots[1].number), 7);
+    QCOMPARE(ownNameOf(options, team.robots[0].number), std::string("Ana"));
+    QCOMPARE(options.team.teams[1].title(), std::string("Team 7"));
+  }
+
+  /// The same curve has the same name as in a simulation.
+  void curvesHaveTheNamesOfASimulation() {
+    const LiveOptions options = twoTeams();
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    auto store = std::make_shared<SeriesStore>();
+    LiveRows rows(store, rowsOptions(options, start));
+    const std::string ball = R"({["id"]=3,["ball"]={["x"]=0.6,["y"]=0}})";
+    QCOMPARE(monitor.take(from("10.0.1.3", 12003, ball)), TeamMonitor::Verdict::Used);
+    rows.take(from("10.0.1.3", 12003, ball), monitor.decoded(), monitor.decoder(),
+              monitor.usedSlot());
+    bool found = false;
+    for (std::size_t i = 0; i < store->groups(); ++i) {
+      const auto view = store->view(static_cast<GroupId>(i));
+      if (!view || view->info().name != "R3") continue;
+      for (const ColumnInfo& column : view->info().columns) {
+        if (column.name != "VISION_BALL_DIST") continue;
+        found = true;
+        QCOMPARE(column.unit, std::string("cm"));
+      }
+      QCOMPARE(view->info().attributes.at("team"), std::string("red"));
+      QCOMPARE(view->info().attributes.at("shirt"), std::string("3"));
+    }
+    QVERIFY(found);
+  }
+
+  void oneTeamKeepsItsNumbers() {
+    LiveOptions options;
+    options.team.teams = {setupOf(R"({"senders": ["10.0.0.0/24"]})")};
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
+    QCOMPARE(monitor.take(from("10.9.0.3", 1243, words)), TeamMonitor::Verdict::SenderRefused);
+    QCOMPARE(monitor.status(start).robots.at(0).number, 3);
+    QCOMPARE(monitor.status(start).refusedByFilter, std::uint64_t(1));
+  }
+
+  void messagesNameTheirTeamOnOnePort() {
+    LiveOptions options;
+    options.team.teams = {setupOf(R"({"number": 24, "ports": 12100, "profile": "spl"})"),
+                          setupOf(R"({"number": 25, "ports": 12100, "profile": "spl"})")};
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    QByteArray message =
+        QByteArray::fromHex("53504c20070319000080bb440000fac3db0fc93f0000003f000016440000c8c20000");
+    const auto view = [&] {
+      return from("10.0.0.3", 12100,
+                  {message.constData(), static_cast<std::size_t>(message.size())});
+    };
+    QCOMPARE(monitor.take(view()), TeamMonitor::Verdict::Used);
+    QCOMPARE(teamPlace(monitor.decoded().robot, 2), std::size_t(1));
+    message[6] = 99;
+    QCOMPARE(monitor.take(view()), TeamMonitor::Verdict::SenderRefused);
+  }
+
+  void setupsReadBackAndNameMistakes() {
+    for (const TeamSetup& setup : twoTeams().team.teams) {
+      const auto again = parseTeamSetup(teamSetupText(setup), "again");
+      QVERIFY(again);
+      QVERIFY(*again == setup);
+    }
+    const std::pair<const char*, const char*> mistakes[] = {
+        {"{\n\"colour\": \"pink\"}", "s.json:2: colour: there is no colour of a team \"pink\""},
+        {R"({"ports": [5, 4]})", "s.json:1: ports: is one port"},
+        {R"({"ports": 70000})", "ports"},
+        {R"({"senders": ["home"]})", "s.json:1: senders"},
+        {R"({"robots": {"zero": "A"}})", "robots.zero: the number of a robot"},
+        {R"({"profile": "mitecon"})", "did you mean \"mitecom\""},
+        {R"({"teams": 1})", "teams"}};
+    for (const auto& [json, expected] : mistakes) {
+      const auto setup = parseTeamSetup(json, "s.json");
+      QVERIFY2(!setup, json);
+      const std::string text = setup.error().text();
+      QVERIFY2(text.find(expected) != std::string::npos && text.starts_with("s.json"),
+               text.c_str());
+    }
+  }
+
+  void aProfileLiesBesideItsSetup() {
+    QTemporaryDir folder;
+    const auto write = [&folder](const char* name, const std::string& text) {
+      QFile file(folder.filePath(name));
+      QVERIFY(file.open(QIODevice::WriteOnly));
+      file.write(text.data(), static_cast<qint64>(text.size()));
+    };
+    Profile profile = publishedProfile();
+    profile.name = "own";
+    write("own.json", profileText(profile));
+    write("team.json", R"({"profile": "own.json"})");
+    const auto setup = loadTeamSetup(folder.filePath("team.json").toStdString());
+    QVERIFY2(setup, setup ? "" : setup.error().text().c_str());
+    QCOMPARE(setup->profile.name, std::string("own"));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveTeams)
+#include "tst_live_teams.moc"

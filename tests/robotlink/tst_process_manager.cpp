@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The supervisor with real processes: those that die, hang, fork, flood, refuse to end.
+#include <unistd.h>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <csignal>
+
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/processes/process_manager.h>
+
+#include "../support/segment_keys.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Kind = ProcessNewsKind;
+
+ManagedProcess shell(const QByteArray& script, RestartPolicy policy = RestartPolicy::Always) {
+  ManagedProcess process;
+  process.spec = {RobotId{1}, "own", {"/bin/sh", "-c", script.toStdString()}};
+  process.spec.foreign = true;
+  process.restart.policy = policy;
+  process.restart.firstWait = RestartRule::Seconds(0.02);
+  return process;
+}
+
+QByteArray stateOf(pid_t pid) {
+  QFile status(QString("/proc/%1/status").arg(pid));
+  if (!status.open(QIODevice::ReadOnly)) return {};
+  for (const QByteArray& line : status.readAll().split('\n')) {
+    if (line.startsWith("State:")) return line.mid(6).trimmed().left(1);
+  }
+  return {};
+}
+
+bool runs(pid_t pid) {
+  const QByteArray state = stateOf(pid);
+  return !state.isEmpty() && state != "Z" && state != "X";
+}
+
+}  // namespace
+
+class TestProcessManager : public QObject {
+  Q_OBJECT
+  const int m_key = testKeyBase() + 100;
+  std::unique_ptr<ProcessManager> m_manager;
+  Blackboard m_board = Blackboard::onHeap();
+  std::vector<ProcessNews> m_news;
+  std::vector<std::string> m_lines;
+
+  int add(const ManagedProcess& process) {
+    const auto id = m_manager->add(process, m_board, Clock::now());
+    if (!id) qWarning("%s", id.error().text().c_str());
+    return id ? *id : 0;
+  }
+  void look() {
+    (void)m_manager->step(Clock::now());
+    for (ProcessNews& one : m_manager->takeNews()) m_news.push_back(std::move(one));
+    for (ProcessLine& one : m_manager->takeLines()) m_lines.push_back(std::move(one.text));
+  }
+  int count(Kind kind) {
+    look();
+    return static_cast<int>(std::count_if(m_news.begin(), m_news.end(),
+                                          [kind](const auto& one) { return one.kind == kind; }));
+  }
+  const ProcessStatus& status(int id) { return *m_manager->status(id); }
+  bool wrote(const std::string& text) {
+    look();
+    return std::find(m_lines.begin(), m_lines.end(), text) != m_lines.end();
+  }
+
+ private slots:
+  void init() {
+    m_manager = std::make_unique<ProcessManager>();
+    m_news.clear();
+    m_lines.clear();
+  }
+  void cleanup() {
+    m_manager.reset();
+    removeSegment(m_key);
+  }
+
+  void aCrashTellsItsSignalAndLastWordsAndStartsAgain() {
+    const int id = add(shell("echo ouch; kill -SEGV $$"));
+    QTRY_VERIFY(count(Kind::Restarted) >= 1);
+    const auto died = std::find_if(m_news.begin(), m_news.end(),
+                                   [](const auto& one) { return one.kind == Kind::Died; });
+    QCOMPARE(died->detail, std::string("killed by signal 11 (Segmentation fault)"));
+    QCOMPARE(died->lastWords, std::string("ouch"));
+    QCOMPARE(died->restartIn, 0.02);
+    QVERIFY(status(id).restarts >= 1);
+  }
+
+  void restartPolicies_data() {
+    QTest::addColumn<QByteArray>("script");
+    QTest::addColumn<int>("policy");
+    QTest::addColumn<bool>("again");
+    const auto row = [](const char* name, const char* script, RestartPolicy policy, bool again) {
+      QTest::newRow(name) << QByteArray(script) << static_cast<int>(policy) << again;
+    };
+    row("never", "exit 3", RestartPolicy::Never, false);
+    row("on failure, ended well", "exit 0", RestartPolicy::OnFailure, false);
+    row("on failure, failed", "exit 3", RestartPolicy::OnFailure, true);
+    row("always", "exit 0", RestartPolicy::Always, true);
+  }
+  void restartPolicies() {
+    QFETCH(QByteArray, script);
+    QFETCH(int, policy);
+    QFETCH(bool, again);
+    const int id = add(shell(script, static_cast<RestartPolicy>(policy)));
+    QTRY_VERIFY(count(Kind::Ended) + count(Kind::Died) > 0);
+    if (again) {
+      QTRY_VERIFY(count(Kind::Restarted) > 0);
+    } else {
+      QCOMPARE(status(id).state, ProcessState::Ended);
+      QCOMPARE(status(id).pid, 0);
+    }
+  }
+
+  void whoEndsAtOnceInALoopIsGivenUp() {
+    ManagedProcess process = shell("exit 7");
+    process.restart.firstWait = process.restart.longestWait = RestartRule::Seconds(0.005);
+    process.restart.giveUpAfter = 4;
+    const int id = add(process);
+    QTRY_COMPARE(count(Kind::GivenUp), 1);
+    QCOMPARE(status(id).state, ProcessState::GivenUp);
+    QCOMPARE(status(id).restarts, 4);
+    m_manager->start(id, Clock::now());  // by hand it may try again
+    QTRY_COMPARE(count(Kind::GivenUp), 2);
+    QCOMPARE(status(id).restarts, 9);
+  }
+
+  void waitsGrowUpToALimit() {
+    ManagedProcess process = shell("exit 1");
+    process.restart.firstWait = RestartRule::Seconds(0.01);
+    process.restart.longestWait = RestartRule::Seconds(0.04);
+    add(process);
+    QTRY_VERIFY(count(Kind::Died) >= 5);
+    std::vector<double> waits;
+    for (const ProcessNews& one : m_news) {
+      if (one.kind == Kind::Died && waits.size() < 5) waits.push_back(one.restartIn);
+    }
+    QCOMPARE(waits, (std::vector<double>{0.01, 0.02, 0.04, 0.04, 0.04}));
+  }
+
+  void aHeartbeatThatStopsIsNoticed_data() {
+    QTest::addColumn<bool>("restarts");
+    QTest::newRow("started again") << true;
+    QTest::newRow("only shown") << false;
+  }
+  void aHeartbeatThatStopsIsNoticed() {
+    QFETCH(bool, restarts);
+    ManagedProcess process =
+        shell("exec sleep 600", restarts ? RestartPolicy::Always : RestartPolicy::Never);
+    process.watch = ManagedProcess::Watch::Variable;
+    process.heartbeat = IntVar{104};
+    process.clears = true;
+    process.silentAfter = RestartRule::Seconds(0.3);
+    const int id = add(process);
+    const pid_t first = status(id).pid;
+    // While somebody sets it, it lives.
+    for (int i = 0; i < 40; ++i) {
+      m_board.write(IntVar{104}, 1);
+      QTest::qWait(10);
+      QCOMPARE(count(Kind::Silent), 0);
+    }
+    QTRY_COMPARE(count(Kind::Silent), 1);
+    if (restarts) {
+      QTRY_VERIFY(status(id).pid != 0 && (look(), status(id).pid != first));
+      QVERIFY(!runs(first));
+    } else {
+      QCOMPARE(status(id).state, ProcessState::Silent);
+      QCOMPARE(status(id).pid, first);
+      m_board.write(IntVar{104}, 1);
+      look();
+      QCOMPARE(status(id).state, ProcessState::Running);
+    }
+  }
+
+  void withoutAHeartbeatASilentProcessIsNoAlarm() {
+    ManagedProcess process = shell("exec sleep 600");
+    process.silentAfter = RestartRule::Seconds(0.05);
+    const int id = add(process);
+    for (int i = 0; i < 30; ++i) {
+      QTest::qWait(10);
+      look();
+    }
+    QCOMPARE(status(id).state, ProcessState::Running);
+    // But one that somebody stopped is shown as silent, and is not ended for it.
+    const pid_t pid = status(id).pid;
+    ::kill(pid, SIGSTOP);
+    QTRY_COMPARE((look(), status(id).state), ProcessState::Silent);
+    QCOMPARE(status(id).pid, pid);
+    ::kill(pid, SIGCONT);
+    QTRY_COMPARE((look(), status(id).state), ProcessState::Running);
+  }
+
+  void whatItForkedEndsWithIt_data() {
+    QTest::addColumn<QByteArray>("script");
+    QTest::newRow("fork") << QByteArray("sleep 600 & echo $!; wait");
+    QTest::newRow("own session") << QByteArray("setsid sleep 600 & echo $!; wait");
+    QTest::newRow("double fork, own session, parent gone")
+        << QByteArray("setsid sh -c 'sleep 600 & echo $!' ; exec sleep 600");
+  }
+  void whatItForkedEndsWithIt() {
+    QFETCH(QByteArray, script);
+    const int id = add(shell(script));
+    QTRY_VERIFY((look(), !m_lines.empty()));
+    const pid_t grandchild = std::stoi(m_lines.front());
+    QTRY_VERIFY(runs(grandchild));
+    // Paused and continued with it, too.
+    m_manager->setPaused(true, Clock::now());
+    QTRY_COMPARE(stateOf(grandchild), QByteArray("T"));
+    m_manager->setPaused(false, Clock::now());
+    QTRY_COMPARE(stateOf(grandchild), QByteArray("S"));
+    m_manager->stop(id);
+    QCOMPARE(status(id).state, ProcessState::Stopped);
+    QTRY_VERIFY(!runs(grandchild));
+  }
+
+  void whoIgnoresTheEndIsKilled() {
+    const int id = add(shell("trap '' TERM; echo ready; while :; do sleep 0.05; done"));
+    QTRY_VERIFY(wrote("ready"));
+    const pid_t pid = status(id).pid;
+    m_manager->stop(id);
+    QVERIFY(!runs(pid));
+    QCOMPARE(status(id).detail, std::string("it was asked to"));
+  }
+
+  void aStoppedOneCanBeEnded() {
+    const int id =
+        add(shell("trap 'echo bye; exit 0' TERM; echo ready; while :; do sleep 0.01; done"));
+    QTRY_VERIFY(wrote("ready"));
+    m_manager->setPaused(true, Clock::now());
+    m_manager->stop(id);
+    QVERIFY(wrote("bye"));
+  }
+
+  void aProgramThatIsReplacedStartsAgain() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("decide");
+    const auto write = [&path](const char* text) {
+      QFile fresh(path + ".new");
+      QVERIFY(fresh.open(QIODevice::WriteOnly));
+      fresh.write(text);
+      fresh.setPermissions(fresh.permissions() | QFile::ExeOwner);
+      fresh.close();
+      QVERIFY(::rename(fresh.fileName().toUtf8(), path.toUtf8()) == 0);
+    };
+    write("#!/bin/sh\necho one\nexec sleep 600\n");
+    ManagedProcess process = shell("");
+    process.spec.command = {path.toStdString()};
+    process.watchFile = true;
+    const int id = add(process);
+    QTRY_VERIFY(wrote("one"));
+    write("#!/bin/sh\necho two\nexec sleep 600\n");
+    QTRY_VERIFY_WITH_TIMEOUT(wrote("two"), 20'000);
+    QCOMPARE(status(id).restarts, 1);
+  }
+
+  void aFloodOfLinesIsBoundedAndHoldsNobodyUp() {
+    ManagedProcess process = shell("exec yes");
+    const int id = add(process);
+    for (int i = 0; i < 30; ++i) look();
+    QTRY_VERIFY((look(), m_manager->droppedLines() + m_lines.size() > 20'000));
+    QCOMPARE(status(id).lastLines.size(), ProcessStatus::mostLastLines);
+    QCOMPARE(status(id).lastLines.back(), std::string("y"));
+  }
+
+  void startsInOrder() {
+    ManagedProcess process = shell("exec sleep 600");
+    process.delay = 0.05;
+    const std::vector<int> ids{add(process), add(process), add(process)};
+    QCOMPARE(status(ids[0]).state, ProcessState::Running);
+    QCOMPARE(status(ids[2]).state, ProcessState::Waiting);
+    QTRY_COMPARE(count(Kind::Started), 3);
+    QVERIFY(status(ids[1]).started >= status(ids[0]).started + std::chrono::milliseconds(50));
+    QVERIFY(status(ids[2]).started >= status(ids[1]).started + std::chrono::milliseconds(50));
+  }
+
+  // A program knows its time by sleeping and by looking at clocks: both follow the speed.
+  void aForeignProgramsTimeFollowsTheMatch() {
+    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+    ManagedProcess process = shell("");
+    process.spec.command = {"python3", "-u", "-c",
+                            "import time\nt = time.time(); m = time.monotonic()\n"
+                            "while True:\n time.sleep(1)\n print(round(time.time() - t), "
+                            "round(time.monotonic() - m))\n"};
+    process.ownTime = true;
+    m_manager->setSpeed(50.0, Clock::now());
+    const int id = add(process);
+    QElapsedTimer timer;
+    timer.start();
+    QTRY_VERIFY_WITH_TIMEOUT(m_lines.size() > 60 || (look(), false), 40'000);
+    QVERIFY(timer.elapsed() < 30'000);  // a minute of its own
+    // Sixty sleeps of a second; a busy computer wakes it late, but both of its clocks agree.
+    int passed = 0, monotonic = 0;
+    QCOMPARE(std::sscanf(m_lines[59].c_str(), "%d %d", &passed, &monotonic), 2);
+    QVERIFY2(passed >= 60 && std::abs(passed - monotonic) <= 1, m_lines[59].c_str());
+    // Its time stands still while it is stopped, and goes on from there.
+    m_manager->setPaused(true, Clock::now());
+    look();
+    const int before = std::stoi(m_lines.back());
+    QTest::qWait(1000);  // 50 s at its speed
+    look();
+    m_lines.clear();
+    m_manager->setPaused(false, Clock::now());
+    QTRY_VERIFY((look(), !m_lines.empty()));
+    QVERIFY2(std::stoi(m_lines.front()) <= before + 25, m_lines.front().c_str());
+    const pid_t pid = status(id).pid;
+    m_manager->stop(id);
+    QVERIFY(!QFile::exists(QString("/dev/shm/faketime_shm_%1").arg(pid)));
+  }
+
+  // Work, and half a second of sleep: at a high speed nothing is left of the sleep.
+  void whatAProgramCannotKeepUpWithIsTold() {
+    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+    ManagedProcess process = shell("");
+    process.spec.command = {"python3", "-c",
+                            "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)\n"};
+    process.ownTime = true;
+    const int id = add(process);
+    QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved == 1.0), 60'000);
+    m_manager->setSpeed(1000.0, Clock::now());
+    QCOMPARE(status(id).achieved, 0.0);
+    QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved > 0.0 && status(id).achieved < 900.0),
+                             60'000);
+    QCOMPARE(status(id).speed, 1000.0);
+  }
+
+  // The guard of a supervisor that is killed ends grandchildren and removes segments.
+  void nothingSurvivesAKilledSupervisor() {
+    QProcess host;
+    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host",
+               {PITCHBOARD_BIN "/pitchboard-robot", QString::number(m_key)});
+    QByteArray output;
+    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
+    QList<pid_t> pids;
+    for (const QByteArray& line : output.trimmed().split('\n')) pids << line.mid(6).toInt();
+    for (const pid_t pid : pids) QTRY_VERIFY(runs(pid));
+    QVERIFY(SystemVSegments::info(m_key));
+    host.kill();
+    QVERIFY(host.waitForFinished());
+    for (const pid_t pid : pids) QTRY_VERIFY(!runs(pid));
+    QTRY_VERIFY(!SystemVSegments::info(m_key));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestProcessManager)
+#include "tst_process_manager.moc"

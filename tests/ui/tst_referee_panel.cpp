@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the referee says, in words and as a table, and times as time of day or from the beginning:
+// values made by hand, no network.
+
+#include <QAbstractItemModelTester>
+#include <QtTest>
+
+#include <ui/base/referee_words.h>
+#include <ui/base/time_axis.h>
+
+#include "log_model.h"
+#include "referee_model.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+link::RefereeView view() {
+  link::RefereeView v;
+  v.state = "PLAYING";
+  v.secondsLeft = 312;
+  v.teams[0] = {12, "blue", 1, 2, {{2, "pushing", 20, 0, 1}, {1, {}, 0}, {4, {}, 0}}};
+  v.teams[1] = {5, "red", 0, 4, {}};
+  v.ourTeam = 12;
+  return v;
+}
+
+}  // namespace
+
+class TestRefereePanel : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void words() {
+    link::RefereeView v = view();
+    QCOMPARE(refereeStateText(v), QStringLiteral("PLAYING 05:12, first half"));
+    QVERIFY(refereeSetPlayText(v).isEmpty());
+    QVERIFY(refereeTruthText(v).isEmpty());
+    v.setPlay = "corner kick";
+    v.performingTeam = 5;
+    v.setPlayStep = "prepare";
+    v.secondaryTime = 23;
+    v.countdown = "ready";
+    QCOMPARE(refereeSetPlayText(v),
+             QStringLiteral("corner kick for team 5, prepare, ready in 23 s"));
+    v = view();
+    v.kickOffTeam = 12;
+    v.secondaryTime = 8;
+    v.countdown = "ball free";
+    QCOMPARE(refereeSetPlayText(v), QStringLiteral("kick-off for team 12, ball free in 8 s"));
+    v.truth.emplace();
+    v.truth->state = "PLAYING";
+    v.truth->secondsLeft = -7;
+    v.truth->scores = {2, 0};
+    QCOMPARE(refereeTruthText(v), QStringLiteral("Really: PLAYING −00:07, 2 : 0, 0.0 s ago"));
+    QCOMPARE(refereeTeamText(v.teams[0], v.ourTeam),
+             QStringLiteral("Team 12 (blue), ours: 1 goal, 2 players left"));
+    QCOMPARE(refereeTeamText(v.teams[1], v.ourTeam),
+             QStringLiteral("Team 5 (red): 0 goals, 4 players left"));
+  }
+
+  void whoSitsOutStandsFirst() {
+    RefereeModel model;
+    const QAbstractItemModelTester tester(&model);
+    const auto cell = [&model](int row, RefereeModel::Column column) {
+      return model.index(row, column).data().toString();
+    };
+    model.update(view().teams[0], {});
+    QCOMPARE(model.rowCount(), 3);
+    QCOMPARE(cell(0, RefereeModel::Player), QStringLiteral("2"));
+    QCOMPARE(cell(0, RefereeModel::State), QStringLiteral("pushing"));
+    QCOMPARE(cell(0, RefereeModel::Left), QStringLiteral("20 s"));
+    QCOMPARE(cell(0, RefereeModel::Cards), QStringLiteral("yellow"));
+    QCOMPARE(cell(1, RefereeModel::Player), QStringLiteral("1"));
+    QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("plays"));
+    QVERIFY(cell(1, RefereeModel::Robot).isEmpty());
+    link::RobotReplyView reply;
+    reply.team = 12;
+    reply.player = 1;
+    reply.address = "10.0.0.1";
+    model.update(view().teams[0], {reply});
+    QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("good"));
+    reply.fallen = true;
+    model.update(view().teams[0], {reply});
+    QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("fallen"));
+    reply.age = 3.0;
+    model.update(view().teams[0], {reply});
+    QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("late"));
+    reply.age = 4.5;
+    model.update(view().teams[0], {reply});
+    QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("offline"));
+    // Another team's robot of that number.
+    reply.team = 5;
+    model.update(view().teams[0], {reply});
+    QVERIFY(cell(1, RefereeModel::Robot).isEmpty());
+    model.update({}, {});
+    QCOMPARE(model.rowCount(), 0);
+  }
+
+  void twoWaysToWriteOneTime() {
+    const QDateTime clock(QDate(2026, 7, 4), QTime(14, 59, 58, 500));
+    QCOMPARE(momentText(2.25, 0, clock), QStringLiteral("15:00:00"));
+    QCOMPARE(momentText(2.25, 1, clock), QStringLiteral("15:00:00.7"));
+    QCOMPARE(momentText(2.25, 3, clock), QStringLiteral("15:00:00.750"));
+    QCOMPARE(momentText(2.25, 1, {}), QStringLiteral("00:02.2"));
+    LogModel log;
+    log.append({{2.25, "B1", "live", LogLevel::Info}}, clock);
+    log.append({{2.25, "B1", "simulated", LogLevel::Info}});
+    const auto time = [&log](int row) { return log.index(row, LogModel::Time).data().toString(); };
+    QCOMPARE(time(0), QStringLiteral("15:00:00.7"));
+    QCOMPARE(time(1), QStringLiteral("00:02.2"));
+    log.setTimesOfDay(false);
+    QCOMPARE(time(0), time(1));
+  }
+};
+
+QTEST_MAIN(TestRefereePanel)
+#include "tst_referee_panel.moc"
