@@ -47,7 +47,6 @@ struct Arguments {
   bool list = false;
   std::string rules;
   std::optional<int> obeyReferee;
-  int refereePort = 3838;
 };
 
 struct CognitionName {
@@ -259,7 +258,6 @@ Result<void> simulate(const Arguments& arguments) {
   options.robotProgram = arguments.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
                                                         : arguments.robotProgram;
   options.obeyReferee = arguments.obeyReferee;
-  options.process.refereePort = arguments.refereePort;
   const InterruptGuard signals;
   auto match = link::SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());
@@ -345,12 +343,6 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       ->add_option("--obey-referee", a.obeyReferee,
                    "Obey the GameController that is heard on this UDP port")
       ->type_name("PORT")
-      ->check(CLI::Range(1, 65535));
-  command
-      ->add_option("--referee-port", a.refereePort,
-                   "UDP port on which separate processes hear the match's referee")
-      ->type_name("PORT")
-      ->capture_default_str()
       ->check(CLI::Range(1, 65535));
   command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
   command

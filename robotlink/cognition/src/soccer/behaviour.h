@@ -64,8 +64,8 @@ class Supporter : public Striker {
   bool takesBall(const WorldModel& world, const Point& ball) const override;
 
  private:
-  double m_side = 0.0;         // of its place for the kick-off: +1 left, −1 right
-  double m_sideAsked = -1e9;   // s
+  double m_side = 0.0;        // of its place for the kick-off: +1 left, −1 right
+  double m_sideAsked = -1e9;  // s
 };
 
 /// Stays between the ball and its own goal; clears the ball when it comes near.

@@ -20,7 +20,8 @@ telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNu
 /// What the scoreboard shows: the truth.
 RefereeView refereeView(const sim::WorldState& world);
 /// Of one robot; nothing while it may play.
-std::optional<Penalty> refereePenalty(const sim::WorldState& world, const sim::RobotIdentity& robot);
+std::optional<Penalty> refereePenalty(const sim::WorldState& world,
+                                      const sim::RobotIdentity& robot);
 
 /// Takes over what a referee's program says: state, half, times, score, set play, penalties. The
 /// ball's and the robots' places stay ours.

@@ -2,9 +2,10 @@
 #pragma once
 
 // The strategy behind Simulation: one per motion and collision model. A model moves bodies and
-// tells what robots sense; it knows no rules of the game. It keeps no state of its own that outlives
-// a step: everything is in WorldState, whose `physics` alternative it owns. Used by one thread.
-// A new model is a class here, a state in WorldState's variant and a line in physics_model.cpp.
+// tells what robots sense; it knows no rules of the game. It keeps no state of its own that
+// outlives a step: everything is in WorldState, whose `physics` alternative it owns. Used by one
+// thread. A new model is a class here, a state in WorldState's variant and a line in
+// physics_model.cpp.
 
 #include <cstddef>
 #include <memory>

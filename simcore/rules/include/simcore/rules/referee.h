@@ -19,21 +19,21 @@
 namespace pitchboard::sim {
 
 enum class CallKind : std::uint8_t {
-  State,      ///< state
-  KickOff,    ///< team; nobody: drop ball. Who kicks off next
-  Goal,       ///< team; value: +1 or −1
-  SetPlay,    ///< team, setPlay, place
-  NextStep,   ///< of a set play, up to the ball being in play
-  DropBall,   ///< nobody's ball: READY, ball on the centre mark
-  Penalise,   ///< robot, penalty
-  Pardon,     ///< robot
-  Card,       ///< robot; value: 0 warning, 1 yellow, 2 red
-  NextHalf,   ///< after FINISHED
-  ShootOut,   ///< after FINISHED
-  Timeout,    ///< team; nobody: the referee's own
-  Stop,       ///< play is stopped
-  GoOn,       ///<
-  Automatic   ///< value: 1 the referee calls by itself, 0 it does not
+  State,     ///< state
+  KickOff,   ///< team; nobody: drop ball. Who kicks off next
+  Goal,      ///< team; value: +1 or −1
+  SetPlay,   ///< team, setPlay, place
+  NextStep,  ///< of a set play, up to the ball being in play
+  DropBall,  ///< nobody's ball: READY, ball on the centre mark
+  Penalise,  ///< robot, penalty
+  Pardon,    ///< robot
+  Card,      ///< robot; value: 0 warning, 1 yellow, 2 red
+  NextHalf,  ///< after FINISHED
+  ShootOut,  ///< after FINISHED
+  Timeout,   ///< team; nobody: the referee's own
+  Stop,      ///< play is stopped
+  GoOn,      ///<
+  Automatic  ///< value: 1 the referee calls by itself, 0 it does not
 };
 
 struct RefereeCall {
@@ -74,8 +74,8 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
 
 /// One tick of a match with a referee, after bodies have moved. `events` has those of the physics,
 /// and gets those of the game. `world.game` is there.
-void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way,
-                 Placements& placements, std::vector<Event>& events);
+void stepReferee(WorldState& world, const Snapshot& now, const BallWay& way, Placements& placements,
+                 std::vector<Event>& events);
 
 /// Ticks as people read a clock: whole seconds, rounded up.
 int secondsOf(int ticks, double tickRate);

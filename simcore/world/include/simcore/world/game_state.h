@@ -87,9 +87,9 @@ struct GameTeam {
   TeamColor colour = TeamColor::Blue;
   int score = 0;
   int penaltyShots = 0;
-  int singleShots = 0;  ///< a bit for each shot that scored
-  int timeouts = 0;     ///< taken in this half
-  int penalties = 0;    ///< escalating ones so far
+  int singleShots = 0;                          ///< a bit for each shot that scored
+  int timeouts = 0;                             ///< taken in this half
+  int penalties = 0;                            ///< escalating ones so far
   std::array<GamePlayer, mostPlayers> players;  ///< by shirt, from 1
   bool operator==(const GameTeam&) const = default;
 };
@@ -113,22 +113,22 @@ struct GameState {
   GamePhase phase = GamePhase::Normal;
   GamePhase phaseBefore = GamePhase::Normal;  ///< a timeout
   int half = 1;
-  int firstKickOff = 0;  ///< index of the team that began the game
-  int kickOff = 0;       ///< index, or nobody: drop ball
+  int firstKickOff = 0;       ///< index of the team that began the game
+  int kickOff = 0;            ///< index, or nobody: drop ball
   bool kickOffStands = true;  ///< false: the kick-off is over, for leagues that say so
   SetPlay setPlay = SetPlay::None;
   SetPlayStep step = SetPlayStep::None;
   int setPlayTeam = nobody;
   bool stopped = false;
-  bool over = false;  ///< the final whistle
-  int clock = 0;      ///< ticks left of the half, negative after its end
+  bool over = false;              ///< the final whistle
+  int clock = 0;                  ///< ticks left of the half, negative after its end
   bool clockBegan = false;        ///< the half has seen PLAYING
   bool clockBeganBefore = false;  ///< before this PLAYING
   bool clockShown = true;
   int stateTicks = 0;  ///< since the state began
   int secondary = 0;   ///< ticks left of what the state waits for
   bool secondaryRuns = false;
-  int hidden = 0;       ///< ticks for which PLAYING is not told yet
+  int hidden = 0;  ///< ticks for which PLAYING is not told yet
   int dropInTeam = nobody;
   int dropInTicks = -1;
   int breakLeft = 0;
@@ -137,16 +137,16 @@ struct GameState {
   Point restart;         ///< where the ball lies for a restart
   int restartTeam = nobody;
   SetPlay restartKind = SetPlay::None;
-  int kicker = 0;           ///< robot that took the restart
-  bool passed = true;       ///< a second player has touched it since, or it needs none
-  int lastTouch = 0;        ///< robot
+  int kicker = 0;      ///< robot that took the restart
+  bool passed = true;  ///< a second player has touched it since, or it needs none
+  int lastTouch = 0;   ///< robot
   int lastTouchTeam = nobody;
-  Point still;              ///< where the ball has been lying
+  Point still;  ///< where the ball has been lying
   int stillTicks = 0;
-  Point near;               ///< the same, for a heap of robots
+  Point near;  ///< the same, for a heap of robots
   int nearTicks = 0;
   int aloneTicks = 0;
-  int shooter = nobody;     ///< team of the shot, in a shoot-out
+  int shooter = nobody;  ///< team of the shot, in a shoot-out
   int shotsBegan = 0;
   std::vector<RobotWatch> watches;  ///< in the order of the robots
 

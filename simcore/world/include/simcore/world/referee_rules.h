@@ -61,14 +61,14 @@ struct RefereeRules {
   // What the automatic referee judges; 0 switches a time or a limit off.
   double fallenTime = 20;
   double leavingTime = 20;
-  double stillTime = 30;      ///< the ball, then drop ball
+  double stillTime = 30;  ///< the ball, then drop ball
   double stillDistance = 0.05;
   double nobodyTime = 30;     ///< nobody within a metre of the ball, then drop ball
   double localStuckTime = 0;  ///< the ball within 0.1 m, then the nearest robot is penalised
   double pushingTime = 1;
-  double motionInSet = 0;     ///< m
+  double motionInSet = 0;  ///< m
   double inPlayDistance = 0.05;
-  double mercy = 0;           ///< goals' difference that ends the match
+  double mercy = 0;  ///< goals' difference that ends the match
 
   // Rules that are judged.
   bool goals = true;
@@ -83,9 +83,9 @@ struct RefereeRules {
   bool changeSides = true;
   bool clockStopsInSetPlays = true;
   bool escalates = false;
-  bool countsFromCall = false;  ///< penalties count at once, not when the robot is outside
-  bool countsAlways = false;    ///< penalties count in every state
-  bool pardonsAtPlay = false;   ///< a kick-off frees everybody
+  bool countsFromCall = false;    ///< penalties count at once, not when the robot is outside
+  bool countsAlways = false;      ///< penalties count in every state
+  bool pardonsAtPlay = false;     ///< a kick-off frees everybody
   bool halfEndsWithBall = false;  ///< only when the ball lies still, or 10 s later
   bool knockout = false;          ///< a tie goes on: extra time, penalty shoot-out
   bool extraTime = true;
@@ -105,8 +105,8 @@ void visitRefereeRules(Rules& r, Visitor&& all) {
       r.leavingTime, r.stillTime, r.stillDistance, r.nobodyTime, r.localStuckTime, r.pushingTime,
       r.motionInSet, r.inPlayDistance, r.mercy, r.goals, r.throwIns, r.goalKicks, r.cornerKicks,
       r.freeKicks, r.dropBalls, r.kickOffPositions, r.exclusiveBall, r.directGoals, r.changeSides,
-      r.clockStopsInSetPlays, r.escalates, r.countsFromCall, r.countsAlways, r.pardonsAtPlay, r.halfEndsWithBall,
-      r.knockout, r.extraTime, r.automatic);
+      r.clockStopsInSetPlays, r.escalates, r.countsFromCall, r.countsAlways, r.pardonsAtPlay,
+      r.halfEndsWithBall, r.knockout, r.extraTime, r.automatic);
 }
 
 }  // namespace pitchboard::sim

@@ -16,9 +16,9 @@ struct ScoreboardState {
   QColor leftColour, rightColour;  ///< not valid: no square
   int left = 0, right = 0;
   QString clock = QStringLiteral("00:00");
-  QString state;  ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
+  QString state;      ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
   QString penalties;  ///< "B2 24 · R3 5": robots and seconds; empty: none
-  QString tip;    ///< more of what the referee says
+  QString tip;        ///< more of what the referee says
   bool operator==(const ScoreboardState&) const = default;
 };
 
