@@ -69,7 +69,7 @@ inline const QList<Room>& table() {
         {scenario, {base, world, physics, board, cognition, "resources"}, {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
         {match, all("simcore") + QStringList{board, processes, cognition, scenario, frame}, {}},
-        {live, {base, world, physics, wire, series, frame}, {}},
+        {live, {base, world, physics, wire, series, frame}, {"nlohmann/"}},
         {session,
          below + QStringList{board, processes, cognition, scenario, frame, match, live},
          {"nlohmann/"}},

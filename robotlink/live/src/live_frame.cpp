@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <robotlink/frame/belief.h>
-#include <robotlink/frame/second_sender.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::link {
@@ -153,24 +152,6 @@ RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, teleme
 }
 
 }  // namespace
-
-RobotId LiveIdentities::idOf(int number, std::uint64_t serial) {
-  const auto [entry, isNew] = m_ids.try_emplace({number, serial});
-  if (!isNew) return entry->second;
-  entry->second = idOfSender(number, [&](RobotId wanted) {
-    return std::any_of(m_ids.begin(), m_ids.end(),
-                       [&](const auto& known) { return known.second == wanted; });
-  });
-  return entry->second;
-}
-
-void LiveIdentities::keepOnly(const telemetry::TeamStatus& team) {
-  std::erase_if(m_ids, [&team](const auto& entry) {
-    return std::none_of(team.robots.begin(), team.robots.end(), [&entry](const auto& robot) {
-      return robot.number == entry.first.first && robot.serial == entry.first.second;
-    });
-  });
-}
 
 std::optional<TeamColor> teamColour(std::string_view words) {
   for (const TeamColorInfo& known : teamColors) {

@@ -5,8 +5,9 @@
 #include <mutex>
 #include <thread>
 
+#include <robotlink/live/live_books.h>
+
 #include "live_events.h"
-#include "live_frame.h"
 
 namespace pitchboard::link {
 namespace {
@@ -23,6 +24,7 @@ constexpr auto framePeriod = 16ms;  // at most so often while something arrives
 constexpr auto idlePeriod = 100ms;  // ages and timeouts go on without messages
 constexpr auto portsPeriod = 500ms;
 constexpr auto reportPeriod = 250ms;
+constexpr auto booksPeriod = 15s;  // a moment of a recording is made from the books before it
 constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
 constexpr std::size_t maxQueued = 10'000;
 
@@ -57,7 +59,7 @@ Result<void> validate(const LiveOptions& options) {
 
 struct LiveWatch::Impl {
   Impl(LiveOptions o, std::function<void()> ready)
-      : options(std::move(o)), onFrame(std::move(ready)), monitor(options.profile, options.team) {}
+      : options(std::move(o)), onFrame(std::move(ready)), books(options) {}
 
   double since(Steady::time_point now) const {
     return std::chrono::duration<double>(now - begin).count();
@@ -85,6 +87,7 @@ struct LiveWatch::Impl {
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
     monitor.setOptions(options.team);
+    tellBooks(Steady::now());
     monitorProblem.clear();
     const auto before = receiverOptions(old), after = receiverOptions(options);
     if (before.ports == after.ports && before.bind == after.bind && receiver) return;
@@ -95,13 +98,12 @@ struct LiveWatch::Impl {
   void forget() {
     const std::lock_guard lock(mutex);
     if (!std::exchange(clearAsked, false)) return;
-    monitor.clear();
-    referee = {};
-    identities.clear();
+    books.clear();
     happened.clear();
     unknownReferee = robotStates = 0;
     unknownReason.clear();
     unknownSample.clear();
+    tellBooks(Steady::now());
   }
 
   void takeReferee(const DatagramView& datagram) {
@@ -115,7 +117,7 @@ struct LiveWatch::Impl {
       return;
     }
     if (const auto* state = std::get_if<RefereeState>(&*packet)) {
-      referee.accept(*state, datagram.sender, datagram.time);
+      books.takeReferee(*state, datagram);
       for (const auto& observer : observers) {
         observer->refereeHeard(arrival(datagram.time), datagram, *state);
       }
@@ -144,7 +146,7 @@ struct LiveWatch::Impl {
       if (verdict != TeamMonitor::Verdict::Used) {
         unused(datagram);
       } else {
-        const RobotId id = identities.idOf(monitor.decoded().robot, monitor.usedSerial());
+        const RobotId id = books.identities.idOf(monitor.decoded().robot, monitor.usedSerial());
         for (const auto& observer : observers) {
           observer->heard(id, arrival(datagram.time), datagram, monitor.decoder(),
                           monitor.decoded());
@@ -155,10 +157,10 @@ struct LiveWatch::Impl {
 
   void makeFrame(Steady::time_point now) {
     const std::lock_guard lock(mutex);
-    const telemetry::TeamStatus team = monitor.status(wallNow());
-    identities.keepOnly(team);
-    auto made =
-        std::make_shared<MatchFrame>(liveFrame(options, team, referee, identities, since(now)));
+    // At the frame's own time: a recording asks for the same one.
+    const telemetry::TeamStatus team =
+        monitor.status(wallBegin + std::chrono::duration_cast<telemetry::Duration>(now - begin));
+    auto made = std::make_shared<MatchFrame>(books.frame(options, team, since(now)));
     made->serial = ++serial;
     tell(happened.compare(*made));
     if (receiver && now >= nextPorts) {
@@ -170,8 +172,18 @@ struct LiveWatch::Impl {
       if (now >= nextReport) observer->reported(team);
     }
     if (now >= nextReport) nextReport = now + reportPeriod;
+    if (now >= nextBooks) tellBooks(now);
     frame = std::move(made);
     if (!std::exchange(announced, true) && onFrame) onFrame();
+  }
+
+  /// Needs the lock: what an observer hears after it, is not in the books.
+  void tellBooks(Steady::time_point now) {
+    nextBooks = now + booksPeriod;
+    if (observers.empty()) return;
+    const double time = since(now);
+    const std::string text = books.text(options, time, wallBegin);
+    for (const auto& observer : observers) observer->remembered(time, text);
   }
 
   void tell(const std::vector<MatchEvent>& what) {
@@ -222,14 +234,13 @@ struct LiveWatch::Impl {
   LiveOptions options;  // changed by the thread only
   const std::function<void()> onFrame;
   std::unique_ptr<telemetry::UdpReceiver> receiver;
-  Steady::time_point nextRequest{}, nextPorts{}, nextReport{};
+  Steady::time_point nextRequest{}, nextPorts{}, nextReport{}, nextBooks{};
 
   mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
   std::optional<LiveOptions> pending;
   bool clearAsked = false;
-  TeamMonitor monitor;
-  telemetry::RefereeTracker referee;
-  LiveIdentities identities;
+  LiveBooks books;
+  TeamMonitor& monitor = books.monitor;
   LiveEvents happened;
   std::uint64_t serial = 0, unknownReferee = 0, robotStates = 0;
   std::string networkProblem, unknownReason, unknownSample, monitorProblem;
@@ -273,7 +284,7 @@ LiveDetails LiveWatch::details() const {
   details.team = m_impl->monitor.status(wallNow());
   if (m_impl->receiver) details.network = m_impl->receiver->status();
   details.networkProblem = m_impl->networkProblem;
-  details.referee = m_impl->referee.counts();
+  details.referee = m_impl->books.referee.counts();
   details.unknownReferee = m_impl->unknownReferee;
   details.unknownRefereeReason = m_impl->unknownReason;
   details.unknownRefereeSample = m_impl->unknownSample;
@@ -293,6 +304,8 @@ telemetry::WallTime LiveWatch::began() const {
 
 void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
   const std::lock_guard lock(m_impl->mutex);
+  const double now = m_impl->since(Steady::now());
+  observer->remembered(now, m_impl->books.text(m_impl->options, now, m_impl->wallBegin));
   m_impl->observers.push_back(std::move(observer));
 }
 

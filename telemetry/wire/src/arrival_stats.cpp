@@ -33,6 +33,12 @@ double ArrivalStats::jitter() const {
   return std::sqrt(sum / intervals);
 }
 
+std::vector<WallTime> ArrivalStats::times() const {
+  std::vector<WallTime> out;
+  for (std::size_t i = 0; i < m_count; ++i) out.push_back(at(i));
+  return out;
+}
+
 SequenceStats::Step SequenceStats::add(std::int64_t number) {
   constexpr std::int64_t restart = 1000;
   if (!m_last) {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <tuple>
 
+#include "team_monitor_books.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -21,35 +23,6 @@ Duration since(WallTime now, WallTime then) {
 }
 
 }  // namespace
-
-struct TeamMonitor::Robot {
-  int number = 0;
-  std::uint64_t serial = 0;
-  Sender sender;
-  std::optional<std::uint16_t> previousPort;  ///< the one before, when it sends from a new one
-  WallTime last{};
-  std::uint64_t messages = 0, bytes = 0, recoveries = 0;
-  ArrivalStats arrivals;
-  SequenceStats sequence;
-  ErrorTally errors;
-  struct Process {
-    ProcessFilter filter;
-    bool known = false;
-    WallTime since{};
-  };
-  std::array<Process, processCount> processes{};
-  std::optional<double> volts;
-  double highestVolts = 0.0;
-  std::size_t lastHash = 0;
-  WallTime lastHashTime{};
-  std::shared_ptr<const TextDecoder> decoder;
-  std::vector<double> values;
-  std::vector<std::string> words;
-};
-
-struct TeamMonitor::SenderRecord {
-  SenderStatus status;
-};
 
 TeamMonitor::TeamMonitor(Profile profile, MonitorOptions options)
     : m_options(std::move(options)),

@@ -50,8 +50,7 @@ void LiveController::stop() {
   m_frame.reset();
   m_rows.reset();
   m_series.reset();
-  m_past.clear();
-  m_pastRobots = 0;
+  m_memory.reset();
   emit restarted();
 }
 
@@ -84,8 +83,6 @@ void LiveController::clear() {
   if (!m_watch) return;
   m_watch->clear();
   m_frame.reset();
-  m_past.clear();
-  m_pastRobots = 0;
   keepRows();
   emit restarted();
 }
@@ -97,28 +94,23 @@ void LiveController::setMemoryBudget(std::size_t bytes) {
 
 void LiveController::keepRows() {
   if (m_rows) m_watch->stopObserving(m_rows);
+  if (m_memory) m_watch->stopObserving(m_memory);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
   m_rows = std::make_shared<RowKeeper>(m_series, m_watch->began());
   m_watch->observe(m_rows);
-}
-
-void LiveController::remember() {
-  constexpr double step = 0.2;                // s
-  constexpr std::size_t mostRobots = 40'000;  // about 2 KB each
-  if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
-  m_past.push_back(m_frame);
-  m_pastRobots += m_frame->robots.size() + 1;
-  while (m_pastRobots > mostRobots) {
-    m_pastRobots -= m_past.front()->robots.size() + 1;
-    m_past.pop_front();
-  }
+  m_memory = std::make_shared<link::LiveMemory>(m_options.refereePort);
+  m_moments = std::make_unique<link::LiveMoments>();
+  m_watch->observe(m_memory);
 }
 
 FramePtr LiveController::frameAt(double time) const {
-  const auto after =
-      std::upper_bound(m_past.begin(), m_past.end(), time,
-                       [](double t, const FramePtr& frame) { return t < frame->snapshot.time; });
-  return after == m_past.begin() ? nullptr : *std::prev(after);
+  if (!m_memory) return nullptr;
+  auto frame = m_moments->frameAt(*m_memory, time);
+  return frame ? std::make_shared<link::MatchFrame>(std::move(*frame)) : nullptr;
+}
+
+telemetry::WallTime LiveController::began() const {
+  return m_watch ? m_watch->began() : telemetry::WallTime{};
 }
 
 std::optional<QDateTime> LiveController::clock() const {
@@ -166,7 +158,6 @@ void LiveController::deliver() {
   if (!m_watch) return;  // stopped while this was on its way
   m_frame = m_watch->latest();
   if (m_frame) {
-    remember();
     emit frameReceived(m_frame);
   }
   // A receiver may have stopped it.

@@ -72,6 +72,10 @@ class LiveObserver {
   virtual void reported(const telemetry::TeamStatus&) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
+  /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
+  /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
+  /// told at the same time.
+  virtual void remembered(double /*time*/, std::string_view /*books*/) {}
 };
 
 class LiveWatch {

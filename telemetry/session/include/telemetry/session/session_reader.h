@@ -84,6 +84,10 @@ class SessionReader {
   /// The messages of a stream in the closed range, with their time, until the visitor says false.
   void messages(SessionStream stream, TimeRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
+  /// The same of several streams, in the order of recording.
+  void messages(std::span<const SessionStream> streams, TimeRange range,
+                const std::function<bool(SessionStream, double time, std::string_view json)>& visit)
+      const;
   /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1)
   /// now and then. Ends when one of them says false.
   bool walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <telemetry/wire/datagram.h>
 
@@ -20,6 +21,8 @@ class ArrivalStats {
   double rate(WallTime now) const;
   /// Standard deviation of the time between messages, seconds; 0 until there are three.
   double jitter() const;
+  /// Those of the last messages, oldest first: adding them to a new object makes the same one.
+  std::vector<WallTime> times() const;
 
  private:
   static constexpr std::size_t window = 32;
@@ -34,6 +37,15 @@ class ArrivalStats {
 class SequenceStats {
  public:
   enum class Step { First, Next, Gap, Late, Duplicate, Restart };
+  /// All that it knows.
+  struct Counts {
+    std::optional<std::int64_t> last;
+    std::uint64_t lost = 0, received = 0;
+  };
+  SequenceStats() = default;
+  explicit SequenceStats(const Counts& counts)
+      : m_last(counts.last), m_lost(counts.lost), m_received(counts.received) {}
+  Counts counts() const { return {m_last, m_lost, m_received}; }
 
   /// A number more than 1000 ahead or behind is a robot that has started again.
   Step add(std::int64_t number);
