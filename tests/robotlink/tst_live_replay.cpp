@@ -6,10 +6,13 @@
 #include <QTemporaryDir>
 #include <QtTest>
 #include <mutex>
+#include <set>
 
 #include <robotlink/live/live_books.h>
+#include <robotlink/report/report.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/session_events.h>
 #include <telemetry/wire/text_protocol.h>
 
 #include "live_ports.h"
@@ -233,6 +236,7 @@ class TestLiveReplay : public QObject {
  private slots:
   void initTestCase() {
     LiveOptions options = freeOptions(robots);
+    options.colour = TeamColor::Yellow;  // until the referee gives one
     m_path = m_folder.filePath("live.mcap").toStdString();
     LiveWatch watch(options);
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
@@ -366,6 +370,53 @@ class TestLiveReplay : public QObject {
       if (seen.snapshot.time < middle.snapshot.time) continue;
       const QString found = difference(seen, frames.frameAt(*session, seen.snapshot.time));
       QVERIFY2(found.isEmpty(), qPrintable(found));
+    }
+  }
+
+  void theReportKnowsRobotsScoreAndLink() {
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    const auto range = *session->range();
+    const SessionStatistics s = statisticsOf(*session, {range.begin, range.end});
+    QCOMPARE(s.robots.size(), std::size_t{4});
+    const RefereeView& referee = *m_frames.back().referee;
+    std::size_t scored = 0;
+    for (const TeamSummary& team : s.teams) {
+      for (const RefereeTeamView& side : referee.teams) {
+        if (info(team.team).name != side.colour) continue;
+        ++scored;
+        QCOMPARE(team.score, std::optional(side.score));
+      }
+    }
+    QCOMPARE(scored, std::size_t{2});
+    for (const RobotSummary& robot : s.robots) {
+      const auto shown = std::ranges::find_if(m_frames.back().robots, [&](const RobotFrame& r) {
+        return r.identity.name() + (r.id().value > 65535 ? " (second)" : "") == robot.name;
+      });
+      QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
+      QVERIFY(robot.link && robot.distance);
+      QCOMPARE(robot.link->messages, shown->health->messages);
+      QCOMPARE(robot.link->penalties, shown->health->penalty ? 1 : 0);
+    }
+    // The first robot walked 7 cm a message: what it believes, in steps of at least 10 cm.
+    const auto& first = s.robots.front();
+    QVERIFY(*first.distance > 0.3 && *first.distance < 0.6);
+    QVERIFY(*first.link->leastVolts < 15.0);
+    ReportContent content;
+    content.statistics = s;
+    const QString page = QString::fromStdString(reportHtml(content));
+    QVERIFY(page.contains(QStringLiteral("How they were heard")));
+    QVERIFY(!page.contains(QStringLiteral("No robot was recorded")));
+  }
+
+  void whatHappenedIsInTheFile() {
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    std::set<MatchEventKind> kinds;
+    for (const MatchEvent& event : eventsOf(*session)) kinds.insert(event.kind);
+    for (const MatchEventKind kind : {MatchEventKind::BatteryLow, MatchEventKind::Penalised,
+                                      MatchEventKind::SecondSender, MatchEventKind::RefereeHeard}) {
+      QVERIFY2(kinds.contains(kind), std::string(info(kind).name).c_str());
     }
   }
 

@@ -44,6 +44,7 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::RobotBack, "recovery", "is heard again", Shape::Back, 2, false, false, ""},
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
+    {Kind::BatteryLow, "battery-low", "has a low battery", Shape::Warning, 4, false, true, ""},
     {Kind::Penalised, "penalty", "penalised", Shape::Warning, 5, false, true, ""},
     {Kind::PenaltyOver, "penalty-over", "may play again", Shape::None, 0, false, false, ""},
     {Kind::ProcessStarted, "process-started", "started", Shape::None, 0, false, false, ""},
@@ -135,6 +136,11 @@ std::string predicateOf(const MatchEvent& event) {
       return wordsAnd(event, " from ");
     case Kind::SecondSender:
       return wordsAnd(event, "; this one is ");
+    case Kind::BatteryLow:
+      return std::string(info(event.kind).words) +
+             (event.value ? ": " + std::to_string(*event.value / 10) + '.' +
+                                std::to_string(std::abs(*event.value) % 10) + " V"
+                          : std::string());
     case Kind::Penalised:
       return wordsAnd(event) + (event.value.value_or(0) > 0
                                     ? ", " + std::to_string(*event.value) + " s"

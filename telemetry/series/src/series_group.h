@@ -27,8 +27,8 @@ class Group {
   void clear();
   /// The same columns with other attributes.
   void setLayout(std::shared_ptr<const Layout> layout);
-  /// Time of the oldest row that can leave; nothing when only the staging block is left.
-  std::optional<double> oldestTime() const;
+  /// Time of the last row of the oldest chunk; nothing when only the staging block is left.
+  std::optional<double> endOfOldest() const;
   /// Lets the oldest chunk go.
   void dropOldest();
   std::size_t bytes() const { return m_bytes; }

@@ -38,15 +38,36 @@ void PlotFeed::forget() {
 void PlotFeed::refresh() {
   const auto store = m_source->series();
   const quint64 revision = store ? store->groupsRevision() : 0;
-  if (store != m_store || revision != m_storeRevision) {
+  if (store != m_store) {
     m_store = store;
     m_storeRevision = revision;
     m_found.clear();
     ++m_generation;
+  } else if (revision != m_storeRevision) {
+    m_storeRevision = revision;
+    lookAgain();
   }
   m_views.clear();
   m_time->setData(m_store ? m_store->range() : std::nullopt);
   emit refreshed();
+}
+
+// A robot that is heard for the first time says nothing new of the others: their derived curves
+// stay.
+void PlotFeed::lookAgain() {
+  bool changed = false;
+  std::erase_if(m_found, [&](const auto& known) {
+    const QString& name = known.first;
+    const qsizetype slash = name.indexOf(QLatin1Char('/'));
+    const auto id =
+        m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
+    const bool other = id != known.second;
+    changed = changed || other;
+    return other;
+  });
+  // What is waited for may have come.
+  if (m_missed || changed) ++m_generation;
+  m_missed = false;
 }
 
 ColumnView PlotFeed::find(const QString& name) {
@@ -57,7 +78,10 @@ ColumnView PlotFeed::find(const QString& name) {
     if (slash <= 0) return {};
     const auto id =
         m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
-    if (!id) return {};
+    if (!id) {
+      m_missed = true;
+      return {};
+    }
     known = m_found.emplace(name, *id).first;
   }
   auto& view = m_views[known->second.group];

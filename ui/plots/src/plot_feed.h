@@ -63,6 +63,7 @@ class PlotFeed : public QObject {
 
  private:
   void forget();
+  void lookAgain();
 
   FrameSource* m_source;
   LinkedTime* m_time;
@@ -70,6 +71,7 @@ class PlotFeed : public QObject {
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;
+  bool m_missed = false;  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<QString, telemetry::SeriesId> m_found;

@@ -42,6 +42,7 @@ enum class MatchEventKind : std::uint8_t {
   RobotSilent,       ///< robot
   RobotBack,         ///< robot
   SecondSender,      ///< robot; detail: the sender that is shown
+  BatteryLow,        ///< robot; value: tenths of a volt
   Penalised,         ///< robot; detail: for what; value: seconds left
   PenaltyOver,       ///< robot
   ProcessStarted,    ///< robot, process; value: its process number
@@ -53,7 +54,7 @@ enum class MatchEventKind : std::uint8_t {
   Bookmark,          ///< detail: the user's note
   Other              ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 32;
+inline constexpr std::size_t matchEventKindCount = 33;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };
