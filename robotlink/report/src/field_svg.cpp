@@ -85,6 +85,7 @@ std::string fieldSvg(const MatchFrame& frame) {
   drawField(d, frame.field);
   const double radius = 100 * frame.field.robotRadius;
   for (const RobotFrame& robot : frame.robots) {
+    if (!robot.poseKnown()) continue;
     const char* fill = teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
     const std::string stroke = std::string("stroke=\"") + fill + "\" stroke-width=\"3\"";
     if (frame.truthKnown && robot.board) {

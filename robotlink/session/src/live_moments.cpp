@@ -15,9 +15,9 @@ using telemetry::WallTime;
 constexpr std::array booksOnly{SessionStream::LiveState};
 constexpr std::array everything{SessionStream::Telemetry, SessionStream::RefereeRaw,
                                 SessionStream::LiveState};
-constexpr double usualStep = 20.0;  // s; books are kept every 15
-constexpr double disorder = 2.0;    // s; what was kept later may have come so much earlier
-constexpr double tolerance = 5e-10; // s; files keep whole nanoseconds
+constexpr double usualStep = 20.0;   // s; books are kept every 15
+constexpr double disorder = 2.0;     // s; what was kept later may have come so much earlier
+constexpr double tolerance = 5e-10;  // s; files keep whole nanoseconds
 
 telemetry::Duration duration(double seconds) {
   constexpr double nanoseconds = 1e9, most = 9e18;
@@ -34,19 +34,18 @@ WallTime at(double seconds) {
 void SessionHistory::walk(std::span<const SessionStream> streams, telemetry::TimeRange range,
                           const std::function<bool(const LiveRecord&)>& visit) const {
   LiveRecord record;
-  m_session.messages(
-      streams, range, [&](SessionStream stream, double time, std::string_view json) {
-        record.stream = stream;
-        record.time = time;
-        if (stream == SessionStream::Telemetry || stream == SessionStream::RefereeRaw) {
-          auto datagram = telemetry::sessionDatagram(json);
-          if (!datagram) return true;
-          record.datagram = std::move(*datagram);
-        } else {
-          record.json = json;
-        }
-        return visit(record);
-      });
+  m_session.messages(streams, range, [&](SessionStream stream, double time, std::string_view json) {
+    record.stream = stream;
+    record.time = time;
+    if (stream == SessionStream::Telemetry || stream == SessionStream::RefereeRaw) {
+      auto datagram = telemetry::sessionDatagram(json);
+      if (!datagram) return true;
+      record.datagram = std::move(*datagram);
+    } else {
+      record.json = json;
+    }
+    return visit(record);
+  });
 }
 
 double SessionHistory::begin() const {
@@ -129,6 +128,16 @@ std::optional<MatchFrame> LiveMoments::frameAt(const LiveHistory& history, doubl
 std::optional<std::string> LiveMoments::booksAt(const LiveHistory& history, double time) {
   if (!goTo(history, time)) return {};
   return m_impl->known->books.text(m_impl->known->options, time, WallTime{});
+}
+
+std::vector<std::pair<SessionStream, std::string>> openingAt(
+    const telemetry::SessionReader& session, double time) {
+  const auto range = session.range();
+  if (session.count(SessionStream::LiveState) == 0 || !range || time <= range->begin) return {};
+  LiveMoments moments;
+  auto books = moments.booksAt(SessionHistory(session), time);
+  if (!books) return {};
+  return {{SessionStream::LiveState, std::move(*books)}};
 }
 
 }  // namespace pitchboard::link

@@ -7,6 +7,16 @@
 #include <ui/sources/linked_time.h>
 
 namespace pitchboard::ui {
+namespace {
+
+/// `GROUP/COLUMN`.
+std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, const QString& name) {
+  const qsizetype slash = name.indexOf(QLatin1Char('/'));
+  if (slash <= 0) return {};
+  return rows.find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
+}
+
+}  // namespace
 
 PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
     : QObject(parent), m_source(source), m_time(time), m_timer(new QTimer(this)) {
@@ -57,11 +67,7 @@ void PlotFeed::refresh() {
 void PlotFeed::lookAgain() {
   bool changed = false;
   std::erase_if(m_found, [&](const auto& known) {
-    const QString& name = known.first;
-    const qsizetype slash = name.indexOf(QLatin1Char('/'));
-    const auto id =
-        m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
-    const bool other = id != known.second;
+    const bool other = idOf(*m_store, known.first) != known.second;
     changed = changed || other;
     return other;
   });
@@ -74,10 +80,7 @@ ColumnView PlotFeed::find(const QString& name) {
   if (!m_store) return {};
   auto known = m_found.find(name);
   if (known == m_found.end()) {
-    const qsizetype slash = name.indexOf(QLatin1Char('/'));
-    if (slash <= 0) return {};
-    const auto id =
-        m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
+    const auto id = idOf(*m_store, name);
     if (!id) {
       m_missed = true;
       return {};
@@ -88,6 +91,19 @@ ColumnView PlotFeed::find(const QString& name) {
   if (!view) view = m_store->view(known->second.group);
   if (!view) return {};
   return {view, known->second.column};
+}
+
+void PlotFeed::setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
+                           const QString& caption) {
+  m_compared = std::move(rows);
+  m_comparedOffset = offset;
+  m_comparedCaption = caption;
+}
+
+ColumnView PlotFeed::compared(const QString& name) const {
+  const auto id = m_compared ? idOf(*m_compared, name) : std::nullopt;
+  if (!id) return {};
+  return {m_compared->view(id->group), id->column};
 }
 
 QString PlotFeed::timeText(double time, int decimals) const {

@@ -27,7 +27,7 @@ QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
-  return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);
+  return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings, s.compared}, parent);
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);

@@ -10,6 +10,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <robotlink/frame/match_frame.h>
 #include <telemetry/session/session_reader.h>
@@ -47,6 +49,11 @@ class SessionHistory : public LiveHistory {
  private:
   const telemetry::SessionReader& m_session;
 };
+
+/// What a part of a session must open with, so that its moments are those of the session
+/// (telemetry::ExportSelection); nothing for other sessions than live ones.
+std::vector<std::pair<telemetry::SessionStream, std::string>> openingAt(
+    const telemetry::SessionReader& session, double time);
 
 /// Goes through one history; fast when moments follow each other. One thread.
 class LiveMoments {
