@@ -27,8 +27,12 @@ struct Options {
 /// Prints what arrives.
 class Printer {
  public:
-  Printer(TeamMonitor monitor, std::uint16_t refereePort, bool json)
-      : m_monitor(std::move(monitor)), m_refereePort(refereePort), m_json(json) {}
+  Printer(ListenSetup setup, const ListenOptions& options, bool json)
+      : m_monitor(std::move(setup.profile), std::move(setup.monitor)),
+        m_referees(std::move(setup.referees)),
+        m_refereePort(static_cast<std::uint16_t>(options.refereePort)),
+        m_refereeVersion(options.refereeVersion),
+        m_json(json) {}
 
   /// False when nobody reads the output any more.
   bool print(const DatagramBatch& batch) {
@@ -45,6 +49,16 @@ class Printer {
 
   TeamStatus status(WallTime now) const { return m_monitor.status(now); }
   std::uint64_t unknownReferee() const { return m_unknownReferee; }
+  std::uint64_t refusedReferees() const { return m_refusedReferees; }
+
+  /// How every robot is heard.
+  void printHealth(WallTime now) const {
+    if (!m_json) return;
+    for (const RobotStatus& robot : m_monitor.status(now).robots) {
+      std::printf("%s\n", dump(healthJson(robot, now)).c_str());
+    }
+    std::fflush(stdout);
+  }
 
  private:
   void put(const char* type, const DatagramView& datagram, const Json& body,
@@ -73,9 +87,14 @@ class Printer {
   }
 
   void printReferee(const DatagramView& datagram) {
-    if (!m_monitor.options().senders.allows(datagram.sender.address)) return;
+    if (!m_referees.allows(datagram.sender.address)) {
+      ++m_refusedReferees;
+      return;
+    }
     const auto packet = decodeReferee(datagram.payload);
     if (packet) {
+      const auto* state = std::get_if<RefereeState>(&*packet);
+      if (state && m_refereeVersion != 0 && state->version != m_refereeVersion) return;
       put("referee", datagram, m_json ? refereeJson(*packet) : Json(),
           m_json ? std::string() : refereeLine(*packet));
       return;
@@ -87,18 +106,25 @@ class Printer {
   }
 
   TeamMonitor m_monitor;
+  SenderFilter m_referees;
   std::uint16_t m_refereePort;
+  int m_refereeVersion;
   bool m_json;
-  std::uint64_t m_unknownReferee = 0;
+  std::uint64_t m_unknownReferee = 0, m_refusedReferees = 0;
 };
 
-void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint64_t unknown) {
+void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint64_t unknown,
+               std::uint64_t refusedReferees) {
   std::fprintf(stderr,
-               "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu",
+               "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu%s",
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
                static_cast<unsigned long long>(network.kernelDrops()),
-               static_cast<unsigned long long>(network.queueDrops + team.refusedRobots),
-               static_cast<unsigned long long>(team.errors.total() + unknown));
+               static_cast<unsigned long long>(network.queueDrops),
+               static_cast<unsigned long long>(team.errors.total() + unknown),
+               refusedText(team, refusedReferees).c_str());
+  for (const RobotStatus& robot : team.robots) {
+    std::fprintf(stderr, "\n  %s", healthLine(robot).c_str());
+  }
   for (std::size_t i = 0; i < textErrorCount; ++i) {
     const auto error = static_cast<TextError>(i);
     if (team.errors.count(error) == 0) continue;
@@ -127,15 +153,17 @@ int run(const Options& options) {
   }
 
   const InterruptGuard signals;
+  const auto clock = std::make_shared<const LiveClock>();
+  receiver.clock = clock;
   auto network = UdpReceiver::start(std::move(receiver));
   if (!network) return reportError(network.error());
-  Printer printer(TeamMonitor(std::move(setup->profile), std::move(setup->monitor)),
-                  static_cast<std::uint16_t>(options.network.refereePort), options.json);
+  Printer printer(std::move(*setup), options.network, options.json);
   std::map<std::size_t, std::string> told;
   sayListening(options.network);
   DatagramBatch batch;
   const auto begin = Clock::now();
   auto nextRequest = begin;
+  auto nextHealth = begin + std::chrono::seconds(1);
   const std::chrono::duration<double> limit(options.duration.value_or(0.0));
   while (!interrupted) {
     reportPorts((*network)->status(), told);
@@ -150,10 +178,16 @@ int run(const Options& options) {
       wait = std::min(wait, left);
     }
     if ((*network)->take(batch, wait) && !printer.print(batch)) break;
+    if (Clock::now() >= nextHealth) {
+      printer.printHealth(clock->now());
+      nextHealth += std::chrono::seconds(1);
+    }
   }
   (*network)->stop();
   if ((*network)->take(batch)) printer.print(batch);
-  reportEnd((*network)->status(), printer.status(wallNow()), printer.unknownReferee());
+  printer.printHealth(clock->now());
+  reportEnd((*network)->status(), printer.status(clock->now()), printer.unknownReferee(),
+            printer.refusedReferees());
   return 0;
 }
 
@@ -174,7 +208,9 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
   command->add_option("--monitor", options->monitor,
                       "Ask the referee at this address for monitor mode (controllers of 2026).\n"
                       "This is the only thing that listen can send, and only to that address");
-  command->add_flag("--json", options->json, "One JSON object per message");
+  command->add_flag("--json", options->json,
+                    "One JSON object per message, and how each robot is heard\n"
+                    "once a second and at the end (\"type\": \"health\")");
   command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 

@@ -20,8 +20,14 @@ void addListenOptions(CLI::App& command, ListenOptions& options) {
   command.add_option("--gamecontroller-port", options.refereePort, "Port of the referee's packets")
       ->capture_default_str();
   command.add_option("--profile", options.profile, "Order of the fields as JSON (docs/LIVE.md)");
+  command
+      .add_option("--gamecontroller-version", options.refereeVersion,
+                  "Only this version of the referee's packets; without it the highest")
+      ->check(CLI::Range(7, 255));
   command.add_option("--from", options.senders,
-                     "Only these senders: address or network, may be repeated");
+                     "Only robots at these addresses or networks; may be repeated");
+  command.add_option("--referee-from", options.refereeSenders,
+                     "Only a referee at these addresses or networks; may be repeated");
 }
 
 Result<ListenSetup> listenSetup(const ListenOptions& options) {
@@ -42,6 +48,9 @@ Result<ListenSetup> listenSetup(const ListenOptions& options) {
     if (const auto added = setup.monitor.senders.add(sender); !added)
       return tl::unexpected(added.error());
   }
+  for (const std::string& sender : options.refereeSenders) {
+    if (const auto added = setup.referees.add(sender); !added) return tl::unexpected(added.error());
+  }
   return setup;
 }
 
@@ -50,7 +59,6 @@ void sayListening(const ListenOptions& options) {
                options.portBase + 1, options.portBase + options.robots, options.refereePort);
 }
 
-/// Says on stderr which ports are not received, once for each change.
 void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string>& told) {
   for (std::size_t i = 0; i < status.ports.size(); ++i) {
     const PortStatus& port = status.ports[i];
@@ -66,8 +74,16 @@ void reportPorts(const ReceiverStatus& status, std::map<std::size_t, std::string
   }
 }
 
-WallTime wallNow() {
-  return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+std::string refusedText(const TeamStatus& team, std::uint64_t referees) {
+  std::string out;
+  const auto add = [&out](std::uint64_t count, const char* what) {
+    if (count == 0) return;
+    out += (out.empty() ? "; refused: " : ", ") + std::to_string(count) + what;
+  };
+  add(team.refusedByFilter, " of senders that --from does not name");
+  add(referees, " of referees that --referee-from does not name");
+  add(team.refusedRobots, " of more robots than are kept");
+  return out;
 }
 
 }  // namespace pitchboard::cli

@@ -21,7 +21,8 @@ struct ListenOptions {
   int robots = 16;
   int refereePort = 3838;
   std::string profile;
-  std::vector<std::string> senders;
+  std::vector<std::string> senders, refereeSenders;
+  int refereeVersion = 0;
 };
 
 void addListenOptions(CLI::App& command, ListenOptions& options);
@@ -30,6 +31,7 @@ struct ListenSetup {
   telemetry::ReceiverOptions receiver;
   telemetry::Profile profile;
   telemetry::MonitorOptions monitor;
+  telemetry::SenderFilter referees;
 };
 Result<ListenSetup> listenSetup(const ListenOptions& options);
 
@@ -37,6 +39,7 @@ Result<ListenSetup> listenSetup(const ListenOptions& options);
 void sayListening(const ListenOptions& options);
 /// Says on stderr which ports are not received, once for each change.
 void reportPorts(const telemetry::ReceiverStatus& status, std::map<std::size_t, std::string>& told);
-telemetry::WallTime wallNow();
+/// "; refused: 12 of senders that are not on the list, ...": nothing where nothing was.
+std::string refusedText(const telemetry::TeamStatus& team, std::uint64_t referees);
 
 }  // namespace pitchboard::cli

@@ -107,6 +107,44 @@ std::string telemetryLine(const TextDecoder& decoder, const DecodedText& message
   return out + "] " + printable(datagram, 120);
 }
 
+Json healthJson(const RobotStatus& robot, WallTime now) {
+  const auto counted = [&robot](std::uint64_t count) {
+    return robot.loss ? Json(count) : Json(nullptr);
+  };
+  return {{"type", "health"},
+          {"robot", robot.number},
+          {"received", robot.messages},
+          {"lost", counted(robot.lost)},
+          {"duplicates", robot.duplicates},
+          {"late", counted(robot.late)},
+          {"loss", robot.loss ? Json(*robot.loss) : Json(nullptr)},
+          {"rate", robot.rate},
+          {"jitter", robot.jitter},
+          {"age", secondsOf(robot.age)},
+          {"timedOut", robot.timedOut},
+          {"recoveries", robot.recoveries},
+          {"errors", robot.errorCount},
+          {"bytes", robot.bytes},
+          {"sender", robot.sender.text()},
+          {"slot", robot.slot},
+          {"conflict", robot.conflict},
+          {"time", unixSeconds(now)}};
+}
+
+std::string healthLine(const RobotStatus& robot) {
+  std::string out = "robot " + std::to_string(robot.number);
+  if (robot.slot > 0) out += " at " + robot.sender.text();
+  out += ": " + std::to_string(robot.messages) + " received";
+  if (robot.loss) {
+    char part[32];
+    std::snprintf(part, sizeof part, " (%.1f %%)", *robot.loss * 100.0);
+    out += ", " + std::to_string(robot.lost) + " lost" + part;
+  }
+  out += ", " + std::to_string(robot.duplicates) + " twice";
+  if (robot.loss) out += ", " + std::to_string(robot.late) + " late";
+  return out;
+}
+
 std::string refereeLine(const RefereePacket& packet) {
   return std::visit(
       Overloaded{[](const RefereeState& state) { return stateLine(state); },

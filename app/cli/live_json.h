@@ -9,6 +9,7 @@
 #include <telemetry/wire/datagram.h>
 #include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/referee_json.h>
+#include <telemetry/wire/team_monitor.h>
 #include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::cli {
@@ -20,6 +21,11 @@ Json telemetryJson(const telemetry::TextDecoder& decoder, const telemetry::Decod
                    std::string_view datagram);
 std::string telemetryLine(const telemetry::TextDecoder& decoder,
                           const telemetry::DecodedText& message, std::string_view datagram);
+
+/// {"type": "health", "robot": 1, "received": 900, "lost": 300, ...}: docs/LIVE.md.
+Json healthJson(const telemetry::RobotStatus& robot, telemetry::WallTime now);
+/// "robot 1: 900 received, 300 lost (25.0 %), 0 twice, 0 late"
+std::string healthLine(const telemetry::RobotStatus& robot);
 
 std::string refereeLine(const telemetry::RefereePacket& packet);
 

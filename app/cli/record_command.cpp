@@ -87,8 +87,8 @@ int recordMatch(const Options& options) {
 
   SessionWriterOptions writing;
   writing.waitWhenFull = true;
-  auto created =
-      SessionWriter::create(options.output, link::sessionInfo(*match, program, wallNow()), writing);
+  auto created = SessionWriter::create(
+      options.output, link::sessionInfo(*match, program, LiveClock().now()), writing);
   if (!created) return reportError(created.error());
   const std::shared_ptr<SessionWriter> writer = std::move(*created);
   link::attachMatch(*writer, match->scenario(), link::VariableCatalog::published());
@@ -119,6 +119,8 @@ int recordLive(const Options& options) {
   live.refereePort = options.network.refereePort;
   live.profile = std::move(setup->profile);
   live.team.senders = std::move(setup->monitor.senders);
+  live.refereeSenders = std::move(setup->referees);
+  live.refereeVersion = options.network.refereeVersion;
   link::LiveWatch watch(live);
   link::LiveDetails details = watch.details();
   for (; details.network.ports.empty(); details = watch.details()) {
@@ -152,6 +154,14 @@ int recordLive(const Options& options) {
     }
   }
   watch.stopObserving(*recorder);
+  details = watch.details();
+  std::string refused = refusedText(details.team, details.refusedReferees);
+  const LiveRows::Refused& rows = (*recorder)->refused();
+  if (rows.rows + rows.values > 0) {
+    refused += (refused.empty() ? "; refused: " : ", ") + std::to_string(rows.rows) + " rows and " +
+               std::to_string(rows.values) + " values beyond the limits";
+  }
+  if (!refused.empty()) std::fprintf(stderr, "%s\n", refused.c_str() + 2);
   const auto finished = (*recorder)->finish();
   return ended((*recorder)->path(), (*recorder)->status(), finished);
 }

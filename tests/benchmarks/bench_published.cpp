@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::sim {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 #include "rigid_body_obstacles.h"
 

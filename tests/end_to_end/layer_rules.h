@@ -29,7 +29,7 @@ struct SourceFile {
 
 inline QStringList all(const QString& library) {
   static const QHash<QString, QStringList> rooms{
-      {"simcore", {"base", "world", "rules", "physics"}},
+      {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry", {"wire", "series", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "cognition", "scenario", "frame", "match", "live", "session",
@@ -44,7 +44,8 @@ inline QStringList all(const QString& library) {
 
 inline const QList<Room>& table() {
   static const QList<Room> rooms = [] {
-    const QString base = "simcore/base", world = "simcore/world", physics = "simcore/physics";
+    const QString base = "simcore/base", world = "simcore/world", physics = "simcore/physics",
+                  simulation = "simcore/simulation";
     const QString wire = "telemetry/wire", series = "telemetry/series";
     const QString board = "robotlink/blackboard", processes = "robotlink/processes",
                   cognition = "robotlink/cognition", scenario = "robotlink/scenario",
@@ -57,7 +58,8 @@ inline const QList<Room>& table() {
         {base, {}, {"Random123/", "nlohmann/", "tl/"}},
         {world, {base}, {"tl/"}},
         {"simcore/rules", {base, world}, {}},
-        {physics, {base, world, "simcore/rules"}, {"box2d/"}},
+        {physics, {base, world}, {"box2d/"}},
+        {simulation, {base, world, "simcore/rules", physics}, {}},
         {"resources", {}, {}},
         {wire, {base, "resources"}, {"nlohmann/"}},
         {series, {base}, {}},
@@ -66,10 +68,10 @@ inline const QList<Room>& table() {
         {board, {base, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board}, {}},
         {cognition, {base, world, wire, board, processes}, {"Eigen/"}},
-        {scenario, {base, world, physics, board, cognition, "resources"}, {"nlohmann/"}},
+        {scenario, {base, world, simulation, board, cognition, "resources"}, {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
-        {match, all("simcore") + QStringList{board, processes, cognition, scenario, frame}, {}},
-        {live, {base, world, physics, wire, series, frame}, {"nlohmann/"}},
+        {match, all("simcore") + QStringList{wire, board, processes, cognition, scenario, frame}, {}},
+        {live, {base, world, simulation, wire, series, frame}, {"nlohmann/"}},
         {session,
          below + QStringList{board, processes, cognition, scenario, frame, match, live},
          {"nlohmann/"}},

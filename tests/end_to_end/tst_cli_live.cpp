@@ -62,13 +62,15 @@ class Listener {
     }
     return true;
   }
+  /// Messages; what is said of the robots' health in between is left out.
   QList<QJsonObject> read(int count) {
     QList<QJsonObject> list;
     process.setReadChannel(QProcess::StandardOutput);
     while (list.size() < count) {
       if (!process.canReadLine() && !process.waitForReadyRead(10'000)) break;
       while (process.canReadLine()) {
-        list << QJsonDocument::fromJson(process.readLine()).object();
+        const QJsonObject object = QJsonDocument::fromJson(process.readLine()).object();
+        if (object["type"] != "health") list << object;
       }
     }
     return list;
@@ -157,6 +159,66 @@ class TestCliLive : public QObject {
     QVERIFY2(listener.err.contains("not text: 1"), listener.err.constData());
   }
 
+  void healthIsToldOnceASecondAndAtTheEnd() {
+    QTemporaryDir folder;
+    QFile profile(folder.filePath("p.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"name": "t", "fields": [{"name": "ID", "type": "int", "meaning": "robot"},
+                      {"name": "SEQ", "type": "int", "meaning": "sequence", "bits": 8}]})");
+    profile.close();
+    Listener listener({"--profile", profile.fileName()});
+    QVERIFY(listener.start());
+    const TestSocket robot;
+    const auto port = static_cast<std::uint16_t>(listener.base + 1);
+    // Every fourth of 1200 numbers that wrap five times is missing; one comes twice, one late.
+    const auto say = [&](int i) {
+      return robot.send(port, "1 " + std::to_string(i % 256) + " OUT");
+    };
+    for (int i = 0; i < 1200; ++i) {
+      if (i % 4 == 2 || i == 600) continue;
+      QVERIFY(say(i));
+      if (i == 601) QVERIFY(say(600) && say(601));
+      if (i % 100 == 99) QCOMPARE(listener.read(i == 699 ? 76 : 75).size(), i == 699 ? 76 : 75);
+    }
+    listener.process.setReadChannel(QProcess::StandardOutput);
+    // The line of this second, without asking for it.
+    QVERIFY(listener.process.waitForReadyRead(10'000));
+    QCOMPARE(listener.interrupt(), 0);
+    QList<QByteArray> lines = listener.process.readAllStandardOutput().trimmed().split('\n');
+    const QByteArray last = lines.last();
+    QVERIFY2(last.startsWith(R"({"type":"health","robot":1,"received":900,"lost":300,)"
+                             R"("duplicates":1,"late":1,"loss":0.25,)"),
+             last.constData());
+    QVERIFY(lines.size() >= 2);
+    QVERIFY2(listener.err.contains("robot 1: 900 received, 300 lost (25.0 %), 1 twice, 1 late"),
+             listener.err.constData());
+  }
+
+  void theRefereeHasAListOfItsOwn() {
+    Listener listener({"--from", "10.1.2.3", "--referee-from", "127.0.0.1"});
+    QVERIFY(listener.start());
+    const TestSocket socket;
+    QFile packet(data + "gamecontroller/v12hl688_CORNER_KICK.bin");
+    QVERIFY(packet.open(QIODevice::ReadOnly));
+    QVERIFY(socket.send(static_cast<std::uint16_t>(listener.base + 1), "1 2 3 OUT"));
+    QVERIFY(socket.send(static_cast<std::uint16_t>(listener.refereePort),
+                        packet.readAll().toStdString()));
+    const QList<QJsonObject> heard = listener.read(1);
+    QCOMPARE(heard.value(0)["type"].toString(), "referee");
+    QCOMPARE(listener.interrupt(), 0);
+    QVERIFY2(listener.err.contains("refused: 1 of senders that --from does not name"),
+             listener.err.constData());
+
+    Listener other({"--referee-from", "10.1.2.3"});
+    QVERIFY(other.start());
+    QVERIFY(socket.send(static_cast<std::uint16_t>(other.refereePort), "anything"));
+    QVERIFY(socket.send(static_cast<std::uint16_t>(other.base + 1), "1 2 3 OUT"));
+    QCOMPARE(other.read(1).value(0)["type"].toString(), "telemetry");
+    QCOMPARE(other.interrupt(), 0);
+    QVERIFY2(other.err.contains("1 of referees that --referee-from does not name"),
+             other.err.constData());
+  }
+
   void aTakenPortIsAWarning() {
     Listener listener;
     TestSocket blocker;  // does not share its port
@@ -181,6 +243,8 @@ class TestCliLive : public QObject {
     row("referee among the robots", {"listen", "--gamecontroller-port", "1245"}, "GameController");
     row("duration", {"listen", "--duration", "-1"}, "--duration");
     row("sender", {"listen", "--from", "10.0.0.0/40"}, "network");
+    row("referee", {"listen", "--referee-from", "host"}, "network");
+    row("version", {"listen", "--gamecontroller-version", "3"}, "--gamecontroller-version");
     row("no profile", {"listen", "--profile", "/nonexistent.json"}, "/nonexistent.json");
     row("no file", {"decode", "telemetry", "/nonexistent.txt"}, "/nonexistent.txt");
     row("a folder", {"decode", "gamecontroller", "/"}, "cannot be read");

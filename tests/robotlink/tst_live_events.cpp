@@ -89,6 +89,33 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RobotHeard, Kind::RobotSilent}));
   }
 
+  void anotherAddressIsToldAndTheRobotStays() {
+    Stage s;
+    s.robot(3);
+    (void)s.at(1.0);
+    s.frame.robots[0].health->sender.port = 4001;
+    QVERIFY(s.at(2.0).empty());  // a new socket is no other address
+    s.frame.robots[0].health->sender.address = *telemetry::parseAddress("192.168.0.77");
+    const auto told = s.at(3.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::AddressChanged}));
+    QCOMPARE(told[0].robot, RobotId{3});
+    QCOMPARE(told[0].detail, std::string("192.168.0.3 to 192.168.0.77"));
+    QVERIFY(s.at(4.0).empty());
+  }
+
+  void aClockThatWasSetIsToldOnce() {
+    using namespace std::chrono_literals;
+    LiveEvents events;
+    QVERIFY(events.compareClock(0s, 1.0).empty());
+    QVERIFY(events.compareClock(40ms, 2.0).empty());  // drift
+    const auto told = events.compareClock(1h, 3.0);
+    QCOMPARE(kindsOf(told), (Kinds{Kind::ClockSet}));
+    QCOMPARE(told[0].time, 3.0);
+    QCOMPARE(told[0].value, std::optional(3600));
+    QVERIFY(events.compareClock(1h + 10ms, 4.0).empty());
+    QCOMPARE(events.compareClock(-1h, 5.0).at(0).value, std::optional(-7200));
+  }
+
   void aSecondSenderIsToldOnce() {
     Stage s;
     s.robot(1);

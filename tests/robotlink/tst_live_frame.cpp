@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames of what was heard, from values made by hand: no network, no clock.
 
+#include <QFile>
 #include <QtTest>
 
 #include <robotlink/frame/belief.h>
@@ -28,7 +29,6 @@ RobotStatus robotSaying(const std::string& message) {
   telemetry::DecodedText decoded;
   decoder->decode(text, decoded);
   robot.number = decoded.robot;
-  robot.serial = static_cast<std::uint64_t>(decoded.robot);
   robot.sender = {{0x0a000000U + static_cast<std::uint32_t>(decoded.robot)}, 4000};
   robot.decoder = decoder;
   robot.values.assign(decoded.values.begin(),
@@ -44,15 +44,12 @@ struct Heard {
   LiveOptions options;
   TeamStatus team;
   RefereeTracker referee;
-  LiveIdentities identities;
 
   explicit Heard(std::vector<RobotStatus> robots) {
     team.time = start;
     team.robots = std::move(robots);
   }
-  MatchFrame frame(double time = 3.0) {
-    return liveFrame(options, team, referee, identities, time);
-  }
+  MatchFrame frame(double time = 3.0) { return liveFrame(options, team, referee, time); }
 };
 
 RefereeState stateOfGame() {
@@ -185,18 +182,15 @@ class TestLiveFrame : public QObject {
   void twoSendersOfOneNumberAreTwoRobots() {
     RobotStatus first = robotSaying("3 " + atTheCentre);
     RobotStatus second = first;
-    second.serial = 77;
+    second.slot = 1;
     Heard heard({first, second});
     const MatchFrame frame = heard.frame();
     QCOMPARE(frame.robots[0].id(), RobotId{3});
     QCOMPARE(frame.robots[1].id(), RobotId{3 + 65536});
     QCOMPARE(frame.robots[1].identity.number, 3);
-    // Whoever was first keeps the number, also after the other one was forgotten for a while.
+    // The slot makes the id, whoever else is there.
     heard.team.robots = {second};
-    heard.identities.keepOnly(heard.team);
     QCOMPARE(heard.frame().robots.at(0).id(), RobotId{3 + 65536});
-    heard.team.robots = {second, first};
-    QCOMPARE(heard.frame().robots.at(1).id(), RobotId{3});
   }
 
   void theRefereeGivesColourScoreAndPenalties() {
@@ -229,6 +223,107 @@ class TestLiveFrame : public QObject {
     heard.team.time = start + 11s;
     const MatchFrame late = heard.frame();
     QVERIFY(late.referee->timedOut && !late.snapshot.clockRunning);
+  }
+
+  void substitutesThatCameInAreCounted() {
+    Heard heard({});
+    RefereeState state = stateOfGame();
+    state.playersPerTeam = 3;
+    // Player 1 was taken out for player 4; player 2 sits 20 s for pushing.
+    state.teams[0].allSlots[0].penalty = 14;
+    state.teams[0].allSlots[1].penalty = 31;
+    state.teams[0].allSlots[1].secondsLeft = 20;
+    state.teams[0].allSlots[1].yellow = 1;
+    QVERIFY(heard.referee.accept(state, {{1}, 3838}, start));
+    const RefereeTeamView team = heard.frame().referee->teams[0];
+    QCOMPARE(team.playersLeft, 2);
+    QCOMPARE(team.players.size(), std::size_t{3});
+    QCOMPARE(team.players[0].number, 2);
+    QCOMPARE(team.players[0].penalty, std::string("pushing"));
+    QCOMPARE(team.players[0].secondsLeft, 20);
+    QCOMPARE(team.players[0].yellow, 1);
+    QVERIFY(team.players[2].penalty.empty());
+    QCOMPARE(team.players[2].number, 4);
+  }
+
+  void whoTakesASetPlayAndHowFarItIs_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("setPlay");
+    QTest::addColumn<int>("team");
+    QTest::addColumn<QString>("step");
+    QTest::addColumn<QString>("countdown");
+    // Recorded from the running programs; the last column is what the rules say of the time.
+    QTest::newRow("corner") << "v12hl688_CORNER_KICK"
+                            << "corner kick" << 1 << "stop"
+                            << "";
+    QTest::newRow("free kick, prepare") << "v12hl688_DIRECT_FREEKICK_sub1"
+                                        << "direct freekick" << 2 << "prepare"
+                                        << "ready";
+    QTest::newRow("free kick, ready") << "v12hl688_DIRECT_FREEKICK_sub2"
+                                      << "direct freekick" << 2 << "ready"
+                                      << "";
+    QTest::newRow("kick-off") << "v12hl688_PLAYING_1-0"
+                              << "" << 0 << ""
+                              << "ball free";
+    QTest::newRow("ready") << "v12hl688_READY"
+                           << "" << 0 << ""
+                           << "set";
+    QTest::newRow("timeout") << "v12hl688_TIMEOUT"
+                             << "timeout" << 0 << ""
+                             << "timeout over";
+    QTest::newRow("break") << "v20hsl158_FINISHED"
+                           << "" << 0 << ""
+                           << "next half";
+  }
+  void whoTakesASetPlayAndHowFarItIs() {
+    QFETCH(QString, file);
+    QFETCH(QString, setPlay);
+    QFETCH(int, team);
+    QFETCH(QString, step);
+    QFETCH(QString, countdown);
+    QFile packet(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/") + file +
+                 QStringLiteral(".bin"));
+    QVERIFY(packet.open(QIODevice::ReadOnly));
+    const auto decoded = telemetry::decodeReferee(packet.readAll().toStdString());
+    QVERIFY(decoded);
+    Heard heard({});
+    QVERIFY(heard.referee.accept(std::get<RefereeState>(*decoded), {{1}, 3838}, start));
+    const RefereeView view = *heard.frame().referee;
+    QCOMPARE(QString::fromStdString(view.setPlay), setPlay);
+    QCOMPARE(view.performingTeam.value_or(0), team);
+    QCOMPARE(QString::fromStdString(view.setPlayStep), step);
+    QCOMPARE(QString::fromStdString(view.countdown), countdown);
+  }
+
+  void monitorModeShowsWhatReallyHappens() {
+    Heard heard({});
+    RefereeState hidden = stateOfGame();
+    hidden.state = 2;
+    QVERIFY(heard.referee.accept(hidden, {{1}, 3838}, start));
+    RefereeState truth = stateOfGame();
+    truth.magic = {'R', 'G', 'T', 'D'};
+    truth.secsRemaining = 318;
+    QVERIFY(!heard.referee.accept(truth, {{1}, 3838}, start + 1s));
+    telemetry::RobotReply reply;
+    reply.version = 4;
+    reply.team = 6;
+    reply.player = 2;
+    reply.fallen = 1;
+    reply.pose = {1500.0F, -2000.0F, 0.5F};
+    reply.ballAge = -1.0F;
+    heard.referee.accept(reply, {0x0a000007}, start + 1s);
+    heard.team.time = start + 3s;
+    const RefereeView view = *heard.frame().referee;
+    QCOMPARE(view.state, std::string("SET"));
+    QVERIFY(view.truth);
+    QCOMPARE(view.truth->state, std::string("PLAYING"));
+    QCOMPARE(view.truth->secondsLeft, 318);
+    QCOMPARE(view.truth->age, 2.0);
+    QCOMPARE(view.replies.size(), std::size_t{1});
+    QCOMPARE(view.replies[0].address, std::string("10.0.0.7"));
+    QVERIFY(view.replies[0].fallen && !view.replies[0].ballAge);
+    QCOMPARE(view.replies[0].pose->position.x, 1.5);
+    QCOMPARE(view.replies[0].age, 2.0);
   }
 
   void coloursByNumber() {

@@ -99,6 +99,8 @@ QString difference(const RobotHealth& a, const RobotHealth& b) {
   SAME(jitter);
   SAME(loss);
   SAME(lost);
+  SAME(duplicates);
+  SAME(late);
   for (std::size_t i = 0; i < a.processes.size(); ++i) {
     SAME(processes[i].state);
     SAME(processes[i].probability);
@@ -154,7 +156,8 @@ QString difference(const RefereeView& a, const RefereeView& b) {
   SAME(age);
   SAME(timedOut);
   SAME(conflict);
-  SAME(trueData);
+  SAME(truth.has_value());
+  SAME(replies.size());
   SAME(state);
   SAME(setPlay);
   SAME(phase);
@@ -162,6 +165,9 @@ QString difference(const RefereeView& a, const RefereeView& b) {
   SAME(stopped);
   SAME(secondsLeft);
   SAME(secondaryTime);
+  SAME(countdown);
+  SAME(performingTeam);
+  SAME(setPlayStep);
   SAME(kickOffTeam);
   for (std::size_t i = 0; i < a.teams.size(); ++i) {
     SAME(teams[i].number);
@@ -242,7 +248,9 @@ class TestLiveReplay : public QObject {
     QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
     // It has heard somebody before recording begins.
     TestSocket robot1, robot2, robot3, twin, referee;
-    const auto port = [&](int robot) { return static_cast<std::uint16_t>(options.portBase + robot); };
+    const auto port = [&](int robot) {
+      return static_cast<std::uint16_t>(options.portBase + robot);
+    };
     QVERIFY(robot1.send(port(1), message(1, 0)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
     auto recorder = LiveRecorder::create(m_path, options, watch.began());

@@ -5,6 +5,7 @@
 
 #include <base/actions.h>
 #include <robotlink/live/live_rows.h>
+#include <telemetry/series/derived_curve.h>
 #include <telemetry/series/series_store.h>
 
 using namespace pitchboard::telemetry;
@@ -27,7 +28,7 @@ struct Rig {
     datagram.payload = text;
     const auto verdict = monitor.take(datagram);
     if (verdict == TeamMonitor::Verdict::Used)
-      rows.take(datagram, monitor.decoded(), monitor.decoder());
+      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.usedSlot());
     return verdict;
   }
   void report(double time) {
@@ -61,7 +62,6 @@ class TestLiveRows : public QObject {
     QCOMPARE(rig.latest("Robot 3", "X"), 100.0);
     QCOMPARE(rig.latest("Robot 3", "BALL_DIST"), 83.2);
     QCOMPARE(rig.latest("Robot 3", "VOLTAGE"), 124.0);
-    QCOMPARE(rig.latest("Robot 3", "AGE"), 0.0);
     const GroupInfo& info = view->info();
     QCOMPARE(info.columns[1].unit, std::string("cm"));
     QCOMPARE(info.columns[1].category, std::string("Localization"));
@@ -72,55 +72,176 @@ class TestLiveRows : public QObject {
     QCOMPARE(info.attributes.at("sender"), std::string("10.0.0.1"));
   }
 
+  void oneRowForEachMessageAtThePublishedRate() {
+    // The truth: a robot that walks 12 cm a second and says so once a second for a minute.
+    Rig rig;
+    for (int i = 0; i < 60; ++i) {
+      const std::string x = std::to_string(100 + 12 * i);
+      rig.send("3 " + x + " 200 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 OUT", i * 1.0);
+      for (int report = 0; report < 4; ++report) rig.report(i + 0.1 + 0.25 * report);
+    }
+    const auto view = rig.view("Robot 3");
+    QCOMPARE(view->rows(), std::size_t{60});
+    const auto x = rig.store->find("Robot 3", "X");
+    std::vector<Sample> samples;
+    QVERIFY(view->samples(x->column, {-1e9, 1e9}, samples));
+    Derivative speed;
+    QVERIFY(std::isnan(speed.next(samples[0]).value));
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      QVERIFY(std::abs(speed.next(samples[i]).value - 12.0) < 1e-6);
+    }
+    // Mean and sigma of 0, 1, ... 59 times 12.
+    const SeriesStatistics all = view->statistics(x->column, {-1e9, 1e9});
+    QCOMPARE(all.samples, std::uint64_t{60});
+    QVERIFY(std::abs(all.mean - (100.0 + 12.0 * 29.5)) < 1e-9);
+    QVERIFY(std::abs(all.sigma - 12.0 * std::sqrt((60.0 * 60.0 - 1.0) / 12.0)) < 1e-6);
+  }
+
+  void notSeenIsAHole() {
+    Rig rig;
+    const char* balls[] = {"83.2", "-1.0", "-1.0", "80.0"};
+    for (int i = 0; i < 4; ++i) {
+      rig.send("3 100 200 90 12.5 " + std::string(balls[i]) + " -15 1 1 0 1 1 8 1.57 124 OUT",
+               i * 1.0);
+    }
+    const auto ball = rig.store->find("Robot 3", "BALL_DIST");
+    const auto view = rig.view("Robot 3");
+    std::vector<Sample> samples;
+    QVERIFY(view->samples(ball->column, {-1e9, 1e9}, samples));
+    QCOMPARE(samples.size(), std::size_t{4});
+    QVERIFY(std::isnan(samples[1].value) && std::isnan(samples[2].value));
+    const SeriesStatistics all = view->statistics(ball->column, {-1e9, 1e9});
+    QCOMPARE(all.samples, std::uint64_t{2});
+    QVERIFY(std::abs(all.mean - 81.6) < 1e-9);
+    QCOMPARE(all.min, 80.0);
+    // −1 degree is an angle like any other.
+    QCOMPARE(rig.latest("Robot 3", "BALL_ANGLE"), -15.0);
+  }
+
+  void healthHasARateOfItsOwn() {
+    Rig rig;
+    for (int i = 0; i <= 40; ++i) {
+      rig.send(message, i * 0.1);
+      rig.report(i * 0.1 + 0.05);
+    }
+    const auto view = rig.view("Robot 3 link");
+    QVERIFY(view);
+    QVERIFY(view->rows() >= 4 && view->rows() <= 5);
+    QCOMPARE(view->info().attributes.at("link"), std::string("Robot 3"));
+    QVERIFY(std::abs(rig.latest("Robot 3 link", "RATE") - 10.0) < 0.01);
+    QVERIFY(std::isnan(rig.latest("Robot 3 link", "LOSS")));  // it sends no sequence number
+    QVERIFY(!rig.store->find("Robot 3", "RATE"));
+  }
+
   void silenceIsSeen() {
     Rig rig;
     for (int i = 0; i <= 4; ++i) rig.send(message, i * 1.0);
-    rig.report(4.0);
-    const auto rows = rig.view("Robot 3")->rows();
-    QCOMPARE(rows, std::size_t{5});
-    for (int i = 5; i < 60; ++i) rig.report(i);
-    QCOMPARE(rig.latest("Robot 3", "X"), 100.0);
-    // One row a report until the timeout (10 s) and one that shows it, none after.
-    const auto view = rig.view("Robot 3");
-    QVERIFY(view->range()->end >= 14.0 && view->range()->end <= 16.0);
-    QVERIFY(rig.latest("Robot 3", "AGE") >= 10.0);
-    QVERIFY(rig.latest("Robot 3", "RATE") < 1.0);
+    for (int i = 4; i < 60; ++i) rig.report(i);
+    QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{5});
+    // The age grows until the timeout (10 s), one row shows that, none follows.
+    const auto view = rig.view("Robot 3 link");
+    QCOMPARE(view->range()->end, 14.0);
+    QVERIFY(rig.latest("Robot 3 link", "AGE") >= 10.0);
+    QVERIFY(rig.latest("Robot 3 link", "RATE") < 1.0);
     rig.send(message, 70.0);
+    rig.report(70.1);
     QCOMPARE(rig.view("Robot 3")->range()->end, 70.0);
+    QCOMPARE(rig.view("Robot 3 link")->range()->end, 70.1);
   }
 
   void badFieldsAreHoles() {
     Rig rig;
     QCOMPARE(rig.send("3 100 abc 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 OUT", 1.0),
              TeamMonitor::Verdict::Used);
-    rig.report(1.0);
     rig.report(1.5);
     QCOMPARE(rig.latest("Robot 3", "X"), 100.0);
     QVERIFY(std::isnan(rig.latest("Robot 3", "Y")));
-    QVERIFY(rig.latest("Robot 3", "ERRORS") >= 1.0);
+    QCOMPARE(rig.latest("Robot 3 link", "ERRORS"), 1.0);
   }
 
-  void fieldsBeyondTheProfile() {
+  void aLongerMessageAddsColumns() {
+    Rig rig;
+    // More than the 64 rows that are kept row by row, so that columns are widened as well.
+    for (int i = 0; i < 100; ++i) rig.send(message, i * 1.0);
+    const auto x = *rig.store->find("Robot 3", "X");
+    rig.send("3 101 200 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 55 OUT", 100.0);
+    rig.send(message, 101.0);
+    QCOMPARE(rig.store->find("Robot 3", "X").value(), x);
+    const auto view = rig.view("Robot 3");
+    QCOMPARE(view->rows(), std::size_t{102});
+    const auto other = *rig.store->find("Robot 3", "OTHER_1");
+    std::vector<Sample> samples;
+    QVERIFY(view->samples(other.column, {-1e9, 1e9}, samples));
+    QCOMPARE(samples.size(), std::size_t{102});
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      QCOMPARE(std::isnan(samples[i].value), i != 100);
+    }
+    QCOMPARE(samples[100].value, 55.0);
+    QCOMPARE(view->at(x.column, 50.0)->value, 100.0);
+    QCOMPARE(view->at(x.column, 100.0)->value, 101.0);
+    // Once in the lists.
+    int groups = 0;
+    for (GroupId id = 0; id < rig.store->groups(); ++id) {
+      if (rig.store->view(id)->info().name == "Robot 3") ++groups;
+    }
+    QCOMPARE(groups, 1);
+  }
+
+  void anEditedProfileAddsColumns() {
     Rig rig;
     rig.send("3 100 200 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 55 OUT", 1.0);
-    QCOMPARE(rig.latest("Robot 3", "OTHER_1"), 55.0);
-    rig.send(message, 2.0);
+    Profile edited = publishedProfile();
+    std::swap(edited.fields[1], edited.fields[2]);  // the team sends Y before X now
+    edited.fields.push_back({"TEMPERATURE", FieldType::Float, "°C", "Motors"});
+    rig.monitor.setProfile(edited);
+    rig.send("3 200 101 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 55.5 OUT", 2.0);
+    const auto view = rig.view("Robot 3");
+    QCOMPARE(view->rows(), std::size_t{2});
+    const auto x = *rig.store->find("Robot 3", "X");
+    QCOMPARE(view->at(x.column, 1.0)->value, 100.0);
+    QCOMPARE(view->at(x.column, 2.0)->value, 101.0);
+    QCOMPARE(rig.latest("Robot 3", "TEMPERATURE"), 55.5);
     QVERIFY(std::isnan(rig.latest("Robot 3", "OTHER_1")));
-    QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{2});
+  }
+
+  void anotherAddressGoesOn() {
+    Rig rig;
+    for (int i = 0; i < 3; ++i) rig.send(message, i * 1.0, "10.0.0.1");
+    for (int i = 3; i < 6; ++i) rig.send(message, i * 1.0, "10.0.0.9");
+    QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{6});
+    QCOMPARE(rig.view("Robot 3")->info().attributes.at("sender"), std::string("10.0.0.9"));
+    QVERIFY(!rig.view("Robot 3 (2)"));
   }
 
   void twoSendersOfOneNumber() {
     Rig rig;
-    rig.send(message, 1.0, "10.0.0.1");
-    rig.send(message, 1.1, "10.0.0.2");
-    QVERIFY(rig.view("Robot 3") && rig.view("Robot 3 (10.0.0.2)"));
+    for (int i = 0; i < 5; ++i) {
+      rig.send(message, i * 1.0, "10.0.0.1");
+      rig.send(message, i * 1.0 + 0.1, "10.0.0.2");
+    }
+    QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{5});
+    QCOMPARE(rig.view("Robot 3 (2)")->rows(), std::size_t{5});
   }
 
-  void aClockSetBackALittleKeepsTheRows() {
+  void whatIsMadeUpIsBounded() {
+    // 100 000 valid messages of robots and fields that nobody has, within an hour.
     Rig rig;
-    rig.send(message, 10.0);
-    rig.send("3 101 200 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 OUT", 9.0);
-    QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{2});
+    for (int i = 0; i < 100'000; ++i) {
+      std::string text = std::to_string(1 + i % 64'000) + " 1 2 3 4 5 6 1 1 1 1 1 8 0.5 120";
+      for (int extra = 0; extra < i % 40; ++extra) text += ' ' + std::to_string(i * 7 + extra);
+      rig.send(text + " OUT", i * 0.036);
+      if (i % 28 == 0) rig.report(i * 0.036);
+    }
+    QVERIFY(rig.store->groups() <= 2 * LiveRows::maxRobots);
+    for (GroupId id = 0; id < rig.store->groups(); ++id) {
+      QVERIFY(rig.store->view(id)->info().columns.size() <= LiveRows::maxColumns);
+    }
+    QVERIFY2(rig.store->memoryBytes() < 64'000'000,
+             qPrintable(QString::number(rig.store->memoryBytes())));
+    QVERIFY(rig.rows.refused().rows > 0 && rig.rows.refused().values > 0);
+    // A robot that really plays is heard all the same.
+    QCOMPARE(rig.send(message, 3601.0), TeamMonitor::Verdict::Used);
+    QCOMPARE(rig.view("Robot 3")->range()->end, 3601.0);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <QFile>
 #include <QtTest>
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -225,6 +226,117 @@ class TestLiveWatch : public QObject {
     QTRY_VERIFY(watch.latest()->robots.empty());
     QVERIFY(robot.send(portOf(options, 1), message(1)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+  }
+
+  void oneRobotCanBeForgotten() {
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket one, two;
+    QVERIFY(one.send(portOf(options, 1), message(1)));
+    QVERIFY(two.send(portOf(options, 2), message(2)));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
+    watch.forget(RobotId{1});
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+    QCOMPARE(watch.details().team.robots[0].number, 2);
+    QVERIFY(one.send(portOf(options, 1), message(1)));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
+  }
+
+  void theListOfSendersIsForRobots() {
+    LiveOptions options = freeOptions();
+    QVERIFY(options.team.senders.add("10.1.2.3"));
+    LiveWatch watch(options);
+    const auto witness = std::make_shared<Witness>();
+    watch.observe(witness);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket here;
+    const auto port = static_cast<std::uint16_t>(options.refereePort);
+    QVERIFY(here.send(portOf(options, 1), message(1)));
+    QVERIFY(here.send(port, refereePacket("v12hl688_PLAYING_1-0.bin")));
+    QTRY_COMPARE(witness->referee.load(), 1);
+    QTRY_COMPARE(watch.details().team.refusedByFilter, std::uint64_t{1});
+    QVERIFY(options.refereeSenders.add("10.1.2.4"));
+    options.team.senders = {};
+    watch.setOptions(options);
+    // It is not said when options are in force: asked until they are.
+    QTRY_VERIFY(here.send(port, refereePacket("v12hl688_PLAYING_1-0.bin")) &&
+                watch.details().refusedReferees > 0);
+    QVERIFY(here.send(portOf(options, 1), message(1)));
+    QTRY_COMPARE(witness->count(), std::size_t{1});
+  }
+
+  void aVersionCanBeChosen() {
+    LiveOptions options = freeOptions();
+    options.refereeVersion = 7;
+    LiveWatch watch(options);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket referee;
+    const auto port = static_cast<std::uint16_t>(options.refereePort);
+    QVERIFY(referee.send(port, refereePacket("v8hl158_PLAYING.bin")));
+    QTRY_COMPARE(watch.details().referee.otherVersions, std::uint64_t{1});
+    QVERIFY(referee.send(port, refereePacket("v7compat116_from_v8GC_PLAYING_1-0.bin")));
+    QTRY_VERIFY(watch.latest() && watch.latest()->referee);
+    QCOMPARE(watch.latest()->referee->version, 7);
+  }
+
+  void clocksThatAreSetMoveNothing() {
+    // The computer's clock by hand; the monotonic one is real, and can sleep.
+    struct Hands {
+      std::atomic<std::int64_t> set = 0, slept = 0;
+    };
+    const auto hands = std::make_shared<Hands>();
+    const telemetry::ClockSource system = telemetry::ClockSource::system();
+    const telemetry::ClockSource source{
+        [=] { return system.monotonic() + std::chrono::seconds(hands->slept); },
+        [=] {
+          return system.wall() + std::chrono::seconds(hands->set) +
+                 std::chrono::seconds(hands->slept);
+        }};
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options, {}, source);
+    const auto witness = std::make_shared<Witness>();
+    watch.observe(witness);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const auto began = watch.began();
+    const TestSocket robot;
+    std::vector<MatchEvent> events;
+    const auto gather = [&](MatchEventKind kind) {
+      for (const MatchEvent& event : watch.takeEvents()) events.push_back(event);
+      return std::any_of(events.begin(), events.end(),
+                         [&](const MatchEvent& event) { return event.kind == kind; });
+    };
+    const auto say = [&](std::size_t messages) {
+      return robot.send(portOf(options, 1), message(1, 300 + static_cast<int>(messages))) &&
+             QTest::qWaitFor([&] { return witness->count() == messages; });
+    };
+    QVERIFY(say(1));
+    for (const std::int64_t step : {3600, -3600}) {
+      events.clear();
+      hands->set = step;
+      QVERIFY(say(step > 0 ? 2 : 3));
+      QTRY_VERIFY(gather(MatchEventKind::ClockSet));
+      const auto at = std::ranges::find(events, MatchEventKind::ClockSet, &MatchEvent::kind);
+      QVERIFY(at->time < 600.0);  // not an hour off
+      QVERIFY(!watch.details().team.robots.at(0).timedOut);
+    }
+    {
+      const std::lock_guard lock(witness->mutex);
+      QVERIFY(std::ranges::is_sorted(witness->times));
+      QVERIFY(witness->times.back() < 600.0);
+    }
+    // An hour asleep: time went on, for the robots and for the curves.
+    events.clear();
+    hands->slept = 3600;
+    QTRY_VERIFY(gather(MatchEventKind::RobotSilent));
+    QVERIFY(say(4));
+    QTRY_VERIFY(gather(MatchEventKind::RobotBack));
+    QVERIFY(!gather(MatchEventKind::ClockSet));
+    const std::lock_guard lock(witness->mutex);
+    QVERIFY(witness->times.back() >= 3600.0 && witness->times.back() < 4200.0);
+    for (const MatchEvent& event : events) QVERIFY(event.time >= 3600.0 && event.time < 4200.0);
+    QVERIFY(watch.latest()->snapshot.time >= 3600.0);
+    QVERIFY(watch.began() == began);
   }
 
   void onlyTheRefereeIsAskedAndOnlyWhenToldTo() {

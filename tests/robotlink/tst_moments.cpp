@@ -131,12 +131,6 @@ class TestMoments : public QObject {
       QVERIFY(frame.robots[0].board->visionWorking && frame.robots[0].board->controlWorking);
       QVERIFY(!frame.robots[0].board->behaviour.empty());
     }
-    QElapsedTimer timer;
-    timer.start();
-    for (int i = 0; i < 200; ++i) (void)frames.frameAt(m_match->store, 5.0 + 0.07 * i);
-    const double each = static_cast<double>(timer.nsecsElapsed()) / 200e6;
-    qInfo("a frame from memory: %.3f ms", each);
-    QVERIFY(each < 5.0);
   }
 
   void framesComeFromASession() {

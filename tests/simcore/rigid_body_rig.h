@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace rig {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include <base/angles.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 using namespace pitchboard;
 using namespace pitchboard::sim;

@@ -152,6 +152,48 @@ class TestSession : public QObject {
     QVERIFY(reader->range()->end > 2.2);
   }
 
+  void columnsThatComeLater() {
+    QTemporaryDir folder;
+    const std::string path = (folder.path() + "/wide.mcap").toStdString();
+    GroupInfo narrow{"Robot 3", {{"X"}, {"Y"}}, {{"live", "1"}, {"number", "3"}}};
+    GroupInfo wide = narrow;
+    wide.columns.push_back({"TEMPERATURE"});
+    {
+      auto writer = SessionWriter::create(path, rig::sessionInfo());
+      QVERIFY(writer);
+      const GroupId before = (*writer)->addGroup(narrow);
+      for (int i = 0; i < 5; ++i) {
+        const std::vector<double> values{1.0 * i, 2.0};
+        (*writer)->append(before, {1.0 * i, {}, values});
+      }
+      const GroupId after = (*writer)->addGroup(wide);
+      for (int i = 5; i < 8; ++i) {
+        const std::vector<double> values{1.0 * i, 2.0, 36.5};
+        (*writer)->append(after, {1.0 * i, {}, values});
+      }
+      QVERIFY((*writer)->finish());
+    }
+    const auto session = SessionReader::open(path);
+    QVERIFY(session);
+    QCOMPARE(session->groups().size(), std::size_t{1});
+    QCOMPARE(session->groups()[0].info.columns.size(), std::size_t{3});
+    QCOMPARE(session->groups()[0].rows, std::uint64_t{8});
+    int rows = 0;
+    session->rows({-1.0, 100.0}, {}, [&rows](GroupId group, const RowView& row) {
+      const bool hole = std::isnan(row.values[2]);
+      const bool good = group == 0 && row.values.size() == 3 && row.values[0] == 1.0 * rows &&
+                        hole == (rows < 5) && (hole || row.values[2] == 36.5);
+      ++rows;
+      return good;
+    });
+    QCOMPARE(rows, 8);
+    std::vector<SessionRow> at;
+    session->rowsAt(3.0, at);
+    QVERIFY(at[0].present && at[0].values.size() == 3 && std::isnan(at[0].values[2]));
+    session->rowsAt(7.0, at);
+    QCOMPARE(at[0].values[2], 36.5);
+  }
+
   void fieldNamesAreThoseOfRos() {
     const std::string path = newPath();
     auto writer = SessionWriter::create(path, sessionInfo());

@@ -168,6 +168,104 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(team.robots[0].messages, std::uint64_t(100));
   }
 
+  void anotherAddressIsTheSameRobot() {
+    TeamMonitor monitor;
+    for (int i = 0; i < 5; ++i) give(monitor, text(3), start + i * 1s, from(1));
+    for (int i = 5; i < 9; ++i) {
+      QCOMPARE(give(monitor, text(3), start + i * 1s, from(7)), Verdict::Used);
+      QCOMPARE(monitor.usedSlot(), 0);
+    }
+    const TeamStatus team = monitor.status(start + 9s);
+    QCOMPARE(team.robots.size(), std::size_t(1));
+    QCOMPARE(team.robots[0].sender.address, from(7).address);
+    QCOMPARE(team.robots[0].messages, std::uint64_t(9));
+    QVERIFY(!team.robots[0].conflict);
+  }
+
+  void whoSpeaksAgainIsAnotherProgram_data() {
+    QTest::addColumn<int>("phase");
+    QTest::newRow("soon after it") << 200;
+    QTest::newRow("half way") << 500;
+    QTest::newRow("nearly at its turn") << 900;
+  }
+  void whoSpeaksAgainIsAnotherProgram() {
+    QFETCH(int, phase);
+    TeamMonitor monitor;
+    for (int i = 0; i < 8; ++i) {
+      give(monitor, text(3, 1, 120), start + i * 1s, from(1));
+      if (i > 0) QCOMPARE(monitor.usedSlot(), 0);  // the first one stays what it is
+      if (i < 3) continue;
+      give(monitor, text(3, 1, 100), start + i * 1s + phase * 1ms, from(2));
+      if (i > 3) QCOMPARE(monitor.usedSlot(), 1);
+    }
+    TeamStatus team = monitor.status(start + 8s);
+    QCOMPARE(team.robots.size(), std::size_t(2));
+    QCOMPARE(team.robots[0].sender, from(1));
+    QCOMPARE(team.robots[0].value(FieldMeaning::Voltage), std::optional(120.0));
+    QCOMPARE(team.robots[1].sender, from(2));
+    QCOMPARE(team.robots[1].value(FieldMeaning::Voltage), std::optional(100.0));
+    QVERIFY(team.robots[0].conflict && team.robots[1].conflict);
+    // Until one is silent.
+    for (int i = 8; i < 20; ++i) give(monitor, text(3, 1, 100), start + i * 1s, from(2));
+    team = monitor.status(start + 20s);
+    QVERIFY(team.robots[0].timedOut && !team.robots[0].conflict && !team.robots[1].conflict);
+    // Forgotten by hand: the other one is the robot of that number.
+    monitor.forget(3, 0);
+    QCOMPARE(give(monitor, text(3, 1, 100), start + 20s, from(2)), Verdict::Used);
+    QCOMPARE(monitor.usedSlot(), 0);
+    QCOMPARE(monitor.status(start + 20s).robots.size(), std::size_t(1));
+  }
+
+  void theSecondOneCanBeForgotten() {
+    TeamMonitor monitor;
+    give(monitor, text(3), start, from(1));
+    give(monitor, text(3), start + 100ms, from(2));
+    give(monitor, text(3), start + 200ms, from(9));
+    QCOMPARE(monitor.status(start).robots.size(), std::size_t(3));
+    monitor.forget(3, 1);
+    TeamStatus team = monitor.status(start);
+    QCOMPARE(team.robots.size(), std::size_t(2));
+    QCOMPARE(team.robots[1].slot, 2);
+    // Its slot is free again.
+    give(monitor, text(3), start + 300ms, from(4));
+    QCOMPARE(monitor.usedSlot(), 1);
+  }
+
+  void aLateMessageChangesNothing() {
+    Profile profile = publishedProfile();
+    profile.fields.push_back({"SEQ", FieldType::Int, "", "Network", FieldMeaning::Sequence});
+    TeamMonitor monitor(profile);
+    give(monitor, text(1, 1, 120, " 7"), start);
+    give(monitor, text(1, 1, 119, " 9"), start + 1s);
+    QCOMPARE(give(monitor, text(1, 0, 180, " 8"), start + 1010ms), Verdict::Late);
+    const RobotStatus robot = monitor.status(start + 2s).robots[0];
+    QCOMPARE(robot.value(FieldMeaning::Voltage), std::optional(119.0));
+    QCOMPARE(robot.battery->volts, 11.9);
+    QCOMPARE(robot.late, std::uint64_t(1));
+    QCOMPARE(robot.lost, std::uint64_t(0));
+    QCOMPARE(robot.messages, std::uint64_t(3));
+    QCOMPARE(robot.age, Duration(990ms));  // it is a sign of life
+  }
+
+  void aCounterOfThirtyTwoBitsIsRead() {
+    Profile profile = publishedProfile();
+    profile.fields.push_back({"SEQ", FieldType::Int, "", "Network", FieldMeaning::Sequence});
+    profile.fields.back().bits = 32;
+    TeamMonitor monitor(profile);
+    QCOMPARE(give(monitor, text(1, 1, 120, " 4294967294"), start), Verdict::Used);
+    QCOMPARE(give(monitor, text(1, 1, 120, " 1"), start + 1s), Verdict::Used);
+    QCOMPARE(monitor.status(start + 1s).robots[0].lost, std::uint64_t(2));
+  }
+
+  void madeUpRobotsDoNotKeepRealOnesOut() {
+    TeamMonitor monitor;
+    for (int i = 1000; i < 3000; ++i) give(monitor, text(i), start, from(9));
+    for (int i = 1; i <= 32; ++i) QCOMPARE(give(monitor, text(i), start), Verdict::Used);
+    const TeamStatus team = monitor.status(start);
+    QCOMPARE(team.robots.size(), MonitorOptions::maxRobots);
+    QCOMPARE(team.refusedRobots, std::uint64_t(2000 - 32));
+  }
+
   void atMostSixtyFour() {
     TeamMonitor monitor;
     for (int i = 1; i <= 100; ++i) {

@@ -10,7 +10,7 @@
 #include <robotlink/cognition/naive_decision.h>
 #include <robotlink/conformance/conformance.h>
 #include <robotlink/match/blackboard_bridge.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 #include "trace_file.h"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -45,6 +46,10 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
     {Kind::BatteryLow, "battery-low", "has a low battery", Shape::Warning, 4, false, true, ""},
+    {Kind::AddressChanged, "address-changed", "has another address", Shape::None, 0, false, false,
+     ""},
+    {Kind::ClockSet, "clock-set", "the computer's clock was set", Shape::None, 0, false, true,
+     "studio"},
     {Kind::Penalised, "penalty", "penalised", Shape::Warning, 5, false, true, ""},
     {Kind::PenaltyOver, "penalty-over", "may play again", Shape::None, 0, false, false, ""},
     {Kind::ProcessStarted, "process-started", "started", Shape::None, 0, false, false, ""},
@@ -125,6 +130,9 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::Half:
       return event.value == 2 ? "second half" : "first half";
     case Kind::SetPlay:
+      if (!event.detail.empty() && event.team != 0)
+        return event.detail + " for " + teamWords(event);
+      [[fallthrough]];
     case Kind::GamePhase:
       return event.detail.empty() ? std::string(info(event.kind).words) : event.detail;
     case Kind::RefereeHeard:
@@ -141,6 +149,9 @@ std::string predicateOf(const MatchEvent& event) {
              (event.value ? ": " + std::to_string(*event.value / 10) + '.' +
                                 std::to_string(std::abs(*event.value) % 10) + " V"
                           : std::string());
+    case Kind::ClockSet:
+      return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
+             std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";
     case Kind::Penalised:
       return wordsAnd(event) + (event.value.value_or(0) > 0
                                     ? ", " + std::to_string(*event.value) + " s"
@@ -199,10 +210,79 @@ MatchEvent eventOf(MatchEventKind kind, double time, const sim::RobotIdentity& r
 
 TeamColor teamOn(Side side, std::span<const sim::RobotIdentity> robots) {
   for (const sim::RobotIdentity& robot : robots) {
-    if (info(robot.team).facesLeft == (side == Side::Right)) return robot.team;
+    if (robot.imuStartsAt180 == (side == Side::Right)) return robot.team;
   }
   return side == Side::Left ? TeamColor::Blue : TeamColor::Red;
 }
+
+namespace {
+
+/// " for red": the side that has the ball.
+std::string sideWithBall(const sim::WorldState& state) {
+  if (!state.game || state.game->restartTeam < 0) return {};
+  const auto team = static_cast<std::size_t>(state.game->restartTeam);
+  return " for " + std::string(info(state.game->teams[team].colour).name);
+}
+
+/// What the referee of a simulated match says.
+void fillGameEvent(const sim::Event& event, const sim::WorldState& state, MatchEvent& out) {
+  switch (event.kind) {
+    case sim::EventKind::ScoreCorrected:
+      out.kind = Kind::ScoreCorrected;
+      out.side = event.value == 0 ? Side::Left : Side::Right;
+      out.colour = info(teamOn(*out.side, state.robots)).name;
+      out.score = state.score;
+      break;
+    case sim::EventKind::PlayStateChanged:
+      out.kind = Kind::GameState;
+      out.detail = wordsOf(static_cast<sim::PlayState>(event.value));
+      if (state.game) {
+        out.value = static_cast<int>(std::ceil(state.game->clock / state.settings.tickRate - 1e-9));
+      }
+      break;
+    case sim::EventKind::HalfBegan:
+      out.kind = Kind::Half;
+      out.value = event.value;
+      break;
+    case sim::EventKind::PhaseChanged:
+      out.kind = Kind::GamePhase;
+      if (event.value != 0) out.detail = wordsOf(static_cast<sim::GamePhase>(event.value));
+      break;
+    case sim::EventKind::SetPlayBegan:
+      out.kind = Kind::SetPlay;
+      out.detail =
+          std::string(wordsOf(static_cast<sim::SetPlay>(event.value))) + sideWithBall(state);
+      break;
+    case sim::EventKind::SetPlayOver:
+      out.kind = Kind::SetPlay;
+      break;
+    case sim::EventKind::DropBall:
+      out.kind = Kind::SetPlay;
+      out.detail = "drop ball";
+      break;
+    case sim::EventKind::PlayStopped:
+      out.kind = Kind::PlayStopped;
+      break;
+    case sim::EventKind::PlayGoesOn:
+      out.kind = Kind::PlayGoesOn;
+      break;
+    case sim::EventKind::Penalised:
+      out.kind = Kind::Penalised;
+      out.detail = wordsOf(static_cast<sim::PenaltyKind>(event.value));
+      break;
+    case sim::EventKind::PenaltyOver:
+      out.kind = Kind::PenaltyOver;
+      break;
+    case sim::EventKind::FinalWhistle:
+      out.kind = Kind::GamePhase;
+      out.detail = "final whistle";
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
 
 MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
   MatchEvent out;
@@ -234,6 +314,9 @@ MatchEvent matchEvent(const sim::Event& event, const sim::WorldState& state) {
     case sim::EventKind::UnknownAction:
       out.kind = Kind::UnknownAction;
       out.value = event.value;
+      break;
+    default:
+      fillGameEvent(event, state, out);
       break;
   }
   return out;

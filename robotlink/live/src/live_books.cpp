@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include <robotlink/frame/second_sender.h>
 #include <telemetry/wire/base64.h>
 
 #include "live_frame.h"
@@ -14,17 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 using telemetry::Duration;
+using telemetry::RefereeState;
 using telemetry::WallTime;
-
-constexpr std::size_t mostIdentities = 4096;
-
-Json keptJson(WallTime time, const telemetry::Sender& sender, const std::string& payload,
-              WallTime zero) {
-  return Json{{"at", (time - zero).count()},
-              {"address", sender.address.value},
-              {"port", sender.port},
-              {"base64", telemetry::toBase64(payload)}};
-}
 
 const Json* member(const Json& object, const char* key) {
   const auto found = object.find(key);
@@ -58,6 +49,7 @@ Json optionsJson(const LiveOptions& options) {
   return Json{{"profile", telemetry::profileText(options.profile)},
               {"field", options.field.name},
               {"ourTeam", options.ourTeam},
+              {"refereeVersion", options.refereeVersion},
               {"colour", info(options.colour).name},
               {"colourByNumber", options.colourByNumber},
               {"timeout", options.team.timeout.count()},
@@ -77,6 +69,7 @@ LiveOptions optionsFrom(const Json& json) {
   }
   if (auto field = sim::fieldByName(text(json, "field"))) options.field = *field;
   options.ourTeam = whole<int>(json, "ourTeam");
+  options.refereeVersion = whole<int>(json, "refereeVersion");
   options.colour = teamColour(text(json, "colour")).value_or(options.colour);
   const Json* byNumber = member(json, "colourByNumber");
   options.colourByNumber = byNumber && byNumber->is_boolean() && byNumber->get<bool>();
@@ -95,65 +88,74 @@ LiveOptions optionsFrom(const Json& json) {
 
 }  // namespace
 
-RobotId LiveIdentities::idOf(int number, std::uint64_t serial) {
-  const auto [entry, isNew] = m_ids.try_emplace({number, serial});
-  if (!isNew) return entry->second;
-  entry->second = idOfSender(number, [&](RobotId wanted) {
-    return std::any_of(m_ids.begin(), m_ids.end(),
-                       [&](const auto& known) { return known.second == wanted; });
-  });
-  return entry->second;
+LiveBooks::LiveBooks(const LiveOptions& options)
+    : monitor(options.profile, options.team), referee(refereeOptions(options)) {}
+
+telemetry::RefereeTracker::Options LiveBooks::refereeOptions(const LiveOptions& options) {
+  telemetry::RefereeTracker::Options made;
+  made.version = options.refereeVersion;
+  return made;
 }
 
-void LiveIdentities::keepOnly(const telemetry::TeamStatus& team) {
-  std::erase_if(m_ids, [&team](const auto& entry) {
-    return std::none_of(team.robots.begin(), team.robots.end(), [&entry](const auto& robot) {
-      return robot.number == entry.first.first && robot.serial == entry.first.second;
-    });
-  });
-}
-
-LiveBooks::LiveBooks(const LiveOptions& options) : monitor(options.profile, options.team) {}
-
-void LiveBooks::clear() {
+void LiveBooks::clear(const LiveOptions& options) {
   monitor.clear();
-  referee = {};
-  identities.clear();
+  referee = telemetry::RefereeTracker(refereeOptions(options));
   m_shown.reset();
   m_other.reset();
   m_trueData.reset();
+  m_replies.clear();
 }
 
-void LiveBooks::takeReferee(const telemetry::RefereeState& state,
+void LiveBooks::takeReferee(const telemetry::RefereePacket& packet,
                             const telemetry::DatagramView& datagram) {
-  const bool shown = referee.accept(state, datagram.sender, datagram.time);
-  // Of the datagrams that were not shown, only another referee's leaves something behind.
-  const bool other = referee.sender() && referee.sender()->address != datagram.sender.address;
-  std::optional<Kept>* kept = state.trueData() ? &m_trueData
-                              : shown          ? &m_shown
-                              : other          ? &m_other
-                                               : nullptr;
-  if (kept) *kept = {datagram.time, datagram.sender, std::string(datagram.payload)};
+  const auto kept = [&datagram] {
+    return Kept{datagram.time, datagram.sender, datagram.localPort, std::string(datagram.payload)};
+  };
+  const auto reply = [&](const telemetry::RobotReply& said, telemetry::Address robot) {
+    referee.accept(said, robot, datagram.time);
+    if (m_replies.size() < telemetry::RefereeTracker::maxReplies) {
+      m_replies.insert_or_assign({said.team, said.player}, kept());
+    }
+  };
+  if (const auto* state = std::get_if<RefereeState>(&packet)) {
+    const bool shown = referee.accept(*state, datagram.sender, datagram.time);
+    // Of packets that are not shown, only another referee's leaves something behind.
+    const bool other = referee.sender() && referee.sender()->address != datagram.sender.address;
+    if (state->trueData()) {
+      m_trueData = kept();
+    } else if (shown) {
+      m_shown = kept();
+    } else if (other) {
+      m_other = kept();
+    }
+  } else if (const auto* said = std::get_if<telemetry::RobotReply>(&packet)) {
+    reply(*said, datagram.sender.address);
+  } else if (const auto* forwarded = std::get_if<telemetry::ForwardedReply>(&packet)) {
+    reply(forwarded->reply, {forwarded->robot});
+  }
 }
 
 MatchFrame LiveBooks::frame(const LiveOptions& options, const telemetry::TeamStatus& team,
-                            double time) {
-  identities.keepOnly(team);
-  return liveFrame(options, team, referee, identities, time);
+                            double time) const {
+  return liveFrame(options, team, referee, time);
 }
 
 std::string LiveBooks::text(const LiveOptions& options, double time, WallTime zero) const {
   Json json{{"time", time}, {"options", optionsJson(options)}};
   // Its own text, not an object in here: the monitor's form is the monitor's.
   json["robots"] = monitor.robotsText(zero);
-  Json& ids = json["ids"] = Json::array();
-  for (const auto& [robot, id] : identities.m_ids) {
-    ids.push_back(Json{{"number", robot.first}, {"serial", robot.second}, {"id", id.value}});
-  }
   Json& packets = json["referee"] = Json::array();
+  const auto put = [&](const Kept& kept) {
+    packets.push_back(Json{{"at", (kept.time - zero).count()},
+                           {"address", kept.sender.address.value},
+                           {"port", kept.sender.port},
+                           {"localPort", kept.localPort},
+                           {"base64", telemetry::toBase64(kept.payload)}});
+  };
   for (const std::optional<Kept>* kept : {&m_shown, &m_trueData, &m_other}) {
-    if (*kept) packets.push_back(keptJson((*kept)->time, (*kept)->sender, (*kept)->payload, zero));
+    if (*kept) put(**kept);
   }
+  for (const auto& [robot, kept] : m_replies) put(kept);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -170,31 +172,20 @@ Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
       !done) {
     return tl::unexpected(done.error());
   }
-  if (const Json* ids = member(json, "ids"); ids && ids->is_array()) {
-    for (const Json& id : *ids) {
-      if (!id.is_object() || out.books.identities.m_ids.size() >= mostIdentities) continue;
-      out.books.identities.m_ids[{whole<int>(id, "number"), whole<std::uint64_t>(id, "serial")}] = {
-          whole<int>(id, "id")};
-    }
-  }
   if (const Json* packets = member(json, "referee"); packets && packets->is_array()) {
     for (const Json& packet : *packets) {
       if (!packet.is_object()) continue;
       const auto payload = telemetry::fromBase64(pitchboard::link::text(packet, "base64"));
       if (!payload) continue;
       const auto decoded = telemetry::decodeReferee(*payload);
-      const auto* state =
-          decoded ? std::get_if<telemetry::RefereeState>(&*decoded) : nullptr;
-      if (state == nullptr) continue;
+      if (!decoded) continue;
       constexpr Duration century = std::chrono::hours(24 * 36'525);
       const Duration at =
           std::clamp(Duration(whole<std::int64_t>(packet, "at")), -century, century);
-      out.books.takeReferee(
-          *state, {zero + at,
-                   {{whole<std::uint32_t>(packet, "address")}, whole<std::uint16_t>(packet, "port")},
-                   0,
-                   false,
-                   *payload});
+      const telemetry::Sender sender{{whole<std::uint32_t>(packet, "address")},
+                                     whole<std::uint16_t>(packet, "port")};
+      out.books.takeReferee(*decoded, {zero + at, sender, whole<std::uint16_t>(packet, "localPort"),
+                                       false, *payload});
     }
   }
   return out;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_events.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -45,7 +47,10 @@ void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector
   if (now.state != before.state) {
     out.push_back(made(Kind::GameState, time, now.state, now.secondsLeft));
   }
-  if (now.setPlay != before.setPlay) out.push_back(made(Kind::SetPlay, time, now.setPlay));
+  if (now.setPlay != before.setPlay) {
+    out.push_back(made(Kind::SetPlay, time, now.setPlay));
+    out.back().team = now.performingTeam.value_or(0);
+  }
   if (now.phase != before.phase) out.push_back(made(Kind::GamePhase, time, now.phase));
   if (now.firstHalf != before.firstHalf) {
     out.push_back(made(Kind::Half, time, {}, now.firstHalf ? 1 : 2));
@@ -84,7 +89,11 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
   };
   const auto [entry, isNew] = m_robots.try_emplace(heard.id());
   Known& known = entry->second;
-  if (isNew) say(Kind::RobotHeard, health.sender.text());
+  if (isNew) {
+    say(Kind::RobotHeard, health.sender.text());
+  } else if (health.sender.address != known.address) {
+    say(Kind::AddressChanged, known.address.text() + " to " + health.sender.address.text());
+  }
   if (health.timedOut != known.timedOut) {
     say(health.timedOut ? Kind::RobotSilent : Kind::RobotBack);
   }
@@ -105,6 +114,7 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
       known.lowFraction = health.battery->fraction;
     }
   }
+  known.address = health.sender.address;
   known.timedOut = health.timedOut;
   known.conflict = health.conflict;
   known.penalty = penalty;
@@ -122,6 +132,16 @@ std::vector<MatchEvent> LiveEvents::compare(const MatchFrame& now) {
   }
   std::erase_if(m_robots, [&now](const auto& known) { return now.robot(known.first) == nullptr; });
   return out;
+}
+
+std::vector<MatchEvent> LiveEvents::compareClock(telemetry::Duration setBy, double time) {
+  using std::chrono::round;
+  using std::chrono::seconds;
+  const auto by = round<seconds>(setBy - m_setBy).count();
+  if (by == 0) return {};
+  m_setBy = setBy;
+  constexpr std::int64_t most = 2'000'000'000;
+  return {made(Kind::ClockSet, time, {}, static_cast<int>(std::clamp(by, -most, most)))};
 }
 
 std::vector<MatchEvent> LiveEvents::comparePorts(const telemetry::ReceiverStatus& network,

@@ -19,10 +19,13 @@ class LiveEvents {
   std::vector<MatchEvent> compare(const MatchFrame& now);
   /// Ports that cannot be bound, and those that now can.
   std::vector<MatchEvent> comparePorts(const telemetry::ReceiverStatus& network, double time);
+  /// The computer's clock is off by this much since the beginning; a second or more is told.
+  std::vector<MatchEvent> compareClock(telemetry::Duration setBy, double time);
   void clear() { *this = {}; }
 
  private:
   struct Known {
+    telemetry::Address address;
     bool timedOut = false;
     bool conflict = false;
     std::optional<Penalty> penalty;
@@ -35,6 +38,7 @@ class LiveEvents {
   std::optional<RefereeView> m_referee;
   std::map<RobotId, Known> m_robots;
   std::map<std::uint16_t, std::string> m_ports;  // what was wrong with each
+  telemetry::Duration m_setBy{};
 };
 
 }  // namespace pitchboard::link

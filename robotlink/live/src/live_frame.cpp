@@ -109,6 +109,105 @@ std::string lowered(std::string_view text) {
   return out;
 }
 
+/// The set play and the phase in words. One version says in one field what another says in two.
+void describeSetPlay(const RefereeState& state, std::string& setPlay, std::string& phase) {
+  constexpr int normal = 0, shootout = 1, overtime = 2;
+  if (state.secState && *state.secState != normal) {
+    const std::string words = lowered(telemetry::secStateName(*state.secState));
+    (*state.secState == overtime || *state.secState == shootout ? phase : setPlay) = words;
+  }
+  if (state.gamePhase && *state.gamePhase != 0) {
+    phase = telemetry::gamePhaseWords(*state.gamePhase);
+  }
+  if (state.setPlay && *state.setPlay != 0) {
+    setPlay = telemetry::setPlayWords(state.league, *state.setPlay);
+  }
+}
+
+/// Who takes the set play and how far it is (docs/LIVE.md, "Referee").
+void describeTaking(const RefereeState& state, RefereeView& view) {
+  constexpr int firstOfSetPlays = 4;       // of the secondary state: free kicks and what follows
+  constexpr int sizeWithThreeSteps = 688;  // until 2018 there were two, counted the other way
+  if (state.secState && *state.secState >= firstOfSetPlays && *state.secState < 255 &&
+      state.secStateInfo) {
+    const auto& info = *state.secStateInfo;
+    if (state.team(info[0]) != nullptr) view.performingTeam = info[0];
+    if (state.size >= sizeWithThreeSteps) {
+      view.setPlayStep = info[1] == 0 ? "stop" : info[1] == 1 ? "prepare" : "ready";
+    } else {
+      view.setPlayStep = info[1] == 1 ? "stop" : "prepare";
+    }
+  } else if (state.setPlay.value_or(0) != 0) {
+    view.performingTeam = state.kickOffTeam;
+    if (view.stopped) view.setPlayStep = "stop";
+  }
+}
+
+/// What the secondary time counts down to.
+std::string countdownOf(const RefereeView& view) {
+  if (view.secondaryTime.value_or(0) == 0) return {};
+  if (view.setPlay == "timeout" || view.phase == "timeout") return "timeout over";
+  if (view.state == "READY") return "set";
+  if (view.state == "INITIAL" || view.state == "FINISHED") return "next half";
+  if (view.setPlay.empty()) return view.state == "PLAYING" ? "ball free" : "";
+  return view.setPlayStep == "prepare" ? "ready" : "ball free";
+}
+
+RefereeTeamView teamView(const RefereeState& state, const RefereeTeam& team) {
+  RefereeTeamView view{
+      team.number, std::string(telemetry::colourWords(team.colour)), team.score, 0, {}};
+  for (const RefereePlayer& player : team.players()) {
+    // Slots without a player are substitutes, and so are those who wait.
+    if (player.unreliable || telemetry::isSubstitute(state, player)) continue;
+    view.playersLeft += player.penalty == 0 ? 1 : 0;
+    view.players.push_back(
+        {player.number, std::string(telemetry::penaltyWords(state, player.penalty)),
+         player.secondsLeft, player.warnings.value_or(0), player.yellow.value_or(0),
+         player.red.value_or(0), player.cautions.value_or(0),
+         player.goalkeeper.value_or(0) != 0 || team.goalkeeper == player.number});
+  }
+  return view;
+}
+
+std::optional<RefereeTruth> truthOf(const telemetry::RefereeTracker& tracker,
+                                    telemetry::WallTime now) {
+  if (!tracker.trueData()) return std::nullopt;
+  const RefereeState& state = *tracker.trueData();
+  RefereeTruth truth;
+  truth.state = telemetry::stateName(state.state);
+  std::string phase;
+  describeSetPlay(state, truth.setPlay, phase);
+  if (truth.setPlay.empty()) truth.setPlay = phase;
+  truth.secondsLeft = state.secsRemaining;
+  truth.secondaryTime = state.secondaryTime;
+  truth.scores = {state.teams[0].score, state.teams[1].score};
+  truth.age = telemetry::secondsOf(std::max(now - tracker.trueDataTime(), telemetry::Duration{}));
+  return truth;
+}
+
+std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
+                                      telemetry::WallTime now) {
+  constexpr double metres = 0.001;
+  std::vector<RobotReplyView> views;
+  for (const auto& [reply, robot, time] : tracker.replies()) {
+    RobotReplyView& view = views.emplace_back();
+    view.team = reply.team;
+    view.player = reply.player;
+    view.address = robot.text();
+    view.fallen = reply.fallen.value_or(0) != 0;
+    if (reply.pose && std::ranges::all_of(*reply.pose, [](float f) { return std::isfinite(f); })) {
+      const auto& [x, y, yaw] = *reply.pose;
+      view.pose = Pose{{static_cast<double>(x) * metres, static_cast<double>(y) * metres},
+                       static_cast<double>(yaw)};
+    }
+    if (reply.ballAge && *reply.ballAge >= 0.0F && std::isfinite(*reply.ballAge)) {
+      view.ballAge = static_cast<double>(*reply.ballAge);
+    }
+    view.age = telemetry::secondsOf(std::max(now - time, telemetry::Duration{}));
+  }
+  return views;
+}
+
 RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, telemetry::WallTime now) {
   const RefereeState& state = *tracker.state();
   RefereeView view;
@@ -117,35 +216,19 @@ RefereeView viewOf(const telemetry::RefereeTracker& tracker, int ourTeam, teleme
   view.age = telemetry::secondsOf(*tracker.age(now));
   view.timedOut = tracker.timedOut(now);
   view.conflict = tracker.conflict(now);
-  view.trueData = tracker.trueData().has_value();
+  view.truth = truthOf(tracker, now);
+  view.replies = repliesOf(tracker, now);
   view.state = telemetry::stateName(state.state);
-  // One version says in one field what another says in two.
-  constexpr int normal = 0, overtime = 2, shootout = 1;
-  if (state.secState && *state.secState != normal) {
-    const std::string words = lowered(telemetry::secStateName(*state.secState));
-    (*state.secState == overtime || *state.secState == shootout ? view.phase : view.setPlay) =
-        words;
-  }
-  if (state.gamePhase && *state.gamePhase != 0) {
-    view.phase = telemetry::gamePhaseWords(*state.gamePhase);
-  }
-  if (state.setPlay && *state.setPlay != 0) {
-    view.setPlay = telemetry::setPlayWords(state.league, *state.setPlay);
-  }
+  describeSetPlay(state, view.setPlay, view.phase);
   view.firstHalf = state.firstHalf != 0;
   view.stopped = state.stopped.value_or(0) != 0;
   view.secondsLeft = state.secsRemaining;
   view.secondaryTime = state.secondaryTime;
+  describeTaking(state, view);
+  view.countdown = countdownOf(view);
   view.kickOffTeam = state.kickOffTeam;
   for (std::size_t i = 0; i < view.teams.size(); ++i) {
-    const RefereeTeam& team = state.teams[i];
-    int left = 0;
-    const auto players = team.players();
-    const std::size_t playing =
-        std::min(players.size(), static_cast<std::size_t>(std::max(state.playersPerTeam, 0)));
-    for (std::size_t p = 0; p < playing; ++p) left += players[p].penalty == 0 ? 1 : 0;
-    view.teams[i] = {team.number, std::string(telemetry::colourWords(team.colour)), team.score,
-                     left};
+    view.teams[i] = teamView(state, state.teams[i]);
   }
   view.ourTeam = state.team(ourTeam) != nullptr ? ourTeam : 0;
   return view;
@@ -161,8 +244,7 @@ std::optional<TeamColor> teamColour(std::string_view words) {
 }
 
 MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& team,
-                     const telemetry::RefereeTracker& referee, LiveIdentities& identities,
-                     double time) {
+                     const telemetry::RefereeTracker& referee, double time) {
   MatchFrame frame;
   frame.origin = FrameOrigin::Live;
   frame.truthKnown = false;
@@ -187,7 +269,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
     RobotFrame& out = frame.robots.emplace_back();
-    out.identity.id = identities.idOf(robot.number, robot.serial);
+    out.identity.id = idOfSlot(robot.number, robot.slot);
     out.identity.number = robot.number;
     out.identity.team =
         options.colourByNumber

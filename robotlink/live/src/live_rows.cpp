@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <base/actions.h>
@@ -12,17 +13,51 @@ namespace pitchboard::telemetry {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-enum Health : std::size_t { Age, Rate, Loss, Errors, Volts, healthColumns };
+constexpr double never = -std::numeric_limits<double>::infinity();
+constexpr std::size_t noColumn = std::numeric_limits<std::size_t>::max();
+constexpr double healthPeriod = 1.0;  // s
+constexpr double reportSlack = 0.2;   // s; reports do not come on the dot
 
 struct HealthColumn {
   const char *name, *unit;
+  double resolution;
 };
-constexpr std::array<HealthColumn, healthColumns> health{
-    {{"AGE", "s"}, {"RATE", "1/s"}, {"LOSS", ""}, {"ERRORS", ""}, {"VOLTS", "V"}}};
+constexpr std::array<HealthColumn, 9> healthColumns{{{"AGE", "s", 1.0 / 1024},
+                                                     {"RATE", "1/s", 1.0 / 1024},
+                                                     {"JITTER", "ms", 1.0 / 64},
+                                                     {"LOSS", "", 1.0 / 65536},
+                                                     {"LOST", "", 0.0},
+                                                     {"DUPLICATES", "", 0.0},
+                                                     {"LATE", "", 0.0},
+                                                     {"ERRORS", "", 0.0},
+                                                     {"VOLTS", "V", 1.0 / 1024}}};
 
-// A clock that is set back a little must not cost what was recorded since.
-constexpr double smallStep = 5.0;
+std::array<double, healthColumns.size()> healthValues(const RobotStatus& robot) {
+  const bool counts = robot.loss.has_value();
+  return {secondsOf(robot.age),
+          robot.rate,
+          robot.jitter * 1000.0,
+          robot.loss.value_or(nothing),
+          counts ? static_cast<double>(robot.lost) : nothing,
+          static_cast<double>(robot.duplicates),
+          counts ? static_cast<double>(robot.late) : nothing,
+          static_cast<double>(robot.errorCount),
+          robot.battery ? robot.battery->volts : nothing};
+}
+
+GroupInfo linkGroup(const std::string& robot) {
+  GroupInfo info{robot + " link", {}, {{"link", robot}}};
+  for (const HealthColumn& column : healthColumns) {
+    info.columns.push_back({column.name,
+                            ColumnType::Float64,
+                            column.unit,
+                            linkCategory,
+                            ColumnKind::Number,
+                            {},
+                            column.resolution});
+  }
+  return info;
+}
 
 ColumnInfo columnOf(const ProfileField& field) {
   ColumnInfo column{field.name,     ColumnType::Float64, field.unit,
@@ -35,18 +70,27 @@ ColumnInfo columnOf(const ProfileField& field) {
   return column;
 }
 
+bool isOrdinary(int number, int slot) {
+  return slot == 0 && number <= MonitorOptions::ordinaryRobots;
+}
+
 }  // namespace
 
 struct LiveRows::Robot {
-  int number = 0;
+  /// Where a field of the message goes.
+  struct Place {
+    std::size_t column = noColumn;
+    std::optional<double> absent;
+  };
+  int number = 0, slot = 0;
   Sender sender;
   std::string name;
-  GroupId group = 0;
-  std::uint64_t generation = 0;  // of the profile that the group was made for; 0: none yet
-  std::size_t fields = 0;        // columns before those of health
-  std::vector<double> values;    // fields, then health
-  double lastTime = -std::numeric_limits<double>::infinity();
-  bool heard = false;  // since the last report
+  GroupId group = 0, link = 0;
+  Profile profile;  // by which `places` were made
+  std::vector<Place> places;
+  std::vector<ColumnInfo> columns;
+  std::vector<double> values;
+  double lastTime = never, lastHealth = never;
   bool timedOut = false;
 };
 
@@ -55,101 +99,106 @@ LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options)
 
 LiveRows::~LiveRows() = default;
 
-void LiveRows::clear() {
-  m_robots.clear();
-}
-
-LiveRows::Robot& LiveRows::robotOf(int number, const Sender& sender) {
-  const auto found = std::ranges::find_if(m_robots, [&](const Robot& robot) {
-    return robot.number == number && robot.sender.address == sender.address;
-  });
-  if (found != m_robots.end()) return *found;
+LiveRows::Robot* LiveRows::robotOf(int number, int slot, const Sender& sender) {
+  const auto found = std::ranges::find_if(
+      m_robots, [&](const Robot& robot) { return robot.number == number && robot.slot == slot; });
+  if (found != m_robots.end()) {
+    const bool moved = found->sender.address != sender.address;
+    found->sender = sender;
+    if (moved) addGroups(*found);
+    return &*found;
+  }
+  const auto others = static_cast<std::size_t>(std::ranges::count_if(
+      m_robots, [](const Robot& robot) { return !isOrdinary(robot.number, robot.slot); }));
+  constexpr std::size_t mostOthers = maxRobots - std::size_t{MonitorOptions::ordinaryRobots};
+  if (!isOrdinary(number, slot) && others >= mostOthers) return nullptr;
   Robot robot;
   robot.number = number;
+  robot.slot = slot;
   robot.sender = sender;
   robot.name = m_options.name ? m_options.name(number) : "Robot " + std::to_string(number);
-  // The number, not the name: a robot whose number is used twice stays itself.
-  if (std::ranges::find(m_robots, number, &Robot::number) != m_robots.end()) {
-    robot.name += " (" + sender.address.text() + ")";
-  }
+  if (slot > 0) robot.name += " (" + std::to_string(slot + 1) + ")";
+  robot.link = m_sink->addGroup(linkGroup(robot.name));
   m_robots.push_back(std::move(robot));
-  return m_robots.back();
+  return &m_robots.back();
 }
 
 void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t values) {
-  if (m_generation == 0 || !(m_profile == decoder.profile())) {
-    m_profile = decoder.profile();
-    ++m_generation;
+  const Profile& profile = decoder.profile();
+  const bool edited = !(robot.profile == profile);
+  const std::size_t fields =
+      std::max(profile.fields.size(), std::min(values, profile.fields.size() + maxExtras));
+  if (!edited && fields <= robot.places.size()) return;
+  if (edited) {
+    robot.profile = profile;
+    robot.places.clear();
   }
-  const std::size_t fields = std::max(values, m_profile.fields.size());
-  // Fields beyond the profile come and go; columns only come, because new columns are a new group.
-  if (robot.generation == m_generation && fields <= robot.fields) return;
-  robot.generation = m_generation;
-  robot.fields = fields;
-  robot.values.assign(fields + healthColumns, nothing);
-  GroupInfo info{robot.name,
-                 {},
-                 {{"number", std::to_string(robot.number)},
-                  {"sender", robot.sender.address.text()},
-                  {"live", "1"}}};
-  for (std::size_t i = 0; i < fields; ++i) {
-    if (i < m_profile.fields.size()) {
-      info.columns.push_back(columnOf(m_profile.fields[i]));
+  for (std::size_t i = robot.places.size(); i < fields; ++i) {
+    const bool named = i < profile.fields.size();
+    const ColumnInfo column =
+        named ? columnOf(profile.fields[i]) : ColumnInfo{decoder.name(i), ColumnType::Float64, "",
+                                                         "Other",         ColumnKind::Number,  {}};
+    Robot::Place& place = robot.places.emplace_back();
+    if (named) place.absent = profile.fields[i].absent;
+    const auto known = std::ranges::find(robot.columns, column.name, &ColumnInfo::name);
+    if (known != robot.columns.end()) {
+      *known = column;
+    } else if (robot.columns.size() < maxColumns) {
+      robot.columns.push_back(column);
     } else {
-      info.columns.push_back(
-          {decoder.name(i), ColumnType::Float64, "", "Other", ColumnKind::Number, {}});
+      continue;
     }
+    place.column = static_cast<std::size_t>(
+        std::ranges::find(robot.columns, column.name, &ColumnInfo::name) - robot.columns.begin());
   }
-  for (const HealthColumn& column : health) {
-    std::string name = column.name;
-    while (std::ranges::find(info.columns, name, &ColumnInfo::name) != info.columns.end()) {
-      name.insert(0, "LINK_");  // a team's own field keeps its name
-    }
-    info.columns.push_back(
-        {name, ColumnType::Float64, column.unit, linkCategory, ColumnKind::Number, {}});
-  }
-  robot.group = m_sink->addGroup(info);
+  addGroups(robot);
+}
+
+void LiveRows::addGroups(Robot& robot) {
+  robot.group = m_sink->addGroup({robot.name,
+                                  robot.columns,
+                                  {{"number", std::to_string(robot.number)},
+                                   {"sender", robot.sender.address.text()},
+                                   {"live", "1"}}});
 }
 
 void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
-                    const TextDecoder& decoder) {
-  Robot& robot = robotOf(decoded.robot, datagram.sender);
-  describe(robot, decoder, decoded.count);
-  for (std::size_t i = 0; i < robot.fields; ++i) {
-    robot.values[i] = i < decoded.count ? decoded.values[i] : nothing;
+                    const TextDecoder& decoder, int slot) {
+  Robot* robot = robotOf(decoded.robot, slot, datagram.sender);
+  if (robot == nullptr) {
+    ++m_refused.rows;
+    return;
   }
-  robot.values[robot.fields + Age] = 0.0;
-  robot.heard = true;
-  robot.timedOut = false;
-  append(robot, datagram.time);
+  describe(*robot, decoder, decoded.count);
+  robot->values.assign(robot->columns.size(), nothing);
+  for (std::size_t i = 0; i < decoded.count; ++i) {
+    const bool kept = i < robot->places.size() && robot->places[i].column != noColumn;
+    if (!kept) {
+      ++m_refused.values;
+    } else if (robot->places[i].absent != decoded.values[i]) {
+      robot->values[robot->places[i].column] = decoded.values[i];
+    }
+  }
+  // Of two ports the later message may be read first.
+  robot->lastTime = std::max(robot->lastTime, timeOf(datagram.time));
+  m_sink->append(robot->group, {robot->lastTime, {}, robot->values});
 }
 
 void LiveRows::report(const TeamStatus& status) {
-  for (const RobotStatus& now : status.robots) {
-    const auto found = std::ranges::find_if(m_robots, [&](const Robot& robot) {
-      return robot.number == now.number && robot.sender.address == now.sender.address;
+  const double now = timeOf(status.time);
+  for (const RobotStatus& heard : status.robots) {
+    const auto robot = std::ranges::find_if(m_robots, [&](const Robot& known) {
+      return known.number == heard.number && known.slot == heard.slot;
     });
-    if (found == m_robots.end()) continue;  // nothing of it could be used yet
-    Robot& robot = *found;
-    const auto set = [&](Health column, double value) {
-      robot.values[robot.fields + column] = value;
-    };
-    set(Age, secondsOf(now.age));
-    set(Rate, now.rate);
-    set(Loss, now.loss.value_or(nothing));
-    set(Errors, static_cast<double>(now.errors.total()));
-    set(Volts, now.battery ? now.battery->volts : nothing);
-    const bool silent = !std::exchange(robot.heard, false);
-    const bool wasTimedOut = std::exchange(robot.timedOut, now.timedOut);
-    if (silent && !wasTimedOut) append(robot, status.time);
+    if (robot == m_robots.end()) continue;  // nothing of it could be used yet
+    const bool wasTimedOut = std::exchange(robot->timedOut, heard.timedOut);
+    if (heard.timedOut && wasTimedOut) continue;
+    const bool due = now >= robot->lastHealth + healthPeriod - reportSlack;
+    if (!due && heard.timedOut == wasTimedOut) continue;
+    robot->lastHealth = std::max(robot->lastHealth, now);
+    const auto values = healthValues(heard);
+    m_sink->append(robot->link, {robot->lastHealth, {}, values});
   }
-}
-
-void LiveRows::append(Robot& robot, WallTime time) {
-  double at = secondsOf(time - m_options.zero);
-  if (at < robot.lastTime && robot.lastTime - at < smallStep) at = robot.lastTime;
-  robot.lastTime = at;
-  m_sink->append(robot.group, {at, {}, robot.values});
 }
 
 }  // namespace pitchboard::telemetry

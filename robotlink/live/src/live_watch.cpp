@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_books.h>
 
 #include "live_events.h"
@@ -28,13 +29,11 @@ constexpr auto booksPeriod = 15s;  // a moment of a recording is made from the b
 constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
 constexpr std::size_t maxQueued = 10'000;
 
-WallTime wallNow() {
-  return std::chrono::time_point_cast<telemetry::Duration>(std::chrono::system_clock::now());
-}
-
-telemetry::ReceiverOptions receiverOptions(const LiveOptions& options) {
+telemetry::ReceiverOptions receiverOptions(
+    const LiveOptions& options, const std::shared_ptr<const telemetry::LiveClock>& clock) {
   telemetry::ReceiverOptions made;
   made.bind = options.bind;
+  made.clock = clock;
   const auto ports = telemetry::livePorts(options.portBase, options.robots, options.refereePort);
   if (ports) made.ports = *ports;
   if (options.monitor) made.ports.push_back(telemetry::robotStatesPort);
@@ -58,23 +57,20 @@ Result<void> validate(const LiveOptions& options) {
 }
 
 struct LiveWatch::Impl {
-  Impl(LiveOptions o, std::function<void()> ready)
-      : options(std::move(o)), onFrame(std::move(ready)), books(options) {}
+  Impl(LiveOptions o, std::function<void()> ready, telemetry::ClockSource source)
+      : clock(std::make_shared<const telemetry::LiveClock>(std::move(source))),
+        options(std::move(o)),
+        onFrame(std::move(ready)),
+        books(options) {}
 
-  double since(Steady::time_point now) const {
-    return std::chrono::duration<double>(now - begin).count();
-  }
-  /// Of a datagram, by the wall clock: the kernel's stamps are of that one.
-  double arrival(WallTime time) const {
-    return std::max(0.0, std::chrono::duration<double>(time - wallBegin).count());
-  }
+  double arrival(WallTime time) const { return std::max(0.0, clock->seconds(time)); }
 
   void listen() {
     {
       const std::lock_guard lock(mutex);
       receiver.reset();  // its ports may be wanted again
     }
-    auto started = telemetry::UdpReceiver::start(receiverOptions(options));
+    auto started = telemetry::UdpReceiver::start(receiverOptions(options, clock));
     const std::lock_guard lock(mutex);
     networkProblem = started ? std::string() : started.error().text();
     if (started) receiver = std::move(*started);
@@ -87,9 +83,10 @@ struct LiveWatch::Impl {
     pending.reset();
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
     monitor.setOptions(options.team);
-    tellBooks(Steady::now());
+    referee.setOptions(LiveBooks::refereeOptions(options));
+    tellBooks();
     monitorProblem.clear();
-    const auto before = receiverOptions(old), after = receiverOptions(options);
+    const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
     if (before.ports == after.ports && before.bind == after.bind && receiver) return;
     lock.unlock();
     listen();
@@ -97,17 +94,24 @@ struct LiveWatch::Impl {
 
   void forget() {
     const std::lock_guard lock(mutex);
+    for (const RobotId id : std::exchange(forgetAsked, {})) {
+      monitor.forget(numberOf(id), slotOf(id));
+      tellBooks();
+    }
     if (!std::exchange(clearAsked, false)) return;
-    books.clear();
+    books.clear(options);
     happened.clear();
-    unknownReferee = robotStates = 0;
+    unknownReferee = refusedReferees = 0;
     unknownReason.clear();
     unknownSample.clear();
-    tellBooks(Steady::now());
+    tellBooks();
   }
 
   void takeReferee(const DatagramView& datagram) {
-    if (!options.team.senders.allows(datagram.sender.address)) return;
+    if (!options.refereeSenders.allows(datagram.sender.address)) {
+      ++refusedReferees;
+      return;
+    }
     const auto packet = telemetry::decodeReferee(datagram.payload);
     if (!packet || !std::holds_alternative<RefereeState>(*packet)) unused(datagram);
     if (!packet) {
@@ -116,13 +120,11 @@ struct LiveWatch::Impl {
       unknownSample = telemetry::printable(datagram.payload);
       return;
     }
+    books.takeReferee(*packet, datagram);
     if (const auto* state = std::get_if<RefereeState>(&*packet)) {
-      books.takeReferee(*state, datagram);
       for (const auto& observer : observers) {
         observer->refereeHeard(arrival(datagram.time), datagram, *state);
       }
-    } else if (!std::holds_alternative<telemetry::TrueDataRequest>(*packet)) {
-      ++robotStates;
     }
   }
 
@@ -146,7 +148,7 @@ struct LiveWatch::Impl {
       if (verdict != TeamMonitor::Verdict::Used) {
         unused(datagram);
       } else {
-        const RobotId id = books.identities.idOf(monitor.decoded().robot, monitor.usedSerial());
+        const RobotId id = idOfSlot(monitor.decoded().robot, monitor.usedSlot());
         for (const auto& observer : observers) {
           observer->heard(id, arrival(datagram.time), datagram, monitor.decoder(),
                           monitor.decoded());
@@ -157,12 +159,11 @@ struct LiveWatch::Impl {
 
   void makeFrame(Steady::time_point now) {
     const std::lock_guard lock(mutex);
-    // At the frame's own time: a recording asks for the same one.
-    const telemetry::TeamStatus team =
-        monitor.status(wallBegin + std::chrono::duration_cast<telemetry::Duration>(now - begin));
-    auto made = std::make_shared<MatchFrame>(books.frame(options, team, since(now)));
+    const telemetry::TeamStatus team = monitor.status(clock->now());
+    auto made = std::make_shared<MatchFrame>(books.frame(options, team, clock->seconds(team.time)));
     made->serial = ++serial;
     tell(happened.compare(*made));
+    tell(happened.compareClock(clock->setBy(), made->snapshot.time));
     if (receiver && now >= nextPorts) {
       nextPorts = now + portsPeriod;
       tell(happened.comparePorts(receiver->status(), made->snapshot.time));
@@ -172,17 +173,17 @@ struct LiveWatch::Impl {
       if (now >= nextReport) observer->reported(team);
     }
     if (now >= nextReport) nextReport = now + reportPeriod;
-    if (now >= nextBooks) tellBooks(now);
+    if (now >= nextBooks) tellBooks();
     frame = std::move(made);
     if (!std::exchange(announced, true) && onFrame) onFrame();
   }
 
   /// Needs the lock: what an observer hears after it, is not in the books.
-  void tellBooks(Steady::time_point now) {
-    nextBooks = now + booksPeriod;
+  void tellBooks() {
+    nextBooks = Steady::now() + booksPeriod;
     if (observers.empty()) return;
-    const double time = since(now);
-    const std::string text = books.text(options, time, wallBegin);
+    const double time = clock->seconds(clock->now());
+    const std::string text = books.text(options, time, clock->began());
     for (const auto& observer : observers) observer->remembered(time, text);
   }
 
@@ -229,8 +230,7 @@ struct LiveWatch::Impl {
     }
   }
 
-  const Steady::time_point begin = Steady::now();
-  const WallTime wallBegin = wallNow();
+  const std::shared_ptr<const telemetry::LiveClock> clock;
   LiveOptions options;  // changed by the thread only
   const std::function<void()> onFrame;
   std::unique_ptr<telemetry::UdpReceiver> receiver;
@@ -239,10 +239,12 @@ struct LiveWatch::Impl {
   mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
   std::optional<LiveOptions> pending;
   bool clearAsked = false;
+  std::vector<RobotId> forgetAsked;
   LiveBooks books;
   TeamMonitor& monitor = books.monitor;
+  telemetry::RefereeTracker& referee = books.referee;
   LiveEvents happened;
-  std::uint64_t serial = 0, unknownReferee = 0, robotStates = 0;
+  std::uint64_t serial = 0, unknownReferee = 0, refusedReferees = 0;
   std::string networkProblem, unknownReason, unknownSample, monitorProblem;
   std::shared_ptr<const MatchFrame> frame;
   bool announced = false;
@@ -251,8 +253,9 @@ struct LiveWatch::Impl {
   std::jthread thread;  // last: it uses all of the above
 };
 
-LiveWatch::LiveWatch(LiveOptions options, std::function<void()> onFrame)
-    : m_impl(std::make_unique<Impl>(std::move(options), std::move(onFrame))) {
+LiveWatch::LiveWatch(LiveOptions options, std::function<void()> onFrame,
+                     telemetry::ClockSource clock)
+    : m_impl(std::make_unique<Impl>(std::move(options), std::move(onFrame), std::move(clock))) {
   Impl* impl = m_impl.get();
   impl->thread = std::jthread([impl](const std::stop_token& stop) { impl->run(stop); });
 }
@@ -272,6 +275,11 @@ void LiveWatch::clear() {
   m_impl->clearAsked = true;
 }
 
+void LiveWatch::forget(RobotId id) {
+  const std::lock_guard lock(m_impl->mutex);
+  m_impl->forgetAsked.push_back(id);
+}
+
 std::shared_ptr<const MatchFrame> LiveWatch::latest() {
   const std::lock_guard lock(m_impl->mutex);
   m_impl->announced = false;
@@ -281,14 +289,14 @@ std::shared_ptr<const MatchFrame> LiveWatch::latest() {
 LiveDetails LiveWatch::details() const {
   LiveDetails details;
   const std::lock_guard lock(m_impl->mutex);
-  details.team = m_impl->monitor.status(wallNow());
+  details.team = m_impl->monitor.status(m_impl->clock->now());
   if (m_impl->receiver) details.network = m_impl->receiver->status();
   details.networkProblem = m_impl->networkProblem;
   details.referee = m_impl->books.referee.counts();
   details.unknownReferee = m_impl->unknownReferee;
   details.unknownRefereeReason = m_impl->unknownReason;
   details.unknownRefereeSample = m_impl->unknownSample;
-  details.robotStates = m_impl->robotStates;
+  details.refusedReferees = m_impl->refusedReferees;
   details.monitorProblem = m_impl->monitorProblem;
   return details;
 }
@@ -299,13 +307,13 @@ std::vector<MatchEvent> LiveWatch::takeEvents() {
 }
 
 telemetry::WallTime LiveWatch::began() const {
-  return m_impl->wallBegin;
+  return m_impl->clock->began();
 }
 
 void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
   const std::lock_guard lock(m_impl->mutex);
-  const double now = m_impl->since(Steady::now());
-  observer->remembered(now, m_impl->books.text(m_impl->options, now, m_impl->wallBegin));
+  const double now = m_impl->clock->seconds(m_impl->clock->now());
+  observer->remembered(now, m_impl->books.text(m_impl->options, now, m_impl->clock->began()));
   m_impl->observers.push_back(std::move(observer));
 }
 

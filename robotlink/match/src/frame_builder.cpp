@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <robotlink/match/referee_packet.h>
+
 namespace pitchboard::link {
 namespace {
 
@@ -38,6 +40,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     const auto processes = m_processes.find(robot.id());
     robot.processList = processes == m_processes.end() ? nullptr : processes->second;
     robot.thoughts.reset();
+    robot.penalty = refereePenalty(state, state.robots[i]);
   }
   std::erase_if(m_lastSeen, [&](const auto& entry) { return !simulation.indexOf(entry.first); });
   if (still || now - m_thoughtsTime >= thoughtsInterval) {
@@ -49,6 +52,8 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
       out.robots[*index].thoughts = thoughts;
     }
   }
+  out.referee.reset();
+  if (state.game) out.referee = refereeView(state);
   out.finishedBy = match.finishedBy();
   out.finished = !out.finishedBy.empty();
   out.field = state.settings.field;

@@ -28,6 +28,7 @@ void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
                    : state.clockRunning ? Game::Playing
                                         : Game::ClockStopped;
   if (std::exchange(m_game, now) == now) return;
+  if (state.game && now != Game::Over) return;  // its referee says the state of the game
   MatchEvent event;
   event.kind = now == Game::Over ? MatchEventKind::MatchOver : MatchEventKind::GameState;
   event.time = time;

@@ -14,7 +14,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/processes/process_supervisor.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 

@@ -138,6 +138,9 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
 }
 
 Result<void> SimulatedMatch::startProcesses(Seat& seat) {
+  if (const auto index = m_simulation.indexOf(seat.id)) {
+    seat.facesLeft = m_simulation.state().robots[*index].imuStartsAt180;
+  }
   for (const ProcessInfo& process : cognitiveProcesses()) {
     if (auto started = startProcess(seat, process); !started) return started;
   }
@@ -206,6 +209,13 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       std::to_string(options.particles),
       "--field",
       fieldToText(m_scenario.settings.field)};
+  if (const auto& game = m_simulation.state().game; game && game->teamOf(identity.team) >= 0) {
+    const auto team = static_cast<std::size_t>(game->teamOf(identity.team));
+    command.insert(command.end(),
+                   {"--referee-team", std::to_string(game->teams[team].number), "--shirt",
+                    std::to_string(identity.number), "--referee-port",
+                    std::to_string(options.refereePort)});
+  }
   if (m_thoughts) {
     command.insert(command.end(), {"--thoughts-port", std::to_string(m_thoughts->port())});
   }

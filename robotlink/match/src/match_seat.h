@@ -21,6 +21,7 @@ struct InlineProcess {
 struct SimulatedMatch::Seat {
   RobotId id;
   std::string behaviour;
+  bool facesLeft = false;             // what its processes were told
   std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;
   std::vector<InlineProcess> processes;

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <robotlink/cognition/referee_word.h>
+
 #include "match_events.h"
+#include "match_referee.h"
 #include "match_seat.h"
 
 namespace pitchboard::link {
@@ -28,6 +31,7 @@ SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& opt
       m_variables(catalog),
       m_bridge(m_variables),
       m_events(std::make_unique<MatchEvents>()),
+      m_referee(std::make_unique<MatchReferee>()),
       m_supervisor(std::make_unique<ProcessSupervisor>()) {}
 
 SimulatedMatch::SimulatedMatch(SimulatedMatch&&) noexcept = default;
@@ -53,6 +57,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_teamChannels = std::move(other.m_teamChannels);
   m_thoughts = std::move(other.m_thoughts);
   m_events = std::move(other.m_events);
+  m_referee = std::move(other.m_referee);
   m_supervisor = std::move(other.m_supervisor);
   return *this;
 }
@@ -87,8 +92,57 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
   for (const ScenarioRobot& robot : scenario.robots) {
     if (auto added = match.addRobot(robot); !added) return tl::unexpected(added.error());
   }
+  if (auto begun = match.beginGame(); !begun) return tl::unexpected(begun.error());
   match.applyDueWrites();
   return match;
+}
+
+/// Once everybody is there: who keeps which goal, and how the referee is heard.
+Result<void> SimulatedMatch::beginGame() {
+  const auto& rules = m_scenario.settings.referee;
+  if (m_options.obeyReferee && !rules) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this scenario has no referee; a match that obeys a GameController needs rules: "
+                   "set \"referee\" in the scenario, for example to \"humanoid-2021\"");
+  }
+  if (!rules) return {};
+  if (auto begun = m_simulation.setReferee(rules); !begun) return begun;
+  sim::WorldState& world = m_simulation.editState();
+  const std::size_t left = world.game->leftTeam();
+  world.game->teams[left].score = m_scenario.score.left;
+  world.game->teams[1 - left].score = m_scenario.score.right;
+  world.score = m_scenario.score;
+  if (m_options.obeyReferee) {
+    if (auto obeyed = m_referee->obey(*m_options.obeyReferee, m_simulation); !obeyed) return obeyed;
+  } else if (m_options.sendReferee) {
+    if (auto sent = m_referee->sendTo(m_options.process.refereePort); !sent) return sent;
+  }
+  hearReferee();
+  return {};
+}
+
+/// Inline robots have no communication process: the match writes what it would.
+void SimulatedMatch::hearReferee() {
+  if (!m_referee->tick(m_simulation) || m_options.cognition != Cognition::Inline) return;
+  const sim::WorldState& world = m_simulation.state();
+  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+    const sim::RobotIdentity& robot = world.robots[i];
+    const int team = world.game->teamOf(robot.team);
+    if (team < 0) continue;
+    const int number = world.game->teams[static_cast<std::size_t>(team)].number;
+    if (const auto word = refereeWord(m_referee->packet(), number, robot.number)) {
+      m_seats[i]->board.write(m_variables.comReferee, *word);
+    }
+  }
+}
+
+/// Teams that have changed sides start their processes again, told where they attack.
+void SimulatedMatch::followSides() {
+  const auto& robots = m_simulation.state().robots;
+  for (std::size_t i = 0; i < m_seats.size(); ++i) {
+    if (m_seats[i]->facesLeft == robots[i].imuStartsAt180) continue;
+    (void)restartProcesses(*m_seats[i]);
+  }
 }
 
 Result<void> SimulatedMatch::resolveWrites() {
@@ -156,6 +210,10 @@ void SimulatedMatch::tick() {
     m_bridge.publish(m_percepts[i], m_seats[i]->board);
   }
   m_expectedTick = m_simulation.state().tick;
+  if (m_simulation.state().game) {
+    followSides();
+    hearReferee();
+  }
   runInlineProcesses();
 }
 
@@ -189,6 +247,7 @@ std::string_view SimulatedMatch::finishedBy() const {
                            firstTickAtOrAfter(*stop.duration, m_scenario.settings.tickRate)) {
     return "duration";
   }
+  if (m_simulation.state().game && m_simulation.state().game->over) return "full_time";
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <resources/resources.h>
 #include <robotlink/cognition/process_registry.h>
 
+#include "referee_rules_json.h"
 #include "scenario_keys.h"
 
 namespace pitchboard::link {
@@ -22,8 +23,8 @@ constexpr std::size_t mostWrites = 100000;
 constexpr std::size_t mostFileBytes = 1024 * 1024;
 
 // The default first, as in choosers; each is resources/scenarios/<name>.json.
-constexpr std::array<std::string_view, 7> builtInNames{
-    "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
+constexpr std::array<std::string_view, 9> builtInNames{
+    "match", "match-4v4", "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
     "one-robot", "match-11v11",         "empty"};
 
 std::string resourcePath(std::string_view name) {
@@ -57,7 +58,7 @@ class Reader {
         m_root(report, root, "",
                {"version", "name", "title", "description", "physics", "tick_rate", "seed",
                 "after_goal", "clock_running", "clock", "score", "field", "noise", "rigid_body",
-                "ball", "robots", "writes", "stop"}) {}
+                "ball", "robots", "writes", "stop", "referee"}) {}
 
   Scenario read() {
     readVersion();
@@ -73,6 +74,7 @@ class Reader {
     readField();
     readNoise();
     readRigidBody();
+    m_scenario.settings.referee = readReferee(m_report, m_root, "referee");
     readBall();
     m_scenario.clockRunning = m_root.boolean("clock_running", true);
     m_scenario.clock = m_root.number("clock", 0.0, {0, longestClock, "seconds"});

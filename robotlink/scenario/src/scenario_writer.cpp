@@ -2,6 +2,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/world/referee_parameters.h>
+
 #include "scenario_keys.h"
 
 namespace pitchboard::link {
@@ -73,6 +76,29 @@ Json rigidBodyToJson(const sim::RigidBodySettings& body) {
   return out;
 }
 
+Json refereeToJson(const sim::RefereeRules& rules) {
+  std::string base;
+  Json least;
+  for (const RuleSetInfo& set : refereeRuleSets()) {
+    const auto built = refereeRuleSet(set.name);
+    if (!built || !*built) continue;
+    if (**built == rules) return set.name;
+    Json changed = differences(sim::refereeParameters, rules, **built);
+    for (const auto& one : sim::refereeSwitches) {
+      if (rules.*one.member != (**built).*one.member) changed[one.key] = rules.*one.member;
+    }
+    if (rules.style != (**built).style) continue;
+    if (base.empty() || changed.size() < least.size() || rules.name == set.name) {
+      base = set.name;
+      least = std::move(changed);
+      if (rules.name == set.name) break;
+    }
+  }
+  Json out{{"rules", base}};
+  out.update(least);
+  return out;
+}
+
 /// Writes at time 0 that stand in the order in which the reader would take them from the robots'
 /// own "blackboard" objects; the rest goes into "writes".
 std::size_t addBlackboards(const Scenario& scenario, Json& robots) {
@@ -136,6 +162,7 @@ std::string scenarioToJson(const Scenario& scenario) {
   if (Json body = rigidBodyToJson(settings.rigidBody); !body.empty()) {
     out["rigid_body"] = std::move(body);
   }
+  if (settings.referee) out["referee"] = refereeToJson(*settings.referee);
   Json ball{{"x", number(scenario.ball.x)}, {"y", number(scenario.ball.y)}};
   if (scenario.ballVelocity != Velocity{}) {
     ball["vx"] = number(scenario.ballVelocity.x);

@@ -86,9 +86,9 @@ void LiveMemory::walk(std::span<const SessionStream> streams, telemetry::TimeRan
   std::vector<Kept> wanted;
   {
     const std::lock_guard lock(m_mutex);
-    const auto first = std::lower_bound(
-        m_records.begin(), m_records.end(), range.begin - disorder,
-        [](const Kept& record, double time) { return record->time < time; });
+    const auto first =
+        std::lower_bound(m_records.begin(), m_records.end(), range.begin - disorder,
+                         [](const Kept& record, double time) { return record->time < time; });
     for (auto record = first; record != m_records.end(); ++record) {
       if ((*record)->time > range.end + disorder) break;
       if ((*record)->time < range.begin || (*record)->time > range.end) continue;

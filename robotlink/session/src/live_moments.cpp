@@ -67,16 +67,9 @@ struct LiveMoments::Impl {
     const telemetry::DatagramView datagram{at(kept.time), kept.sender, kept.localPort, false,
                                            kept.payload};
     if (record.stream == SessionStream::Telemetry) {
-      if (known->books.monitor.take(datagram) == telemetry::TeamMonitor::Verdict::Used) {
-        known->books.identities.idOf(known->books.monitor.decoded().robot,
-                                     known->books.monitor.usedSerial());
-      }
-      return;
-    }
-    const auto packet = telemetry::decodeReferee(kept.payload);
-    if (!packet) return;
-    if (const auto* state = std::get_if<telemetry::RefereeState>(&*packet)) {
-      known->books.takeReferee(*state, datagram);
+      (void)known->books.monitor.take(datagram);
+    } else if (const auto packet = telemetry::decodeReferee(kept.payload)) {
+      known->books.takeReferee(*packet, datagram);
     }
   }
 };

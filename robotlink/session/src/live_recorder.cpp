@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include <robotlink/frame/second_sender.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/referee_json.h>
 
@@ -125,7 +126,7 @@ void LiveRecorder::heard(RobotId id, double time, const telemetry::DatagramView&
                          const telemetry::TextDecoder& decoder,
                          const telemetry::DecodedText& decoded) {
   LiveRecords::heard(id, time, datagram, decoder, decoded);
-  m_rows.take(datagram, decoded, decoder);
+  m_rows.take(datagram, decoded, decoder, slotOf(id));
 }
 
 void LiveRecorder::keep(LiveRecord record) {

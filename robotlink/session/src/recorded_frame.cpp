@@ -307,6 +307,14 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   if (l.live) addHealth(group, time, frame.field, robot);
 }
 
+/// Where a live robot's health stands at this moment.
+std::optional<std::size_t> RecordedFrames::linkGroupOf(const telemetry::GroupInfo& robot) const {
+  for (std::size_t i = 0; i < m_groups.size(); ++i) {
+    if (m_groups[i] && m_rows[i].present && attribute(*m_groups[i], "link") == robot.name) return i;
+  }
+  return std::nullopt;
+}
+
 void RecordedFrames::addHealth(std::size_t group, double time, const sim::FieldSpec& field,
                                RobotFrame& robot) {
   const Layout& l = layoutOf(group);
@@ -316,13 +324,22 @@ void RecordedFrames::addHealth(std::size_t group, double time, const sim::FieldS
     health.sender.address = *address;
   }
   health.poseKnown = std::isfinite(l.locX.read(row)) && std::isfinite(l.locY.read(row));
-  const double age = std::clamp(time - row.time + l.age.readOr(row, 0.0), 0.0, longestAge);
+  // Before 0.3 a message's row held its link's health as well, and its age was in it.
+  const std::optional<std::size_t> linkGroup = linkGroupOf(*m_groups[group]);
+  const Layout& link = linkGroup ? layoutOf(*linkGroup) : l;
+  const telemetry::RowView linkRow = linkGroup ? m_rows[*linkGroup].view() : row;
+  const double older = linkGroup ? 0.0 : l.age.readOr(row, 0.0);
+  const double age = std::clamp(time - row.time + older, 0.0, longestAge);
   health.age = std::chrono::duration_cast<telemetry::Duration>(std::chrono::duration<double>(age));
   health.timedOut = health.age >= telemetry::MonitorOptions{}.timeout;
-  health.rate = l.rate.readOr(row, 0.0);
-  if (std::isfinite(l.loss.read(row))) health.loss = l.loss.read(row);
-  health.errorCount = counter(l.errors.readOr(row, 0.0));
-  if (const double volts = l.volts.read(row); std::isfinite(volts)) {
+  health.rate = link.rate.readOr(linkRow, 0.0);
+  health.jitter = link.jitter.readOr(linkRow, 0.0) / 1000.0;
+  if (std::isfinite(link.loss.read(linkRow))) health.loss = link.loss.read(linkRow);
+  health.lost = counter(link.lostMessages.readOr(linkRow, 0.0));
+  health.duplicates = counter(link.duplicates.readOr(linkRow, 0.0));
+  health.late = counter(link.late.readOr(linkRow, 0.0));
+  health.errorCount = counter(link.errors.readOr(linkRow, 0.0));
+  if (const double volts = link.volts.read(linkRow); std::isfinite(volts)) {
     health.battery = telemetry::batteryAt(volts, telemetry::usualBattery);
   }
   for (std::size_t f = 0; f < Layout::flagCount; ++f) {

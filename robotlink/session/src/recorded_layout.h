@@ -66,6 +66,10 @@ struct RecordedFrames::Layout {
     loss = findSlot(group, {"LINK_LOSS", "LOSS"});
     errors = findSlot(group, {"LINK_ERRORS", "ERRORS"});
     volts = findSlot(group, {"LINK_VOLTS", "VOLTS"});
+    jitter = findSlot(group, {"JITTER"});
+    lostMessages = findSlot(group, {"LOST"});
+    duplicates = findSlot(group, {"DUPLICATES"});
+    late = findSlot(group, {"LATE"});
     if (!live || !profile) return;
     using telemetry::FieldMeaning;
     // A team's own names.
@@ -97,7 +101,7 @@ struct RecordedFrames::Layout {
   RowSlot trueX, trueY, trueYaw, headYaw, vx, vy, action, fallen, distance, kicks, falls,
       unknownActions, lastUnknown;
   RowSlot actionA, voltage, lost, ballDist, pan, locX, locY, locTheta, belief, age, rate, loss,
-      errors, volts;
+      errors, volts, jitter, lostMessages, duplicates, late;
   std::array<RowSlot, flagCount> flags;
 };
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <type_traits>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 #include <simcore/world/state_values.h>
 
 #include "byte_codec.h"
@@ -15,7 +15,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-constexpr std::uint64_t version = 1;
+// 2: the referee and the game.
+constexpr std::uint64_t version = 2;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within these; a match never comes near them.
 constexpr double farthest = 1e6;
@@ -47,6 +48,11 @@ class Writer {
   void alternative(const Physics& physics) {
     putVarint(m_out, physics.index());
   }
+  template <class T>
+  bool present(const std::optional<T>& value) {
+    putVarint(m_out, value ? 1 : 0);
+    return value.has_value();
+  }
 
  private:
   std::string& m_out;
@@ -54,7 +60,7 @@ class Writer {
 
 class Reader {
  public:
-  explicit Reader(CodecReader& in) : m_in(in) {}
+  Reader(CodecReader& in, std::uint64_t form) : m_in(in), m_form(form) {}
   void value(std::string& text) {
     const std::uint64_t size = m_in.varint();
     if (size > longestText) return m_in.fail();
@@ -84,6 +90,17 @@ class Reader {
   void value(sim::Posture& value) {
     value = static_cast<sim::Posture>(limited(static_cast<std::uint64_t>(sim::Posture::GettingUp)));
   }
+  template <class Enum>
+    requires requires { lastOf(Enum{}); }
+  void value(Enum& value) {
+    value = static_cast<Enum>(limited(static_cast<std::uint64_t>(lastOf(Enum{}))));
+  }
+  template <class T>
+  bool present(std::optional<T>& value) {
+    value.reset();
+    if (m_form > 1 && limited(1) == 1) value.emplace();
+    return value.has_value();
+  }
   template <class T>
   void count(std::vector<T>& list) {
     const std::uint64_t size = m_in.varint();
@@ -111,6 +128,7 @@ class Reader {
     return 0;
   }
   CodecReader& m_in;
+  std::uint64_t m_form;
 };
 
 bool isNear(double value) {
@@ -172,21 +190,21 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::ParseError, "this is not a saved state of a match");
   }
   const std::uint64_t found = in.varint();
-  if (in.ok() && found != version) {
+  if (in.ok() && (found < 1 || found > version)) {
     return failure(ErrorCode::Unsupported,
                    "this state was saved by a later version of Pitchboard (form " +
                        std::to_string(found) + ", this program reads " + std::to_string(version) +
                        "); use that version");
   }
   sim::WorldState state;
-  Reader reader(in);
+  Reader reader(in, found);
   sim::visitValues(state, reader);
   if (!in.ok()) {
     return failure(ErrorCode::ParseError, "the saved state is cut or damaged",
                    "byte " + std::to_string(in.offset()));
   }
   const bool usable =
-      robotsAreDistinct(state) &&
+      robotsAreDistinct(state) && state.game.has_value() == state.settings.referee.has_value() &&
       std::visit([](const auto& physics) { return plausible(physics); }, state.physics);
   if (!usable) {
     return failure(ErrorCode::ParseError,

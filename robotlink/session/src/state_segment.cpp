@@ -6,7 +6,7 @@
 #include <limits>
 
 #include <robotlink/session/state_codec.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 #include "byte_codec.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "physics_model.h"
+#include <simcore/physics/physics_model.h>
 
 #include <array>
 

@@ -5,8 +5,8 @@
 #include <base/angles.h>
 #include <simcore/world/published_frame.h>
 
-#include "physics_model.h"
-#include "published_geometry.h"
+#include <simcore/physics/physics_model.h>
+#include <simcore/world/published_geometry.h>
 #include "published_math.h"
 #include "published_motion.h"
 #include "published_vision.h"
@@ -30,7 +30,7 @@ class PublishedModel : public PhysicsModel {
     state.ball.x = centre.x;
     state.ball.y = centre.y;
     world.physics = state;
-    stateOf(world).robots.reserve(Simulation::maxRobots);
+    stateOf(world).robots.reserve(highestRobotNumber);
   }
 
   bool owns(const WorldState& world) const override {
@@ -38,8 +38,8 @@ class PublishedModel : public PhysicsModel {
     return state && state->robots.size() == world.robots.size();
   }
 
-  void step(WorldState& world, std::span<const RobotCommand> commands, std::span<Percepts> percepts,
-            std::vector<Event>& events) override {
+  BallWay move(WorldState& world, std::span<const RobotCommand> commands,
+               std::span<Percepts> percepts, std::vector<Event>& events) override {
     const PublishedGeometry& geometry = geometryOf(world.settings.field);
     const std::size_t count = world.robots.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -48,8 +48,12 @@ class PublishedModel : public PhysicsModel {
       published::controlRobot(world, geometry, i, commands[i], percepts[i], events);
       published::landmarkVision(world, geometry, i, commands[i], percepts[i]);
     }
-    published::moveBall(world, geometry, events);
-    for (std::size_t i = 0; i < count; ++i) published::sight(world, i, commands[i], percepts[i]);
+    return published::moveBall(world, geometry);
+  }
+
+  void sense(WorldState& world, std::span<const RobotCommand> commands,
+             std::span<Percepts> percepts) override {
+    for (std::size_t i = 0; i < world.robots.size(); ++i) published::sight(world, i, commands[i], percepts[i]);
   }
 
   void robotAdded(WorldState& world, const Pose& pose) const override {

@@ -194,41 +194,6 @@ class Selection {
   std::vector<Event>& m_events;
 };
 
-bool isInGoal(const PublishedGeometry& g, const PublishedBall& ball, double x1, double x2) {
-  const double r = g.ballRadius;
-  return ball.x - r > x1 && ball.x + r < x2 && ball.y - r > g.goalTop && ball.y + r < g.goalBottom;
-}
-
-void scoreGoal(WorldState& world, bool leftGoal, std::vector<Event>& events) {
-  if (!world.clockRunning) return;
-  ++(leftGoal ? world.score.right : world.score.left);
-  world.clockRunning = false;
-  events.push_back({EventKind::Goal, world.tick, RobotId{}, leftGoal ? 1 : 0});
-}
-
-void putBackWhenOut(const PublishedGeometry& g, PublishedBall& ball, std::uint64_t tick,
-                    std::vector<Event>& events) {
-  const double r = g.ballRadius;
-  const double left = g.left + g.replaceMargin;
-  const double right = g.right - g.replaceMargin;
-  const double top = g.top + g.replaceMargin;
-  const double bottom = g.bottom - g.replaceMargin;
-  const auto stopBall = [&] {
-    ball.vx = ball.vy = 0.0;
-    events.push_back({EventKind::BallOut, tick, RobotId{}, 0});
-  };
-  if (ball.x - r > g.right || ball.x + r < g.left) {
-    ball.x = ball.x - r > g.right ? right : left;
-    ball.y = std::clamp(ball.y, top, bottom);
-    stopBall();
-  }
-  if (ball.y - r > g.bottom || ball.y + r < g.top) {
-    ball.y = ball.y - r > g.bottom ? bottom : top;
-    ball.x = std::clamp(ball.x, left, right);
-    stopBall();
-  }
-}
-
 }  // namespace
 
 void moveRobot(WorldState& world, const PublishedGeometry& geometry, std::size_t index) {
@@ -285,12 +250,16 @@ void controlRobot(WorldState& world, const PublishedGeometry& geometry, std::siz
   }
 }
 
-void moveBall(WorldState& world, const PublishedGeometry& geometry, std::vector<Event>& events) {
+BallWay moveBall(WorldState& world, const PublishedGeometry& geometry) {
   PublishedBall& ball = stateOf(world).ball;
+  const FieldSpec& field = world.settings.field;
+  BallWay way;
+  way.from = published_frame::studioFromWindow(field, ball.x, ball.y);
   ball.vx *= ball.friction;
   ball.vy *= ball.friction;
   ball.x += ball.vx;
   ball.y += ball.vy;
+  way.aim = published_frame::studioFromWindow(field, ball.x, ball.y);
   for (const PublishedPoint& post : geometry.posts) {
     if (isShorter(ball.x - post.x, ball.y - post.y, geometry.ballRadius + geometry.postRadius)) {
       setInMotion(ball, length(ball.vx, ball.vy),
@@ -304,13 +273,7 @@ void moveBall(WorldState& world, const PublishedGeometry& geometry, std::vector<
     double& across = line.horizontal ? ball.vy : ball.vx;
     across = -across;
   }
-  if (isInGoal(geometry, ball, geometry.left - geometry.goalDepth, geometry.left)) {
-    scoreGoal(world, true, events);
-  } else if (isInGoal(geometry, ball, geometry.right, geometry.right + geometry.goalDepth)) {
-    scoreGoal(world, false, events);
-  } else {
-    putBackWhenOut(geometry, ball, world.tick, events);
-  }
+  return way;
 }
 
 }  // namespace pitchboard::sim::published

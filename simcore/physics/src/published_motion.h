@@ -6,9 +6,12 @@
 
 #include <vector>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/world/ball_way.h>
+#include <simcore/world/event.h>
 
-#include "published_geometry.h"
+#include <simcore/world/published_geometry.h>
+#include <simcore/world/robot_io.h>
+#include <simcore/world/world_state.h>
 
 namespace pitchboard::sim::published {
 
@@ -17,6 +20,7 @@ void moveRobot(WorldState& world, const PublishedGeometry& geometry, std::size_t
 void controlRobot(WorldState& world, const PublishedGeometry& geometry, std::size_t index,
                   const RobotCommand& command, Percepts& percepts, std::vector<Event>& events);
 
-void moveBall(WorldState& world, const PublishedGeometry& geometry, std::vector<Event>& events);
+/// Slows and moves the ball and bounces it off posts and walls; says where it came from.
+BallWay moveBall(WorldState& world, const PublishedGeometry& geometry);
 
 }  // namespace pitchboard::sim::published

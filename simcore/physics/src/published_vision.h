@@ -4,9 +4,10 @@
 // Eyes of the `published` model (PUBLISHED_EXACT.md, sections "Landmark vision", "Ball vision",
 // "Robot vision").
 
-#include <simcore/physics/simulation.h>
+#include <simcore/world/robot_io.h>
+#include <simcore/world/world_state.h>
 
-#include "published_geometry.h"
+#include <simcore/world/published_geometry.h>
 
 namespace pitchboard::sim::published {
 

@@ -227,6 +227,9 @@ void Collisions::advance(Tick& tick) {
   const double slowed = ballSpeed > fastestBall ? fastestBall / ballSpeed : 1.0;
   m_ballVelocity = {ball.velocity.x * slowed * m_rolling.mean,
                     ball.velocity.y * slowed * m_rolling.mean};
+  tick.ball = {ball.position,
+               {ball.position.x + m_ballVelocity.x * tick.dt,
+                ball.position.y + m_ballVelocity.y * tick.dt}};
   findNeighbours(tick);
   if (!m_pairs.empty()) {
     m_solver.solve(m_bodies, m_pairs, tick.dt);

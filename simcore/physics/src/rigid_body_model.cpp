@@ -5,10 +5,9 @@
 
 #include <algorithm>
 
-#include <simcore/rules/rigid_body_rules.h>
 #include <simcore/world/published_frame.h>
 
-#include "physics_model.h"
+#include <simcore/physics/physics_model.h>
 #include "rigid_body_collisions.h"
 #include "rigid_body_control.h"
 #include "rigid_body_imu.h"
@@ -28,7 +27,7 @@ class RigidBodyModel final : public PhysicsModel {
  public:
   void reset(WorldState& world) const override {
     RigidBodyState state;
-    state.robots.reserve(Simulation::maxRobots);
+    state.robots.reserve(highestRobotNumber);
     world.physics = std::move(state);
   }
 
@@ -40,11 +39,10 @@ class RigidBodyModel final : public PhysicsModel {
                        [&](const RigidRobot& robot) { return robot.sightings.size() == delay; });
   }
 
-  void step(WorldState& world, std::span<const RobotCommand> commands, std::span<Percepts> percepts,
-            std::vector<Event>& events) override {
-    const double dt = 1.0 / world.settings.tickRate;
-    const double frames = published_frame::framesPerSecond / world.settings.tickRate;
-    rigid::Tick tick{world, stateOf(world), m_motions, events, dt, std::sqrt(frames)};
+  BallWay move(WorldState& world, std::span<const RobotCommand> commands,
+               std::span<Percepts> percepts, std::vector<Event>& events) override {
+    rigid::Tick tick = tickOf(world, events);
+    const double dt = tick.dt;
     const std::size_t robots = tick.state.robots.size();
     m_motions.resize(robots);
     for (std::size_t i = 0; i < robots; ++i) {
@@ -61,8 +59,14 @@ class RigidBodyModel final : public PhysicsModel {
       }
       if (world.settings.rigidBody.falls) rigid::applyFall(tick, i);
     }
-    rigid::applyMatchRules(tick.world, tick.state, tick.events);
-    for (std::size_t i = 0; i < robots; ++i) {
+    return tick.ball;
+  }
+
+  void sense(WorldState& world, std::span<const RobotCommand> commands,
+             std::span<Percepts> percepts) override {
+    std::vector<Event> none;  // senses report nothing
+    rigid::Tick tick = tickOf(world, none);
+    for (std::size_t i = 0; i < tick.state.robots.size(); ++i) {
       rigid::stepImu(tick, i, commands[i], percepts[i].imu);
       rigid::stepVision(tick, i, commands[i], percepts[i]);
     }
@@ -131,6 +135,12 @@ class RigidBodyModel final : public PhysicsModel {
   }
 
  private:
+  rigid::Tick tickOf(WorldState& world, std::vector<Event>& events) {
+    const double frames = published_frame::framesPerSecond / world.settings.tickRate;
+    return {world,  stateOf(world),   m_motions, events, 1.0 / world.settings.tickRate,
+            std::sqrt(frames)};
+  }
+
   // Scratch of a tick; see rigid_body_tick.h.
   std::vector<rigid::Motion> m_motions;
   rigid::Collisions m_collisions;

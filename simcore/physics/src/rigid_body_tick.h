@@ -14,7 +14,9 @@
 #include <numbers>
 #include <vector>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/world/ball_way.h>
+#include <simcore/world/event.h>
+#include <simcore/world/world_state.h>
 
 namespace pitchboard::sim::rigid {
 
@@ -55,6 +57,7 @@ struct Tick {
   std::vector<Event>& events;
   double dt = 0.0;          ///< s
   double sqrtFrames = 0.0;  ///< root of the tick in 1/60 s: scales noise given per 1/60 s
+  BallWay ball = {};        ///< set by the collisions
 
   const SimulationSettings& settings() const { return world.settings; }
   void report(EventKind kind, std::size_t robot, int value = 0) {

@@ -37,6 +37,12 @@ class Hasher {
   template <class Physics>
   void alternative(const Physics& /*physics*/) {}
 
+  /// Nothing is added where nothing is, so that matches without a referee keep their hashes.
+  template <class T>
+  bool present(const std::optional<T>& value) {
+    return value.has_value();
+  }
+
   std::uint64_t hash() const { return m_hash; }
 
  private:

@@ -81,6 +81,23 @@ std::shared_ptr<const Chunk> Chunk::join(std::span<const Unit> blocks, const Lay
   return chunk;
 }
 
+std::shared_ptr<const Chunk> Chunk::widened(const Layout& wide) const {
+  auto chunk = std::make_shared<Chunk>();
+  chunk->m_times = m_times;
+  chunk->m_columns.reserve(wide.slots.size());
+  for (std::size_t c = 0; c < wide.slots.size(); ++c) {
+    if (c >= m_columns.size()) {
+      chunk->m_columns.push_back(Column::ofConstant(std::numeric_limits<double>::quiet_NaN()));
+      continue;
+    }
+    withType(wide.slots[c].type, [&](auto zero) {
+      chunk->m_columns.push_back(m_columns[c].copy<decltype(zero)>(blocks()));
+    });
+  }
+  chunk->count(wide);
+  return chunk;
+}
+
 void Chunk::count(const Layout& layout) {
   m_bytes = sizeof(Chunk) + m_times.capacity() * sizeof(double) + m_columns.size() * sizeof(Column);
   for (std::uint32_t c = 0; c < layout.slots.size(); ++c) {

@@ -35,6 +35,9 @@ class Chunk {
   static std::shared_ptr<const Chunk> ofStaging(const Staging& full, const Layout& layout);
   static std::shared_ptr<const Chunk> join(std::span<const Unit> blocks, const Layout& layout);
 
+  /// The same rows with the further columns of `wide`, which are holes.
+  std::shared_ptr<const Chunk> widened(const Layout& wide) const;
+
   std::uint32_t blocks() const { return static_cast<std::uint32_t>(m_times.size()) / blockRows; }
   std::uint32_t rows() const { return static_cast<std::uint32_t>(m_times.size()); }
   const double* times() const { return m_times.data(); }

@@ -177,6 +177,26 @@ class Column {
     return out;
   }
 
+  template <class T>
+  static Column ofConstant(T value) {
+    Column out;
+    std::memcpy(&out.m_constant, &value, sizeof value);
+    return out;
+  }
+
+  /// The same values once more. `blocks`: of the chunk.
+  template <class T>
+  Column copy(std::uint32_t blocks) const {
+    Column out;
+    out.m_raw = m_raw;
+    out.m_constant = m_constant;
+    if (!m_bytes) return out;
+    const std::size_t bytes = heapBytes<T>(blocks);
+    out.m_bytes = std::make_unique_for_overwrite<std::byte[]>(bytes);
+    std::memcpy(out.m_bytes.get(), m_bytes.get(), bytes);
+    return out;
+  }
+
   bool isConstant() const { return !m_bytes; }
   bool isRaw(std::uint32_t block) const { return (m_raw >> block & 1) != 0; }
 

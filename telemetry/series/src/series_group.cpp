@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "series_group.h"
 
+#include <limits>
+
 namespace pitchboard::telemetry::series {
 
 Group::Group(std::shared_ptr<const Layout> layout) {
@@ -109,6 +111,29 @@ void Group::empty() {
 void Group::setLayout(std::shared_ptr<const Layout> layout) {
   const std::lock_guard lock(m_write);
   m_next.layout = std::move(layout);
+  publish();
+}
+
+void Group::widen(std::shared_ptr<const Layout> layout) {
+  const std::lock_guard lock(m_write);
+  const auto now = view();
+  const std::size_t staged = m_staging->rows.load(std::memory_order_relaxed);
+  const auto widened = [&](const Unit& unit) { return Unit(unit.chunk->widened(*layout)); };
+  auto full = std::make_shared<Units>();
+  full->reserve(m_next.full->size());
+  for (const Unit& unit : *m_next.full) full->push_back(widened(unit));
+  m_next.full = std::move(full);
+  for (Unit& unit : m_next.blocks) unit = widened(unit);
+  m_next.layout = std::move(layout);
+  newStaging();
+  countBytes();
+  std::vector<std::uint32_t> words;
+  std::vector<double> values;
+  for (std::size_t row = now->rows() - staged; row < now->rows(); ++row) {
+    const double time = now->row(row, words, values);
+    values.resize(m_next.layout->values, std::numeric_limits<double>::quiet_NaN());
+    m_staging->put({time, words, values}, *m_next.layout);
+  }
   publish();
 }
 

@@ -25,8 +25,10 @@ class Group {
   void closeBlock();
   void truncate(double time);
   void clear();
-  /// The same columns with other attributes.
+  /// The same columns with other attributes or descriptions.
   void setLayout(std::shared_ptr<const Layout> layout);
+  /// The same, and further Float64 columns behind them, which are holes in the rows so far.
+  void widen(std::shared_ptr<const Layout> layout);
   /// Time of the last row of the oldest chunk; nothing when only the staging block is left.
   std::optional<double> endOfOldest() const;
   /// Lets the oldest chunk go.

@@ -62,6 +62,22 @@ struct SeriesStore::Impl {
   }
 };
 
+namespace {
+
+/// The same columns in the same places, and perhaps further values behind them.
+bool continues(const std::vector<ColumnInfo>& before, const std::vector<ColumnInfo>& now) {
+  if (now.size() < before.size()) return false;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const bool same = i < before.size()
+                          ? now[i].name == before[i].name && now[i].type == before[i].type
+                          : now[i].type == ColumnType::Float64;
+    if (!same) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 SeriesStore::SeriesStore(SeriesOptions options) : m_impl(std::make_unique<Impl>()) {
   m_impl->budget = options.memoryBudget;
 }
@@ -76,11 +92,15 @@ GroupId SeriesStore::addGroup(const GroupInfo& info) {
   if (known) {
     series::Group& group = *d.groups[*known];
     const auto view = group.view();
-    if (view->info().columns == info.columns) {
-      if (view->info().attributes != info.attributes) {
+    if (continues(view->info().columns, info.columns)) {
+      if (view->info() == info) return *known;
+      if (info.columns.size() == view->info().columns.size()) {
         group.setLayout(std::move(layout));
-        d.revision.fetch_add(1);
+      } else {
+        group.widen(std::move(layout));
+        d.account();
       }
+      d.revision.fetch_add(1);
       return *known;
     }
     group.clear();

@@ -124,8 +124,8 @@ class Clip {
     std::memcpy(&source, item.message->data.data() + session::RowLayout::timeAt, sizeof source);
     const session::RowLayout& layout = m_layouts[item.group];
     const McapMessage& message = *item.message;
-    layout.write(m_chunk.addMessage(message.channel, message.sequence, message.logTime,
-                                    message.publishTime, layout.size),
+    layout.write(m_chunk.addMessage(m_session.groups()[item.group].channel, message.sequence,
+                                    message.logTime, message.publishTime, layout.size),
                  {source, m_words, m_values});
   }
 

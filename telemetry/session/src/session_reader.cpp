@@ -81,12 +81,9 @@ void SessionReader::Impl::findStart() {
     McapCursor cursor(body(i));
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message) continue;
-      const int group = useOfChannel[cursor.message().channel].group;
+      const Use use = useOfChannel[cursor.message().channel];
       SessionRow row;
-      if (group == Impl::noGroup || !layouts[static_cast<std::size_t>(group)].read(
-                                        cursor.message().data, row.time, row.words, row.values)) {
-        continue;
-      }
+      if (use.group == Impl::noGroup || !readRow(use, cursor.message().data, row)) continue;
       const WallTime moment{Duration(fits(cursor.message().publishTime))};
       info.start = WallTime(Duration(fits(session::nanoseconds(moment, -row.time))));
       return;
@@ -99,6 +96,45 @@ void SessionReader::Impl::noteLosses() {
   for (const McapLoss& loss : file.losses()) note(lossText(loss, info.start));
 }
 
+bool SessionReader::Impl::readRow(Use use, std::string_view data, SessionRow& row) const {
+  if (!layouts[use.layout].read(data, row.time, row.words, row.values)) return false;
+  const std::size_t all = layouts[widest[static_cast<std::size_t>(use.group)]].values;
+  row.values.resize(all, std::numeric_limits<double>::quiet_NaN());
+  return true;
+}
+
+void SessionReader::Impl::addGroup(GroupInfo group, std::uint64_t rows, std::uint16_t channel) {
+  Use& use = useOfChannel[channel];
+  use.layout = layouts.size();
+  layouts.emplace_back(group);
+  const auto begins = [](const std::vector<ColumnInfo>& with, const std::vector<ColumnInfo>& all) {
+    return with.size() <= all.size() &&
+           std::equal(with.begin(), with.end(), all.begin(),
+                      [](const ColumnInfo& a, const ColumnInfo& b) {
+                        return a.name == b.name && a.type == b.type;
+                      }) &&
+           std::all_of(all.begin() + static_cast<std::ptrdiff_t>(with.size()), all.end(),
+                       [](const ColumnInfo& c) { return c.type == ColumnType::Float64; });
+  };
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    SessionGroup& known = groups[g];
+    if (known.info.name != group.name) continue;
+    const bool wider = begins(known.info.columns, group.columns);
+    if (!wider && !begins(group.columns, known.info.columns)) continue;
+    use.group = static_cast<int>(g);
+    known.rows += rows;
+    known.channels.push_back(channel);
+    if (!wider) return;
+    known.info = std::move(group);
+    known.channel = channel;
+    widest[g] = use.layout;
+    return;
+  }
+  use.group = static_cast<int>(groups.size());
+  groups.push_back({std::move(group), rows, channel, {channel}});
+  widest.push_back(use.layout);
+}
+
 void SessionReader::Impl::takeChannels() {
   useOfChannel.assign(std::size_t{1} << 16, Use{});
   for (const auto& [id, channel] : file.channels()) {
@@ -107,9 +143,7 @@ void SessionReader::Impl::takeChannels() {
     if (const auto found = channel.metadata.find(session::groupKey);
         found != channel.metadata.end() && channel.messageEncoding == "cdr") {
       if (auto group = session::groupFromJson(found->second)) {
-        useOfChannel[id].group = static_cast<int>(groups.size());
-        layouts.emplace_back(*group);
-        groups.push_back({std::move(*group), count, id});
+        addGroup(std::move(*group), count, id);
         continue;
       }
     }

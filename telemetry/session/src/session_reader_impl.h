@@ -23,9 +23,11 @@ struct SessionReader::Impl {
   SessionInfo info;
   bool described = false;  ///< by metadata of ours that are whole
   std::vector<SessionGroup> groups;
-  std::vector<session::RowLayout> layouts;
+  std::vector<session::RowLayout> layouts;  ///< of the channels with rows
+  std::vector<std::size_t> widest;          ///< of each group: its layout with all columns
   struct Use {
     int group = noGroup;
+    std::size_t layout = 0;
     SessionStream stream = SessionStream::Events;
   };
   std::vector<Use> useOfChannel;  ///< by channel id
@@ -46,6 +48,10 @@ struct SessionReader::Impl {
   mutable std::list<Kept> kept;  ///< newest first
 
   explicit Impl(McapReader f) : file(std::move(f)) {}
+
+  /// False: the message is no row of its channel.
+  bool readRow(Use use, std::string_view data, SessionRow& row) const;
+  void addGroup(GroupInfo group, std::uint64_t rows, std::uint16_t channel);
 
   void note(std::string sentence) const {
     if (notes.size() < mostNotes) notes.push_back(std::move(sentence));

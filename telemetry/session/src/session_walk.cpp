@@ -30,7 +30,10 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
       const bool done = out[g].present && best[g] > impl.latestEnd[at];
       if (done) continue;
       settled = false;
-      needed = needed || (Impl::mayHold(chunk, impl.groups[g].channel) &&
+      needed = needed || (std::ranges::any_of(impl.groups[g].channels,
+                                              [&](std::uint16_t channel) {
+                                                return Impl::mayHold(chunk, channel);
+                                              }) &&
                           (!out[g].present || best[g] <= chunk.end));
     }
     if (settled) break;
@@ -52,8 +55,7 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
       last[g] = cursor.message();
     }
     for (std::size_t g = 0; g < impl.groups.size(); ++g) {
-      if (found[g].empty() ||
-          !impl.layouts[g].read(found[g], out[g].time, out[g].words, out[g].values)) {
+      if (found[g].empty() || !impl.readRow(impl.useOfChannel[last[g].channel], found[g], out[g])) {
         continue;
       }
       out[g].time = Impl::time(out[g].time, last[g]);
@@ -92,7 +94,7 @@ bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
       item.isRow = use.group != noGroup;
       if (item.isRow) {
         const auto g = static_cast<std::size_t>(use.group);
-        if (!layouts[g].read(message.data, row.time, row.words, row.values)) continue;
+        if (!readRow(use, message.data, row)) continue;
         row.time = item.time = time(row.time, message);
         item.group = static_cast<GroupId>(g);
         item.row = row.view();
@@ -111,7 +113,9 @@ bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
 bool SessionReader::walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                          const std::function<bool(double)>& progress) const {
   std::vector<std::uint16_t> wanted;
-  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  for (const SessionGroup& group : m_impl->groups) {
+    wanted.insert(wanted.end(), group.channels.begin(), group.channels.end());
+  }
   for (const auto& channels : m_impl->channelsOfStream) {
     wanted.insert(wanted.end(), channels.begin(), channels.end());
   }
@@ -122,7 +126,9 @@ bool SessionReader::walk(TimeRange range, const std::function<bool(const Session
 bool SessionReader::walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                              const std::function<bool(double)>& progress) const {
   std::vector<std::uint16_t> wanted;
-  for (const SessionGroup& group : m_impl->groups) wanted.push_back(group.channel);
+  for (const SessionGroup& group : m_impl->groups) {
+    wanted.insert(wanted.end(), group.channels.begin(), group.channels.end());
+  }
   std::sort(wanted.begin(), wanted.end());
   return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
 }
@@ -132,7 +138,8 @@ void SessionReader::rows(TimeRange range, std::span<const GroupId> groups,
   std::vector<std::uint16_t> wanted;
   for (std::size_t g = 0; g < m_impl->groups.size(); ++g) {
     if (groups.empty() || std::find(groups.begin(), groups.end(), g) != groups.end()) {
-      wanted.push_back(m_impl->groups[g].channel);
+      const auto& channels = m_impl->groups[g].channels;
+      wanted.insert(wanted.end(), channels.begin(), channels.end());
     }
   }
   std::sort(wanted.begin(), wanted.end());

@@ -39,33 +39,9 @@ std::vector<WallTime> ArrivalStats::times() const {
   return out;
 }
 
-SequenceStats::Step SequenceStats::add(std::int64_t number) {
-  constexpr std::int64_t restart = 1000;
-  if (!m_last) {
-    m_last = number;
-    ++m_received;
-    return Step::First;
-  }
-  const std::int64_t step = number - *m_last;
-  if (step == 0) return Step::Duplicate;
-  ++m_received;
-  if (step > restart || step < -restart) {
-    m_last = number;
-    return Step::Restart;
-  }
-  if (step < 0) {
-    // It was counted as lost when the later one came.
-    if (m_lost > 0) --m_lost;
-    return Step::Late;
-  }
-  m_last = number;
-  m_lost += static_cast<std::uint64_t>(step - 1);
-  return step == 1 ? Step::Next : Step::Gap;
-}
-
-double SequenceStats::loss() const {
-  const std::uint64_t sent = m_lost + m_received;
-  return sent == 0 ? 0.0 : static_cast<double>(m_lost) / static_cast<double>(sent);
+std::optional<Duration> ArrivalStats::interval() const {
+  if (m_count < 2) return std::nullopt;
+  return (at(m_count - 1) - at(0)) / static_cast<Duration::rep>(m_count - 1);
 }
 
 }  // namespace pitchboard::telemetry

@@ -40,6 +40,8 @@ ProfileField fieldFrom(const JsonObject& object) {
   field.category = object.text(object.find("category") ? "category" : "group", {}, maxFileBytes);
   field.meaning =
       static_cast<FieldMeaning>(object.choice("meaning", meanings, "meaning").value_or(0));
+  if (object.find("absent")) field.absent = object.number("absent", 0.0, anyNumber);
+  field.bits = object.integer("bits", 0, 0, 32);
   return field;
 }
 
@@ -79,6 +81,12 @@ std::string fieldProblem(const ProfileField& field, std::set<std::string>& names
   if (mustBeInt && field.type != FieldType::Int) {
     return "A field with the meaning \"" + std::string(meaningName(field.meaning)) +
            "\" has the type int.";
+  }
+  if (field.bits != 0 && field.meaning != FieldMeaning::Sequence) {
+    return "Only a field with the meaning \"sequence\" has bits.";
+  }
+  if (field.bits != 0 && field.bits != 8 && field.bits != 16 && field.bits != 32) {
+    return "A sequence number has 8, 16 or 32 bits.";
   }
   return {};
 }
@@ -134,7 +142,8 @@ Result<Profile> parseProfile(std::string_view text, const std::string& file) {
     const std::string path = top.pathOf("fields", i);
     where.push_back(file + ":" + std::to_string(item.line) + ": " + path);
     profile.fields.push_back(fieldFrom(
-        JsonObject(report, item, path, {"name", "type", "unit", "category", "group", "meaning"})));
+        JsonObject(report, item, path,
+                   {"name", "type", "unit", "category", "group", "meaning", "absent", "bits"})));
   }
   if (report.failed()) return tl::unexpected(report.error());
   if (const auto valid = validateAt(profile, where, file); !valid) {
@@ -157,6 +166,8 @@ std::string profileText(const Profile& profile) {
                       {"unit", field.unit},
                       {"category", field.category},
                       {"meaning", meaningName(field.meaning)}});
+    if (field.absent) fields.back()["absent"] = *field.absent;
+    if (field.bits != 0) fields.back()["bits"] = field.bits;
   }
   const Json json{{"name", profile.name}, {"end", profile.end}, {"fields", fields}};
   // Bad UTF-8 typed by hand is replaced, not thrown at the caller.

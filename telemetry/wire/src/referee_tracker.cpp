@@ -2,6 +2,7 @@
 #include <telemetry/wire/referee_tracker.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace pitchboard::telemetry {
 
@@ -12,6 +13,11 @@ bool RefereeTracker::accept(const RefereeState& state, const Sender& sender, Wal
   if (state.trueData()) {
     ++m_counts.trueData;
     m_trueData = state;
+    m_trueDataTime = time;
+    return false;
+  }
+  if (m_options.version != 0 && state.version != m_options.version) {
+    ++m_counts.otherVersions;
     return false;
   }
   const bool fresh = m_state && time - m_time < m_options.hold;
@@ -32,6 +38,28 @@ bool RefereeTracker::accept(const RefereeState& state, const Sender& sender, Wal
   m_time = time;
   ++m_counts.shown;
   return true;
+}
+
+void RefereeTracker::accept(const RobotReply& reply, Address robot, WallTime time) {
+  ++m_counts.replies;
+  const auto place = std::lower_bound(m_replies.begin(), m_replies.end(), reply,
+                                      [](const Reply& known, const RobotReply& wanted) {
+                                        return std::tie(known.reply.team, known.reply.player) <
+                                               std::tie(wanted.team, wanted.player);
+                                      });
+  if (place != m_replies.end() && place->reply.team == reply.team &&
+      place->reply.player == reply.player) {
+    *place = {reply, robot, time};
+  } else if (m_replies.size() < maxReplies) {
+    m_replies.insert(place, {reply, robot, time});
+  } else {
+    ++m_counts.refusedReplies;
+  }
+}
+
+void RefereeTracker::setOptions(Options options) {
+  if (options.version != m_options.version) m_state.reset();
+  m_options = options;
 }
 
 void RefereeTracker::countLoss(const RefereeState& next) {

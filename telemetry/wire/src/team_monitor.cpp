@@ -17,9 +17,14 @@ constexpr FieldMeaning processFlags[processCount] = {FieldMeaning::Control, Fiel
                                                      FieldMeaning::Localization,
                                                      FieldMeaning::Decision, FieldMeaning::Imu};
 
-/// A time span that a clock set back cannot make negative.
+/// A time span that messages of two ports, read in another order, cannot make negative.
 Duration since(WallTime now, WallTime then) {
   return std::max(now - then, Duration::zero());
+}
+
+int counterBits(const Profile& profile) {
+  const auto counter = profile.indexOf(FieldMeaning::Sequence);
+  return counter ? profile.fields[*counter].bits : 0;
 }
 
 }  // namespace
@@ -34,6 +39,10 @@ TeamMonitor::TeamMonitor(TeamMonitor&&) noexcept = default;
 TeamMonitor& TeamMonitor::operator=(TeamMonitor&&) noexcept = default;
 
 void TeamMonitor::setProfile(Profile profile) {
+  const int bits = counterBits(profile);
+  if (bits != counterBits(m_decoder->profile())) {
+    for (Robot& robot : m_robots) robot.sequence = SequenceStats(bits);
+  }
   m_decoder = std::make_shared<const TextDecoder>(std::move(profile));
 }
 
@@ -58,38 +67,105 @@ TeamMonitor::SenderRecord* TeamMonitor::findSender(Address address) {
   return &m_senders.back();
 }
 
+/// Its next message should have come.
+bool TeamMonitor::isOverdue(const Robot& robot, WallTime time) const {
+  const Duration interval = std::clamp<Duration>(
+      robot.arrivals.interval().value_or(std::chrono::seconds(1)), std::chrono::milliseconds(20),
+      std::max<Duration>(m_options.timeout, std::chrono::milliseconds(20)));
+  return since(time, robot.last) >= interval * 3 / 4;
+}
+
+TeamMonitor::Robot* TeamMonitor::newRobot(int number, WallTime time) {
+  int slot = 0;
+  const auto taken = [&](const Robot& robot) {
+    return robot.number == number && robot.slot == slot;
+  };
+  while (std::any_of(m_robots.begin(), m_robots.end(), taken)) ++slot;
+  const auto isOrdinary = [](int n, int s) {
+    return s == 0 && n <= MonitorOptions::ordinaryRobots;
+  };
+  Robot* place = nullptr;
+  if (!isOrdinary(number, slot)) {
+    std::size_t others = 0;
+    for (Robot& robot : m_robots) {
+      if (isOrdinary(robot.number, robot.slot)) continue;
+      ++others;
+      if (place == nullptr || robot.last < place->last) place = &robot;
+    }
+    constexpr std::size_t most =
+        MonitorOptions::maxRobots - std::size_t{MonitorOptions::ordinaryRobots};
+    if (others < most) {
+      place = nullptr;
+    } else if (since(time, place->last) < m_options.timeout) {
+      return nullptr;
+    }
+  }
+  if (place == nullptr) place = &m_robots.emplace_back();
+  *place = Robot();
+  place->number = number;
+  place->slot = slot;
+  place->sequence = SequenceStats(counterBits(m_decoder->profile()));
+  return place;
+}
+
+/// It was thought to have moved, but where it was it speaks again: there are two programs.
+void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
+  const Robot moved = robot;
+  robot.sender = sender;
+  robot.sequence = robot.previousSequence;
+  robot.previous.reset();
+  Robot* other =
+      newRobot(robot.number, time);  // within what is reserved: `robot` stays where it is
+  if (other == nullptr) return;
+  other->sender = moved.sender;
+  other->last = moved.last;
+  other->messages = 1;
+  other->arrivals.add(moved.last);
+  other->processes = moved.processes;
+  other->volts = moved.volts;
+  other->highestVolts = moved.highestVolts;
+  other->decoder = moved.decoder;
+  other->values = moved.values;
+  other->words = moved.words;
+}
+
 TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, WallTime time) {
-  Robot* restarted = nullptr;
+  Robot *restarted = nullptr, *moved = nullptr;
   for (Robot& robot : m_robots) {
-    if (robot.number != number || robot.sender.address != sender.address) continue;
-    if (robot.sender.port == sender.port) return &robot;
-    // A program that was started again, or opens a socket for each message, is the same robot. Two
-    // programs on one computer are not: there the earlier port speaks again.
-    const bool earlierSpeaksAgain =
-        robot.previousPort == sender.port && since(time, robot.last) < m_options.timeout;
-    if (!earlierSpeaksAgain) restarted = &robot;
+    if (robot.number != number) continue;
+    if (robot.sender == sender) return &robot;
+    if (robot.previous == sender && since(time, robot.last) < m_options.timeout) {
+      giveBack(robot, sender, time);
+      return &robot;
+    }
+    // A program that was started again, or opens a socket for each message, is the same robot.
+    if (robot.sender.address == sender.address) {
+      restarted = &robot;
+    } else if (isOverdue(robot, time) && (moved == nullptr || robot.slot < moved->slot)) {
+      moved = &robot;
+    }
   }
-  if (restarted != nullptr) {
-    restarted->previousPort = restarted->sender.port;
-    restarted->sender = sender;
-    return restarted;
+  Robot* same = restarted != nullptr ? restarted : moved;
+  if (same != nullptr) {
+    same->previous = same->sender;
+    same->previousSequence = same->sequence;
+    same->sender = sender;
+    return same;
   }
-  if (m_robots.size() == MonitorOptions::maxRobots) {
-    const auto oldest =
-        std::min_element(m_robots.begin(), m_robots.end(),
-                         [](const Robot& a, const Robot& b) { return a.last < b.last; });
-    if (since(time, oldest->last) < m_options.timeout) return nullptr;
-    *oldest = Robot{};
-    oldest->number = number;
-    oldest->serial = ++m_serial;
-    oldest->sender = sender;
-    return &*oldest;
+  Robot* made = newRobot(number, time);
+  if (made != nullptr) made->sender = sender;
+  return made;
+}
+
+void TeamMonitor::forget(int number, int slot) {
+  std::erase_if(m_robots,
+                [&](const Robot& robot) { return robot.number == number && robot.slot == slot; });
+  if (slot != 0) return;
+  Robot* next = nullptr;
+  for (Robot& robot : m_robots) {
+    if (robot.number == number && (next == nullptr || robot.slot < next->slot)) next = &robot;
   }
-  m_robots.emplace_back();
-  m_robots.back().number = number;
-  m_robots.back().serial = ++m_serial;
-  m_robots.back().sender = sender;
-  return &m_robots.back();
+  if (next != nullptr) next->slot = 0;
 }
 
 TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
@@ -135,28 +211,39 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   const std::size_t hash = std::hash<std::string_view>{}(datagram.payload);
   bool duplicate = robot->messages > 0 && hash == robot->lastHash &&
                    since(datagram.time, robot->lastHashTime) < m_options.duplicateWindow;
+  bool late = false;
   if (const auto number = m_decoder->value(m_decoded, FieldMeaning::Sequence)) {
-    duplicate =
-        robot->sequence.add(static_cast<std::int64_t>(*number)) == SequenceStats::Step::Duplicate;
+    const auto step = robot->sequence.add(static_cast<std::int64_t>(*number));
+    duplicate = step == SequenceStats::Step::Duplicate;
+    late = step == SequenceStats::Step::Late;
   }
-  if (duplicate) m_decoded.errors.add(TextError::Duplicate);
+  if (duplicate) {
+    m_decoded.errors.add(TextError::Duplicate);
+    ++robot->duplicates;
+  }
   tally(robot);
   if (duplicate) return Verdict::Duplicate;
   robot->lastHash = hash;
   robot->lastHashTime = datagram.time;
+  arrive(*robot, datagram.time);
+  if (late) return Verdict::Late;
   use(*robot, datagram);
   return Verdict::Used;
 }
 
-void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
-  if (robot.messages > 0 && since(datagram.time, robot.last) >= m_options.timeout) {
+void TeamMonitor::arrive(Robot& robot, WallTime time) {
+  if (robot.messages > 0 && since(time, robot.last) >= m_options.timeout) {
     ++robot.recoveries;
     robot.arrivals = {};
   }
-  m_usedSerial = robot.serial;
   ++robot.messages;
-  robot.last = datagram.time;
-  robot.arrivals.add(datagram.time);
+  // Of two ports the later message may be read first.
+  robot.last = robot.messages == 1 ? time : std::max(robot.last, time);
+  robot.arrivals.add(robot.last);
+}
+
+void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
+  m_usedSlot = robot.slot;
   for (std::size_t i = 0; i < processCount; ++i) {
     const auto flag = m_decoder->value(m_decoded, processFlags[i]);
     if (!flag) continue;
@@ -183,7 +270,7 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
 RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   RobotStatus status;
   status.number = robot.number;
-  status.serial = robot.serial;
+  status.slot = robot.slot;
   status.sender = robot.sender;
   status.age = since(now, robot.last);
   status.timedOut = status.age >= m_options.timeout;
@@ -196,7 +283,9 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   if (robot.decoder->profile().indexOf(FieldMeaning::Sequence)) {
     status.loss = robot.sequence.loss();
     status.lost = robot.sequence.lost();
+    status.late = robot.sequence.late();
   }
+  status.duplicates = robot.duplicates;
   status.errors = robot.errors;
   status.errorCount = robot.errors.total();
   for (std::size_t i = 0; i < processCount; ++i) {
@@ -221,7 +310,7 @@ TeamStatus TeamMonitor::status(WallTime now) const {
   team.robots.reserve(m_robots.size());
   for (const Robot& robot : m_robots) team.robots.push_back(statusOf(robot, now));
   std::sort(team.robots.begin(), team.robots.end(), [](const RobotStatus& a, const RobotStatus& b) {
-    return std::tie(a.number, a.sender) < std::tie(b.number, b.sender);
+    return std::tie(a.number, a.slot) < std::tie(b.number, b.slot);
   });
   for (std::size_t i = 0; i < team.robots.size(); ++i) {
     for (std::size_t j = i + 1; j < team.robots.size(); ++j) {

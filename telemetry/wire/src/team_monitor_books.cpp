@@ -59,6 +59,38 @@ class Reader {
   WallTime m_zero;
 };
 
+Json sequenceJson(const SequenceStats::Counts& counts) {
+  Json json{{"bits", counts.bits},
+            {"highest", counts.highest},
+            {"seen", counts.seen},
+            {"span", counts.span},
+            {"received", counts.received},
+            {"lost", counts.lost},
+            {"duplicates", counts.duplicates},
+            {"late", counts.late},
+            {"restarts", counts.restarts}};
+  if (counts.newest) json["newest"] = *counts.newest;
+  return json;
+}
+
+SequenceStats sequenceFrom(const Json* json, WallTime zero) {
+  SequenceStats::Counts counts;
+  if (json == nullptr || !json->is_object()) return SequenceStats(counts);
+  const Reader in(*json, zero);
+  counts.bits = in.whole<int>("bits");
+  if (counts.bits != 8 && counts.bits != 16 && counts.bits != 32) counts.bits = 0;
+  if (in.find("newest")) counts.newest = in.whole<std::uint64_t>("newest");
+  counts.highest = in.whole<std::uint64_t>("highest");
+  counts.seen = in.whole<std::uint64_t>("seen");
+  counts.span = in.whole<std::uint64_t>("span");
+  counts.received = in.whole<std::uint64_t>("received");
+  counts.lost = in.whole<std::uint64_t>("lost");
+  counts.duplicates = in.whole<std::uint64_t>("duplicates");
+  counts.late = in.whole<std::uint64_t>("late");
+  counts.restarts = in.whole<std::uint64_t>("restarts");
+  return SequenceStats(counts);
+}
+
 }  // namespace
 
 struct MonitorBooks {
@@ -66,24 +98,26 @@ struct MonitorBooks {
 
   static Json written(const Robot& robot, const TextDecoder& current, WallTime zero) {
     Json json{{"number", robot.number},
-              {"serial", robot.serial},
+              {"slot", robot.slot},
               {"address", robot.sender.address.value},
               {"port", robot.sender.port},
               {"last", fromZero(robot.last, zero)},
               {"messages", robot.messages},
               {"bytes", robot.bytes},
               {"recoveries", robot.recoveries},
+              {"duplicates", robot.duplicates},
               {"highestVolts", robot.highestVolts},
               {"hash", robot.lastHash},
               {"hashTime", fromZero(robot.lastHashTime, zero)}};
-    if (robot.previousPort) json["previousPort"] = *robot.previousPort;
+    if (robot.previous) {
+      json["previous"] =
+          Json{{"address", robot.previous->address.value}, {"port", robot.previous->port}};
+    }
     if (robot.volts) json["volts"] = *robot.volts;
     Json& arrivals = json["arrivals"] = Json::array();
     for (const WallTime time : robot.arrivals.times()) arrivals.push_back(fromZero(time, zero));
-    const SequenceStats::Counts counts = robot.sequence.counts();
-    Json& sequence = json["sequence"] =
-        Json{{"lost", counts.lost}, {"received", counts.received}};
-    if (counts.last) sequence["last"] = *counts.last;
+    json["sequence"] = sequenceJson(robot.sequence.counts());
+    json["previousSequence"] = sequenceJson(robot.previousSequence.counts());
     Json& errors = json["errors"] = Json::array();
     for (std::size_t i = 0; i < textErrorCount; ++i) {
       errors.push_back(robot.errors.count(static_cast<TextError>(i)));
@@ -109,13 +143,17 @@ struct MonitorBooks {
     const Reader in(json, zero);
     Robot robot;
     robot.number = in.whole<int>("number");
-    robot.serial = in.whole<std::uint64_t>("serial");
+    robot.slot = in.whole<int>("slot");
     robot.sender = {{in.whole<std::uint32_t>("address")}, in.whole<std::uint16_t>("port")};
-    if (in.find("previousPort")) robot.previousPort = in.whole<std::uint16_t>("previousPort");
+    if (const Json* previous = in.find("previous"); previous && previous->is_object()) {
+      const Reader of(*previous, zero);
+      robot.previous = {{of.whole<std::uint32_t>("address")}, of.whole<std::uint16_t>("port")};
+    }
     robot.last = in.time("last");
     robot.messages = in.whole<std::uint64_t>("messages");
     robot.bytes = in.whole<std::uint64_t>("bytes");
     robot.recoveries = in.whole<std::uint64_t>("recoveries");
+    robot.duplicates = in.whole<std::uint64_t>("duplicates");
     robot.volts = in.number("volts");
     robot.highestVolts = in.number("highestVolts").value_or(0.0);
     robot.lastHash = in.whole<std::size_t>("hash");
@@ -123,14 +161,8 @@ struct MonitorBooks {
     each(in.find("arrivals"), mostWords, [&](std::size_t, const Json& time) {
       if (time.is_number_integer()) robot.arrivals.add(in.timeOf(time.get<std::int64_t>()));
     });
-    if (const Json* sequence = in.find("sequence"); sequence && sequence->is_object()) {
-      const Reader of(*sequence, zero);
-      SequenceStats::Counts counts;
-      if (of.find("last")) counts.last = of.whole<std::int64_t>("last");
-      counts.lost = of.whole<std::uint64_t>("lost");
-      counts.received = of.whole<std::uint64_t>("received");
-      robot.sequence = SequenceStats(counts);
-    }
+    robot.sequence = sequenceFrom(in.find("sequence"), zero);
+    robot.previousSequence = sequenceFrom(in.find("previousSequence"), zero);
     each(in.find("errors"), textErrorCount, [&](std::size_t i, const Json& count) {
       if (count.is_number_unsigned()) {
         robot.errors.add(static_cast<TextError>(i), count.get<std::uint64_t>());
@@ -148,9 +180,9 @@ struct MonitorBooks {
                                                : std::numeric_limits<double>::quiet_NaN());
     });
     each(in.find("words"), mostWords, [&](std::size_t, const Json& word) {
-      robot.words.push_back(
-          word.is_string() ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
-                           : std::string());
+      robot.words.push_back(word.is_string()
+                                ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
+                                : std::string());
     });
     robot.decoder = current;
     if (const std::string text = in.text("profile"); !text.empty()) {
@@ -173,8 +205,7 @@ std::string TeamMonitor::robotsText(WallTime zero) const {
   for (const Robot& robot : m_robots) {
     robots.push_back(MonitorBooks::written(robot, *m_decoder, zero));
   }
-  return Json{{"serial", m_serial}, {"robots", std::move(robots)}}.dump(
-      -1, ' ', false, Json::error_handler_t::replace);
+  return Json{{"robots", std::move(robots)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
@@ -192,7 +223,6 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
     }
   }
   m_robots = std::move(read);
-  m_serial = Reader(json, zero).whole<std::uint64_t>("serial");
   return {};
 }
 

@@ -11,13 +11,13 @@ namespace pitchboard::telemetry {
 
 struct TeamMonitor::Robot {
   int number = 0;
-  std::uint64_t serial = 0;
+  int slot = 0;
   Sender sender;
-  std::optional<std::uint16_t> previousPort;  ///< the one before, when it sends from a new one
+  std::optional<Sender> previous;  ///< the one before, when it sends from another one
   WallTime last{};
-  std::uint64_t messages = 0, bytes = 0, recoveries = 0;
+  std::uint64_t messages = 0, bytes = 0, recoveries = 0, duplicates = 0;
   ArrivalStats arrivals;
-  SequenceStats sequence;
+  SequenceStats sequence, previousSequence;
   ErrorTally errors;
   struct Process {
     ProcessFilter filter;

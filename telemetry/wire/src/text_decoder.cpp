@@ -88,8 +88,18 @@ Number readFlag(std::string_view word) {
   return {missing, TextError::BadFlag};
 }
 
-Number read(FieldType type, std::string_view word) {
-  switch (type) {
+/// A counter of 32 bits may be written without a sign.
+Number readCounter(std::string_view word) {
+  std::uint32_t value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  if (code == std::errc{} && stop == end) return {static_cast<double>(value), {}};
+  return readInt(word);
+}
+
+Number read(const ProfileField& field, std::string_view word) {
+  if (field.meaning == FieldMeaning::Sequence) return readCounter(word);
+  switch (field.type) {
     case FieldType::Int:
       return readInt(word);
     case FieldType::Float:
@@ -137,7 +147,7 @@ void TextDecoder::decode(std::string_view datagram, DecodedText& out) const {
     }
     // An extra field may be anything until the team gives it a type: text is kept as a word.
     const Number number =
-        i < fields ? read(m_profile.fields[i].type, word) : Number{readFloat(word).value, {}};
+        i < fields ? read(m_profile.fields[i], word) : Number{readFloat(word).value, {}};
     out.values[i] = number.value;
     out.words[i] = word;
     ++out.count;

@@ -30,6 +30,7 @@ struct UdpReceiver::Impl {
         poll(epoll_create1(EPOLL_CLOEXEC)),
         wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
         sockets(options.ports.size()) {
+    if (!options.clock) options.clock = std::make_shared<const LiveClock>();
     status.ports.resize(options.ports.size());
     for (std::size_t i = 0; i < options.ports.size(); ++i) status.ports[i].port = options.ports[i];
   }
@@ -70,7 +71,7 @@ struct UdpReceiver::Impl {
     for (int round = 0; round < maxRounds; ++round) {
       received.clear();
       std::uint64_t drops = 0;
-      const std::size_t count = sockets[index]->receive(buffers, received, drops);
+      const std::size_t count = sockets[index]->receive(buffers, *options.clock, received, drops);
       if (count == 0) return;
       {
         const std::lock_guard lock(statusMutex);

@@ -87,8 +87,8 @@ Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int recei
   return socket;
 }
 
-std::size_t UdpSocket::receive(ReceiveBuffers& buffers, DatagramBatch& batch,
-                               std::uint64_t& kernelDrops) {
+std::size_t UdpSocket::receive(ReceiveBuffers& buffers, const LiveClock& clock,
+                               DatagramBatch& batch, std::uint64_t& kernelDrops) {
   buffers.prepare();
   int count = 0;
   do {
@@ -96,12 +96,11 @@ std::size_t UdpSocket::receive(ReceiveBuffers& buffers, DatagramBatch& batch,
         recvmmsg(m_descriptor.get(), buffers.heads.data(), ReceiveBuffers::messages, 0, nullptr);
   } while (count < 0 && errno == EINTR);
   if (count <= 0) return 0;
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
+  const WallTime now = clock.now();
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     msghdr& head = buffers.heads[i].msg_hdr;
     DatagramView datagram;
-    datagram.time = wallTime(now);
+    datagram.time = now;
     datagram.localPort = m_port;
     datagram.sender = {Address{ntohl(buffers.senders[i].sin_addr.s_addr)},
                        ntohs(buffers.senders[i].sin_port)};
@@ -111,7 +110,7 @@ std::size_t UdpSocket::receive(ReceiveBuffers& buffers, DatagramBatch& batch,
       if (c->cmsg_type == SCM_TIMESTAMPNS) {
         timespec stamp{};
         std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-        datagram.time = wallTime(stamp);
+        datagram.time = clock.arrival(wallTime(stamp));
       } else if (c->cmsg_type == SO_RXQ_OVFL) {
         std::uint32_t drops = 0;
         std::memcpy(&drops, CMSG_DATA(c), sizeof drops);

@@ -12,6 +12,7 @@
 
 #include <base/descriptor.h>
 #include <telemetry/wire/datagram.h>
+#include <telemetry/wire/live_clock.h>
 
 namespace pitchboard::telemetry {
 
@@ -43,7 +44,8 @@ class UdpSocket {
 
   /// Appends up to ReceiveBuffers::messages datagrams to `batch`. Returns how many came; fewer than
   /// asked for means that the socket is empty. `kernelDrops` is the kernel's count since the bind.
-  std::size_t receive(ReceiveBuffers& buffers, DatagramBatch& batch, std::uint64_t& kernelDrops);
+  std::size_t receive(ReceiveBuffers& buffers, const LiveClock& clock, DatagramBatch& batch,
+                      std::uint64_t& kernelDrops);
 
  private:
   Descriptor m_descriptor;

@@ -2,9 +2,9 @@
 #include <ui/base/scoreboard_state.h>
 
 #include <QObject>
-#include <cmath>
 
 #include <robotlink/frame/match_event.h>
+#include <ui/base/referee_words.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
@@ -39,23 +39,9 @@ QString refereeTeam(const link::RefereeTeamView& team) {
 
 QString refereeTip(const link::RefereeView& view) {
   QStringList tip;
-  for (const link::RefereeTeamView& team : view.teams) {
-    tip << QStringLiteral("Team %1 (%2): %3 goals, %4 players on the field%5")
-               .arg(team.number)
-               .arg(QString::fromStdString(team.colour))
-               .arg(team.score)
-               .arg(team.playersLeft)
-               .arg(team.number == view.ourTeam && view.ourTeam != 0 ? QStringLiteral(", ours")
-                                                                     : QString());
-  }
-  tip << (view.firstHalf ? QStringLiteral("First half") : QStringLiteral("Second half"));
-  if (!view.phase.empty()) tip.back() += QStringLiteral(", ") + QString::fromStdString(view.phase);
-  if (!view.setPlay.empty()) {
-    tip.back() += QStringLiteral(", ") + QString::fromStdString(view.setPlay);
-  }
-  if (view.secondaryTime && *view.secondaryTime != 0) {
-    tip << QStringLiteral("Secondary time: %1 s").arg(*view.secondaryTime);
-  }
+  for (const link::RefereeTeamView& team : view.teams) tip << refereeTeamText(team, view.ourTeam);
+  tip << refereeStateText(view);
+  if (const QString setPlay = refereeSetPlayText(view); !setPlay.isEmpty()) tip << setPlay;
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
                            : QStringLiteral("Kick-off: nobody (drop ball)"));
   tip << QStringLiteral("Referee at %1, version %2, heard %3 s ago")
@@ -63,7 +49,7 @@ QString refereeTip(const link::RefereeView& view) {
              .arg(view.version)
              .arg(numberText(view.age, 1));
   if (view.conflict) tip << QStringLiteral("A second referee program is heard.");
-  if (view.trueData) tip << QStringLiteral("Monitor mode: true data arrive.");
+  if (const QString truth = refereeTruthText(view); !truth.isEmpty()) tip << truth;
   return tip.join(QLatin1Char('\n'));
 }
 
@@ -82,8 +68,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   state.rightColour = refereeColour(view.teams[1].colour);
   state.left = view.teams[0].score;
   state.right = view.teams[1].score;
-  state.clock = (view.secondsLeft < 0 ? QStringLiteral("−") : QString()) +
-                clockText(std::abs(view.secondsLeft));
+  state.clock = refereeClockText(view.secondsLeft);
   state.state = QString::fromStdString(view.state);
   const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
   if (view.timedOut) {
@@ -92,6 +77,12 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
     state.state += QStringLiteral(" · ") + QStringLiteral("stopped");
   } else if (!more.empty()) {
     state.state += QStringLiteral(" · ") + QString::fromStdString(more);
+    if (!view.setPlay.empty() && view.performingTeam) {
+      state.state += QStringLiteral(" %1").arg(*view.performingTeam);
+    }
+  }
+  if (!view.timedOut && !view.countdown.empty()) {
+    state.state += QStringLiteral(" · %1 s").arg(*view.secondaryTime);
   }
   state.tip = refereeTip(view);
   return state;

@@ -44,6 +44,13 @@ QString momentText(double seconds, int decimals) {
   return text;
 }
 
+QString momentText(double seconds, int decimals, const std::optional<QDateTime>& clock) {
+  if (!clock || !std::isfinite(seconds)) return momentText(seconds, decimals);
+  const auto whole = static_cast<qint64>(std::floor(seconds * 1000.0 + 1e-3));
+  const QString text = clock->addMSecs(whole).toString(QStringLiteral("HH:mm:ss.zzz"));
+  return text.chopped(decimals <= 0 ? 4 : std::max(0, 3 - decimals));
+}
+
 QString longMomentText(double seconds) {
   const QString text = momentText(seconds, 0);
   return text.count(QLatin1Char(':')) == 1     ? QStringLiteral("00:") + text

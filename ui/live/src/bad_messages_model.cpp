@@ -16,7 +16,8 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
   }
 }
 
-void BadMessagesModel::update(const link::LiveDetails& details) {
+void BadMessagesModel::update(const link::LiveDetails& details,
+                              const telemetry::LiveRows::Refused& kept) {
   std::vector<Row> rows;
   add(rows, QStringLiteral("everybody"), details.team.errors);
   for (const telemetry::RobotStatus& robot : details.team.robots) {
@@ -36,10 +37,18 @@ void BadMessagesModel::update(const link::LiveDetails& details) {
   };
   count(QStringLiteral("referee's port"), QString::fromStdString(details.unknownRefereeReason),
         details.unknownReferee, QString::fromStdString(details.unknownRefereeSample));
-  count(QStringLiteral("everybody"), QStringLiteral("from senders that are not on the list"),
+  count(QStringLiteral("robots"), QStringLiteral("from senders that are not on the list"),
         details.team.refusedByFilter);
-  count(QStringLiteral("everybody"), QStringLiteral("of robots beyond the 64th"),
+  count(QStringLiteral("referee"), QStringLiteral("from senders that are not on the list"),
+        details.refusedReferees);
+  count(QStringLiteral("referee"), QStringLiteral("of a version that was not chosen"),
+        details.referee.otherVersions);
+  count(QStringLiteral("robots"), QStringLiteral("of more robots than are kept (64)"),
         details.team.refusedRobots);
+  count(QStringLiteral("curves"), QStringLiteral("messages of more robots than are kept (64)"),
+        kept.rows);
+  count(QStringLiteral("curves"), QStringLiteral("values in more fields than are kept"),
+        kept.values);
   count(QStringLiteral("network"), QStringLiteral("lost because nobody took them in time"),
         details.network.queueDrops);
   for (const telemetry::PortStatus& port : details.network.ports) {

@@ -14,6 +14,7 @@
 #include <QSpinBox>
 #include <QTabWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
@@ -108,13 +109,13 @@ QWidget* LiveSettingsDialog::makeNetwork() {
                          QStringLiteral("Robot n sends to port base + n"));
   m_robots = addNumber(form, "robots", QStringLiteral("Robots"), 1, 64,
                        QStringLiteral("How many ports after the base"));
-  m_refereePort = addNumber(form, "refereePort", QStringLiteral("Referee's port"), 1, 65535, {});
   m_senders = new QLineEdit(widget);
   m_senders->setObjectName(QStringLiteral("senders"));
   m_senders->setPlaceholderText(QStringLiteral("everybody"));
   m_senders->setToolTip(
-      QStringLiteral("Addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: everybody"));
-  form->addRow(QStringLiteral("Only from"), m_senders);
+      QStringLiteral("Robots' addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: "
+                     "everybody. The referee has a list of its own"));
+  form->addRow(QStringLiteral("Robots only from"), m_senders);
   form->addRow(explanation(
       QStringLiteral("A port that another program holds is named in the status bar and tried "
                      "again every three seconds; the others work meanwhile."),
@@ -156,6 +157,24 @@ QWidget* LiveSettingsDialog::makeRobots() {
 QWidget* LiveSettingsDialog::makeReferee() {
   auto* widget = new QWidget(this);
   QFormLayout* form = page(widget);
+  m_refereePort = addNumber(form, "refereePort", QStringLiteral("Port"), 1, 65535,
+                            QStringLiteral("3838 for every controller so far"));
+  m_refereeVersion = new QComboBox(widget);
+  m_refereeVersion->setObjectName(QStringLiteral("refereeVersion"));
+  m_refereeVersion->addItem(QStringLiteral("the highest that is heard"), 0);
+  constexpr int versions[] = {7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20};
+  for (const int version : versions) {
+    m_refereeVersion->addItem(QStringLiteral("only %1").arg(version), version);
+  }
+  m_refereeVersion->setToolTip(QStringLiteral(
+      "Controllers of 2014 to 2016 send version 7 beside a higher one; two controllers may run"));
+  form->addRow(QStringLiteral("Packet version"), m_refereeVersion);
+  m_refereeSenders = new QLineEdit(widget);
+  m_refereeSenders->setObjectName(QStringLiteral("refereeSenders"));
+  m_refereeSenders->setPlaceholderText(QStringLiteral("everybody"));
+  m_refereeSenders->setToolTip(QStringLiteral(
+      "Addresses and networks of the referee's computer. Others are counted and not shown"));
+  form->addRow(QStringLiteral("Referee only from"), m_refereeSenders);
   m_ourTeam =
       addNumber(form, "ourTeam", QStringLiteral("Our team's number"), 0, 65535,
                 QStringLiteral("As in the referee's program; decides whose penalties are shown"));
@@ -218,6 +237,8 @@ void LiveSettingsDialog::adopt() {
   m_robots->setValue(o.robots);
   m_refereePort->setValue(o.refereePort);
   m_senders->setText(saved.senders);
+  m_refereeSenders->setText(saved.refereeSenders);
+  m_refereeVersion->setCurrentIndex(std::max(0, m_refereeVersion->findData(o.refereeVersion)));
   m_timeout->setValue(std::chrono::duration<double>(o.team.timeout).count());
   m_cells->setValue(o.team.battery.cells);
   m_full->setValue(o.team.battery.fullPerCell);
@@ -299,8 +320,13 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
   o.refereePort = m_refereePort->value();
   live.senders = m_senders->text();
   auto senders = sendersFromText(live.senders);
-  if (!senders) return fail(QStringLiteral("Only from: %1").arg(words(senders.error())));
+  if (!senders) return fail(QStringLiteral("Robots only from: %1").arg(words(senders.error())));
   o.team.senders = std::move(*senders);
+  live.refereeSenders = m_refereeSenders->text();
+  auto referees = sendersFromText(live.refereeSenders);
+  if (!referees) return fail(QStringLiteral("Referee only from: %1").arg(words(referees.error())));
+  o.refereeSenders = std::move(*referees);
+  o.refereeVersion = m_refereeVersion->currentData().toInt();
   o.team.timeout = std::chrono::milliseconds(qRound64(m_timeout->value() * 1000));
   o.team.battery = {m_cells->value(), m_full->value(), m_low->value(), m_empty->value()};
   if (!(o.team.battery.emptyPerCell < o.team.battery.lowPerCell &&

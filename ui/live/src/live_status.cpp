@@ -58,8 +58,7 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
     m_refereeRate = rate(m_now.referee, m_before.referee);
   }
   LiveStatusText text;
-  quint64 lost =
-      details.network.kernelDrops() + details.network.queueDrops + details.team.refusedRobots;
+  quint64 lost = details.network.kernelDrops() + details.network.queueDrops;
   for (const telemetry::RobotStatus& robot : details.team.robots) lost += robot.lost;
   text.network = QStringLiteral("UDP %1/s, %2 lost, %3 bad")
                      .arg(countText(static_cast<qulonglong>(std::llround(m_rate))), countText(lost),
@@ -69,10 +68,20 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
                                                            .arg(frame->referee->version)
                                                            .arg(numberText(m_refereeRate, 0));
   text.trouble = troubleOf(details, frame);
+  const quint64 refused =
+      details.team.refusedByFilter + details.refusedReferees + details.team.refusedRobots;
+  if (refused > 0) text.network += QStringLiteral(", %1 refused").arg(countText(refused));
   QStringList tip{QStringLiteral("%1 datagrams; lost: %2 in the kernel, %3 here")
                       .arg(countText(details.network.datagrams()),
                            countText(details.network.kernelDrops()),
-                           countText(details.network.queueDrops + details.team.refusedRobots))};
+                           countText(details.network.queueDrops))};
+  if (refused > 0) {
+    tip << QStringLiteral(
+               "refused: %1 of robots and %2 of referees that are not on their lists, "
+               "%3 of more robots than are kept")
+               .arg(countText(details.team.refusedByFilter), countText(details.refusedReferees),
+                    countText(details.team.refusedRobots));
+  }
   for (const telemetry::PortStatus& port : details.network.ports) {
     if (!port.bound)
       tip << QString::fromStdString(port.problem);

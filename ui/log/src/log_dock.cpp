@@ -78,10 +78,16 @@ class LogDock : public QWidget {
 
     // Simulated and live lines stand in one log: both go on while the other is looked at.
     for (FrameSource* source : shown->sources()) {
-      connect(source, &FrameSource::logReceived, this,
-              [this](const std::vector<LogLine>& lines) { append(lines); });
-      connect(source, &FrameSource::eventsReceived, this, &LogDock::appendEvents);
+      connect(
+          source, &FrameSource::logReceived, this,
+          [this, source](const std::vector<LogLine>& lines) { append(lines, source->clock()); });
+      connect(source, &FrameSource::eventsReceived, this,
+              [this, source](const std::vector<link::MatchEvent>& events) {
+                appendEvents(events, source->clock());
+              });
     }
+    m_model->setTimesOfDay(shown->timesOfDay());
+    connect(shown, &SourceSwitch::timesOfDayChanged, m_model, &LogModel::setTimesOfDay);
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
       append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
@@ -101,17 +107,18 @@ class LogDock : public QWidget {
                              "processes print appear here."));
   }
 
-  void append(const std::vector<LogLine>& lines) {
+  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {}) {
     const QScrollBar* bar = m_table->verticalScrollBar();
     const bool follows = bar->value() >= bar->maximum();
-    m_model->append(lines);
+    m_model->append(lines, clock);
     if (follows) m_table->scrollToBottom();
   }
 
-  void appendEvents(const std::vector<link::MatchEvent>& events) {
+  void appendEvents(const std::vector<link::MatchEvent>& events,
+                    const std::optional<QDateTime>& clock) {
     std::vector<LogLine> lines;
     for (const link::MatchEvent& event : events) lines.push_back(logLineOf(event));
-    append(lines);
+    append(lines, clock);
   }
 
   void copySelection() {

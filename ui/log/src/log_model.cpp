@@ -2,14 +2,13 @@
 #include "log_model.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
+#include <ui/base/time_axis.h>
 
 namespace pitchboard::ui {
 
-void LogModel::append(const std::vector<LogLine>& lines) {
+void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock) {
   const std::size_t kept = std::min(lines.size(), maxLines);
   m_dropped += lines.size() - kept;
   if (kept == 0) return;
@@ -23,8 +22,16 @@ void LogModel::append(const std::vector<LogLine>& lines) {
   }
   const int first = static_cast<int>(m_lines.size());
   beginInsertRows({}, first, first + static_cast<int>(kept) - 1);
-  m_lines.insert(m_lines.end(), lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end());
+  for (std::size_t i = lines.size() - kept; i < lines.size(); ++i) {
+    m_lines.push_back({lines[i], clock});
+  }
   endInsertRows();
+}
+
+void LogModel::setTimesOfDay(bool on) {
+  if (on == m_timesOfDay) return;
+  m_timesOfDay = on;
+  if (!m_lines.empty()) emit dataChanged(index(0, Time), index(rowCount() - 1, Time));
 }
 
 void LogModel::clear() {
@@ -44,14 +51,11 @@ int LogModel::columnCount(const QModelIndex& parent) const {
 
 QVariant LogModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid()) return {};
-  const LogLine& line = m_lines[static_cast<std::size_t>(index.row())];
+  const Line& line = m_lines[static_cast<std::size_t>(index.row())];
   if (role == Qt::DisplayRole) {
     switch (index.column()) {
-      case Time: {
-        const double tenths = std::floor(line.time * 10) / 10;
-        return clockText(tenths) + QLatin1Char('.') +
-               QString::number(static_cast<int>(std::llround(tenths * 10)) % 10);
-      }
+      case Time:
+        return momentText(line.time, 1, m_timesOfDay ? line.clock : std::nullopt);
       case Origin:
         return QString::fromStdString(line.origin);
       case Text:

@@ -5,7 +5,9 @@
 // first.
 
 #include <QAbstractTableModel>
+#include <QDateTime>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include <robotlink/match/match_runner.h>
@@ -19,7 +21,10 @@ class LogModel : public QAbstractTableModel {
   static constexpr std::size_t maxLines = 10'000;
   using QAbstractTableModel::QAbstractTableModel;
 
-  void append(const std::vector<LogLine>& lines);
+  /// `clock`: the time of day at their source's second 0, where it has one.
+  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {});
+  /// Times as time of day, where the lines' source has one.
+  void setTimesOfDay(bool on);
   void clear();
   /// Lines that were removed to make room.
   quint64 dropped() const { return m_dropped; }
@@ -30,7 +35,11 @@ class LogModel : public QAbstractTableModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:
-  std::deque<LogLine> m_lines;
+  struct Line : LogLine {
+    std::optional<QDateTime> clock;
+  };
+  std::deque<Line> m_lines;
+  bool m_timesOfDay = true;
   quint64 m_dropped = 0;
 };
 

@@ -107,10 +107,7 @@ ColumnView PlotFeed::compared(const QString& name) const {
 }
 
 QString PlotFeed::timeText(double time, int decimals) const {
-  if (!m_clock) return momentText(time, decimals);
-  const QDateTime moment = m_clock->addMSecs(qRound64(time * 1000.0));
-  return moment.toString(decimals > 0 ? QStringLiteral("HH:mm:ss.zzz")
-                                      : QStringLiteral("HH:mm:ss"));
+  return momentText(time, decimals, m_clock);
 }
 
 QStringList PlotFeed::names() const {

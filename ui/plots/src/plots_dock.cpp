@@ -87,6 +87,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   if (context.plots != nullptr) {
     connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
   }
+  connect(context.source, &SourceSwitch::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
   if (context.timeline != nullptr) {
     connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
   }

@@ -6,6 +6,7 @@
 
 #include <ui/base/theme.h>
 #include <ui/robots/robots_dock.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
@@ -104,6 +105,14 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   const RobotId id = card->state().id;
   QMenu menu(this);
   if (m_context.source->kind() == SourceKind::Simulate) addMatchActions(menu, card);
+  if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
+    QAction* forget = menu.addAction(themedIcon(QStringLiteral("edit-delete")),
+                                     QStringLiteral("Forget %1").arg(card->state().name),
+                                     m_context.live, [this, id] { m_context.live->forget(id); });
+    forget->setObjectName(QStringLiteral("forgetRobot"));
+    forget->setToolTip(QStringLiteral("Its card goes until it is heard again; its curves stay"));
+    menu.addSeparator();
+  }
   QAction* follow = menu.addAction(QStringLiteral("Follow"));
   follow->setCheckable(true);
   follow->setChecked(m_context.selection->followed() == id);

@@ -139,6 +139,14 @@ int EventList::rowCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : static_cast<int>(m_events.size());
 }
 
+void EventList::setClock(std::function<std::optional<QDateTime>()> clock) {
+  m_clock = std::move(clock);
+}
+
+void EventList::writeTimesAnew() {
+  if (!m_events.empty()) emit dataChanged(index(0, Time), index(rowCount() - 1, Time));
+}
+
 int EventList::columnCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : columns;
 }
@@ -150,7 +158,9 @@ QVariant EventList::data(const QModelIndex& index, int role) const {
   if (role != Qt::DisplayRole && role != Qt::EditRole) return {};
   switch (index.column()) {
     case Time:
-      return role == Qt::EditRole ? QVariant(e.time) : QVariant(momentText(e.time, 3));
+      return role == Qt::EditRole
+                 ? QVariant(e.time)
+                 : QVariant(momentText(e.time, 3, m_clock ? m_clock() : std::nullopt));
     case What:
       return isBookmark(e) ? QString::fromUtf8(link::info(e.kind).words)
                            : QString::fromStdString(sentenceOf(e));

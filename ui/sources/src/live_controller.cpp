@@ -2,31 +2,38 @@
 #include <ui/sources/live_controller.h>
 
 #include <algorithm>
+#include <atomic>
 
+#include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_rows.h>
 #include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
-
-namespace {
 
 /// Every message as a row of the store. Lives in the watch's thread once it observes.
 class RowKeeper : public link::LiveObserver {
  public:
   RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, telemetry::WallTime zero)
       : m_rows(std::move(store), {zero, {}}) {}
-  void heard(RobotId, double, const telemetry::DatagramView& datagram,
+  void heard(RobotId id, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
-    m_rows.take(datagram, decoded, decoder);
+    m_rows.take(datagram, decoded, decoder, link::slotOf(id));
+    const auto& refused = m_rows.refused();
+    m_refusedRows.store(refused.rows, std::memory_order_relaxed);
+    m_refusedValues.store(refused.values, std::memory_order_relaxed);
   }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
+  /// Any thread.
+  telemetry::LiveRows::Refused refused() const {
+    return {m_refusedRows.load(std::memory_order_relaxed),
+            m_refusedValues.load(std::memory_order_relaxed)};
+  }
 
  private:
   telemetry::LiveRows m_rows;
+  std::atomic<std::uint64_t> m_refusedRows = 0, m_refusedValues = 0;
 };
-
-}  // namespace
 
 LiveController::LiveController(QObject* parent) : FrameSource(parent) {}
 
@@ -87,6 +94,14 @@ void LiveController::clear() {
   emit restarted();
 }
 
+void LiveController::forget(RobotId id) {
+  if (m_watch) m_watch->forget(id);
+}
+
+telemetry::LiveRows::Refused LiveController::refusedRows() const {
+  return m_rows ? m_rows->refused() : telemetry::LiveRows::Refused{};
+}
+
 void LiveController::setMemoryBudget(std::size_t bytes) {
   m_memoryBudget = bytes;
   if (m_series) m_series->setMemoryBudget(bytes);
@@ -107,6 +122,10 @@ FramePtr LiveController::frameAt(double time) const {
   if (!m_memory) return nullptr;
   auto frame = m_moments->frameAt(*m_memory, time);
   return frame ? std::make_shared<link::MatchFrame>(std::move(*frame)) : nullptr;
+}
+
+telemetry::WallTime LiveController::began() const {
+  return m_watch ? m_watch->began() : telemetry::WallTime{};
 }
 
 telemetry::WallTime LiveController::began() const {

@@ -3,6 +3,7 @@
 
 #include <QRegularExpression>
 #include <QSettings>
+#include <algorithm>
 #include <cmath>
 
 namespace pitchboard::ui {
@@ -69,6 +70,12 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
     o.team.senders = *filter;
   else
     complain(filter.error());
+  live.refereeSenders = text(settings, "refereeSenders");
+  if (const auto filter = sendersFromText(live.refereeSenders))
+    o.refereeSenders = *filter;
+  else
+    complain(filter.error());
+  o.refereeVersion = std::clamp(number(settings, "refereeVersion", 0), 0, 255);
   live.monitorAddress = text(settings, "monitorAddress");
   live.profileFile = text(settings, "profileFile");
   if (!live.profileFile.isEmpty()) {
@@ -107,6 +114,8 @@ void saveLiveSettings(QSettings& settings, const LiveSettings& live) {
   put("emptyPerCell", o.team.battery.emptyPerCell);
   put("field", QString::fromStdString(o.field.name));
   put("senders", live.senders);
+  put("refereeSenders", live.refereeSenders);
+  put("refereeVersion", o.refereeVersion);
   put("monitorAddress", live.monitorAddress);
   put("profileFile", live.profileFile);
 }

@@ -42,6 +42,12 @@ void SourceSwitch::follow() {
   });
 }
 
+void SourceSwitch::setTimesOfDay(bool on) {
+  if (on == m_timesOfDay) return;
+  m_timesOfDay = on;
+  emit timesOfDayChanged(on);
+}
+
 void SourceSwitch::forgetPast() {
   m_past.reset();
   m_pastTime.reset();

@@ -26,6 +26,10 @@ Timeline::Timeline(SourceSwitch* source, QObject* parent)
   });
   connect(source, &SourceSwitch::frameReceived, this, &Timeline::refresh);
   connect(source, &SourceSwitch::newestChanged, this, &Timeline::refresh);
+  connect(source, &SourceSwitch::timesOfDayChanged, this, [this] {
+    for (const auto& [watched, collector] : m_collectors) collector->list()->writeTimesAnew();
+    emit moved();
+  });
   follow();
 }
 
@@ -34,6 +38,8 @@ Timeline::~Timeline() = default;
 void Timeline::watch(FrameSource* source) {
   if (m_collectors.contains(source)) return;
   m_collectors[source] = new EventCollector(source);
+  m_collectors[source]->list()->setClock(
+      [shown = m_source, source] { return shown->clockOf(*source); });
   connect(source, &QObject::destroyed, this, [this, source] { m_collectors.erase(source); });
 }
 

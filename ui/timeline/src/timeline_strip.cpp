@@ -196,13 +196,13 @@ const EventMark* TimelineStrip::markAt(QPointF at) {
 
 QString TimelineStrip::tipAt(QPointF at) {
   const EventMark* mark = markAt(at);
-  if (mark == nullptr) return momentText(m_axis.time(at.x()), 1);
+  if (mark == nullptr) return momentText(m_axis.time(at.x()), 1, m_timeline->clock());
   QStringList lines;
   constexpr int most = 8;
   for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
     const link::MatchEvent& e = m_timeline->events()->event(row);
     if (!link::isMarked(e)) continue;
-    lines << momentText(e.time, 2) + QStringLiteral("  ") +
+    lines << momentText(e.time, 2, m_timeline->clock()) + QStringLiteral("  ") +
                  QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }
   if (mark->merged > most)

@@ -2,6 +2,7 @@
 #include "dock_list.h"
 
 #include <ui/live/bad_messages_dock.h>
+#include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
 #include <ui/noise/noise_dock.h>
 #include <ui/plots/plots_dock.h>
@@ -18,7 +19,8 @@ namespace {
 
 // Each dock gets what it uses and no more.
 QWidget* robots(const StudioParts& s, QWidget* parent) {
-  return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings}, parent);
+  return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings, s.live},
+                        parent);
 }
 QWidget* variables(const StudioParts& s, QWidget* parent) {
   return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings}, parent);
@@ -31,6 +33,9 @@ QWidget* plots(const StudioParts& s, QWidget* parent) {
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);
+}
+QWidget* referee(const StudioParts& s, QWidget* parent) {
+  return makeRefereeDock(s.source, parent);
 }
 QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
@@ -51,6 +56,7 @@ std::span<const DockInfo> studioDocks() {
       {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, noise},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, timeline, true},

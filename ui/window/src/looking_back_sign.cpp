@@ -22,9 +22,7 @@ void LookingBackSign::present() {
   }
   const double at = m_timeline->shownTime();
   const auto clock = m_timeline->clock();
-  const QString time =
-      clock ? clock->addMSecs(qRound64(at * 1000)).toString(QStringLiteral("HH:mm:ss"))
-            : longMomentText(at);
+  const QString time = clock ? momentText(at, 0, clock) : longMomentText(at);
   const QString text = QStringLiteral("Looking back: %1 (live goes on)").arg(time);
   if (text == this->text() && isVisible()) return;
   setText(text);

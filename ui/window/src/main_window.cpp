@@ -72,6 +72,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
       m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
   m_source->add(m_live);
+  m_source->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
   m_source->add(m_replay);
   m_timeline->watch(controller);
   m_timeline->watch(m_live);

@@ -167,6 +167,16 @@ void StudioMenus::makeView() {
                   [window = &m_window, parts = m_parts] {
                     showLiveSettings(parts.live, parts.settings, window);
                   });
+  QAction* day = menu->addAction(QStringLiteral("Times of &day in Live and Replay"));
+  day->setObjectName(QStringLiteral("timesOfDay"));
+  day->setCheckable(true);
+  day->setChecked(m_parts.source->timesOfDay());
+  day->setToolTip(QStringLiteral(
+      "Axes, timeline, log and readouts write 15:03:12; otherwise they count from the beginning"));
+  QObject::connect(day, &QAction::toggled, m_parts.source, [parts = m_parts](bool on) {
+    parts.source->setTimesOfDay(on);
+    if (parts.settings != nullptr) parts.settings->setValue(QStringLiteral("view/timesOfDay"), on);
+  });
   menu->addSeparator();
   makeThemes(menu->addMenu(QStringLiteral("&Theme")));
   menu->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);

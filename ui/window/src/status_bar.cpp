@@ -122,9 +122,10 @@ void StudioStatusBar::showSource() {
   if (m_context.source->kind() == SourceKind::Replay) {
     m_pace->setText(
         QStringLiteral("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
-    m_world->setText(QStringLiteral("%1 of %2")
-                         .arg(momentText(m_context.timeline->shownTime(), 2),
-                              momentText(m_context.timeline->now(), 0)));
+    m_world->setText(
+        QStringLiteral("%1 of %2")
+            .arg(momentText(m_context.timeline->shownTime(), 2, m_context.timeline->clock()),
+                 momentText(m_context.timeline->now(), 0, m_context.timeline->clock())));
     m_processes->clear();
   } else {
     showMatch(*frame);

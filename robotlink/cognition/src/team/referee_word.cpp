@@ -8,6 +8,28 @@ namespace {
 enum State { Initial = 0, Ready = 1, Set = 2, Playing = 3 };
 constexpr int timeout = 3;  // of secState (Humanoid League) and gamePhase (others)
 
+/// Restarts: who has the ball plays. The others walk to their places until a set play is taken, and
+/// stand until a kick-off is.
+int wordInPlay(const telemetry::RefereeState& state, int team) {
+  constexpr int firstSetPlay = 4, lastSetPlay = 9;  // of secState
+  constexpr int size2021 = 688;
+  const int secondary = state.secState.value_or(0);
+  if (secondary >= firstSetPlay && secondary <= lastSetPlay && state.secStateInfo) {
+    const auto& step = *state.secStateInfo;
+    const bool frozen = state.size == size2021 ? step[1] == 0 : step[1] == 1;
+    if (frozen) return refereeStop;
+    return step[0] == team ? refereePlay : refereeReady;
+  }
+  if (state.league == telemetry::League::HumanoidSoccer && state.setPlay.value_or(0) != 0) {
+    return state.kickOffTeam == team ? refereePlay : refereeReady;
+  }
+  const bool waits = state.league != telemetry::League::StandardPlatform &&
+                     state.secondaryTime.value_or(0) > 0 && state.kickOffTeam &&
+                     state.kickOffTeam != team && state.gamePhase.value_or(0) == 0 &&
+                     secondary == 0;
+  return waits ? refereeSet : refereePlay;
+}
+
 }  // namespace
 
 std::optional<int> refereeWord(const telemetry::RefereeState& state, int team, int player) {
@@ -27,7 +49,7 @@ std::optional<int> refereeWord(const telemetry::RefereeState& state, int team, i
     case Set:
       return refereeSet;
     case Playing:
-      return refereePlay;
+      return wordInPlay(state, team);
     default:
       return refereeStop;
   }

@@ -40,29 +40,64 @@ struct RobotHealth : telemetry::LinkHealth {
   std::vector<HeardValue> values;  ///< all, in the order of the message
 };
 
+/// One player of a team's list; substitutes that wait are not in it.
+struct RefereePlayerView {
+  int number = 0;
+  std::string penalty;  ///< "pickup or incapable"; empty: it plays
+  int secondsLeft = 0;  ///< as sent
+  int warnings = 0, yellow = 0, red = 0, cautions = 0;
+  bool goalkeeper = false;
+  bool operator==(const RefereePlayerView&) const = default;
+};
+
 struct RefereeTeamView {
   int number = 0;
   std::string colour;  ///< "blue"; "unknown" for a code nobody knows
   int score = 0;
-  int playersLeft = 0;  ///< not penalised, not substitutes
+  int playersLeft = 0;  ///< on the field: not penalised, substitutes that came in counted
+  std::vector<RefereePlayerView> players{};
+};
+
+/// What really happens, without the league's delays: monitor mode.
+struct RefereeTruth {
+  std::string state;
+  std::string setPlay;
+  int secondsLeft = 0;
+  std::optional<int> secondaryTime;
+  std::array<int, 2> scores{};
+  double age = 0.0;  ///< s
+};
+
+/// What a robot told the referee, passed on in monitor mode or heard directly.
+struct RobotReplyView {
+  int team = 0, player = 0;
+  std::string address;
+  bool fallen = false;
+  std::optional<Pose> pose;       ///< as its message says: m, rad, its own frame of the field
+  std::optional<double> ballAge;  ///< s
+  double age = 0.0;               ///< s
 };
 
 /// The state of the game as the referee sends it.
 struct RefereeView {
   int version = 0;
   std::string sender;
-  double age = 0.0;       ///< s
-  bool timedOut = false;  ///< shown as it was last heard
-  bool conflict = false;  ///< a second controller is heard
-  bool trueData = false;  ///< monitor mode works: true data are received as well
-  std::string state;      ///< "PLAYING"
-  std::string setPlay;    ///< "corner", "direct free kick", "timeout"; empty in normal play
-  std::string phase;      ///< "overtime", "penalty shoot-out"; empty in normal time
+  double age = 0.0;                     ///< s
+  bool timedOut = false;                ///< shown as it was last heard
+  bool conflict = false;                ///< a second controller is heard
+  std::optional<RefereeTruth> truth;    ///< monitor mode works: true data are received as well
+  std::vector<RobotReplyView> replies;  ///< by team and player
+  std::string state;                    ///< "PLAYING"
+  std::string setPlay;  ///< "corner", "direct free kick", "timeout"; empty in normal play
+  std::string phase;    ///< "overtime", "penalty shoot-out"; empty in normal time
   bool firstHalf = true;
   bool stopped = false;
   int secondsLeft = 0;  ///< negative in extra time
   std::optional<int> secondaryTime;
-  std::optional<int> kickOffTeam;        ///< team number
+  std::string countdown;              ///< what secondaryTime counts down to: "ball free"; or empty
+  std::optional<int> performingTeam;  ///< number of the team that takes the set play
+  std::string setPlayStep;            ///< "stop", "prepare", "ready"; empty: not said
+  std::optional<int> kickOffTeam;     ///< team number
   std::array<RefereeTeamView, 2> teams;  ///< left, right
   int ourTeam = 0;  ///< chosen number; 0 when none was chosen or it does not play
 };

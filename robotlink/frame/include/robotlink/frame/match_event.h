@@ -43,6 +43,8 @@ enum class MatchEventKind : std::uint8_t {
   RobotBack,         ///< robot
   SecondSender,      ///< robot; detail: the sender that is shown
   BatteryLow,        ///< robot; value: tenths of a volt
+  AddressChanged,    ///< robot; detail: "10.0.0.3 to 10.0.0.7"
+  ClockSet,          ///< the computer's; value: by so many seconds
   Penalised,         ///< robot; detail: for what; value: seconds left
   PenaltyOver,       ///< robot
   ProcessStarted,    ///< robot, process; value: its process number
@@ -54,7 +56,7 @@ enum class MatchEventKind : std::uint8_t {
   Bookmark,          ///< detail: the user's note
   Other              ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 33;
+inline constexpr std::size_t matchEventKindCount = 35;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

@@ -39,6 +39,7 @@ struct RobotBoardView {
 struct RobotFrame : sim::RobotSnapshot {
   std::optional<RobotBoardView> board;    ///< nothing: nobody knows it
   std::optional<RobotHealth> health;      ///< of a robot that is heard by network
+  std::optional<Penalty> penalty;         ///< of a simulated referee
   std::optional<RobotThoughts> thoughts;  ///< of one that tells it (MatchOptions::thoughts)
   /// Shared by many frames: processes seldom change. Read with processes().
   std::shared_ptr<const std::vector<ChildStatus>> processList;

@@ -18,31 +18,20 @@
 
 namespace pitchboard::link {
 
-/// Who has which id (see <robotlink/frame/second_sender.h>).
-class LiveIdentities {
- public:
-  RobotId idOf(int number, std::uint64_t serial);
-  void keepOnly(const telemetry::TeamStatus& team);
-  void clear() { m_ids.clear(); }
-
- private:
-  friend struct LiveBooks;
-  std::map<std::pair<int, std::uint64_t>, RobotId> m_ids;
-};
-
 struct LiveBooks {
   explicit LiveBooks(const LiveOptions& options);
 
   telemetry::TeamMonitor monitor;
   telemetry::RefereeTracker referee;
-  LiveIdentities identities;
 
-  /// A packet that decoded to this state.
-  void takeReferee(const telemetry::RefereeState& state, const telemetry::DatagramView& datagram);
+  static telemetry::RefereeTracker::Options refereeOptions(const LiveOptions& options);
+  /// A datagram of the referee's port that decoded to this.
+  void takeReferee(const telemetry::RefereePacket& packet, const telemetry::DatagramView& datagram);
   /// The frame of this moment, all but its serial; `time`: seconds since the watch began.
-  MatchFrame frame(const LiveOptions& options, const telemetry::TeamStatus& team, double time);
+  MatchFrame frame(const LiveOptions& options, const telemetry::TeamStatus& team,
+                   double time) const;
   /// Forgets robots, referee and counters.
-  void clear();
+  void clear(const LiveOptions& options);
 
   /// As a JSON object with "time", the books and those options that frames depend on.
   std::string text(const LiveOptions& options, double time, telemetry::WallTime zero) const;
@@ -56,9 +45,11 @@ struct LiveBooks {
   struct Kept {
     telemetry::WallTime time;
     telemetry::Sender sender;
+    std::uint16_t localPort = 0;
     std::string payload;
   };
   std::optional<Kept> m_shown, m_other, m_trueData;
+  std::map<std::pair<int, int>, Kept> m_replies;  // by team and player
 };
 
 struct LiveBooks::Read {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What live robots send as rows: a group for each robot, the profile's fields as columns, and how
-// well the messages come (category "Link": AGE s, RATE 1/s, LOSS share, ERRORS count, VOLTS). One
-// row for each message, with its own time; while a robot is silent one row a health report, so that
-// its age is seen to grow. Times are seconds since `zero`.
+// What live robots send as rows. Each robot has two groups: "Robot 3" has one row for each message
+// that was used, with its own time and the profile's fields as columns, and nothing else; "Robot 3
+// link" says about once a second how well it is heard (AGE s, RATE 1/s, JITTER ms, LOSS share,
+// LOST, DUPLICATES, LATE, ERRORS counts, VOLTS V), until it has timed out. A value that says "not
+// seen" (ProfileField::absent) is a hole. A longer message or an edited profile adds columns behind
+// the others. Times are seconds since `zero`. What is kept is bounded by the limits below.
 
 #include <cstdint>
 #include <functional>
@@ -17,7 +19,7 @@
 
 namespace pitchboard::telemetry {
 
-/// Of the columns that say how well a robot is heard; the others are fields of its messages.
+/// Category of the columns that say how well a robot is heard.
 inline constexpr const char* linkCategory = "Link";
 
 struct LiveRowsOptions {
@@ -26,33 +28,42 @@ struct LiveRowsOptions {
   std::function<std::string(int number)> name;
 };
 
-/// Not thread-safe: lives beside the TeamMonitor. A group's attributes: "number", "sender" (its
-/// address), "live" = "1". Two senders with one number are two groups, the second one named
-/// "Robot 3 (192.168.0.7)".
+/// Not thread-safe: lives beside the TeamMonitor. Attributes of a robot's group: "number", "sender"
+/// (its address), "live" = "1"; of its link group: "link" = name of the robot's group. Another
+/// program that uses the number at the same time is "Robot 3 (2)".
 class LiveRows {
  public:
+  static constexpr std::size_t maxRobots = MonitorOptions::maxRobots;
+  static constexpr std::size_t maxColumns = 200;  ///< of a robot, over all its profiles
+  static constexpr std::size_t maxExtras = 32;    ///< fields of a message beyond its profile
+
+  /// What the limits kept out since the beginning.
+  struct Refused {
+    std::uint64_t rows = 0;    ///< of robots beyond the 64th
+    std::uint64_t values = 0;  ///< in fields beyond the limits
+  };
+
   explicit LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options = {});
   ~LiveRows();
 
-  /// After TeamMonitor::take() said Used: one row.
-  void take(const DatagramView& datagram, const DecodedText& decoded, const TextDecoder& decoder);
-  /// From time to time (a few times a second): health for the coming rows, and rows for robots that
-  /// have been silent since the last report. A robot that timed out gets one last row.
+  /// After TeamMonitor::take() said Used: one row. `slot`: TeamMonitor::usedSlot().
+  void take(const DatagramView& datagram, const DecodedText& decoded, const TextDecoder& decoder,
+            int slot);
+  /// From time to time (a few times a second): rows of the link groups, where they are due.
   void report(const TeamStatus& status);
-  /// Forgets the robots (not the rows).
-  void clear();
+  const Refused& refused() const { return m_refused; }
 
  private:
   struct Robot;
-  Robot& robotOf(int number, const Sender& sender);
+  Robot* robotOf(int number, int slot, const Sender& sender);
   void describe(Robot& robot, const TextDecoder& decoder, std::size_t values);
-  void append(Robot& robot, WallTime time);
+  void addGroups(Robot& robot);
+  double timeOf(WallTime time) const { return secondsOf(time - m_options.zero); }
 
   std::shared_ptr<RowSink> m_sink;
   LiveRowsOptions m_options;
   std::vector<Robot> m_robots;
-  Profile m_profile;  // of which the groups are
-  std::uint64_t m_generation = 0;
+  Refused m_refused;
 };
 
 }  // namespace pitchboard::telemetry

@@ -2,9 +2,9 @@
 #pragma once
 
 // Watches a match of real robots: receives, decodes and keeps the books on threads of its own, and
-// hands out frames (the newest wins) and events as values. It sends nothing, except the
-// monitor request to a referee when that is turned on. All public functions may be called from any
-// thread.
+// hands out frames (the newest wins) and events as values, all on one clock (LiveClock). It sends
+// nothing, except the monitor request to a referee when that is turned on. All public functions may
+// be called from any thread.
 
 #include <functional>
 #include <memory>
@@ -14,7 +14,8 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
+#include <telemetry/wire/live_clock.h>
 #include <telemetry/wire/monitor_request.h>
 #include <telemetry/wire/referee_tracker.h>
 #include <telemetry/wire/team_monitor.h>
@@ -28,6 +29,8 @@ struct LiveOptions {
   int portBase = 1240;        ///< robot n sends to portBase + n
   int robots = 16;            ///< ports after the base
   int refereePort = 3838;
+  int refereeVersion = 0;                    ///< the only one to be shown; 0: the highest
+  telemetry::SenderFilter refereeSenders{};  ///< who may be the referee; the robots' is in `team`
   telemetry::Profile profile = telemetry::publishedProfile();
   telemetry::MonitorOptions team;
   int ourTeam = 0;                     ///< the referee's number of our team; 0: not chosen
@@ -50,8 +53,8 @@ struct LiveDetails {
   std::uint64_t unknownReferee = 0;  ///< packets on the referee's port that could not be decoded
   std::string unknownRefereeReason;  ///< of the last one
   std::string unknownRefereeSample;
-  std::uint64_t robotStates = 0;  ///< robots' replies passed on by a referee in monitor mode
-  std::string monitorProblem;     ///< why the last monitor request was not sent
+  std::uint64_t refusedReferees = 0;  ///< datagrams of senders that are not on the referee's list
+  std::string monitorProblem;         ///< why the last monitor request was not sent
 };
 
 /// Sees every datagram that is used, for rows and recording. Called on the watch's thread: must not
@@ -60,7 +63,7 @@ class LiveObserver {
  public:
   virtual ~LiveObserver() = default;
   /// `time`: seconds since the watch began, of the arrival. `decoded` and the datagram are valid
-  /// during the call only. `id` as in the frames.
+  /// during the call only. `id` as in the frames (<robotlink/frame/second_sender.h>).
   virtual void heard(RobotId /*id*/, double /*time*/, const telemetry::DatagramView&,
                      const telemetry::TextDecoder&, const telemetry::DecodedText&) {}
   virtual void refereeHeard(double /*time*/, const telemetry::DatagramView&,
@@ -82,7 +85,8 @@ class LiveWatch {
  public:
   /// `onFrame` is called from the watch's thread when a frame is there that was not taken yet; it
   /// must return at once. The options must be valid.
-  explicit LiveWatch(LiveOptions options, std::function<void()> onFrame = {});
+  explicit LiveWatch(LiveOptions options, std::function<void()> onFrame = {},
+                     telemetry::ClockSource clock = telemetry::ClockSource::system());
   ~LiveWatch();  ///< stops receiving, joins
   LiveWatch(const LiveWatch&) = delete;
   LiveWatch& operator=(const LiveWatch&) = delete;
@@ -92,6 +96,8 @@ class LiveWatch {
   void setOptions(LiveOptions options);
   /// Forgets robots, referee and counters.
   void clear();
+  /// Forgets one robot or second sender; it appears again when it is heard.
+  void forget(RobotId id);
 
   /// The newest frame; calling it asks for the next `onFrame`. Null before the first.
   std::shared_ptr<const MatchFrame> latest();
@@ -99,7 +105,7 @@ class LiveWatch {
   /// What came since the last call, at most the newest 10 000.
   std::vector<MatchEvent> takeEvents();
 
-  /// The time of day at 0 s.
+  /// The time of day at 0 s, by the computer's clock as it was then.
   telemetry::WallTime began() const;
   void observe(std::shared_ptr<LiveObserver> observer);
   /// After this returns the observer is not called any more.

@@ -22,7 +22,7 @@
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/processes/process_supervisor.h>
 #include <robotlink/scenario/scenario.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 
@@ -39,9 +39,15 @@ struct MatchOptions {
   std::string robotProgram;  ///< pitchboard-robot; needed for External
   ProcessOptions process;    ///< addresses and ports for the processes
   bool thoughts = false;     ///< hear particles and paths, for display
+  /// The referee of the match sends packets to process.refereePort of this computer. Without it
+  /// only inline robots hear it.
+  bool sendReferee = false;
+  /// Instead of its own referee, the match obeys a GameController that is heard on this port.
+  std::optional<int> obeyReferee;
 };
 
 class MatchEvents;
+class MatchReferee;
 struct Moment;
 
 class SimulatedMatch {
@@ -61,7 +67,7 @@ class SimulatedMatch {
   void tick();
   /// A stop condition of the scenario is met. Nothing keeps the caller from going on.
   bool finished() const { return !finishedBy().empty(); }
-  /// "goal", "ball_out" or "duration"; empty while none is met.
+  /// "goal", "ball_out", "duration" or "full_time"; empty while none is met.
   std::string_view finishedBy() const;
 
   /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
@@ -99,6 +105,8 @@ class SimulatedMatch {
   /// Another team and shirt for the robot of this id; its processes start again. Conflict when the
   /// shirt is worn already.
   Result<void> setIdentity(const sim::RobotIdentity& identity);
+  /// A call of the referee (a person's); see sim::Simulation::call().
+  Result<void> call(const sim::RefereeCall& call) { return m_simulation.call(call); }
   /// The smallest robot number that is free (blackboard key, telemetry port).
   RobotId freeRobotId() const;
 
@@ -128,6 +136,9 @@ class SimulatedMatch {
   void applyDueWrites();
   void followJump();
   void runInlineProcesses();
+  Result<void> beginGame();
+  void hearReferee();
+  void followSides();
   std::uint64_t nextDueTick(double period) const;
   Seat* seat(RobotId id) const;
   bool sharesBoards() const;
@@ -155,6 +166,7 @@ class SimulatedMatch {
   std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
   std::optional<ThoughtsReceiver> m_thoughts;
   std::unique_ptr<MatchEvents> m_events;
+  std::unique_ptr<MatchReferee> m_referee;
   std::unique_ptr<ProcessSupervisor> m_supervisor;
 };
 

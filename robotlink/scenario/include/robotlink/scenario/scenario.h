@@ -13,7 +13,7 @@
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 namespace pitchboard::link {
 

@@ -50,6 +50,8 @@ class LiveRecorder : public LiveRecords {
   void append(const MatchEvent& event) { happened(event); }
   /// Call after LiveWatch::stopObserving().
   Result<void> finish() { return m_writer->finish(); }
+  /// The same: rows and values that the limits of LiveRows kept out of the file.
+  const telemetry::LiveRows::Refused& refused() const { return m_rows.refused(); }
 
  protected:
   void keep(LiveRecord record) override;

@@ -56,6 +56,7 @@ class RecordedFrames {
   void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);
   void fillMatch(std::size_t group, MatchFrame& frame);
   void addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame);
+  std::optional<std::size_t> linkGroupOf(const telemetry::GroupInfo& robot) const;
   void addHealth(std::size_t group, double time, const sim::FieldSpec& field, RobotFrame& robot);
 
   FrameBackdrop m_backdrop;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What happened in a step of the simulation. Plain values.
+// What happened in a step of the simulation, or by a referee's call. Plain values.
 
 #include <cstdint>
 
@@ -9,10 +9,30 @@
 
 namespace pitchboard::sim {
 
-enum class EventKind : std::uint8_t { Goal, BallOut, Kick, Fall, GotUp, UnknownAction };
+enum class EventKind : std::uint8_t {
+  Goal,
+  BallOut,
+  Kick,
+  Fall,
+  GotUp,
+  UnknownAction,
+  ScoreCorrected,
+  PlayStateChanged,
+  HalfBegan,
+  PhaseChanged,
+  SetPlayBegan,
+  SetPlayOver,
+  DropBall,
+  PlayStopped,
+  PlayGoesOn,
+  Penalised,
+  PenaltyOver,
+  FinalWhistle
+};
 
-/// Something that happened in the last step. `robot` is 0 when no robot is concerned; a goal has
-/// the side that scored in `value` (0 left, 1 right), a kick and an unknown action their code.
+/// `robot` is 0 when no robot is concerned. `value`: a goal and a corrected score have the side (0
+/// left, 1 right), a kick and an unknown action their code, a state its PlayState, a half its
+/// number, a phase its GamePhase, a set play its SetPlay, a penalty its PenaltyKind.
 struct Event {
   EventKind kind = EventKind::Goal;
   std::uint64_t tick = 0;

@@ -7,7 +7,8 @@
 // A visitor has value(v) for std::string, double, bool, int, std::uint32_t, std::uint64_t and every
 // enumeration; count(vector) before the elements of a vector whose size is its own (a reader
 // resizes it there); sameCount(vector, size) where the size is known already; alternative(variant)
-// before the physics (a reader chooses it there).
+// before the physics (a reader chooses it there); present(optional) before what may not be there (a
+// reader makes it there), true when it is.
 
 #include <simcore/world/world_state.h>
 
@@ -83,6 +84,10 @@ void visitValues(World& world, Visitor& v) {
   }
   v.alternative(world.physics);
   std::visit([&v](auto& state) { state_values::physics(state, v); }, world.physics);
+  if (v.present(s.referee)) {
+    visitRefereeRules(*s.referee, [&v](auto&... values) { state_values::all(v, values...); });
+  }
+  if (v.present(world.game)) visitGame(*world.game, v);
 }
 
 }  // namespace pitchboard::sim

@@ -5,6 +5,7 @@
 // it, hash it, put it back. A step is a pure function of this value and the robots' commands.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,8 +13,10 @@
 #include <base/geometry.h>
 #include <base/ids.h>
 #include <simcore/world/field.h>
+#include <simcore/world/game_state.h>
 #include <simcore/world/noise.h>
 #include <simcore/world/published_state.h>
+#include <simcore/world/referee_rules.h>
 #include <simcore/world/rigid_body_state.h>
 
 namespace pitchboard::sim {
@@ -32,6 +35,7 @@ struct SimulationSettings {
   NoiseParameters noise;
   AfterGoal afterGoal = AfterGoal::CentreBall;
   RigidBodySettings rigidBody;
+  std::optional<RefereeRules> referee;  ///< nothing: the published rules, without a referee
   bool operator==(const SimulationSettings&) const = default;
 };
 
@@ -73,6 +77,7 @@ struct WorldState {
   std::vector<RobotIdentity> robots;  ///< order of creation; the index of all per-robot vectors
   std::vector<RobotStatistics> statistics;
   std::variant<RigidBodyState, PublishedState> physics;
+  std::optional<GameState> game;  ///< exactly when settings.referee is there
   bool operator==(const WorldState&) const = default;
 };
 

@@ -11,7 +11,8 @@ namespace pitchboard::telemetry {
 class RowSink {
  public:
   virtual ~RowSink() = default;
-  /// A group of this name with the same columns is the same group.
+  /// A group of this name with the same columns is the same group. So is one with further Float64
+  /// columns behind them, though its id may be another one from then on.
   virtual GroupId addGroup(const GroupInfo& info) = 0;
   virtual void append(GroupId group, const RowView& row) = 0;
 };

@@ -89,8 +89,9 @@ class SeriesStore : public RowSink {
 
   // Any thread, but the rows of one group come from one thread at a time. Of groups whose chunks do
   // not fit, the chunk leaves first whose last row is the oldest.
-  /// A group of this name with the same columns is taken up again (its rows stay); with other
-  /// columns it starts empty under a new id.
+  /// A group of this name with the same columns is taken up again, its rows stay; so is one with
+  /// further Float64 columns behind them, which are holes in the rows so far. With other columns it
+  /// starts empty under a new id.
   GroupId addGroup(const GroupInfo& info) override;
   /// Rows of one group in order of time; equal times are kept in order. A time before the last one
   /// means that the source was put back: the rows at and after the new time are dropped first.

@@ -23,10 +23,13 @@
 
 namespace pitchboard::telemetry {
 
+/// What has one name is one group, also where columns came in the middle of the recording: rows
+/// before them have holes there.
 struct SessionGroup {
   GroupInfo info;
   std::uint64_t rows = 0;
-  std::uint16_t channel = 0;
+  std::uint16_t channel = 0;              ///< with all of its columns
+  std::vector<std::uint16_t> channels{};  ///< of the file, in order
 };
 
 /// The row that was current at some moment.

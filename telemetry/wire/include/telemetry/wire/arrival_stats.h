@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rate, jitter and loss of one robot's messages.
+// Rate and jitter of one robot's messages. Seconds; not thread-safe.
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,6 +22,8 @@ class ArrivalStats {
   double jitter() const;
   /// Those of the last messages, oldest first: adding them to a new object makes the same one.
   std::vector<WallTime> times() const;
+  /// Mean time between messages; nothing until there are two.
+  std::optional<Duration> interval() const;
 
  private:
   static constexpr std::size_t window = 32;
@@ -31,32 +32,6 @@ class ArrivalStats {
   }
   std::array<WallTime, window> m_times{};
   std::size_t m_next = 0, m_count = 0;
-};
-
-/// What the sequence numbers of a robot say.
-class SequenceStats {
- public:
-  enum class Step { First, Next, Gap, Late, Duplicate, Restart };
-  /// All that it knows.
-  struct Counts {
-    std::optional<std::int64_t> last;
-    std::uint64_t lost = 0, received = 0;
-  };
-  SequenceStats() = default;
-  explicit SequenceStats(const Counts& counts)
-      : m_last(counts.last), m_lost(counts.lost), m_received(counts.received) {}
-  Counts counts() const { return {m_last, m_lost, m_received}; }
-
-  /// A number more than 1000 ahead or behind is a robot that has started again.
-  Step add(std::int64_t number);
-  std::uint64_t lost() const { return m_lost; }
-  std::uint64_t received() const { return m_received; }
-  /// Part of the messages that did not arrive, 0 to 1.
-  double loss() const;
-
- private:
-  std::optional<std::int64_t> m_last;
-  std::uint64_t m_lost = 0, m_received = 0;
 };
 
 }  // namespace pitchboard::telemetry

@@ -14,8 +14,8 @@
 
 namespace pitchboard::telemetry {
 
-/// Wall time with the resolution of the kernel's time stamps. Everything in this library that needs
-/// "now" is handed it; nothing here reads a clock except the receiver.
+/// A time of day as a LiveClock tells it: what was set at the computer's clock since does not move
+/// it. Everything in this library that needs "now" is handed it; only LiveClock reads clocks.
 using WallTime = std::chrono::sys_time<std::chrono::nanoseconds>;
 using Duration = std::chrono::nanoseconds;
 

@@ -40,6 +40,8 @@ struct LinkHealth {
   double jitter = 0.0;           ///< s
   std::optional<double> loss;    ///< 0 to 1, where the profile has a sequence number
   std::uint64_t lost = 0;
+  std::uint64_t duplicates = 0;  ///< that came twice
+  std::uint64_t late = 0;        ///< older than one that came before; they change no value
   std::array<ProcessStatus, processCount> processes{};
   std::optional<Battery> battery;
 };

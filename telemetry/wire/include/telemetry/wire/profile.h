@@ -52,6 +52,8 @@ struct ProfileField {
   std::string unit;      ///< for the screen, e.g. "cm"; may be empty
   std::string category;  ///< under which it is shown; may be empty
   FieldMeaning meaning = FieldMeaning::None;
+  std::optional<double> absent{};  ///< the value that says "not seen": a hole in every curve
+  int bits = 0;                    ///< of a Sequence, 8, 16 or 32; 0: not known (SequenceStats)
   bool operator==(const ProfileField&) const = default;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The whole team as its datagrams show it: who is there, what each one last said, and how well.
-// Time is handed in, so that ten seconds of silence are tested in no time.
+// One team as its datagrams show it: who is there, what each one last said, and how well. A robot
+// is its number in its team and keeps its slot, whatever address it sends from. Time is handed in,
+// so that ten seconds of silence are tested in no time. Memory is bounded by the limits below; what
+// they refuse is counted.
 
 #include <cstdint>
 #include <memory>
@@ -15,12 +17,15 @@
 #include <telemetry/wire/link_health.h>
 #include <telemetry/wire/process_filter.h>
 #include <telemetry/wire/sender_filter.h>
+#include <telemetry/wire/sequence_stats.h>
 #include <telemetry/wire/text_decoder.h>
 
 namespace pitchboard::telemetry {
 
 struct MonitorOptions {
   static constexpr std::size_t maxRobots = 64;
+  /// Numbers 1 to 32 always find room; higher ones and second senders share the other places.
+  static constexpr int ordinaryRobots = 32;
   Duration timeout = std::chrono::seconds(10);
   /// The same bytes from the same robot within this time are one message delivered twice. (Later
   /// they may well be a robot that stands still.)
@@ -32,8 +37,8 @@ struct MonitorOptions {
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
   int number = 0;
-  std::uint64_t serial =
-      0;  ///< of this robot as long as it is remembered, whatever port it sends from
+  /// 0: the robot of this number; 1, 2, ...: other programs that use the number at the same time.
+  int slot = 0;
   WallTime lastMessage{};
   ErrorTally errors;
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
@@ -54,7 +59,7 @@ struct SenderStatus {
 
 struct TeamStatus {
   WallTime time{};
-  std::vector<RobotStatus> robots;    ///< by number, then sender
+  std::vector<RobotStatus> robots;    ///< by number, then slot
   std::vector<SenderStatus> senders;  ///< the first 64 addresses
   std::uint64_t datagrams = 0;
   std::uint64_t refusedByFilter = 0;  ///< from senders that are not on the list
@@ -74,12 +79,13 @@ class TeamMonitor {
     Used,     ///< the robot's values are new (single fields may have errors)
     Refused,  ///< errors say why
     Duplicate,
+    Late,           ///< a newer one came before it: no value is changed
     SenderRefused,  ///< not on the list
     TooManyRobots
   };
 
-  /// Serial of the robot whose message was used last.
-  std::uint64_t usedSerial() const { return m_usedSerial; }
+  /// Slot of the robot whose message was used last.
+  int usedSlot() const { return m_usedSlot; }
 
   /// Takes one datagram. `decoded()` then holds its values until the next call.
   Verdict take(const DatagramView& datagram);
@@ -93,6 +99,8 @@ class TeamMonitor {
 
   /// Everything known at `now`.
   TeamStatus status(WallTime now) const;
+  /// Forgets one robot, so that its slot is free; another program that uses the number moves up.
+  void forget(int number, int slot);
   /// Forgets robots, senders and counters.
   void clear();
 
@@ -108,8 +116,12 @@ class TeamMonitor {
   struct SenderRecord;
   friend struct MonitorBooks;  // writes and reads all of it
   Robot* findRobot(int number, const Sender& sender, WallTime time);
+  Robot* newRobot(int number, WallTime time);
+  bool isOverdue(const Robot& robot, WallTime time) const;
+  void giveBack(Robot& robot, const Sender& sender, WallTime time);
   SenderRecord* findSender(Address address);
   RobotStatus statusOf(const Robot& robot, WallTime now) const;
+  void arrive(Robot& robot, WallTime time);
   void use(Robot& robot, const DatagramView& datagram);
 
   MonitorOptions m_options;
@@ -117,7 +129,7 @@ class TeamMonitor {
   DecodedText m_decoded;
   std::vector<Robot> m_robots;
   std::vector<SenderRecord> m_senders;
-  std::uint64_t m_serial = 0, m_usedSerial = 0;
+  int m_usedSlot = 0;
   std::uint64_t m_datagrams = 0, m_refusedByFilter = 0, m_refusedRobots = 0;
   ErrorTally m_errors;
 };

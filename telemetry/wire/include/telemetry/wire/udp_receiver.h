@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <telemetry/wire/datagram.h>
+#include <telemetry/wire/live_clock.h>
 
 namespace pitchboard::telemetry {
 
@@ -21,6 +22,8 @@ struct ReceiverOptions {
   std::size_t maxDatagrams =
       1 << 16;  ///< waiting for take(); what comes beyond is dropped, counted
   std::size_t maxBytes = 32U << 20;
+  /// By which datagrams are stamped; null: one of the receiver's own.
+  std::shared_ptr<const LiveClock> clock{};
   Duration retry = std::chrono::seconds(3);  ///< between attempts to bind a port that is taken
 };
 

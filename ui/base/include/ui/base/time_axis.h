@@ -44,6 +44,8 @@ double roundStep(double seconds);
 
 /// "03:12.250", "1:03:12", "−00:05": with this many decimals, cut off and not rounded up.
 QString momentText(double seconds, int decimals);
+/// The same as time of day where there is a clock (the time of day at second 0): "15:03:12.250".
+QString momentText(double seconds, int decimals, const std::optional<QDateTime>& clock);
 /// "00:03:12", hours always there: for a sign that does not change its width.
 QString longMomentText(double seconds);
 

@@ -48,9 +48,9 @@ class LiveSettingsDialog : public QDialog {
   QSettings* m_settings;
   NetworkChooser* m_bind;
   QSpinBox *m_portBase, *m_robots, *m_refereePort, *m_ourTeam, *m_cells;
-  QLineEdit* m_senders;
+  QLineEdit *m_senders, *m_refereeSenders;
   NumberBox *m_timeout, *m_full, *m_low, *m_empty;
-  QComboBox *m_field, *m_colours;
+  QComboBox *m_field, *m_colours, *m_refereeVersion;
   QCheckBox* m_monitor;
   QLineEdit* m_monitorAddress;
   QLabel *m_profileName, *m_problem;

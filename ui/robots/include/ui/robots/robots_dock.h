@@ -20,6 +20,7 @@ class QVBoxLayout;
 
 namespace pitchboard::ui {
 
+class LiveController;
 class LiveOverlay;
 class MatchController;
 class RobotSelection;
@@ -32,6 +33,7 @@ struct RobotsContext {
   RobotSelection* selection = nullptr;
   LiveOverlay* overlay = nullptr;  ///< cards tell how far the two differ; may be null
   QSettings* settings = nullptr;   ///< the user's; may be null
+  LiveController* live = nullptr;  ///< forgets robots; may be null
 };
 
 class RobotsDock : public QScrollArea {

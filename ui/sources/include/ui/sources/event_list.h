@@ -5,8 +5,10 @@
 // leave first, bookmarks last of all. UI thread only.
 
 #include <QAbstractTableModel>
+#include <QDateTime>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,6 +24,10 @@ class EventList : public QAbstractTableModel {
   static constexpr int maxNote = 200;  ///< characters
 
   explicit EventList(QObject* parent = nullptr, std::size_t most = maxEvents);
+  /// Asked when a time is written: the time of day at second 0, if times are written so.
+  void setClock(std::function<std::optional<QDateTime>()> clock);
+  /// The clock gives something else now.
+  void writeTimesAnew();
 
   /// In its place by time, behind those of the same time. Returns its row. A time that is not
   /// finite is not taken: -1.
@@ -60,6 +66,7 @@ class EventList : public QAbstractTableModel {
   void touch();
 
   std::deque<link::MatchEvent> m_events;
+  std::function<std::optional<QDateTime>()> m_clock;
   std::size_t m_most;
   std::size_t m_dropped = 0;
   std::uint64_t m_revision = 0;

@@ -8,12 +8,15 @@
 
 #include <memory>
 
+#include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/session/live_memory.h>
 #include <ui/base/ui_queue.h>
 #include <ui/sources/frame_source.h>
 
 namespace pitchboard::ui {
+
+class RowKeeper;
 
 class LiveController : public FrameSource {
   Q_OBJECT
@@ -39,6 +42,8 @@ class LiveController : public FrameSource {
   void setMemoryBudget(std::size_t bytes);
   /// Forgets robots, referee and counters, and goes on listening.
   void clear();
+  /// Forgets one robot, or one of two programs that send its number; its curves stay.
+  void forget(RobotId id);
 
   SourceKind kind() const override { return SourceKind::Live; }
   FramePtr frame() const override { return m_frame; }
@@ -48,12 +53,14 @@ class LiveController : public FrameSource {
   FramePtr frameAt(double time) const override;
   /// Null while nothing is listened to.
   std::shared_ptr<const link::LiveMemory> memory() const { return m_memory; }
-  /// The time of day at 0 s.
+  /// The time of day at 0 s, to the nanosecond.
   telemetry::WallTime began() const;
   std::optional<QDateTime> clock() const override;
 
   /// Ports, senders, errors: copied from the watch, so not for every frame.
   link::LiveDetails details() const;
+  /// Rows and values that are not kept because of the limits of LiveRows.
+  telemetry::LiveRows::Refused refusedRows() const;
   /// "UDP 1241–1256".
   QString portsText() const;
   void observe(std::shared_ptr<link::LiveObserver> observer);
@@ -75,7 +82,7 @@ class LiveController : public FrameSource {
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<link::LiveMemory> m_memory;
   std::unique_ptr<link::LiveMoments> m_moments;
-  std::shared_ptr<link::LiveObserver> m_rows;
+  std::shared_ptr<RowKeeper> m_rows;
   std::shared_ptr<telemetry::SeriesStore> m_series;
 };
 

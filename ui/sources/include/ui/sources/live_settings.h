@@ -15,6 +15,7 @@ struct LiveSettings {
   link::LiveOptions options;
   QString profileFile;     ///< empty: the published profile
   QString senders;         ///< as typed: addresses and networks, separated by commas or blanks
+  QString refereeSenders;  ///< the same, of the referee
   QString monitorAddress;  ///< whom to ask; monitor mode itself is off at every start
   QString problem;         ///< why something could not be taken; a sentence
 };

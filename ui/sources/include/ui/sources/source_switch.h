@@ -31,7 +31,15 @@ class SourceSwitch : public FrameSource {
     return m_current->series();
   }
   QString emptyText() const override { return m_current->emptyText(); }
-  std::optional<QDateTime> clock() const override { return m_current->clock(); }
+  /// As times are to be written: nothing where they count from the source's beginning.
+  std::optional<QDateTime> clock() const override { return clockOf(*m_current); }
+  std::optional<QDateTime> clockOf(const FrameSource& source) const {
+    return m_timesOfDay ? source.clock() : std::nullopt;
+  }
+  /// Times as time of day where the source has one, or from its beginning: two ways to write one
+  /// time, the same for axes, timeline, log and readouts.
+  bool timesOfDay() const { return m_timesOfDay; }
+  void setTimesOfDay(bool on);
   Playback* playback() const override { return m_current->playback(); }
   FramePtr frameAt(double time) const override { return m_current->frameAt(time); }
 
@@ -46,6 +54,7 @@ class SourceSwitch : public FrameSource {
   void changed();
   /// The source goes on while an older moment is shown.
   void newestChanged();
+  void timesOfDayChanged(bool on);
 
  private:
   void follow();
@@ -54,6 +63,7 @@ class SourceSwitch : public FrameSource {
   std::vector<FrameSource*> m_sources;
   FramePtr m_past;
   std::optional<double> m_pastTime;
+  bool m_timesOfDay = true;
 };
 
 }  // namespace pitchboard::ui

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The strategy behind Simulation: one per motion and collision model. A model keeps no state of its
-// own that outlives a step: everything is in WorldState, whose `physics` alternative it owns.
+// The strategy behind Simulation: one per motion and collision model. A model moves bodies and
+// tells what robots sense; it knows no rules of the game. It keeps no state of its own that outlives
+// a step: everything is in WorldState, whose `physics` alternative it owns. Used by one thread.
 // A new model is a class here, a state in WorldState's variant and a line in physics_model.cpp.
 
 #include <cstddef>
@@ -11,9 +12,21 @@
 #include <string_view>
 #include <vector>
 
-#include <simcore/physics/simulation.h>
+#include <simcore/world/ball_way.h>
+#include <simcore/world/event.h>
+#include <simcore/world/robot_io.h>
+#include <simcore/world/snapshot.h>
+#include <simcore/world/world_state.h>
 
 namespace pitchboard::sim {
+
+struct PhysicsModelInfo {
+  std::string_view name;         ///< as in a scenario: "published", "rigid-body"
+  std::string_view description;  ///< a sentence for people
+};
+
+/// Every motion and collision model, the default first.
+std::span<const PhysicsModelInfo> physicsModels();
 
 class PhysicsModel {
  public:
@@ -23,8 +36,13 @@ class PhysicsModel {
   virtual void reset(WorldState& world) const = 0;
   virtual bool owns(const WorldState& world) const = 0;
 
-  virtual void step(WorldState& world, std::span<const RobotCommand> commands,
-                    std::span<Percepts> percepts, std::vector<Event>& events) = 0;
+  /// The first half of a tick: control and motion of all bodies. Fills what control says of itself,
+  /// and whatever a model senses at that moment.
+  virtual BallWay move(WorldState& world, std::span<const RobotCommand> commands,
+                       std::span<Percepts> percepts, std::vector<Event>& events) = 0;
+  /// The second half, after the rules: what robots sense of the world as it is then.
+  virtual void sense(WorldState& world, std::span<const RobotCommand> commands,
+                     std::span<Percepts> percepts) = 0;
 
   /// Called after `world.robots` grew by one; the new robot stands still at `pose`.
   virtual void robotAdded(WorldState& world, const Pose& pose) const = 0;

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include <base/result.h>
+#include <simcore/physics/physics_model.h>
+#include <simcore/rules/referee.h>
 #include <simcore/world/event.h>
 #include <simcore/world/robot_io.h>
 #include <simcore/world/snapshot.h>
@@ -19,19 +21,9 @@
 
 namespace pitchboard::sim {
 
-class PhysicsModel;
-
-struct PhysicsModelInfo {
-  std::string_view name;         ///< as in a scenario: "published", "rigid-body"
-  std::string_view description;  ///< a sentence for people
-};
-
-/// Every motion and collision model, the default first.
-std::span<const PhysicsModelInfo> physicsModels();
-
 class Simulation {
  public:
-  static constexpr int maxRobots = 64;
+  static constexpr int maxRobots = highestRobotNumber;
 
   /// An empty field with the ball on the centre mark. Fails on an unknown model, a field that
   /// cannot be played on, a tick rate outside 1..10000 Hz or noise that is not finite.
@@ -74,16 +66,28 @@ class Simulation {
   /// Constants of the rigid-body model; changeable while running.
   Result<void> setRigidBody(const RigidBodySettings& settings);
 
+  /// A call of the referee, between two steps. Refused (Conflict) when the state of the game does
+  /// not allow it, and when there is no referee. What it does is in events() of the next step.
+  Result<void> call(const RefereeCall& call);
+  /// Puts a referee's rules in, or takes the referee away; the game begins anew.
+  Result<void> setReferee(const std::optional<RefereeRules>& rules);
+  /// The game as it was before some calls: what undoing them puts back.
+  Result<void> setGame(const GameState& game);
+
   /// For conformance runs and scripts that speak the published frame: the state may be edited
   /// directly between steps. Sizes of per-robot vectors must not change.
   WorldState& editState() { return m_state; }
 
  private:
   Simulation();
+  void carryOut();
 
   WorldState m_state;
   std::unique_ptr<PhysicsModel> m_model;
   std::vector<Event> m_events;
+  std::vector<Event> m_called;  // by calls since the last step
+  Placements m_placements;
+  Snapshot m_seen;  // what the referee sees, after the bodies have moved
 };
 
 }  // namespace pitchboard::sim

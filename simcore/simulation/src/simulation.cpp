@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <simcore/physics/simulation.h>
+#include <simcore/simulation/simulation.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <string>
 
+#include <simcore/rules/published_rules.h>
 #include <simcore/world/parameters.h>
 
-#include "physics_model.h"
 
 namespace pitchboard::sim {
 namespace {
@@ -51,22 +51,98 @@ Result<Simulation> Simulation::create(const SimulationSettings& settings) {
   }
   simulation.m_state.settings = settings;
   simulation.m_model->reset(simulation.m_state);
+  if (settings.referee) {
+    if (auto made = simulation.setReferee(settings.referee); !made) {
+      return tl::unexpected(made.error());
+    }
+  }
   simulation.m_state.robots.reserve(maxRobots);
   simulation.m_state.statistics.reserve(maxRobots);
   simulation.m_events.reserve(4 * maxRobots);
+  simulation.m_called.reserve(4 * maxRobots);
+  simulation.m_placements.robots.reserve(2 * maxRobots);
+  simulation.m_seen.robots.reserve(maxRobots);
   return simulation;
 }
 
 void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts> percepts) {
   assert(commands.size() == robotCount() && percepts.size() == robotCount());
   m_events.clear();
-  m_model->step(m_state, commands, percepts, m_events);
+  m_events.swap(m_called);
+  const BallWay way = m_model->move(m_state, commands, percepts, m_events);
+  if (m_state.game) {
+    snapshot(m_seen);
+    m_placements.clear();
+    stepReferee(m_state, m_seen, way, m_placements, m_events);
+    carryOut();
+  } else {
+    applyPublishedRules(m_state, way, m_events);
+  }
+  m_model->sense(m_state, commands, percepts);
   ++m_state.tick;
   if (m_state.clockRunning) ++m_state.clockTicks;
 }
 
+void Simulation::carryOut() {
+  if (m_placements.ball) (void)placeBall(*m_placements.ball);
+  for (const auto& [index, pose] : m_placements.robots) {
+    (void)placeRobot(m_state.robots[index].id, pose);
+  }
+}
+
+Result<void> Simulation::call(const RefereeCall& call) {
+  if (!m_state.game) {
+    return failure(ErrorCode::Conflict,
+                   "This match has no referee; choose rules for it in the scenario or the Referee "
+                   "dock.");
+  }
+  snapshot(m_seen);
+  m_placements.clear();
+  if (auto called = callReferee(m_state, m_seen, call, m_placements, m_called); !called) {
+    return called;
+  }
+  carryOut();
+  return {};
+}
+
+Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
+  if (rules) {
+    if (auto valid = sim::validate(*rules); !valid) return valid;
+  }
+  m_state.settings.referee = rules;
+  m_state.game.reset();
+  if (!rules) return {};
+  snapshot(m_seen);
+  m_state.game = newGame(m_state, m_seen);
+  m_state.score = {};
+  m_state.clockRunning = false;
+  return {};
+}
+
+Result<void> Simulation::setGame(const GameState& game) {
+  if (!m_state.game || !isPlausible(game, robotCount())) {
+    return failure(ErrorCode::InvalidArgument, "This game does not fit the match.");
+  }
+  const bool swapped = m_state.game->swapped != game.swapped;
+  m_state.game = game;
+  const std::size_t left = game.leftTeam();
+  m_state.score = {game.teams[left].score, game.teams[1 - left].score};
+  if (swapped) {
+    for (RobotIdentity& robot : m_state.robots) {
+      if (game.teamOf(robot.team) >= 0) robot.imuStartsAt180 = !robot.imuStartsAt180;
+    }
+  }
+  return {};
+}
+
 Result<void> Simulation::restore(const WorldState& state) {
   if (auto valid = validate(state.settings); !valid) return valid;
+  if (state.settings.referee) {
+    if (auto valid = sim::validate(*state.settings.referee); !valid) return valid;
+  }
+  if (state.game && (!state.settings.referee || !isPlausible(*state.game, state.robots.size()))) {
+    return failure(ErrorCode::InvalidArgument, "This saved moment has a game that no referee has.");
+  }
   auto model = makePhysicsModel(state.settings.physics);
   if (!model || !model->owns(state) || state.statistics.size() != state.robots.size()) {
     return failure(ErrorCode::InvalidArgument, "This saved moment does not fit its physics model.");
@@ -74,6 +150,7 @@ Result<void> Simulation::restore(const WorldState& state) {
   m_state = state;
   m_model = std::move(model);
   m_events.clear();
+  m_called.clear();
   return {};
 }
 
@@ -125,6 +202,7 @@ Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pos
   const FieldSpec& field = m_state.settings.field;
   m_state.robots.push_back(identity);
   m_state.statistics.emplace_back();
+  if (m_state.game) m_state.game->watches.emplace_back();
   m_model->robotAdded(m_state, {insideWalls(field, pose.position, field.robotRadius), pose.yaw});
   return {};
 }
@@ -135,6 +213,7 @@ Result<void> Simulation::removeRobot(RobotId id) {
   const auto offset = static_cast<std::ptrdiff_t>(*index);
   m_state.robots.erase(m_state.robots.begin() + offset);
   m_state.statistics.erase(m_state.statistics.begin() + offset);
+  if (m_state.game) m_state.game->watches.erase(m_state.game->watches.begin() + offset);
   m_model->robotRemoved(m_state, *index);
   return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "published_geometry.h"
+#include <simcore/world/published_geometry.h>
 
 #include <cmath>
 

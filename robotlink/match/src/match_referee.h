@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// How a match's robots hear its referee: packets to the match's port, as the GameController sends
+// them, and COM_REFEREE on the blackboards of inline robots, in the same rhythm. Or the other way
+// round: hears a GameController and makes the game obey it. Private to the room; on the match's
+// thread.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <base/result.h>
+#include <simcore/simulation/simulation.h>
+#include <telemetry/wire/referee_tracker.h>
+#include <telemetry/wire/udp_receiver.h>
+#include <telemetry/wire/udp_sender.h>
+
+namespace pitchboard::link {
+
+class MatchReferee {
+ public:
+  /// Sends to every process of this computer that listens on `port`.
+  Result<void> sendTo(int port);
+  /// Obeys the GameController that is heard on `port`; the game is refereed by it alone.
+  Result<void> obey(int port, sim::Simulation& simulation);
+
+  /// After a tick: takes what an external referee has said, and sends what is due. True when
+  /// robots hear the referee now: packet() is news.
+  bool tick(sim::Simulation& simulation);
+  const telemetry::RefereeState& packet() const { return m_packet; }
+  /// An external GameController is obeyed.
+  bool obeys() const { return m_receiver != nullptr; }
+
+ private:
+  void send();
+  bool listen(sim::Simulation& simulation);
+
+  std::optional<telemetry::UdpSender> m_sender;
+  std::uint16_t m_port = 0;
+  std::unique_ptr<telemetry::UdpReceiver> m_receiver;
+  telemetry::RefereeTracker m_tracker;
+  telemetry::DatagramBatch m_batch;
+  telemetry::RefereeState m_packet;
+  std::uint64_t m_lastTick = 0;
+  bool m_stopped = false;
+  int m_quick = 0;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/match/referee_packet.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <simcore/rules/referee.h>
+#include <telemetry/wire/gamecontroller_encoder.h>
+
+#include "referee_codes.h"
+
+namespace pitchboard::link {
+namespace {
+
+using sim::GameState;
+using sim::PlayState;
+using sim::SetPlay;
+using sim::SetPlayStep;
+using telemetry::League;
+
+constexpr int dropBallJava = 128, dropBallColour = 2, nobodySoccer = 255;
+constexpr int longestByte = 255;
+constexpr int soccerBudget = 12000, standardBudget = 1200;
+
+struct Dialect {
+  int version, size;
+  League league;
+  PenaltyDialect penalties;
+  bool soccer() const { return league == League::HumanoidSoccer; }
+  bool byColour() const { return version <= 8; }
+};
+
+Dialect dialectOf(const sim::RefereeRules& rules) {
+  const int version = static_cast<int>(std::lround(rules.packetVersion));
+  const int size =
+      telemetry::refereePacketSize(version, static_cast<int>(std::lround(rules.packetSize)))
+          .value_or(0);
+  const League league = telemetry::refereeLeague(version, size).value_or(League::Humanoid);
+  return {version, size, league, penaltyDialect(version, league)};
+}
+
+int kickOffRaw(const GameState& game, const Dialect& dialect) {
+  const bool stands = game.kickOffStands && game.state != PlayState::Finished &&
+                      !(game.state == PlayState::Playing && game.hidden == 0 && game.ballFree);
+  if (dialect.soccer() && !stands) return nobodySoccer;
+  if (game.kickOff < 0) {
+    return dialect.soccer() ? nobodySoccer : dialect.byColour() ? dropBallColour : dropBallJava;
+  }
+  const sim::GameTeam& team = game.teams[static_cast<std::size_t>(game.kickOff)];
+  return dialect.byColour() ? colourCode(team.colour) : team.number;
+}
+
+int penaltySeconds(const sim::GamePlayer& player, const Dialect& dialect, double rate) {
+  const bool waits = dialect.soccer() && !player.counting;
+  return waits ? 0 : std::clamp(sim::secondsOf(player.ticksLeft, rate), 0, longestByte);
+}
+
+void fillTeam(const sim::WorldState& world, const sim::GameTeam& team, const Dialect& dialect,
+              telemetry::RefereeTeam& out) {
+  out.number = team.number;
+  out.colour = colourCode(team.colour);
+  out.goalColour = out.goalkeeperColour = out.colour;
+  out.score = team.score;
+  out.penaltyShot = team.penaltyShots;
+  out.singleShots = team.singleShots;
+  out.messageBudget = dialect.soccer() ? soccerBudget : standardBudget;
+  out.goalkeeper = 0;
+  out.slotCount = telemetry::refereeSlots(dialect.version, dialect.size);
+  for (std::size_t i = 0; i < out.slotCount; ++i) {
+    telemetry::RefereePlayer& slot = out.allSlots[i];
+    const sim::GamePlayer& player = team.players[i];
+    const int number = static_cast<int>(i) + 1;
+    slot.number = number;
+    const bool there =
+        std::any_of(world.robots.begin(), world.robots.end(), [&](const sim::RobotIdentity& robot) {
+          return robot.team == team.colour && robot.number == number;
+        });
+    slot.penalty = penaltyCode(dialect.penalties, there ? player.penalty
+                                                        : sim::PenaltyKind::Substitute);
+    slot.secondsLeft =
+        there ? penaltySeconds(player, dialect, world.settings.tickRate) : 0;
+    slot.warnings = player.warnings;
+    slot.yellow = player.yellow;
+    slot.red = player.red;
+    slot.cautions = player.cautions;
+    slot.goalkeeper = player.goalkeeper ? 1 : 0;
+    if (player.goalkeeper) out.goalkeeper = number;
+  }
+}
+
+int playersPerTeam(const sim::WorldState& world) {
+  std::array<int, 2> count{};
+  for (const sim::RobotIdentity& robot : world.robots) {
+    const int team = world.game->teamOf(robot.team);
+    if (team >= 0) ++count[static_cast<std::size_t>(team)];
+  }
+  return std::max(count[0], count[1]);
+}
+
+}  // namespace
+
+telemetry::RefereeState refereePacket(const sim::WorldState& world, int packetNumber, bool truth) {
+  const GameState& game = *world.game;
+  const sim::RefereeRules& rules = *world.settings.referee;
+  const Dialect dialect = dialectOf(rules);
+  const double rate = world.settings.tickRate;
+  telemetry::RefereeState out;
+  out.version = dialect.version;
+  out.size = dialect.size;
+  out.league = dialect.league;
+  out.packetNumber = packetNumber & 0xff;
+  out.playersPerTeam = playersPerTeam(world);
+  out.gameType = rules.knockout ? 1 : 0;
+  out.competitionPhase = rules.knockout ? 1 : 0;
+  out.competitionType = 0;
+
+  // PLAYING that robots must not know yet looks like SET.
+  const bool hidden = !truth && game.state == PlayState::Playing && game.hidden > 0;
+  out.state = static_cast<int>(hidden ? PlayState::Set : game.state);
+  out.firstHalf = game.half == 1 && game.phase != sim::GamePhase::ShootOut ? 1 : 0;
+  out.stopped = game.stopped ? 1 : 0;
+  out.kickOffRaw = kickOffRaw(game, dialect);
+  for (const sim::GameTeam& team : game.teams) {
+    const int key = dialect.byColour() ? colourCode(team.colour) : team.number;
+    if (key == out.kickOffRaw) out.kickOffTeam = team.number;
+  }
+  const bool full = hidden && !game.clockBeganBefore;
+  out.secsRemaining =
+      full ? static_cast<int>(std::ceil(game.phase == sim::GamePhase::ExtraTime
+                                            ? rules.extraHalfTime
+                                            : rules.halfTime))
+           : sim::secondsOf(game.clock, rate);
+  out.secondaryTime = hidden ? 0 : sim::secondsOf(game.secondary, rate);
+  if (dialect.soccer() && game.state == PlayState::Playing && game.ballFree &&
+      game.setPlay == SetPlay::None) {
+    out.secondaryTime = 0;
+  }
+
+  const int phase = static_cast<int>(game.phase == sim::GamePhase::ShootOut    ? 1
+                                     : game.phase == sim::GamePhase::ExtraTime ? 2
+                                     : game.phase == sim::GamePhase::Timeout   ? 3
+                                                                               : 0);
+  const int setPlay = setPlayCode(dialect.league, dialect.version, dialect.size, game.setPlay);
+  out.gamePhase = phase;
+  out.setPlay = setPlay;
+  out.secState = dialect.league == League::Humanoid && setPlay != 0 ? setPlay : phase;
+  std::array<int, 4> info{};
+  if (dialect.league == League::Humanoid && setPlay != 0 && game.setPlayTeam >= 0) {
+    info[0] = game.teams[static_cast<std::size_t>(game.setPlayTeam)].number;
+    const bool placing = game.step == SetPlayStep::Placing;
+    if (dialect.size == 688) {
+      info[1] = placing ? 0 : game.step == SetPlayStep::Preparing ? 1 : 2;
+    } else {
+      info[1] = placing ? 1 : 0;
+    }
+  }
+  out.secStateInfo = info;
+  out.dropInTeam = 0;
+  out.dropInTime = -1;
+  if (game.dropInTeam >= 0) {
+    const sim::GameTeam& team = game.teams[static_cast<std::size_t>(game.dropInTeam)];
+    out.dropInTeam = dialect.byColour() ? colourCode(team.colour) : team.number;
+    out.dropInTime = std::min(32767, static_cast<int>(game.dropInTicks / rate));
+  }
+  const std::size_t left = game.leftTeam();
+  fillTeam(world, game.teams[left], dialect, out.teams[0]);
+  fillTeam(world, game.teams[1 - left], dialect, out.teams[1]);
+  return out;
+}
+
+RefereeView refereeView(const sim::WorldState& world) {
+  const GameState& game = *world.game;
+  const sim::RefereeRules& rules = *world.settings.referee;
+  const double rate = world.settings.tickRate;
+  RefereeView view;
+  view.version = static_cast<int>(std::lround(rules.packetVersion));
+  view.sender = rules.automatic ? "the simulated referee" : "a person";
+  view.state = wordsOf(game.state);
+  view.setPlay = game.phase == sim::GamePhase::Timeout ? "timeout"
+                                                       : std::string(wordsOf(game.setPlay));
+  view.phase = game.phase == sim::GamePhase::ShootOut    ? "penalty shoot-out"
+               : game.phase == sim::GamePhase::ExtraTime ? "overtime"
+                                                         : "";
+  view.firstHalf = game.half == 1;
+  view.stopped = game.stopped;
+  view.secondsLeft = sim::secondsOf(game.clock, rate);
+  if (game.secondary != 0) view.secondaryTime = sim::secondsOf(game.secondary, rate);
+  if (game.kickOff >= 0) view.kickOffTeam = game.teams[static_cast<std::size_t>(game.kickOff)].number;
+  const std::size_t left = game.leftTeam();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const sim::GameTeam& team = game.teams[side == 0 ? left : 1 - left];
+    RefereeTeamView& shown = view.teams[side];
+    shown.number = team.number;
+    shown.colour = info(team.colour).name;
+    shown.score = team.score;
+    for (const sim::RobotIdentity& robot : world.robots) {
+      if (robot.team == team.colour && !refereePenalty(world, robot)) ++shown.playersLeft;
+    }
+  }
+  return view;
+}
+
+std::optional<Penalty> refereePenalty(const sim::WorldState& world,
+                                      const sim::RobotIdentity& robot) {
+  if (!world.game) return {};
+  const int team = world.game->teamOf(robot.team);
+  if (team < 0 || robot.number < 1 ||
+      robot.number > static_cast<int>(sim::GameTeam::mostPlayers)) {
+    return {};
+  }
+  const sim::GamePlayer& player = world.game->teams[static_cast<std::size_t>(team)]
+                                      .players[static_cast<std::size_t>(robot.number - 1)];
+  if (player.penalty == sim::PenaltyKind::None) return {};
+  return Penalty{std::string(wordsOf(player.penalty)),
+                 sim::secondsOf(player.ticksLeft, world.settings.tickRate)};
+}
+
+void adoptPacket(const telemetry::RefereeState& packet, sim::WorldState& world) {
+  GameState& game = *world.game;
+  const double rate = world.settings.tickRate;
+  const auto ticks = [rate](int seconds) { return static_cast<int>(std::lround(seconds * rate)); };
+  const PenaltyDialect penalties = penaltyDialect(packet.version, packet.league);
+  const auto state = static_cast<PlayState>(std::clamp(packet.state, 0, 4));
+  if (state != game.state) {
+    game.stateTicks = 0;
+    if (state == PlayState::Playing) {
+      game.clockBeganBefore = game.clockBegan;
+      game.clockBegan = true;
+    }
+    if (state == PlayState::Initial) game.clockBegan = game.clockBeganBefore = false;
+  }
+  game.state = state;
+  game.half = packet.firstHalf != 0 ? 1 : 2;
+  game.hidden = 0;
+  game.stopped = packet.stopped.value_or(0) != 0;
+  const int phase = packet.gamePhase.value_or(
+      packet.secState.value_or(0) <= 3 ? packet.secState.value_or(0) : 0);
+  game.phase = phase == 1   ? sim::GamePhase::ShootOut
+               : phase == 2 ? sim::GamePhase::ExtraTime
+               : phase == 3 ? sim::GamePhase::Timeout
+                            : sim::GamePhase::Normal;
+  // Small corrections of a clock that runs here as well would only make it jump.
+  const auto follow = [&](int& have, int seconds) {
+    if (sim::secondsOf(have, rate) != seconds) have = ticks(seconds);
+  };
+  follow(game.clock, packet.secsRemaining);
+  follow(game.secondary, packet.secondaryTime.value_or(0));
+  game.secondaryRuns = game.secondary > 0;
+  const int code = packet.setPlay.value_or(packet.secState.value_or(0));
+  game.setPlay = setPlayOf(packet.league, packet.version, packet.size, code);
+  game.step = game.setPlay == SetPlay::None ? SetPlayStep::None
+              : game.stopped                ? SetPlayStep::Placing
+                                            : SetPlayStep::Taking;
+  const auto indexOf = [&](std::optional<int> number) {
+    for (std::size_t i = 0; number && i < game.teams.size(); ++i) {
+      if (game.teams[i].number == *number) return static_cast<int>(i);
+    }
+    return GameState::nobody;
+  };
+  if (packet.secStateInfo && packet.size == 688 && game.setPlay != SetPlay::None) {
+    const int step = (*packet.secStateInfo)[1];
+    game.step = step == 0   ? SetPlayStep::Placing
+                : step == 1 ? SetPlayStep::Preparing
+                            : SetPlayStep::Taking;
+    game.setPlayTeam = indexOf((*packet.secStateInfo)[0]);
+  } else {
+    game.setPlayTeam = game.setPlay == SetPlay::None ? GameState::nobody
+                                                     : indexOf(packet.kickOffTeam);
+  }
+  game.kickOff = indexOf(packet.kickOffTeam);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const telemetry::RefereeTeam& sent = packet.teams[side];
+    const int index = indexOf(sent.number);
+    if (index < 0) continue;
+    sim::GameTeam& team = game.teams[static_cast<std::size_t>(index)];
+    team.score = sent.score;
+    team.penaltyShots = sent.penaltyShot.value_or(team.penaltyShots);
+    team.singleShots = sent.singleShots.value_or(team.singleShots);
+    const auto slots = sent.players();
+    for (std::size_t i = 0; i < slots.size() && i < team.players.size(); ++i) {
+      sim::GamePlayer& player = team.players[i];
+      const sim::PenaltyKind kind = penaltyOf(penalties, slots[i].penalty);
+      if (kind != player.penalty) {
+        player.penalty = kind;
+        player.outside = false;
+        player.sinceTicks = 0;
+      }
+      player.ticksLeft = ticks(slots[i].secondsLeft);
+      player.counting = false;
+    }
+  }
+  const std::size_t left = game.leftTeam();
+  world.score = {game.teams[left].score, game.teams[1 - left].score};
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The published simulator's match rules, for matches without a referee: goals count, a ball that is
+// out is put back. A pure function over the state of the world and how the ball moved; metres, or
+// the published frame to the last bit where the world is in it. Any thread.
+
+#include <vector>
+
+#include <simcore/world/ball_way.h>
+#include <simcore/world/event.h>
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::sim {
+
+/// Goal when the ball crosses the goal line wholly between the posts; it counts while the clock
+/// runs. Out when it is wholly over a line elsewhere: it is put back inside, at rest. What happened
+/// is appended to `events`.
+void applyPublishedRules(WorldState& world, const BallWay& way, std::vector<Event>& events);
+
+}  // namespace pitchboard::sim

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+
+#include "referee_table.h"
+
+namespace pitchboard::sim {
+namespace {
+
+constexpr double touchMargin = 0.012;    // m between two bodies that touch
+constexpr double contactMargin = 0.02;   // m, robots
+constexpr double pushersReach = 2.0;     // m to the ball (REFEREE.md section 7)
+constexpr double pushersLead = 0.1;      // m that the pushed one is nearer to the ball
+constexpr double pushingSpeed = 0.05;    // m/s towards the other
+constexpr double immunity = 2.0;         // s after a pushing was given
+constexpr double foulNearBall = 1.0;     // m: a free kick, else only removal
+constexpr double alone = 1.0;            // m
+constexpr double heap = 0.1;             // m that the ball moves in a heap of robots
+constexpr double heapReach = 0.5;        // m
+constexpr double clearTime = 10.0;       // s to leave the ball of a set play
+constexpr double atRest = 0.01;          // m/s
+constexpr double longestEnd = 10.0;      // s that a half waits for the ball
+
+}  // namespace
+
+void RefereeTable::judge(const BallWay& way) {
+  followTouches(way);
+  const PlayState before = m_game.state;
+  if (m_rules.goals && judgeLines(way)) return;
+  if (m_game.state != before || !m_rules.automatic) return;
+  if (m_game.setPlay == SetPlay::None) judgeRest();
+  if (m_game.state != PlayState::Playing) return;
+  judgeRobots();
+  if (m_game.state == PlayState::Playing) judgeHalf();
+}
+
+/// Who has the ball: a kick of this tick, else the nearest that touches it.
+void RefereeTable::followTouches(const BallWay&) {
+  std::optional<std::size_t> toucher;
+  double nearest = m_field.robotRadius + m_field.ballRadius + touchMargin;
+  for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+    const double d = std::sqrt(squared(m_now.robots[i].pose.position, m_now.ball));
+    if (d < nearest && teamOf(i) >= 0) {
+      nearest = d;
+      toucher = i;
+    }
+  }
+  for (const Event& event : m_events) {
+    if (event.kind != EventKind::Kick) continue;
+    for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
+      if (m_world.robots[i].id == event.robot && teamOf(i) >= 0) toucher = i;
+    }
+  }
+  if (toucher) {
+    const int team = teamOf(*toucher);
+    const int id = m_world.robots[*toucher].id.value;
+    const bool begins = m_game.lastTouch != id;
+    m_game.lastTouch = id;
+    m_game.lastTouchTeam = team;
+    if (m_game.kicker == 0 && team == m_game.restartTeam) m_game.kicker = id;
+    if (m_game.kicker != 0 && m_game.kicker != id) m_game.passed = true;
+    // A kick-off that left the circle may be shot by who took it.
+    if (m_game.restartKind == SetPlay::None &&
+        !within(m_now.ball, {}, m_field.centreCircleDiameter / 2.0)) {
+      m_game.passed = true;
+    }
+    const bool standing = m_game.step == SetPlayStep::Placing;
+    if (!m_game.ballFree && !standing && team != m_game.restartTeam && m_game.restartTeam >= 0 &&
+        begins && m_rules.automatic && m_rules.exclusiveBall && plays(*toucher) &&
+        m_game.phase != GamePhase::ShootOut) {
+      penalise(*toucher, PenaltyKind::IllegalPosition);
+    }
+  }
+  const bool placed = m_game.step != SetPlayStep::Placing;
+  if (!m_game.ballFree && placed && m_game.kicker != 0 &&
+      !within(m_now.ball, m_game.restart, m_rules.inPlayDistance)) {
+    inPlay();
+  }
+}
+
+/// Goals and a ball that is out. True when play does not go on as it was.
+bool RefereeTable::judgeLines(const BallWay& way) {
+  if (m_game.step == SetPlayStep::Placing) return false;  // the ball is dead
+  std::array<Point, highestRobotNumber> robots;
+  const std::size_t count = std::min(robots.size(), m_now.robots.size());
+  for (std::size_t i = 0; i < count; ++i) robots[i] = m_now.robots[i].pose.position;
+  Crossing crossing =
+      crossingOf(m_field, way, m_now.ball, std::span(robots).first(count));
+  if (crossing.line == Crossing::Line::None) {
+    if (isInField(m_field, m_now.ball)) return false;
+    // Somebody put it there.
+    crossing = {Crossing::Line::Touch, m_now.ball, m_now.ball.y > 0.0};
+  }
+  if (crossing.line == Crossing::Line::Goal) {
+    judgeGoal(crossing.right, crossing.where);
+    return true;
+  }
+  report(EventKind::BallOut);
+  if (!m_rules.automatic) {
+    // A person decides; the ball lies on the line meanwhile.
+    putBall(clamped(crossing.where, 0.0));
+    return true;
+  }
+  if (m_game.phase == GamePhase::ShootOut) {
+    endShot();
+    return true;
+  }
+  // Of a ball that nobody touched the defenders have it; on the touch line who did not start.
+  const bool touchLine = crossing.line == Crossing::Line::Touch;
+  const int right = static_cast<int>(m_game.swapped ? 0 : 1);  // defends the right goal
+  const int defenders = crossing.right ? right : 1 - right;
+  const int lastTouch = m_game.lastTouchTeam >= 0 ? m_game.lastTouchTeam
+                        : touchLine               ? (crossing.where.x > 0.0 ? 1 - right : right)
+                                                  : 1 - defenders;
+  if (touchLine) {
+    if (m_rules.throwIns) {
+      beginSetPlay(SetPlay::ThrowIn, 1 - lastTouch, crossing.where);
+    } else {
+      freeBall(clamped(crossing.where, 1.0));
+    }
+  } else if (lastTouch == defenders && m_rules.cornerKicks) {
+    beginSetPlay(SetPlay::CornerKick, 1 - defenders, crossing.where);
+  } else if (lastTouch != defenders && m_rules.goalKicks) {
+    beginSetPlay(SetPlay::GoalKick, defenders, crossing.where);
+  } else {
+    freeBall(clamped(crossing.where, 1.0));
+  }
+  return true;
+}
+
+void RefereeTable::judgeGoal(bool right, const Point& where) {
+  const std::size_t scorer = right ? m_game.leftTeam() : 1 - m_game.leftTeam();
+  const auto conceding = static_cast<int>(1 - scorer);
+  if (!m_rules.automatic || m_game.phase == GamePhase::ShootOut) {
+    goal(scorer);
+    return;
+  }
+  // Straight from a kick-off, a throw-in or an indirect free kick it is none; into the own goal it
+  // is a corner.
+  if (!m_game.passed && m_game.kicker != 0 && m_game.lastTouch == m_game.kicker) {
+    report(EventKind::BallOut);
+    if (m_game.lastTouchTeam == static_cast<int>(scorer)) {
+      beginSetPlay(SetPlay::GoalKick, conceding, where);
+    } else {
+      beginSetPlay(SetPlay::CornerKick, static_cast<int>(scorer), where);
+    }
+    return;
+  }
+  goal(scorer);
+}
+
+/// The ball lies still, or nobody cares for it, or a heap of robots hides it.
+void RefereeTable::judgeRest() {
+  GameState& g = m_game;
+  if (g.phase == GamePhase::ShootOut) {
+    if (g.clock <= 0) endShot();
+    return;
+  }
+  if (!within(m_now.ball, g.still, m_rules.stillDistance)) {
+    g.still = m_now.ball;
+    g.stillTicks = 0;
+  }
+  if (!within(m_now.ball, g.near, heap)) {
+    g.near = m_now.ball;
+    g.nearTicks = 0;
+  }
+  bool somebody = false;
+  for (std::size_t i = 0; !somebody && i < m_now.robots.size(); ++i) {
+    somebody = plays(i) && within(m_now.robots[i].pose.position, m_now.ball, alone);
+  }
+  ++g.stillTicks;
+  ++g.nearTicks;
+  g.aloneTicks = somebody ? 0 : g.aloneTicks + 1;
+  if (!m_rules.dropBalls) return;
+  const auto over = [this](int passed, double time) { return time > 0.0 && passed >= ticks(time); };
+  if (over(g.nearTicks, m_rules.localStuckTime)) {
+    std::optional<std::size_t> nearest;
+    double least = heapReach * heapReach;
+    for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+      const double d = squared(m_now.robots[i].pose.position, m_now.ball);
+      if (!plays(i) || d > least) continue;
+      least = d;
+      nearest = i;
+    }
+    g.nearTicks = 0;
+    if (nearest) {
+      penalise(*nearest, PenaltyKind::LocalStuck);
+      return;
+    }
+  }
+  if (over(g.stillTicks, m_rules.stillTime) || over(g.aloneTicks, m_rules.nobodyTime)) dropBall();
+}
+
+void RefereeTable::judgeRobots() {
+  const bool isSet = m_game.state == PlayState::Set;
+  for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+    if (!plays(i)) continue;
+    const RobotSnapshot& robot = m_now.robots[i];
+    RobotWatch& watch = m_game.watches[i];
+    if (isSet) {
+      if (!within(robot.pose.position, watch.setPose.position, m_rules.motionInSet) &&
+          m_game.stateTicks > ticks(1.0)) {
+        penalise(i, PenaltyKind::MotionInSet);
+      } else if (m_game.stateTicks <= ticks(1.0)) {
+        watch.setPose = robot.pose;
+      }
+      continue;
+    }
+    watch.downTicks = robot.fallen ? watch.downTicks + 1 : 0;
+    const bool out = std::abs(robot.pose.position.x) > m_field.halfLength() + m_field.robotRadius ||
+                     std::abs(robot.pose.position.y) > m_field.halfWidth() + m_field.robotRadius;
+    // Who fetches a ball from the line may stand behind it.
+    const bool fetches = m_game.setPlay != SetPlay::None || !m_game.ballFree;
+    watch.outsideTicks = out && !fetches ? watch.outsideTicks + 1 : 0;
+    if (m_rules.fallenTime > 0.0 && watch.downTicks > ticks(m_rules.fallenTime)) {
+      penalise(i, PenaltyKind::Incapable);
+    } else if (m_rules.leavingTime > 0.0 && watch.outsideTicks > ticks(m_rules.leavingTime)) {
+      penalise(i, PenaltyKind::Leaving);
+    } else if (m_rules.pushingTime > 0.0) {
+      judgePushing(i);
+    }
+    if (m_game.state != PlayState::Playing) return;
+  }
+}
+
+/// Touching an opponent that is nearer to the ball, and walking against it.
+void RefereeTable::judgePushing(std::size_t robot) {
+  RobotWatch& watch = m_game.watches[robot];
+  if (watch.immuneTicks > 0) {
+    --watch.immuneTicks;
+    return;
+  }
+  const RobotSnapshot& pusher = m_now.robots[robot];
+  const double toBall = std::sqrt(squared(pusher.pose.position, m_now.ball));
+  const double touching = 2.0 * m_field.robotRadius + contactMargin;
+  bool pushes = false;
+  for (std::size_t j = 0; j < m_now.robots.size() && toBall < pushersReach; ++j) {
+    if (j == robot || teamOf(j) < 0 || teamOf(j) == teamOf(robot)) continue;
+    const Point& other = m_now.robots[j].pose.position;
+    if (!within(pusher.pose.position, other, touching)) continue;
+    const double lead = toBall - std::sqrt(squared(other, m_now.ball));
+    const double dx = other.x - pusher.pose.position.x, dy = other.y - pusher.pose.position.y;
+    const double d = std::sqrt(dx * dx + dy * dy);
+    // The gait that it asks for: its body does not move when the other one stands firm.
+    const double c = std::cos(pusher.pose.yaw), s = std::sin(pusher.pose.yaw);
+    const bool walksAtIt = pusher.action != 0 && d > 0.0 &&
+                           ((dx * c + dy * s) / d > 0.5 ||
+                            (pusher.velocity.x * dx + pusher.velocity.y * dy) / d > pushingSpeed);
+    pushes = pushes || (lead > pushersLead && walksAtIt);
+  }
+  watch.contactTicks = pushes ? watch.contactTicks + 1 : std::max(0, watch.contactTicks - 1);
+  if (watch.contactTicks <= ticks(m_rules.pushingTime)) return;
+  watch.contactTicks = 0;
+  watch.immuneTicks = ticks(immunity);
+  foul(robot, PenaltyKind::Pushing);
+}
+
+/// Near the ball in play a free kick, or a penalty kick before the own goal; else removal.
+void RefereeTable::foul(std::size_t robot, PenaltyKind penalty) {
+  const Point& at = m_now.robots[robot].pose.position;
+  const int team = teamOf(robot);
+  const bool near = within(at, m_now.ball, foulNearBall) && m_game.setPlay == SetPlay::None &&
+                    m_game.ballFree;
+  if (!near || !m_rules.freeKicks || m_rules.style == RefereeStyle::Humanoid2014) {
+    penalise(robot, penalty);
+    return;
+  }
+  const double depth = m_field.penaltyAreaLength > 0.0 ? m_field.penaltyAreaLength : 0.0;
+  const bool before = -way(team) * at.x > m_field.halfLength() - depth &&
+                      std::abs(at.y) < m_field.penaltyAreaWidth / 2.0;
+  beginSetPlay(before ? SetPlay::PenaltyKick : SetPlay::DirectFreeKick, 1 - team, m_now.ball);
+}
+
+/// At the whistle: who does not stand where it may begins beside the field.
+void RefereeTable::judgeKickOff() {
+  const double circle = m_field.centreCircleDiameter / 2.0;
+  const bool penaltyKick = m_game.setPlay == SetPlay::PenaltyKick;
+  for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+    if (!plays(i)) continue;
+    const Point at = place(i);
+    const int team = teamOf(i);
+    if (penaltyKick) {
+      const bool keeper = player(i)->goalkeeper && team != m_game.setPlayTeam;
+      if (team != m_game.setPlayTeam && !keeper && within(at, ball(), m_rules.distanceToBall)) {
+        penalise(i, PenaltyKind::IllegalPosition);
+      }
+      continue;
+    }
+    const double forward = way(team) * at.x;
+    const bool inCircle = within(at, {}, circle + m_field.robotRadius);
+    const bool kicks = m_game.kickOff == team;
+    const bool beyond = forward > -m_field.robotRadius && !(kicks && inCircle);
+    const bool outside = std::abs(at.x) > m_field.halfLength() + m_field.robotRadius ||
+                         std::abs(at.y) > m_field.halfWidth() + m_field.robotRadius;
+    const bool tooNear = !kicks && within(at, {}, circle);
+    if (beyond || outside || tooNear) penalise(i, PenaltyKind::IllegalPosition);
+  }
+}
+
+/// A set play goes on by its timers; who stands at the ball when it may be taken is penalised.
+void RefereeTable::judgeSetPlay() {
+  if (!m_rules.automatic) return;
+  const int passed = m_game.stateTicks;
+  const bool soccer = m_rules.style == RefereeStyle::HumanoidSoccer2026;
+  const auto clearBall = [this] {
+    for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
+      const int team = teamOf(i);
+      if (!plays(i) || team == m_game.setPlayTeam) continue;
+      const bool keeper = player(i)->goalkeeper &&
+                          -way(team) * m_now.robots[i].pose.position.x >
+                              m_field.halfLength() - std::max(0.5, m_field.goalAreaLength);
+      if (keeper || !within(m_now.robots[i].pose.position, m_now.ball, m_rules.distanceToBall)) {
+        continue;
+      }
+      penalise(i, PenaltyKind::IllegalPosition);
+    }
+  };
+  switch (m_game.step) {
+    case SetPlayStep::Placing:
+      if (passed >= ticks(m_rules.placingTime)) nextStep();
+      break;
+    case SetPlayStep::Preparing:
+      if (m_game.secondary > 0) break;
+      if (m_rules.freeKicks) clearBall();
+      nextStep();
+      break;
+    case SetPlayStep::Taking:
+      if (!soccer) {
+        if (passed >= ticks(m_rules.readyStepTime)) nextStep();
+        break;
+      }
+      if (m_rules.freeKicks && passed == ticks(clearTime) && m_game.state == PlayState::Playing &&
+          m_game.restartKind != SetPlay::PenaltyKick) {
+        clearBall();
+      }
+      if (m_game.secondaryRuns && m_game.secondary <= 0) inPlay();
+      break;
+    case SetPlayStep::None:
+      break;
+  }
+}
+
+void RefereeTable::judgeHalf() {
+  if (m_game.phase == GamePhase::ShootOut || m_game.setPlay == SetPlay::PenaltyKick) return;
+  if (!m_rules.halfEndsWithBall) {
+    if (m_game.clock <= 0) finish();
+    return;
+  }
+  if (m_game.clock >= 0) return;
+  const Velocity& v = m_now.ballVelocity;
+  const bool still = v.x * v.x + v.y * v.y < atRest * atRest && m_game.clock <= -ticks(1.0);
+  if (still || m_game.clock <= -ticks(longestEnd)) finish();
+}
+
+}  // namespace pitchboard::sim

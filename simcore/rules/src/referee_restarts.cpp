@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+
+#include "referee_table.h"
+
+namespace pitchboard::sim {
+namespace {
+
+constexpr double replacedInside = 0.4;  // m inside the lines (Humanoid League until 2016)
+
+}  // namespace
+
+void RefereeTable::goal(std::size_t team) {
+  GameTeam& scorer = m_game.teams[team];
+  ++scorer.score;
+  mirror();
+  report(EventKind::Goal, m_game.leftTeam() == team ? 0 : 1);
+  if (m_game.phase == GamePhase::ShootOut) {
+    if (m_game.state != PlayState::Playing) return;
+    if (static_cast<int>(team) == m_game.shooter && scorer.penaltyShots >= 1) {
+      scorer.singleShots |= 1 << std::min(15, scorer.penaltyShots - 1);
+    }
+    endShot();
+    return;
+  }
+  if (m_game.state != PlayState::Playing) return;
+  const int lead = std::abs(m_game.teams[0].score - m_game.teams[1].score);
+  if (m_rules.mercy > 0.0 && lead >= static_cast<int>(m_rules.mercy)) {
+    m_game.half = 2;
+    finish();
+    return;
+  }
+  beginReady(static_cast<int>(1 - team));
+}
+
+/// Where the rules put the ball, of one that left the field or lay at `where`.
+Point RefereeTable::placeOf(SetPlay play, int team, const Point& where) const {
+  const bool replaced = m_rules.style == RefereeStyle::Humanoid2014;
+  const double inside = replaced ? replacedInside : 0.0;
+  const double side = where.y < 0.0 ? -1.0 : 1.0;
+  const double x = m_field.halfLength(), y = m_field.halfWidth();
+  switch (play) {
+    case SetPlay::ThrowIn: {
+      // Until 2016 a metre back towards the goal of who put it out, and not into the goal areas.
+      double at = std::clamp(where.x, -x, x);
+      if (replaced) {
+        const double most = std::max(0.0, x - m_field.goalAreaLength);
+        at = std::clamp(at + way(team), -most, most);
+      }
+      return {at, side * (y - inside)};
+    }
+    case SetPlay::GoalKick:
+      if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+        return {-way(team) * (x - m_field.goalAreaLength), side * m_field.goalAreaWidth / 2.0};
+      }
+      return {0.0, side * (y - inside)};
+    case SetPlay::CornerKick:
+      return {way(team) * (replaced ? x - m_field.goalAreaLength : x), side * (y - inside)};
+    case SetPlay::PenaltyKick:
+      return {way(team) * (x - m_field.penaltyMarkDistance), 0.0};
+    case SetPlay::IndirectFreeKick: {
+      const double front = x - m_field.goalAreaLength;
+      const bool inArea =
+          where.x * way(team) > front && std::abs(where.y) < m_field.goalAreaWidth / 2.0;
+      return clamped(inArea ? Point{way(team) * front, where.y} : where, 0.0);
+    }
+    default:
+      return clamped(where, 0.0);
+  }
+}
+
+void RefereeTable::beginSetPlay(SetPlay play, int team, const Point& place) {
+  const Point where = placeOf(play, team, place);
+  report(EventKind::SetPlayBegan, static_cast<int>(play));
+  if (m_rules.style == RefereeStyle::Humanoid2014 && play != SetPlay::PenaltyKick) {
+    // The ball is put back, in play at once.
+    freeBall(where);
+    m_game.dropInTeam = 1 - team;
+    m_game.dropInTicks = 0;
+    return;
+  }
+  m_game.setPlay = play;
+  m_game.setPlayTeam = team;
+  m_game.restart = where;
+  m_game.restartTeam = team;
+  m_game.restartKind = play;
+  m_game.ballFree = false;
+  m_game.kicker = 0;
+  m_game.hidden = 0;
+  const bool indirect = play == SetPlay::ThrowIn || play == SetPlay::IndirectFreeKick;
+  m_game.passed = !(m_rules.directGoals && indirect);
+  if (m_rules.style == RefereeStyle::HumanoidSoccer2026) m_game.kickOff = team;
+  if (play == SetPlay::PenaltyKick && m_rules.penaltyKickReady > 0.0) {
+    enter(PlayState::Ready);
+    m_game.secondary = ticks(m_rules.penaltyKickReady);
+    m_game.secondaryRuns = true;
+    m_game.step = SetPlayStep::Preparing;
+    ballPlaced();
+    return;
+  }
+  m_game.step = SetPlayStep::Placing;
+  m_game.stateTicks = 0;
+  m_game.secondaryRuns = false;
+  m_game.secondary = 0;
+  m_game.kickOffStands = true;
+  if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+    m_game.stopped = true;
+    m_game.secondary = ticks(m_rules.takeTime);
+  }
+}
+
+/// Puts the ball where it is taken, and robots that stand on that place beside it.
+void RefereeTable::ballPlaced() {
+  putBall(m_game.restart);
+  const double room = m_field.robotRadius + m_field.ballRadius + 0.1;
+  for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
+    const Point at = place(i);
+    if (!within(at, m_game.restart, room)) continue;
+    const double dx = at.x - m_game.restart.x, dy = at.y - m_game.restart.y;
+    const double d = std::sqrt(dx * dx + dy * dy);
+    // A robot exactly on the place goes towards its own goal.
+    const double nx = d > 1e-6 ? dx / d : (teamOf(i) >= 0 ? -way(teamOf(i)) : 1.0);
+    const double ny = d > 1e-6 ? dy / d : 0.0;
+    putRobot(i, {{m_game.restart.x + nx * room, m_game.restart.y + ny * room},
+                 m_now.robots[i].pose.yaw});
+  }
+}
+
+/// Placing, preparing, taking, in play: with the steps that the style knows.
+void RefereeTable::nextStep() {
+  m_game.stateTicks = 0;
+  switch (m_game.step) {
+    case SetPlayStep::Placing:
+      ballPlaced();
+      if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+        m_game.stopped = false;
+        m_game.step = SetPlayStep::Taking;
+        m_game.secondaryRuns = true;
+      } else {
+        m_game.step = SetPlayStep::Preparing;
+        m_game.secondary = ticks(m_rules.prepareTime);
+        m_game.secondaryRuns = true;
+      }
+      return;
+    case SetPlayStep::Preparing:
+      m_game.step = SetPlayStep::Taking;
+      m_game.secondary = 0;
+      m_game.secondaryRuns = false;
+      return;
+    default:
+      break;
+  }
+  if (m_rules.style == RefereeStyle::HumanoidSoccer2026) {
+    inPlay();
+    return;
+  }
+  // Executed: the ball is the side's alone until it is in play.
+  m_game.setPlay = SetPlay::None;
+  m_game.step = SetPlayStep::None;
+  m_game.setPlayTeam = GameState::nobody;
+  m_game.secondary = ticks(m_rules.takeTime);
+  m_game.secondaryRuns = true;
+  report(EventKind::SetPlayOver);
+}
+
+/// The restart is taken.
+void RefereeTable::inPlay() {
+  m_game.ballFree = true;
+  if (m_game.setPlay == SetPlay::None && m_game.restartKind == SetPlay::None) return;
+  const bool shown = m_game.setPlay != SetPlay::None;
+  if (m_game.setPlay == SetPlay::PenaltyKick && m_rules.penaltyKickReady > 0.0 &&
+      m_game.state == PlayState::Playing && m_game.hidden > 0) {
+    return;  // robots do not know that it has begun
+  }
+  m_game.setPlay = SetPlay::None;
+  m_game.step = SetPlayStep::None;
+  m_game.setPlayTeam = GameState::nobody;
+  if (shown) {
+    m_game.stopped = false;
+    m_game.secondary = 0;
+    m_game.secondaryRuns = false;
+    m_game.kickOffStands = false;
+    report(EventKind::SetPlayOver);
+  }
+}
+
+void RefereeTable::dropBall() {
+  report(EventKind::DropBall);
+  beginReady(GameState::nobody);
+}
+
+/// The next shot of a shoot-out: kicker and keeper stand ready, everybody else is out.
+void RefereeTable::beginShot() {
+  if (m_game.shooter != GameState::nobody) {
+    m_game.shooter = 1 - m_game.shooter;
+  } else {
+    m_game.shooter = m_game.firstKickOff;
+  }
+  ++m_game.shotsBegan;
+  const int team = m_game.shooter;
+  m_game.teams[static_cast<std::size_t>(team)].penaltyShots += 1;
+  m_game.kickOff = team;
+  m_game.kickOffStands = true;
+  m_game.clock = ticks(m_rules.shotTime);
+  m_game.clockBegan = m_game.clockBeganBefore = false;
+  enter(PlayState::Set);
+  const double mark = way(team) * (m_field.halfLength() - m_field.penaltyMarkDistance);
+  freeBall({mark, 0.0});
+  bool kicks = false, keeps = false;
+  for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
+    GamePlayer* one = player(i);
+    if (!one || one->penalty == PenaltyKind::SentOff) continue;
+    const bool own = teamOf(i) == team;
+    const bool chosen = own ? !kicks && !one->goalkeeper : !keeps && one->goalkeeper;
+    if (!chosen) {
+      if (one->penalty == PenaltyKind::None) penalise(i, PenaltyKind::Substitute);
+      continue;
+    }
+    (own ? kicks : keeps) = true;
+    one->penalty = PenaltyKind::None;
+    one->outside = false;
+    const double yaw = way(teamOf(i)) > 0.0 ? 0.0 : 3.141592653589793;
+    const double x = own ? mark - way(team) * 0.6 : way(team) * (m_field.halfLength() - 0.05);
+    putRobot(i, {{x, 0.0}, yaw});
+  }
+}
+
+void RefereeTable::endShot() {
+  enter(PlayState::Finished);
+  m_game.kickOffStands = false;
+  m_game.setPlay = SetPlay::None;
+  m_game.step = SetPlayStep::None;
+}
+
+bool RefereeTable::shootOutDecided() const {
+  const auto scored = [this](std::size_t team) {
+    return std::popcount(static_cast<unsigned>(m_game.teams[team].singleShots));
+  };
+  const int shots = static_cast<int>(m_rules.shots);
+  const int taken0 = m_game.teams[0].penaltyShots, taken1 = m_game.teams[1].penaltyShots;
+  const int lead = scored(0) - scored(1);
+  if (taken0 < shots || taken1 < shots) {
+    return lead > std::max(0, shots - taken1) || -lead > std::max(0, shots - taken0);
+  }
+  // As many each and one is ahead; without end it is a draw after fifteen each, as bits go.
+  return taken0 == taken1 && (lead != 0 || taken0 >= 15);
+}
+
+}  // namespace pitchboard::sim

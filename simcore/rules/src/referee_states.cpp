@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <numbers>
+
+#include "referee_table.h"
+
+namespace pitchboard::sim {
+namespace {
+
+tl::unexpected<Error> refused(const std::string& text) {
+  return failure(ErrorCode::Conflict, text);
+}
+
+constexpr double finishedAtLeast = 0.5;  // s, so that robots hear it
+constexpr double betweenShots = 3.0;     // s
+
+}  // namespace
+
+bool RefereeTable::plays(std::size_t robot) const {
+  const GamePlayer* one = player(robot);
+  return one && one->penalty == PenaltyKind::None;
+}
+
+const GamePlayer* RefereeTable::player(std::size_t robot) const {
+  const RobotIdentity& identity = m_world.robots[robot];
+  const int team = m_game.teamOf(identity.team);
+  if (team < 0 || identity.number < 1 ||
+      identity.number > static_cast<int>(GameTeam::mostPlayers)) {
+    return nullptr;
+  }
+  return &m_game.teams[static_cast<std::size_t>(team)]
+              .players[static_cast<std::size_t>(identity.number - 1)];
+}
+
+GamePlayer* RefereeTable::player(std::size_t robot) {
+  return const_cast<GamePlayer*>(std::as_const(*this).player(robot));
+}
+
+Point RefereeTable::place(std::size_t robot) const {
+  for (const auto& [index, pose] : m_placements.robots) {
+    if (index == robot) return pose.position;
+  }
+  return m_now.robots[robot].pose.position;
+}
+
+Point RefereeTable::clamped(const Point& p, double inside) const {
+  const double x = std::max(0.0, m_field.halfLength() - inside);
+  const double y = std::max(0.0, m_field.halfWidth() - inside);
+  return {std::clamp(p.x, -x, x), std::clamp(p.y, -y, y)};
+}
+
+void RefereeTable::putBall(const Point& place) {
+  m_placements.ball = place;
+  m_game.still = m_game.near = place;
+  m_game.stillTicks = m_game.nearTicks = m_game.aloneTicks = 0;
+}
+
+Result<void> RefereeTable::call(const RefereeCall& call) {
+  const auto robot = [&]() -> std::optional<std::size_t> {
+    for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
+      if (m_world.robots[i].id == call.robot && player(i)) return i;
+    }
+    return {};
+  }();
+  const bool needsTeam = call.kind == CallKind::Goal || call.kind == CallKind::SetPlay;
+  if (call.team < GameState::nobody || call.team > 1 || (needsTeam && call.team < 0)) {
+    return failure(ErrorCode::InvalidArgument, "The referee needs one of the two teams for this.");
+  }
+  if ((call.kind == CallKind::Penalise || call.kind == CallKind::Pardon ||
+       call.kind == CallKind::Card) &&
+      !robot) {
+    return failure(ErrorCode::NotFound, "Robot " + std::to_string(call.robot.value) +
+                                            " plays in neither of the two teams.");
+  }
+  const auto team = static_cast<std::size_t>(std::max(0, call.team));
+  switch (call.kind) {
+    case CallKind::State:
+      return callState(call.state);
+    case CallKind::KickOff:
+      m_game.kickOff = call.team;
+      break;
+    case CallKind::Goal:
+      if (call.value < 0) {
+        if (m_game.teams[team].score == 0) return refused("This team has no goal to take back.");
+        --m_game.teams[team].score;
+        mirror();
+        report(EventKind::ScoreCorrected, m_game.leftTeam() == team ? 0 : 1);
+      } else if (m_game.state != PlayState::Playing && m_game.state != PlayState::Finished) {
+        return refused("A goal can be given in PLAYING and FINISHED only.");
+      } else {
+        goal(team);
+      }
+      break;
+    case CallKind::SetPlay:
+      if (m_game.state != PlayState::Playing || m_game.phase == GamePhase::Timeout) {
+        return refused("Set plays are given while the game is PLAYING.");
+      }
+      if (call.setPlay == SetPlay::None) {
+        inPlay();
+        break;
+      }
+      beginSetPlay(call.setPlay, call.team, call.place.value_or(m_now.ball));
+      break;
+    case CallKind::NextStep:
+      if (m_game.setPlay == SetPlay::None) return refused("There is no set play to go on with.");
+      nextStep();
+      break;
+    case CallKind::DropBall:
+      if (m_game.state != PlayState::Playing) return refused("A drop ball is given in PLAYING only.");
+      dropBall();
+      break;
+    case CallKind::Penalise:
+      if (call.penalty == PenaltyKind::None) return refused("A penalty needs its reason.");
+      penalise(*robot, call.penalty);
+      break;
+    case CallKind::Pardon:
+      if (plays(*robot)) return refused("This robot is not penalised.");
+      pardon(*robot);
+      break;
+    case CallKind::Card: {
+      GamePlayer& one = *player(*robot);
+      ++(call.value == 0 ? one.warnings : call.value == 1 ? one.yellow : one.red);
+      if (one.warnings >= 2) one.warnings = 0, ++one.yellow;
+      if (one.yellow >= 2) one.yellow = 0, ++one.red;
+      if (one.red > 0) penalise(*robot, PenaltyKind::SentOff);
+      break;
+    }
+    case CallKind::NextHalf:
+      if (m_game.state != PlayState::Finished) return refused("A half follows FINISHED.");
+      m_game.over = false;
+      nextHalf();
+      break;
+    case CallKind::ShootOut:
+      if (m_game.state != PlayState::Finished) return refused("The shoot-out follows FINISHED.");
+      m_game.over = false;
+      beginPhase(GamePhase::ShootOut);
+      break;
+    case CallKind::Timeout:
+      if (m_game.state == PlayState::Finished || m_game.phase == GamePhase::Timeout ||
+          (call.team >= 0 && m_game.state == PlayState::Playing)) {
+        return refused("A timeout is taken in INITIAL, READY or SET.");
+      }
+      if (call.team >= 0 && m_game.teams[team].timeouts > 0) {
+        return refused("This team has had its timeout.");
+      }
+      if (call.team >= 0) ++m_game.teams[team].timeouts;
+      m_game.phaseBefore = m_game.phase;
+      m_game.phase = GamePhase::Timeout;
+      enter(PlayState::Initial);
+      m_game.secondary = ticks(m_rules.timeoutTime);
+      m_game.secondaryRuns = true;
+      report(EventKind::PhaseChanged, static_cast<int>(GamePhase::Timeout));
+      break;
+    case CallKind::Stop:
+      if (m_game.stopped) return refused("Play is stopped already.");
+      m_game.stopped = true;
+      report(EventKind::PlayStopped);
+      break;
+    case CallKind::GoOn:
+      if (!m_game.stopped) return refused("Play is not stopped.");
+      if (m_game.setPlay != SetPlay::None && m_game.step == SetPlayStep::Placing) {
+        nextStep();
+      } else {
+        m_game.stopped = false;
+      }
+      report(EventKind::PlayGoesOn);
+      break;
+    case CallKind::Automatic:
+      m_world.settings.referee->automatic = call.value != 0;
+      break;
+  }
+  return {};
+}
+
+/// The transitions of REFEREE.md section 1.
+Result<void> RefereeTable::callState(PlayState state) {
+  const PlayState from = m_game.state;
+  const auto refuse = [&] {
+    return refused("The referee cannot go from " + std::string(wordsOf(from)) + " to " +
+                   std::string(wordsOf(state)) + ".");
+  };
+  switch (state) {
+    case PlayState::Initial:
+      if (from != PlayState::Finished) return refuse();
+      nextHalf();
+      return {};
+    case PlayState::Ready:
+      if (from != PlayState::Initial && from != PlayState::Playing) return refuse();
+      if (m_game.phase == GamePhase::ShootOut) return refuse();
+      if (m_game.phase == GamePhase::Timeout) {
+        m_game.phase = m_game.phaseBefore;
+        report(EventKind::PhaseChanged, static_cast<int>(m_game.phase));
+      }
+      beginReady(from == PlayState::Playing ? GameState::nobody : m_game.kickOff);
+      return {};
+    case PlayState::Set:
+      if (m_game.phase == GamePhase::ShootOut &&
+          (from == PlayState::Initial || from == PlayState::Finished)) {
+        if (shootOutDecided()) return refused("The shoot-out is decided.");
+        beginShot();
+        return {};
+      }
+      if (from != PlayState::Ready) return refuse();
+      enter(PlayState::Set);
+      return {};
+    case PlayState::Playing:
+      if (from != PlayState::Set) return refuse();
+      beginPlaying();
+      return {};
+    case PlayState::Finished:
+      if (from == PlayState::Initial || from == PlayState::Finished) return refuse();
+      if (m_game.phase == GamePhase::ShootOut) {
+        endShot();
+      } else {
+        finish();
+      }
+      return {};
+  }
+  return refuse();
+}
+
+void RefereeTable::enter(PlayState state) {
+  m_game.state = state;
+  m_game.stateTicks = 0;
+  m_game.secondary = 0;
+  m_game.secondaryRuns = false;
+  m_game.hidden = 0;
+  m_game.stopped = false;
+  if (state == PlayState::Set) {
+    for (std::size_t i = 0; i < m_game.watches.size(); ++i) {
+      m_game.watches[i].setPose = m_now.robots[i].pose;
+    }
+  }
+  report(EventKind::PlayStateChanged, static_cast<int>(state));
+}
+
+void RefereeTable::beginReady(int kickOff) {
+  enter(PlayState::Ready);
+  m_game.kickOff = kickOff;
+  m_game.kickOffStands = true;
+  m_game.setPlay = SetPlay::None;
+  m_game.step = SetPlayStep::None;
+  m_game.setPlayTeam = GameState::nobody;
+  m_game.secondary = ticks(m_rules.readyTime);
+  m_game.secondaryRuns = true;
+  m_game.dropInTeam = GameState::nobody;
+  m_game.dropInTicks = -1;
+  m_game.lastTouch = 0;
+  m_game.lastTouchTeam = GameState::nobody;
+  freeBall({});
+}
+
+/// Nobody has it alone, wherever it is put.
+void RefereeTable::freeBall(const Point& place) {
+  putBall(place);
+  m_game.ballFree = true;
+  m_game.passed = true;
+  m_game.restartTeam = GameState::nobody;
+  m_game.restartKind = SetPlay::None;
+  m_game.kicker = 0;
+}
+
+void RefereeTable::beginPlaying() {
+  const bool began = m_game.clockBegan;
+  enter(PlayState::Playing);
+  m_game.clockBeganBefore = began;
+  m_game.clockBegan = true;
+  m_game.hidden = ticks(m_rules.playingHidden);
+  m_game.restart = ball();
+  m_game.kicker = 0;
+  const bool shot = m_game.phase == GamePhase::ShootOut;
+  if (shot || m_game.setPlay == SetPlay::PenaltyKick) {
+    m_game.step = SetPlayStep::Taking;
+    m_game.restartTeam = shot ? m_game.shooter : m_game.setPlayTeam;
+    m_game.restartKind = SetPlay::PenaltyKick;
+    m_game.ballFree = false;
+    m_game.passed = true;
+    if (!shot) {
+      m_game.secondary = ticks(m_rules.penaltyKickTime);
+      m_game.secondaryRuns = true;
+    }
+    return;
+  }
+  if (m_game.kickOff >= 0) {
+    m_game.secondary = ticks(m_rules.kickOffTime);
+    m_game.secondaryRuns = true;
+    m_game.restartTeam = m_game.kickOff;
+    m_game.restartKind = SetPlay::None;
+    m_game.ballFree = false;
+    m_game.passed = !m_rules.directGoals;
+  }
+  if (m_rules.pardonsAtPlay) pardonAll();  // REFEREE.md section 4: all at SET -> PLAYING
+}
+
+void RefereeTable::finish() {
+  enter(PlayState::Finished);
+  m_game.setPlay = SetPlay::None;
+  m_game.step = SetPlayStep::None;
+  m_game.kickOffStands = false;
+  m_game.breakLeft = ticks(std::max(m_rules.breakTime, m_rules.beforeHalf));
+  if (m_game.half == 1) {
+    m_game.secondary = ticks(m_rules.breakTime);
+    m_game.secondaryRuns = true;
+  }
+  pardonAll();
+}
+
+void RefereeTable::swapSides() {
+  if (!m_rules.changeSides) return;
+  m_game.swapped = !m_game.swapped;
+  for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
+    if (teamOf(i) < 0) continue;
+    m_world.robots[i].imuStartsAt180 = !m_world.robots[i].imuStartsAt180;
+    // Carried over: everybody at once, so that nobody is in the way.
+    const Pose& pose = m_now.robots[i].pose;
+    const double yaw = std::remainder(pose.yaw + std::numbers::pi, 2.0 * std::numbers::pi);
+    putRobot(i, {{-pose.position.x, -pose.position.y}, yaw});
+  }
+  mirror();
+}
+
+void RefereeTable::nextHalf() {
+  const int breakShown = m_game.secondary;
+  const bool breakRuns = m_game.secondaryRuns;
+  if (m_game.half == 1) {
+    m_game.half = 2;
+  } else {
+    m_game.half = 1;
+    m_game.phase = GamePhase::ExtraTime;
+    report(EventKind::PhaseChanged, static_cast<int>(m_game.phase));
+  }
+  enter(PlayState::Initial);
+  m_game.secondary = breakShown;
+  m_game.secondaryRuns = breakRuns;
+  m_game.clock = ticks(m_game.phase == GamePhase::ExtraTime ? m_rules.extraHalfTime
+                                                            : m_rules.halfTime);
+  m_game.clockBegan = m_game.clockBeganBefore = false;
+  m_game.kickOff = m_game.half == 1 ? m_game.firstKickOff : 1 - m_game.firstKickOff;
+  m_game.kickOffStands = true;
+  for (GameTeam& team : m_game.teams) team.timeouts = 0;
+  report(EventKind::HalfBegan, m_game.half);
+  swapSides();
+  freeBall({});
+}
+
+void RefereeTable::beginPhase(GamePhase phase) {
+  m_game.phase = phase;
+  report(EventKind::PhaseChanged, static_cast<int>(phase));
+  enter(PlayState::Initial);
+  m_game.half = 2;
+  m_game.clock = ticks(m_rules.shotTime);
+  m_game.clockBegan = m_game.clockBeganBefore = false;
+  m_game.shooter = GameState::nobody;
+  m_game.breakLeft = ticks(m_rules.beforeHalf);
+  pardonAll();
+  freeBall({});
+}
+
+bool RefereeTable::clockRuns() const {
+  if (m_game.phase == GamePhase::Timeout) return false;
+  const bool setPlay = m_game.setPlay != SetPlay::None && m_rules.clockStopsInSetPlays;
+  switch (m_game.state) {
+    case PlayState::Playing:
+      return !setPlay;
+    case PlayState::Ready:
+    case PlayState::Set:
+      return m_game.clockBegan && m_game.phase != GamePhase::ShootOut;
+    default:
+      return false;
+  }
+}
+
+void RefereeTable::runClocks() {
+  ++m_game.stateTicks;
+  if (clockRuns()) --m_game.clock;
+  // What waits waits while play is stopped; a break and a timeout run on.
+  const bool waits = m_game.stopped && m_game.state != PlayState::Finished &&
+                     m_game.state != PlayState::Initial;
+  if (m_game.secondaryRuns && !waits) {
+    const bool below = m_game.state == PlayState::Initial &&
+                       m_rules.style == RefereeStyle::HumanoidSoccer2026;
+    if (m_game.secondary > 0 || below) --m_game.secondary;
+  }
+  if (m_game.hidden > 0) --m_game.hidden;
+  if (m_game.breakLeft > 0) --m_game.breakLeft;
+  if (m_game.dropInTicks >= 0) ++m_game.dropInTicks;
+}
+
+/// What goes on by itself, by timers of the rules or of the automatic referee.
+void RefereeTable::whistle() {
+  const bool automatic = m_rules.automatic;
+  switch (m_game.state) {
+    case PlayState::Initial:
+      if (!automatic || m_game.breakLeft > 0 || m_game.phase == GamePhase::Timeout) break;
+      if (m_game.phase == GamePhase::ShootOut) {
+        beginShot();
+      } else {
+        beginReady(m_game.kickOff);
+      }
+      break;
+    case PlayState::Ready:
+      if (m_game.secondary <= 0) enter(PlayState::Set);
+      break;
+    case PlayState::Set: {
+      const bool shot = m_game.phase == GamePhase::ShootOut;
+      if (!automatic || m_game.stateTicks < ticks(shot ? m_rules.shotSetTime : m_rules.setTime)) {
+        break;
+      }
+      if (m_rules.kickOffPositions && !shot) judgeKickOff();
+      beginPlaying();
+      break;
+    }
+    case PlayState::Playing:
+      if (m_game.setPlay != SetPlay::None) {
+        judgeSetPlay();
+      } else if (m_game.secondaryRuns && m_game.secondary <= 0) {
+        m_game.secondaryRuns = false;
+        m_game.ballFree = true;
+        m_game.kickOffStands = false;
+      }
+      break;
+    case PlayState::Finished:
+      if (automatic && !m_game.over) afterFinished();
+      break;
+  }
+}
+
+void RefereeTable::afterFinished() {
+  const bool tie = m_game.teams[0].score == m_game.teams[1].score;
+  if (m_game.phase == GamePhase::ShootOut) {
+    if (shootOutDecided()) {
+      m_game.over = true;
+    } else if (m_game.stateTicks >= ticks(betweenShots)) {
+      beginShot();
+      return;
+    }
+  } else if (m_game.half == 1) {
+    const int wait = ticks(std::max(finishedAtLeast, m_rules.breakTime / 2.0));
+    if (m_game.stateTicks >= wait) nextHalf();
+    return;
+  } else if (m_rules.knockout && tie) {
+    if (m_game.stateTicks < ticks(finishedAtLeast)) return;
+    if (m_rules.extraTime && m_game.phase == GamePhase::Normal) {
+      nextHalf();
+    } else {
+      beginPhase(GamePhase::ShootOut);
+    }
+    return;
+  } else {
+    m_game.over = true;
+  }
+  if (m_game.over) report(EventKind::FinalWhistle);
+}
+
+/// What every display of a match reads.
+void RefereeTable::mirror() {
+  const std::size_t left = m_game.leftTeam();
+  m_world.score = {m_game.teams[left].score, m_game.teams[1 - left].score};
+  m_world.clockRunning = m_game.state == PlayState::Playing && clockRuns();
+}
+
+void RefereeTable::tick(const BallWay& way) {
+  runClocks();
+  runPenalties();
+  if (m_game.state == PlayState::Playing) {
+    judge(way);
+  } else if (m_rules.automatic && m_game.state == PlayState::Set && m_rules.motionInSet > 0.0) {
+    judgeRobots();
+  }
+  whistle();
+  mirror();
+}
+
+}  // namespace pitchboard::sim

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The referee at work on one tick or one call: the state of the game and everything its parts need.
+// Made anew each time; keeps nothing. referee_states.cpp has the machine of states,
+// referee_restarts.cpp goals and set plays, referee_penalties.cpp penalties, referee_judge.cpp what
+// the automatic referee sees. Metres, radians, ticks.
+
+#include <cmath>
+
+#include <simcore/rules/referee.h>
+#include <simcore/world/world_state.h>
+
+#include "ball_crossing.h"
+
+namespace pitchboard::sim {
+
+class RefereeTable {
+ public:
+  RefereeTable(WorldState& world, const Snapshot& now, Placements& placements,
+               std::vector<Event>& events)
+      : m_world(world),
+        m_game(*world.game),
+        m_rules(*world.settings.referee),
+        m_field(world.settings.field),
+        m_now(now),
+        m_placements(placements),
+        m_events(events) {}
+
+  Result<void> call(const RefereeCall& call);
+  void tick(const BallWay& way);
+
+ private:
+  // States.
+  Result<void> callState(PlayState state);
+  void enter(PlayState state);
+  void beginReady(int kickOff);
+  void beginPlaying();
+  void finish();
+  void nextHalf();
+  void beginPhase(GamePhase phase);
+  void swapSides();
+  void runClocks();
+  void whistle();
+  void afterFinished();
+  bool clockRuns() const;
+  void mirror();
+
+  // Goals and restarts.
+  void goal(std::size_t team);
+  void beginSetPlay(SetPlay play, int team, const Point& place);
+  void ballPlaced();
+  void nextStep();
+  void inPlay();
+  void dropBall();
+  Point placeOf(SetPlay play, int team, const Point& where) const;
+  void beginShot();
+  void endShot();
+  bool shootOutDecided() const;
+  void freeBall(const Point& place);
+
+  // Penalties.
+  void penalise(std::size_t robot, PenaltyKind penalty);
+  void pardon(std::size_t robot);
+  void runPenalties();
+  void putOutside(std::size_t robot);
+  void pardonAll();
+  int removalTicks(const GameTeam& team, PenaltyKind penalty) const;
+
+  // Judging.
+  void judge(const BallWay& way);
+  void followTouches(const BallWay& way);
+  bool judgeLines(const BallWay& way);
+  void judgeGoal(bool right, const Point& where);
+  void judgeRest();
+  void judgeRobots();
+  void judgeKickOff();
+  void judgePushing(std::size_t robot);
+  void judgeSetPlay();
+  void judgeHalf();
+  void foul(std::size_t robot, PenaltyKind penalty);
+
+  int ticks(double seconds) const {
+    return static_cast<int>(std::lround(seconds * m_world.settings.tickRate));
+  }
+  void report(EventKind kind, int value = 0, RobotId robot = {}) {
+    m_events.push_back({kind, m_world.tick, robot, value});
+  }
+  bool plays(std::size_t robot) const;  ///< belongs to one of the two teams, is not penalised
+  int teamOf(std::size_t robot) const { return m_game.teamOf(m_world.robots[robot].team); }
+  GamePlayer* player(std::size_t robot);
+  const GamePlayer* player(std::size_t robot) const;
+  /// +1: this team attacks towards +x.
+  double way(int team) const {
+    return m_game.attacksRight(static_cast<std::size_t>(team)) ? 1.0 : -1.0;
+  }
+  Point place(std::size_t robot) const;  ///< where it is after what was placed in this tick
+  Point ball() const { return m_placements.ball.value_or(m_now.ball); }
+  void putBall(const Point& place);
+  void putRobot(std::size_t robot, const Pose& pose) { m_placements.robots.push_back({robot, pose}); }
+  Point clamped(const Point& p, double inside) const;
+
+  WorldState& m_world;
+  GameState& m_game;
+  const RefereeRules& m_rules;
+  const FieldSpec& m_field;
+  const Snapshot& m_now;
+  Placements& m_placements;
+  std::vector<Event>& m_events;
+};
+
+inline double squared(const Point& a, const Point& b) {
+  const double dx = a.x - b.x, dy = a.y - b.y;
+  return dx * dx + dy * dy;
+}
+inline bool within(const Point& a, const Point& b, double distance) {
+  return squared(a, b) < distance * distance;
+}
+
+}  // namespace pitchboard::sim

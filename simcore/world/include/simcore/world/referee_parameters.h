@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The one table of what people may set in a referee's rules: files, checks, screens and the tables
+// of docs/REFEREE.md are made from it. As parameters.h. Constant data, for any thread.
+
+#include <array>
+
+#include <simcore/world/parameters.h>
+#include <simcore/world/referee_rules.h>
+
+namespace pitchboard::sim {
+
+/// A rule that is judged or not.
+struct RefereeSwitch {
+  const char* key;
+  bool RefereeRules::*member;
+  const char* name;
+};
+
+// clang-format off
+inline constexpr auto refereeParameters = std::to_array<Parameter<RefereeRules>>({
+    {"packet_version", &RefereeRules::packetVersion, units::plain, 7, 20,
+     "Packet version", "Of the GameController's packets"},
+    {"packet_size", &RefereeRules::packetSize, units::plain, 0, 1000,
+     "Packet size", "In bytes, where a version has several"},
+    {"half_time", &RefereeRules::halfTime, units::seconds, 1, 7200, "Half", ""},
+    {"extra_half_time", &RefereeRules::extraHalfTime, units::seconds, 1, 7200, "Half of extra time", ""},
+    {"break_time", &RefereeRules::breakTime, units::seconds, 0, 7200, "Break", "From the end of a half to READY"},
+    {"before_match", &RefereeRules::beforeMatch, units::seconds, 0, 3600, "Before the match", "INITIAL before the first READY"},
+    {"before_half", &RefereeRules::beforeHalf, units::seconds, 0, 3600, "Before a half", "At least, from the end of the last one to READY"},
+    {"ready_time", &RefereeRules::readyTime, units::seconds, 1, 3600, "READY", ""},
+    {"set_time", &RefereeRules::setTime, units::seconds, 0, 3600, "SET", "Until the whistle"},
+    {"shot_set_time", &RefereeRules::shotSetTime, units::seconds, 0, 3600, "SET before a shot", "Of a shoot-out"},
+    {"kick_off_time", &RefereeRules::kickOffTime, units::seconds, 0, 600, "Kick-off", "The ball is the side's alone"},
+    {"playing_hidden", &RefereeRules::playingHidden, units::seconds, 0, 600, "PLAYING hidden", "From robots, after the whistle"},
+    {"shot_time", &RefereeRules::shotTime, units::seconds, 1, 600, "Shot", "Of a shoot-out"},
+    {"shots", &RefereeRules::shots, units::plain, 1, 15, "Shots", "Of each team in a shoot-out"},
+    {"timeout_time", &RefereeRules::timeoutTime, units::seconds, 0, 3600, "Timeout", ""},
+    {"placing_time", &RefereeRules::placingTime, units::seconds, 0, 600, "Placing", "Of the ball for a set play; play is stopped"},
+    {"prepare_time", &RefereeRules::prepareTime, units::seconds, 0, 600, "Preparing", "The side takes its place at the ball"},
+    {"ready_step_time", &RefereeRules::readyStepTime, units::seconds, 0, 600, "Ready", "Until the set play is executed"},
+    {"take_time", &RefereeRules::takeTime, units::seconds, 0, 600, "Taking", "The ball is the side's alone"},
+    {"penalty_kick_ready", &RefereeRules::penaltyKickReady, units::seconds, 0, 600, "READY before a penalty kick", "0 = none"},
+    {"penalty_kick_time", &RefereeRules::penaltyKickTime, units::seconds, 0, 600, "Penalty kick", ""},
+    {"distance_to_ball", &RefereeRules::distanceToBall, units::metres, 0, 10, "Distance to the ball", "Of opponents in a set play"},
+    {"removal_time", &RefereeRules::removalTime, units::seconds, 0, 3600, "Removal", ""},
+    {"removal_more", &RefereeRules::removalMore, units::seconds, 0, 3600, "More removal", "For each earlier one of the team"},
+    {"motion_time", &RefereeRules::motionTime, units::seconds, 0, 3600, "Motion penalty", "On the field"},
+    {"shot_keeper_time", &RefereeRules::shotKeeperTime, units::seconds, 0, 3600, "Removal of a goalkeeper", "In a shoot-out"},
+    {"placed_after", &RefereeRules::placedAfter, units::seconds, 0, 600, "Carried out after", "A penalised robot stands until then"},
+    {"fallen_time", &RefereeRules::fallenTime, units::seconds, 0, 3600, "Fallen", "Longer: removed; 0 = not judged"},
+    {"leaving_time", &RefereeRules::leavingTime, units::seconds, 0, 3600, "Off the field", "Longer: removed; 0 = not judged"},
+    {"still_time", &RefereeRules::stillTime, units::seconds, 0, 3600, "Ball still", "Longer: drop ball; 0 = not judged"},
+    {"still_distance", &RefereeRules::stillDistance, units::metres, 0, 10, "Ball still within", ""},
+    {"nobody_time", &RefereeRules::nobodyTime, units::seconds, 0, 3600, "Ball alone", "Nobody within 1 m, longer: drop ball; 0 = not judged"},
+    {"local_stuck_time", &RefereeRules::localStuckTime, units::seconds, 0, 3600, "Local game stuck", "Ball within 0.1 m, longer: the nearest robot is removed; 0 = not judged"},
+    {"pushing_time", &RefereeRules::pushingTime, units::seconds, 0, 3600, "Pushing", "Longer: a foul; 0 = not judged"},
+    {"motion_in_set", &RefereeRules::motionInSet, units::metres, 0, 10, "Motion in SET", "Farther: penalised; 0 = not judged"},
+    {"in_play_distance", &RefereeRules::inPlayDistance, units::metres, 0, 10, "In play after", "The ball has moved"},
+    {"mercy", &RefereeRules::mercy, units::plain, 0, 1000, "Mercy", "Difference of goals that ends the match; 0 = none"},
+});
+
+inline constexpr auto refereeSwitches = std::to_array<RefereeSwitch>({
+    {"goals", &RefereeRules::goals, "Goals and the ball out of the field"},
+    {"throw_ins", &RefereeRules::throwIns, "Throw-ins"},
+    {"goal_kicks", &RefereeRules::goalKicks, "Goal kicks"},
+    {"corner_kicks", &RefereeRules::cornerKicks, "Corner kicks"},
+    {"free_kicks", &RefereeRules::freeKicks, "Free kicks, and the distance of opponents"},
+    {"drop_balls", &RefereeRules::dropBalls, "Drop balls"},
+    {"kick_off_positions", &RefereeRules::kickOffPositions, "Places at a kick-off"},
+    {"exclusive_ball", &RefereeRules::exclusiveBall, "The ball of a restart touched by the other side"},
+    {"direct_goals", &RefereeRules::directGoals, "No goal straight from a kick-off, throw-in or indirect free kick"},
+    {"change_sides", &RefereeRules::changeSides, "Teams change sides"},
+    {"clock_stops_in_set_plays", &RefereeRules::clockStopsInSetPlays, "The clock stands in set plays"},
+    {"escalates", &RefereeRules::escalates, "Removals grow longer"},
+    {"counts_from_call", &RefereeRules::countsFromCall, "Penalties count from the call"},
+    {"counts_always", &RefereeRules::countsAlways, "Penalties count in every state"},
+    {"pardons_at_play", &RefereeRules::pardonsAtPlay, "A kick-off frees penalised robots"},
+    {"half_ends_with_ball", &RefereeRules::halfEndsWithBall, "A half ends when the ball rests"},
+    {"knockout", &RefereeRules::knockout, "A tie goes on: extra time, shoot-out"},
+    {"extra_time", &RefereeRules::extraTime, "Extra time before the shoot-out"},
+    {"automatic", &RefereeRules::automatic, "The referee calls by itself"},
+});
+// clang-format on
+
+}  // namespace pitchboard::sim

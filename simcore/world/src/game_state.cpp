@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <simcore/world/game_state.h>
+
+namespace pitchboard::sim {
+namespace {
+
+template <class Enum, std::size_t N>
+std::string_view at(const std::array<std::string_view, N>& words, Enum value) {
+  static_assert(static_cast<std::size_t>(lastOf(Enum{})) + 1 == N);
+  return words[static_cast<std::size_t>(value)];
+}
+
+}  // namespace
+
+std::string_view wordsOf(PlayState state) {
+  static constexpr std::array<std::string_view, 5> words{"INITIAL", "READY", "SET", "PLAYING",
+                                                         "FINISHED"};
+  return at(words, state);
+}
+
+std::string_view wordsOf(GamePhase phase) {
+  static constexpr std::array<std::string_view, 4> words{"normal time", "penalty shoot-out",
+                                                         "extra time", "timeout"};
+  return at(words, phase);
+}
+
+std::string_view wordsOf(SetPlay play) {
+  static constexpr std::array<std::string_view, 7> words{
+      "",         "direct free kick", "indirect free kick", "penalty kick",
+      "throw-in", "goal kick",        "corner kick"};
+  return at(words, play);
+}
+
+std::string_view wordsOf(PenaltyKind penalty) {
+  static constexpr std::array<std::string_view, 18> words{"",
+                                                          "ball manipulation",
+                                                          "pushing",
+                                                          "illegal attack",
+                                                          "illegal defence",
+                                                          "pickup or incapable",
+                                                          "service",
+                                                          "illegal position",
+                                                          "motion in SET",
+                                                          "motion in stop",
+                                                          "local game stuck",
+                                                          "ball holding",
+                                                          "leaving the field",
+                                                          "playing with hands",
+                                                          "cautioned",
+                                                          "sent off",
+                                                          "substitute",
+                                                          "manual"};
+  return at(words, penalty);
+}
+
+}  // namespace pitchboard::sim

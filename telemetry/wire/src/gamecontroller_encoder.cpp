@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/wire/gamecontroller_encoder.h>
+
+#include <utility>
+
+#include "gamecontroller_layouts.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+/// Writes little-endian integers and remembers the first that does not fit.
+class Bytes {
+ public:
+  explicit Bytes(std::size_t size) : m_bytes(size, '\0') {}
+
+  void put(std::size_t offset, std::size_t count, bool isSigned, int value) {
+    const int bits = static_cast<int>(8 * count);
+    const std::int64_t least = isSigned ? -(std::int64_t{1} << (bits - 1)) : 0;
+    const std::int64_t most = (std::int64_t{1} << (isSigned ? bits - 1 : bits)) - 1;
+    if (value < least || value > most) {
+      if (!m_bad) m_bad = {offset, value};
+      return;
+    }
+    const auto raw = static_cast<std::uint32_t>(value);
+    for (std::size_t i = 0; i < count; ++i) {
+      m_bytes[offset + i] = static_cast<char>((raw >> (8 * i)) & 0xffU);
+    }
+  }
+  template <class Owner>
+  void putFields(std::span<const FieldAt<Owner>> fields, std::size_t at, const Owner& owner) {
+    for (const FieldAt<Owner>& field : fields) {
+      const int value =
+          field.always != nullptr ? owner.*field.always : (owner.*field.maybe).value_or(0);
+      put(at + field.offset, field.bytes, field.isSigned, value);
+    }
+  }
+  void text(std::span<const char> chars) {
+    for (std::size_t i = 0; i < chars.size(); ++i) m_bytes[i] = chars[i];
+  }
+  const std::optional<std::pair<std::size_t, int>>& bad() const { return m_bad; }
+  std::string take() { return std::move(m_bytes); }
+
+ private:
+  std::string m_bytes;
+  std::optional<std::pair<std::size_t, int>> m_bad;
+};
+
+}  // namespace
+
+Result<std::string> encodeReferee(const RefereeState& state) {
+  const RefereeLayout* layout =
+      state.size < 0 ? nullptr : refereeLayout(state.version, static_cast<std::size_t>(state.size));
+  if (layout == nullptr) {
+    return failure(ErrorCode::Unsupported, "There is no referee packet of version " +
+                                               std::to_string(state.version) + " with " +
+                                               std::to_string(state.size) + " bytes.");
+  }
+  Bytes bytes(layout->size);
+  bytes.text(state.magic);
+  bytes.put(4, 1, false, state.version);
+  bytes.putFields(layout->header, 0, state);
+  if (layout->secStateInfo != 0 && state.secStateInfo) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes.put(layout->secStateInfo + i, 1, false, (*state.secStateInfo)[i]);
+    }
+  }
+  for (std::size_t t = 0; t < 2; ++t) {
+    const RefereeTeam& team = state.teams[t];
+    const std::size_t at = layout->teamsAt + t * layout->teamBytes;
+    bytes.putFields(layout->team, at, team);
+    for (std::size_t i = 0; i < layout->slots; ++i) {
+      bytes.putFields(layout->player, at + layout->slotsAt + i * layout->slotBytes,
+                      team.allSlots[i]);
+    }
+  }
+  if (state.extra2013 && layout->version == 7) {
+    // What the program of 2013 writes over the last players.
+    const RefereeExtra2013& extra = *state.extra2013;
+    bytes.put(107, 1, false, extra.timeOut);
+    bytes.put(108, 1, false, extra.penaltyShot[0]);
+    bytes.put(109, 1, false, extra.penaltyShot[1]);
+    bytes.put(110, 2, false, extra.penaltyTries[0]);
+    bytes.put(112, 2, false, extra.penaltyTries[1]);
+    bytes.put(114, 2, false, extra.subTime);
+  }
+  if (bytes.bad()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "The value " + std::to_string(bytes.bad()->second) +
+                       " does not fit into the referee packet of version " +
+                       std::to_string(state.version) + ".",
+                   "byte " + std::to_string(bytes.bad()->first));
+  }
+  return bytes.take();
+}
+
+std::optional<int> refereePacketSize(int version, int preferred) {
+  std::optional<int> size;
+  for (const RefereeLayout& layout : refereeLayouts()) {
+    if (layout.version != version) continue;
+    const int one = static_cast<int>(layout.size);
+    if (one == preferred || !size) size = one;
+  }
+  return size;
+}
+
+std::optional<League> refereeLeague(int version, int size) {
+  const RefereeLayout* layout =
+      size < 0 ? nullptr : refereeLayout(version, static_cast<std::size_t>(size));
+  return layout == nullptr ? std::nullopt : std::optional<League>(layout->league);
+}
+
+std::size_t refereeSlots(int version, int size) {
+  const RefereeLayout* layout =
+      size < 0 ? nullptr : refereeLayout(version, static_cast<std::size_t>(size));
+  return layout == nullptr ? 0 : layout->slots;
+}
+
+RefereeState asVersion7(const RefereeState& state) {
+  constexpr int dropBall = 2;  // as a colour
+  RefereeState out = state;
+  out.version = 7;
+  out.size = refereePacketSize(7).value_or(0);
+  out.kickOffRaw = dropBall;
+  for (const RefereeTeam& team : state.teams) {
+    if (state.kickOffTeam == team.number) out.kickOffRaw = team.colour;
+  }
+  if (out.teams[0].colour > out.teams[1].colour) std::swap(out.teams[0], out.teams[1]);
+  for (RefereeTeam& team : out.teams) team.goalColour = team.colour;
+  return out;
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/referee_words.h>
+
+#include <QStringList>
+#include <cstdlib>
+
+#include <ui/base/robot_words.h>
+
+namespace pitchboard::ui {
+namespace {
+
+const QString comma = QStringLiteral(", ");
+
+QString text(const std::string& words) {
+  return QString::fromStdString(words);
+}
+
+}  // namespace
+
+QString refereeClockText(int seconds) {
+  return (seconds < 0 ? QString(QChar(0x2212)) : QString()) + clockText(std::abs(seconds));
+}
+
+QString refereeStateText(const link::RefereeView& view) {
+  QStringList parts{text(view.state) + QLatin1Char(' ') + refereeClockText(view.secondsLeft),
+                    view.firstHalf ? QStringLiteral("first half") : QStringLiteral("second half")};
+  if (!view.phase.empty()) parts << text(view.phase);
+  if (view.stopped) parts << QStringLiteral("stopped");
+  if (view.timedOut) {
+    parts << QStringLiteral("not heard for %1 s").arg(static_cast<qint64>(view.age));
+  }
+  return parts.join(comma);
+}
+
+QString refereeSetPlayText(const link::RefereeView& view) {
+  QStringList parts;
+  if (!view.setPlay.empty()) {
+    parts
+        << (view.performingTeam
+                ? QStringLiteral("%1 for team %2").arg(text(view.setPlay)).arg(*view.performingTeam)
+                : text(view.setPlay));
+  } else if (view.kickOffTeam && !view.countdown.empty() && view.state != "FINISHED") {
+    parts << QStringLiteral("kick-off for team %1").arg(*view.kickOffTeam);
+  }
+  if (!view.setPlayStep.empty()) parts << text(view.setPlayStep);
+  if (!view.countdown.empty()) {
+    parts << QStringLiteral("%1 in %2 s").arg(text(view.countdown)).arg(*view.secondaryTime);
+  }
+  return parts.join(comma);
+}
+
+QString refereeTruthText(const link::RefereeView& view) {
+  if (!view.truth) return {};
+  const link::RefereeTruth& truth = *view.truth;
+  QStringList parts{
+      QStringLiteral("Really: %1 %2").arg(text(truth.state), refereeClockText(truth.secondsLeft)),
+      QStringLiteral("%1 : %2").arg(truth.scores[0]).arg(truth.scores[1])};
+  if (!truth.setPlay.empty()) parts << text(truth.setPlay);
+  if (truth.secondaryTime.value_or(0) != 0) {
+    parts << QStringLiteral("%1 s on the second clock").arg(*truth.secondaryTime);
+  }
+  parts << QStringLiteral("%1 s ago").arg(numberText(truth.age, 1));
+  return parts.join(comma);
+}
+
+QString refereeTeamText(const link::RefereeTeamView& team, int ourTeam) {
+  return QStringLiteral("Team %1 (%2)%3: %4 %5, %6 %7 left")
+      .arg(team.number)
+      .arg(text(team.colour))
+      .arg(team.number == ourTeam && ourTeam != 0 ? QStringLiteral(", ours") : QString())
+      .arg(team.score)
+      .arg(team.score == 1 ? QStringLiteral("goal") : QStringLiteral("goals"))
+      .arg(team.playersLeft)
+      .arg(team.playersLeft == 1 ? QStringLiteral("player") : QStringLiteral("players"));
+}
+
+}  // namespace pitchboard::ui

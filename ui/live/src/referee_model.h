@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The players of one team as the referee says them, and what their robots told the referee, as a
+// table. UI thread only; owned by its view.
+
+#include <QAbstractTableModel>
+#include <vector>
+
+#include <robotlink/frame/live_values.h>
+
+namespace pitchboard::ui {
+
+class RefereeModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { Player, State, Left, Cards, Robot, columns };
+  using QAbstractTableModel::QAbstractTableModel;
+
+  void update(const link::RefereeTeamView& team, const std::vector<link::RobotReplyView>& replies);
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+  QVariant headerData(int section, Qt::Orientation orientation,
+                      int role = Qt::DisplayRole) const override;
+
+ private:
+  struct Row {
+    int number = 0;
+    bool penalised = false, offline = false;
+    QString texts[columns];
+    QString tip;
+    bool operator==(const Row&) const = default;
+  };
+  static Row rowOf(const link::RefereePlayerView& player, const link::RobotReplyView* reply);
+  std::vector<Row> m_rows;
+};
+
+}  // namespace pitchboard::ui
