@@ -169,11 +169,13 @@ void SessionReader::Impl::takeChannels() {
 void SessionReader::Impl::takeSummaries() {
   for (const auto& [id, channel] : file.channels()) {
     const auto of = channel.metadata.find(std::string(session::summaryKey));
-    if (channel.messageEncoding != session::summaryEncoding || of == channel.metadata.end()) continue;
+    if (channel.messageEncoding != session::summaryEncoding || of == channel.metadata.end())
+      continue;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      if (file.channels().at(groups[g].channel).topic == of->second) {
-        summaryChannels.try_emplace(static_cast<GroupId>(g), id);
-      }
+      const bool ofGroup = std::ranges::any_of(groups[g].channels, [&](std::uint16_t rows) {
+        return file.channels().at(rows).topic == of->second;
+      });
+      if (ofGroup) summaryChannels[static_cast<GroupId>(g)].push_back(id);
     }
   }
 }

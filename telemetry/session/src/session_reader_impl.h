@@ -31,7 +31,7 @@ struct SessionReader::Impl {
     SessionStream stream = SessionStream::Events;
   };
   std::vector<Use> useOfChannel;  ///< by channel id
-  std::map<GroupId, std::uint16_t> summaryChannels;
+  std::map<GroupId, std::vector<std::uint16_t>> summaryChannels;
   std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
   /// Chunks by their start, and the latest end among the first n.
   std::vector<std::size_t> byStart;

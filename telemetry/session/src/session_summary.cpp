@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <base/byte_reader.h>
 #include <telemetry/session/session_reader.h>
@@ -53,14 +55,12 @@ std::string summaryBytes(const SummaryPart& part) {
   return out;
 }
 
-std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t columns) {
+std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t most) {
   ByteReader in(bytes);
   if (in.number<std::uint8_t>() != version) return std::nullopt;
   const std::size_t buckets = in.number<std::uint8_t>();
-  if (buckets == 0 || buckets > SummaryPart::mostBuckets ||
-      in.number<std::uint32_t>() != columns) {
-    return std::nullopt;
-  }
+  const std::size_t columns = in.number<std::uint32_t>();
+  if (buckets == 0 || buckets > SummaryPart::mostBuckets || columns > most) return std::nullopt;
   SummaryPart part;
   take(in, buckets, part.begin);
   take(in, buckets, part.end);
@@ -81,6 +81,8 @@ std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t 
     }
   }
   if (!in.ok() || in.left() != 0) return std::nullopt;
+  constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+  part.columns.resize(most, {{nothing}, {nothing}, {nothing}});
   return part;
 }
 
@@ -93,22 +95,34 @@ bool SessionReader::hasSummaries() const {
 GroupSummary SessionReader::summary(GroupId group, const std::function<bool()>& goOn) const {
   GroupSummary out;
   const Impl& impl = *m_impl;
-  const auto channel = impl.summaryChannels.find(group);
-  if (channel == impl.summaryChannels.end()) return out;
+  const auto known = impl.summaryChannels.find(group);
+  if (known == impl.summaryChannels.end()) return out;
+  const std::vector<std::uint16_t>& channels = known->second;
   const std::size_t columns = impl.groups[group].info.columns.size();
   for (std::size_t i = 0; i < impl.file.chunks().size(); ++i) {
     const McapChunkInfo& chunk = impl.file.chunks()[i];
-    if (!Impl::mayHold(chunk, channel->second)) continue;
+    if (std::ranges::none_of(channels, [&](auto id) { return Impl::mayHold(chunk, id); })) continue;
     if (goOn && !goOn()) return {};
     McapCursor cursor(impl.body(i));
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message || cursor.message().channel != channel->second) continue;
-      auto part = session::summaryFromBytes(cursor.message().data, columns);
-      const bool follows = part && (out.parts.empty() ||
-                                    out.parts.back().end.back() <= part->begin.front());
-      if (follows) out.parts.push_back(std::move(*part));
+      if (kind != McapCursor::Kind::Message ||
+          std::ranges::find(channels, cursor.message().channel) == channels.end()) {
+        continue;
+      }
+      if (auto part = session::summaryFromBytes(cursor.message().data, columns)) {
+        out.parts.push_back(std::move(*part));
+      }
     }
   }
+  // The rest of a channel stands at the end, also where another one has followed it.
+  const auto begin = [](const SummaryPart& part) { return part.begin.front(); };
+  std::ranges::stable_sort(out.parts, {}, begin);
+  double end = -1e18;
+  std::erase_if(out.parts, [&end](const SummaryPart& part) {
+    if (part.begin.front() < end) return true;
+    end = part.end.back();
+    return false;
+  });
   return out;
 }
 

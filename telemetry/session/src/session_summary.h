@@ -12,11 +12,13 @@
 
 namespace pitchboard::telemetry::session {
 
-inline constexpr std::string_view summaryKey = "pitchboard.summary";  ///< metadata: the group's topic
+inline constexpr std::string_view summaryKey =
+    "pitchboard.summary";  ///< metadata: the group's topic
 inline constexpr std::string_view summaryEncoding = "x-pitchboard-summary";
 
 std::string summaryBytes(const SummaryPart& part);
-/// Nothing for bytes that are no part of so many columns.
-std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t columns);
+/// Nothing for bytes that are no part of at most so many columns; those that it does not have (they
+/// came later) are holes.
+std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t most);
 
 }  // namespace pitchboard::telemetry::session

@@ -234,13 +234,15 @@ void SessionWriter::Impl::keep(Group& group, const SummaryPart& part) {
   if (group.summaryChannel == 0) {
     group.summaryChannel = ++channels;
     const std::string topic = session::rowTopic(group.info) + group.suffix;
-    chunk.add(McapChannel{group.summaryChannel, 0, topic + "/summary",
+    chunk.add(McapChannel{group.summaryChannel,
+                          0,
+                          topic + "/summary",
                           std::string(session::summaryEncoding),
                           {{std::string(session::summaryKey), topic}}});
   }
   const std::string bytes = session::summaryBytes(part);
-  chunk.add(McapMessage{group.summaryChannel, group.summaries++, group.lastLog, group.lastLog,
-                        bytes});
+  chunk.add(
+      McapMessage{group.summaryChannel, group.summaries++, group.lastLog, group.lastLog, bytes});
   waiting += chunk.bytes();
   full.push_back(std::move(chunk));
   wake.notify_one();
@@ -282,7 +284,8 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
   if (!impl.stop && !impl.error && impl.channels < mostChannels) {
     const std::string& suffix = group.suffix;
     group.channel = impl.addChannel(
-        impl.current, {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)},
+        impl.current,
+        {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)},
         {0,
          0,
          session::rowTopic(info) + suffix,
@@ -386,9 +389,11 @@ Result<void> SessionWriter::finish() {
   Impl& impl = *m_impl;
   {
     const std::lock_guard lock(impl.mutex);
+    // A short session is read as it is; of a long one every group has a picture.
+    const bool isLong = std::any_of(impl.groups.begin(), impl.groups.end(),
+                                    [](const auto& group) { return group.summaryChannel != 0; });
     for (Impl::Group& group : impl.groups) {
-      // A short session is read as it is.
-      if (impl.stop || impl.error || group.summaryChannel == 0) continue;
+      if (impl.stop || impl.error || !isLong) continue;
       if (const auto rest = group.summary.finish()) impl.keep(group, *rest);
     }
     impl.stop = true;

@@ -54,9 +54,8 @@ Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm
   if (form.format == ExportFormat::Mcap) {
     selection.opening = link::openingAt(*session, selection.range.begin);
   }
-  const auto report =
-      telemetry::exportFile(*session, form.format, selection, request.path.toStdString(),
-                            progress, IfExists::Replace);
+  const auto report = telemetry::exportFile(
+      *session, form.format, selection, request.path.toStdString(), progress, IfExists::Replace);
   if (!report) return tl::unexpected(report.error());
   return report->bytes;
 }

@@ -50,8 +50,8 @@ double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRan
 
 /// Rows on their way into memory; looks now and then whether anybody still wants them. Up to
 /// `whole` (s) every row is there. What is damaged anywhere in the file, in sentences.
-QStringList readRows(const QString& path, telemetry::SeriesStore& store,
-                     std::atomic<double>& whole, const std::function<bool(double)>& goOn) {
+QStringList readRows(const QString& path, telemetry::SeriesStore& store, std::atomic<double>& whole,
+                     const std::function<bool(double)>& goOn) {
   const auto session = telemetry::SessionReader::open(path.toStdString());
   if (!session) return {};
   const auto range = session->range();
@@ -122,13 +122,14 @@ struct ReplayController::File {
   void readEvents() {
     events = link::eventsOf(session);
     constexpr std::size_t maxLines = 10'000;
-    session.messages(telemetry::SessionStream::Log, range, [this](double time, std::string_view json) {
-      if (auto line = telemetry::sessionLogLine(json)) {
-        line->time = time;
-        log.push_back(std::move(*line));
-      }
-      return log.size() < maxLines;
-    });
+    session.messages(telemetry::SessionStream::Log, range,
+                     [this](double time, std::string_view json) {
+                       if (auto line = telemetry::sessionLogLine(json)) {
+                         line->time = time;
+                         log.push_back(std::move(*line));
+                       }
+                       return log.size() < maxLines;
+                     });
     addEvents(events, log);
   }
 };
@@ -197,8 +198,8 @@ void ReplayController::open(const QString& path) {
       file->start = firstMomentOf(file->session, file->range, file->frames);
       file->first =
           std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, file->start));
-      file->paged = file->session.hasSummaries() &&
-                    bytesOfRows(file->session) > static_cast<double>(budget);
+      file->paged =
+          file->session.hasSummaries() && bytesOfRows(file->session) > static_cast<double>(budget);
       // Of a long session they come after the first frame.
       if (!file->paged) file->readEvents();
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
@@ -335,19 +336,19 @@ void ReplayController::page() {
   emit loadedChanged(m_loaded);
   m_loader.start([this, path = m_path, file = m_file, budget = m_budget, mine = ++m_loading] {
     auto reader = telemetry::SessionReader::open(path.toStdString());
-    m_toUi.post([this, file, budget, mine, reader = std::make_shared<decltype(reader)>(
-                                               std::move(reader))] {
-      if (mine != m_loading) return;
-      if (*reader) {
-        for (const telemetry::SessionGroup& group : (*reader)->groups()) {
-          (void)file->rows->addGroup(group.info);
-        }
-        m_pages = std::make_shared<ReplayPages>(std::move(**reader), budget);
-        file->rows->setPages(m_pages);
-      }
-      m_loaded = 1.0;
-      emit loadedChanged(m_loaded);
-    });
+    m_toUi.post(
+        [this, file, budget, mine, reader = std::make_shared<decltype(reader)>(std::move(reader))] {
+          if (mine != m_loading) return;
+          if (*reader) {
+            for (const telemetry::SessionGroup& group : (*reader)->groups()) {
+              (void)file->rows->addGroup(group.info);
+            }
+            m_pages = std::make_shared<ReplayPages>(std::move(**reader), budget);
+            file->rows->setPages(m_pages);
+          }
+          m_loaded = 1.0;
+          emit loadedChanged(m_loaded);
+        });
   });
 }
 

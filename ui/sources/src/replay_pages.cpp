@@ -120,9 +120,8 @@ void ReplayPages::forgetSummaries() {
   std::size_t sum = 0;
   for (const auto& [group, summary] : m_summaries) sum += summary->bytes();
   while (sum > m_room / 2 && m_summaries.size() > 1) {
-    const auto last = std::find_if(m_recent.rbegin(), m_recent.rend(), [this](GroupId group) {
-      return m_summaries.contains(group);
-    });
+    const auto last = std::find_if(m_recent.rbegin(), m_recent.rend(),
+                                   [this](GroupId group) { return m_summaries.contains(group); });
     if (last == m_recent.rend()) return;
     sum -= m_summaries[*last]->bytes();
     m_summaries.erase(*last);

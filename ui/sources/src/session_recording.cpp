@@ -292,16 +292,16 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     past.catalog = m_controller->catalog().toJson();
     archive = m_controller->memory()->archive();
   }
-  return
-      [past = std::move(past), rows, archive, heard, about, seconds](const QString& path) -> Result<void> {
-        link::RecentPast all = past;
-        all.rows = rows.get();
-        all.archive = archive.get();
-        all.heard = heard.get();
-        const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
-        if (!done) return tl::unexpected(done.error());
-        return {};
-      };
+  return [past = std::move(past), rows, archive, heard, about,
+          seconds](const QString& path) -> Result<void> {
+    link::RecentPast all = past;
+    all.rows = rows.get();
+    all.archive = archive.get();
+    all.heard = heard.get();
+    const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
+    if (!done) return tl::unexpected(done.error());
+    return {};
+  };
 }
 
 void SessionRecording::saveLast(double seconds) {
