@@ -30,7 +30,7 @@ class Pages : public SeriesPages {
   explicit Pages(const SessionReader& session) : m_session(session) {
     m_range = {session.range()->begin, session.range()->end};
   }
-  std::shared_ptr<const GroupSummary> summary(GroupId group) override {
+  std::shared_ptr<const GroupSummary> summary(GroupId group, bool) override {
     return std::make_shared<const GroupSummary>(m_session.summary(group));
   }
   std::optional<Stretch> held(GroupId group) override {

@@ -24,9 +24,7 @@ class PagedView final : public GroupView {
  public:
   PagedView(std::shared_ptr<const GroupView> empty, GroupId group,
             std::shared_ptr<SeriesPages> pages)
-      : m_empty(std::move(empty)),
-        m_pages(std::move(pages)),
-        m_summary(m_pages->summary(group)) {
+      : m_empty(std::move(empty)), m_group(group), m_pages(std::move(pages)) {
     if (auto held = m_pages->held(group)) {
       m_held = held->range;
       m_rows = std::move(held->rows);
@@ -35,17 +33,19 @@ class PagedView final : public GroupView {
 
   const GroupInfo& info() const override { return m_empty->info(); }
   std::optional<TimeRange> range() const override {
-    if (m_summary) return m_summary->range();
+    if (const auto summary = m_pages->summary(m_group, false)) return summary->range();
     return m_rows ? m_rows->range() : std::nullopt;
   }
   std::size_t rows() const override {
-    return m_summary ? static_cast<std::size_t>(m_summary->rows()) : 0;
+    const auto summary = m_pages->summary(m_group, true);
+    return summary ? static_cast<std::size_t>(summary->rows()) : 0;
   }
   double rate() const override { return m_rows ? m_rows->rate() : 0.0; }
 
   std::optional<Sample> latest(std::uint32_t column) const override {
-    if (!m_summary || m_summary->parts.empty()) return std::nullopt;
-    const SummaryPart& part = m_summary->parts.back();
+    const auto summary = m_pages->summary(m_group, false);
+    if (!summary || summary->parts.empty()) return std::nullopt;
+    const SummaryPart& part = summary->parts.back();
     if (column >= part.columns.size()) return std::nullopt;
     return Sample{part.end.back(), valueOf(part.columns[column].last, part.buckets() - 1)};
   }
@@ -65,37 +65,38 @@ class PagedView final : public GroupView {
     std::fill(out.begin(), out.end(), SeriesBucket{nothing, nothing, nothing, nothing, 0});
     const double width = (range.end - range.begin) / static_cast<double>(out.size());
     if (!(width > 0.0)) return;
-    each(column, range, [&](const SummaryPart& part, const SummaryPart::Column& values,
-                            std::size_t bucket) {
-      const auto place = [&](double time) {
-        return std::clamp((time - range.begin) / width, 0.0, static_cast<double>(out.size() - 1));
-      };
-      const auto first = static_cast<std::size_t>(place(part.begin[bucket]));
-      const auto last = static_cast<std::size_t>(place(part.end[bucket]));
-      const std::uint32_t share =
-          std::max(1U, part.rows[bucket] / static_cast<std::uint32_t>(last - first + 1));
-      for (std::size_t i = first; i <= last; ++i) {
-        SeriesBucket& to = out[i];
-        const double low = valueOf(values.min, bucket), high = valueOf(values.max, bucket);
-        to.min = std::fmin(to.min, low);
-        to.max = std::fmax(to.max, high);
-        if (to.samples == 0) to.first = valueOf(values.last, bucket);
-        to.last = valueOf(values.last, bucket);
-        to.samples += share;
-      }
-    });
+    each(column, range,
+         [&](const SummaryPart& part, const SummaryPart::Column& values, std::size_t bucket) {
+           const auto place = [&](double time) {
+             return std::clamp((time - range.begin) / width, 0.0,
+                               static_cast<double>(out.size() - 1));
+           };
+           const auto first = static_cast<std::size_t>(place(part.begin[bucket]));
+           const auto last = static_cast<std::size_t>(place(part.end[bucket]));
+           const std::uint32_t share =
+               std::max(1U, part.rows[bucket] / static_cast<std::uint32_t>(last - first + 1));
+           for (std::size_t i = first; i <= last; ++i) {
+             SeriesBucket& to = out[i];
+             const double low = valueOf(values.min, bucket), high = valueOf(values.max, bucket);
+             to.min = std::fmin(to.min, low);
+             to.max = std::fmax(to.max, high);
+             if (to.samples == 0) to.first = valueOf(values.last, bucket);
+             to.last = valueOf(values.last, bucket);
+             to.samples += share;
+           }
+         });
   }
 
   bool samples(std::uint32_t column, TimeRange range, std::vector<Sample>& out,
                std::size_t most) const override {
     if (holds(range)) return m_rows->samples(column, range, out, most);
     out.clear();
-    each(column, range, [&](const SummaryPart& part, const SummaryPart::Column& values,
-                            std::size_t bucket) {
-      const double time = part.end[bucket];
-      if (time < range.begin || time > range.end || out.size() >= most) return;
-      out.push_back({time, valueOf(values.last, bucket)});
-    });
+    each(column, range,
+         [&](const SummaryPart& part, const SummaryPart::Column& values, std::size_t bucket) {
+           const double time = part.end[bucket];
+           if (time < range.begin || time > range.end || out.size() >= most) return;
+           out.push_back({time, valueOf(values.last, bucket)});
+         });
     return false;
   }
 
@@ -105,12 +106,12 @@ class PagedView final : public GroupView {
     (void)samples(column, range, some, SIZE_MAX);
     SeriesStatistics out = statisticsOf(some, range);
     std::uint64_t rows = 0;
-    each(column, range, [&](const SummaryPart& part, const SummaryPart::Column& values,
-                            std::size_t bucket) {
-      rows += part.rows[bucket];
-      out.min = std::fmin(out.min, valueOf(values.min, bucket));
-      out.max = std::fmax(out.max, valueOf(values.max, bucket));
-    });
+    each(column, range,
+         [&](const SummaryPart& part, const SummaryPart::Column& values, std::size_t bucket) {
+           rows += part.rows[bucket];
+           out.min = std::fmin(out.min, valueOf(values.min, bucket));
+           out.max = std::fmax(out.max, valueOf(values.max, bucket));
+         });
     out.samples = rows;
     return out;
   }
@@ -128,8 +129,9 @@ class PagedView final : public GroupView {
   /// Buckets that reach into the range, in order.
   template <class Visit>
   void each(std::uint32_t column, TimeRange range, const Visit& visit) const {
-    if (!m_summary) return;
-    for (const SummaryPart& part : m_summary->parts) {
+    const auto summary = m_pages->summary(m_group, true);
+    if (!summary) return;
+    for (const SummaryPart& part : summary->parts) {
       if (part.end.back() < range.begin || part.begin.front() > range.end) continue;
       if (column >= part.columns.size()) continue;
       for (std::size_t i = 0; i < part.buckets(); ++i) {
@@ -140,10 +142,10 @@ class PagedView final : public GroupView {
   }
 
   std::shared_ptr<const GroupView> m_empty;
-  std::shared_ptr<SeriesPages> m_pages;
+  const GroupId m_group;
+  const std::shared_ptr<SeriesPages> m_pages;
   std::optional<TimeRange> m_held;
   std::shared_ptr<const GroupView> m_rows;
-  std::shared_ptr<const GroupSummary> m_summary;
 };
 
 }  // namespace

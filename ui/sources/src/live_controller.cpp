@@ -128,10 +128,6 @@ telemetry::WallTime LiveController::began() const {
   return m_watch ? m_watch->began() : telemetry::WallTime{};
 }
 
-telemetry::WallTime LiveController::began() const {
-  return m_watch ? m_watch->began() : telemetry::WallTime{};
-}
-
 std::optional<QDateTime> LiveController::clock() const {
   if (!m_watch) return {};
   const auto began =

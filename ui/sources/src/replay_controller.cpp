@@ -21,19 +21,6 @@ QDateTime dateTimeOf(telemetry::WallTime time) {
       std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
 }
 
-/// Bytes of all rows as they are; in memory they take about as much.
-double bytesOfRows(const telemetry::SessionReader& session) {
-  double sum = 0.0;
-  for (const telemetry::SessionGroup& group : session.groups()) {
-    double row = sizeof(double);
-    for (const telemetry::ColumnInfo& column : group.info.columns) {
-      row += column.type == telemetry::ColumnType::Float64 ? 8.0 : 4.0;
-    }
-    sum += row * static_cast<double>(group.rows);
-  }
-  return sum;
-}
-
 /// The first moment that has a robot; the beginning when none has.
 double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRange range,
                      link::RecordedFrames& frames) {

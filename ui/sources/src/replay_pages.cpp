@@ -2,24 +2,32 @@
 #include "replay_pages.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <vector>
 
 namespace pitchboard::ui {
 
 using telemetry::GroupId;
 using telemetry::TimeRange;
 
-ReplayPages::ReplayPages(telemetry::SessionReader reader, std::size_t bytes)
-    : m_reader(std::move(reader)), m_room(bytes) {
-  if (const auto range = m_reader.range()) m_range = {range->begin, range->end};
+double bytesOfRows(const telemetry::SessionReader& session) {
   double sum = 0.0;
-  for (const telemetry::SessionGroup& group : m_reader.groups()) {
+  for (const telemetry::SessionGroup& group : session.groups()) {
     double row = sizeof(double);
     for (const telemetry::ColumnInfo& column : group.info.columns) {
       row += column.type == telemetry::ColumnType::Float64 ? 8.0 : 4.0;
     }
     sum += row * static_cast<double>(group.rows);
   }
-  m_bytesPerSecond = std::max(1.0, sum / std::max(m_range.end - m_range.begin, 1e-3));
+  return sum;
+}
+
+ReplayPages::ReplayPages(telemetry::SessionReader reader, std::size_t bytes)
+    : m_reader(std::move(reader)), m_room(bytes) {
+  if (const auto range = m_reader.range()) m_range = {range->begin, range->end};
+  m_bytesPerSecond =
+      std::max(1.0, bytesOfRows(m_reader) / std::max(m_range.end - m_range.begin, 1e-3));
 }
 
 ReplayPages::~ReplayPages() {
@@ -41,17 +49,20 @@ void ReplayPages::setBytes(std::size_t bytes) {
 std::size_t ReplayPages::bytes() {
   const std::lock_guard lock(m_mutex);
   std::size_t sum = m_rows ? m_rows->memoryBytes() : 0;
-  for (const auto& [group, summary] : m_summaries) sum += summary->bytes();
+  for (const auto& [group, summary] : m_summaries) sum += summary.parts->bytes();
   return sum;
 }
 
-std::shared_ptr<const telemetry::GroupSummary> ReplayPages::summary(GroupId group) {
+std::shared_ptr<const telemetry::GroupSummary> ReplayPages::summary(GroupId group, bool whole) {
   const std::lock_guard lock(m_mutex);
-  m_recent.remove(group);
-  m_recent.push_front(group);
-  if (const auto known = m_summaries.find(group); known != m_summaries.end()) return known->second;
+  if (whole) {
+    m_recent.remove(group);
+    m_recent.push_front(group);
+  }
+  const auto known = m_summaries.find(group);
+  if (known != m_summaries.end() && (known->second.whole || !whole)) return known->second.parts;
   if (group < m_reader.groups().size() && m_askedFor.insert(group).second) work();
-  return nullptr;
+  return known != m_summaries.end() ? known->second.parts : nullptr;
 }
 
 std::optional<telemetry::SeriesPages::Stretch> ReplayPages::held(GroupId group) {
@@ -111,20 +122,31 @@ void ReplayPages::readSummary(GroupId group) {
       m_reader.summary(group, [this] { return !m_ends; }));
   const std::lock_guard lock(m_mutex);
   m_askedFor.erase(group);
-  m_summaries[group] = std::move(read);
+  m_summaries[group] = {std::move(read), true};
   forgetSummaries();
 }
 
-/// Those that nobody has looked at for the longest time; one is always kept.
+/// Of those that nobody has drawn for the longest time the first and the last part are left; one is
+/// always kept whole.
 void ReplayPages::forgetSummaries() {
   std::size_t sum = 0;
-  for (const auto& [group, summary] : m_summaries) sum += summary->bytes();
-  while (sum > m_room / 2 && m_summaries.size() > 1) {
-    const auto last = std::find_if(m_recent.rbegin(), m_recent.rend(),
-                                   [this](GroupId group) { return m_summaries.contains(group); });
-    if (last == m_recent.rend()) return;
-    sum -= m_summaries[*last]->bytes();
-    m_summaries.erase(*last);
+  std::vector<GroupId> whole;  // what was drawn last stands last
+  for (const auto& [group, summary] : m_summaries) {
+    sum += summary.parts->bytes();
+    if (summary.whole) whole.push_back(group);
+  }
+  const auto age = [this](GroupId group) {
+    return std::distance(m_recent.begin(), std::find(m_recent.begin(), m_recent.end(), group));
+  };
+  std::ranges::stable_sort(whole, std::greater(), age);
+  for (std::size_t i = 0; i + 1 < whole.size() && sum > m_room / 2; ++i) {
+    Summary& summary = m_summaries[whole[i]];
+    auto ends = std::make_shared<telemetry::GroupSummary>();
+    const auto& parts = summary.parts->parts;
+    if (!parts.empty()) ends->parts.push_back(parts.front());
+    if (parts.size() > 1) ends->parts.push_back(parts.back());
+    sum = sum - summary.parts->bytes() + ends->bytes();
+    summary = {std::move(ends), false};
   }
 }
 

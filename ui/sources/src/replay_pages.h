@@ -17,6 +17,9 @@
 
 namespace pitchboard::ui {
 
+/// Of all rows as they are; in memory they take about as much.
+double bytesOfRows(const telemetry::SessionReader& session);
+
 class ReplayPages : public telemetry::SeriesPages {
  public:
   /// `reader`: another one of the same file, for this only. `groups`: what they are in the store
@@ -24,7 +27,8 @@ class ReplayPages : public telemetry::SeriesPages {
   ReplayPages(telemetry::SessionReader reader, std::size_t bytes);
   ~ReplayPages() override;
 
-  std::shared_ptr<const telemetry::GroupSummary> summary(telemetry::GroupId group) override;
+  std::shared_ptr<const telemetry::GroupSummary> summary(telemetry::GroupId group,
+                                                         bool whole) override;
   std::optional<Stretch> held(telemetry::GroupId group) override;
   void want(telemetry::TimeRange range) override;
   telemetry::TimeRange range() override { return m_range; }
@@ -49,7 +53,11 @@ class ReplayPages : public telemetry::SeriesPages {
   std::size_t m_room;
   bool m_working = false;
   std::set<telemetry::GroupId> m_askedFor;
-  std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupSummary>> m_summaries;
+  struct Summary {
+    std::shared_ptr<const telemetry::GroupSummary> parts;
+    bool whole = true;  ///< false: the first and the last part are left
+  };
+  std::map<telemetry::GroupId, Summary> m_summaries;
   std::list<telemetry::GroupId> m_recent;  // newest first
   std::optional<telemetry::TimeRange> m_wanted, m_held;
   std::shared_ptr<telemetry::SeriesStore> m_rows;

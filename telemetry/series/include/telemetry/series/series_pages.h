@@ -14,8 +14,9 @@ namespace pitchboard::telemetry {
 class SeriesPages {
  public:
   virtual ~SeriesPages() = default;
-  /// Null while it is being read; asking for it has it read.
-  virtual std::shared_ptr<const GroupSummary> summary(GroupId group) = 0;
+  /// Null while it is being read; asking for it has it read. Not `whole`: its first and last part
+  /// will do, for lists that ask for every group.
+  virtual std::shared_ptr<const GroupSummary> summary(GroupId group, bool whole) = 0;
   /// Every row of one stretch.
   struct Stretch {
     TimeRange range;
