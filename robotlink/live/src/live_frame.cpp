@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <robotlink/frame/belief.h>
+#include <robotlink/frame/second_sender.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::link {
