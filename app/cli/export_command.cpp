@@ -5,8 +5,11 @@
 #include <cstdio>
 #include <memory>
 
+#include <robotlink/session/live_moments.h>
+
 #include "commands.h"
 #include "interrupt.h"
+#include "picture_export.h"
 #include "progress.h"
 #include "report_command.h"
 
@@ -21,13 +24,15 @@ struct Options {
   std::string file, format = "csv-wide", output;
   std::optional<double> from, to;
   std::vector<std::string> robots, variables;
-  bool rowsOnly = false;
+  bool rowsOnly = false, clock = false, interpolate = false;
+  double rate = 10.0;
   bool progress = false;
 };
 
 int run(const Options& options) {
   const bool asReport = options.format == reportFormat;
-  const auto format = asReport ? ExportFormat::CsvWide : exportFormat(options.format);
+  const bool asPicture = isPictureFormat(options.format);
+  const auto format = asReport || asPicture ? ExportFormat::CsvWide : exportFormat(options.format);
   if (!format) return reportError(format.error());
   if (*format == ExportFormat::Mcap && options.output.empty()) {
     return reportError({ErrorCode::InvalidArgument, "A session needs a file; add -o FILE.", {}});
@@ -42,8 +47,12 @@ int run(const Options& options) {
   reading.progress = [](double) { return !interrupted; };
   const auto session = SessionReader::open(options.file, reading);
   if (!session) return reportError(session.error());
-  if (asReport) {
-    const auto done = exportReport(*session, selection.range, options.output);
+  if (asReport || asPicture) {
+    const auto done = asReport ? exportReport(*session, selection.range, options.output)
+                               : exportPictures(*session,
+                                                {options.format, options.from, options.to,
+                                                 options.rate, options.output},
+                                                std::ref(progress));
     for (const std::string& note : session->notes())
       std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
@@ -51,6 +60,11 @@ int run(const Options& options) {
   selection.robots = options.robots;
   selection.variables = options.variables;
   selection.messages = !options.rowsOnly;
+  selection.clock = options.clock;
+  selection.resampling = {options.rate, options.interpolate};
+  if (*format == ExportFormat::Mcap) {
+    selection.opening = link::openingAt(*session, selection.range.begin);
+  }
   const auto report = [&] {
     if (!options.output.empty()) {
       return exportFile(*session, *format, selection, options.output, std::ref(progress));
@@ -81,12 +95,17 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       "Examples: pitchboard-cli export match.mcap --to csv-wide -o match.csv\n"
       "          pitchboard-cli export match.mcap --to csv-long --robots B1,R2 --variables "
       "'VISION_*'\n"
-      "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap");
+      "          pitchboard-cli export live.mcap --to csv-even --rate 5 --robots 'Robot 1' "
+      "--clock\n"
+      "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap\n"
+      "          pitchboard-cli export match.mcap --to mp4 --from 60 --until 90 -o goal.mp4");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command
       ->add_option("--to", options->format,
-                   "csv-wide: a line per time; csv-long: a line per value; jsonl; mcap; report: "
-                   "an HTML page with score, statistics and events")
+                   "csv-wide: a line per time; csv-even: the same at even times; csv-long: a line "
+                   "per value; jsonl; mcap; report: an HTML page with score, statistics and "
+                   "events; svg, png: the field at --from; mp4, webm: a video of the field (png "
+                   "and videos need ffmpeg)")
       ->type_name("FORMAT")
       ->capture_default_str();
   command->add_option("--from", options->from, "First second")->type_name("T");
@@ -97,6 +116,12 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
   command->add_option("--variables", options->variables, "Only these; * stands for any letters")
       ->type_name("NAMES")
       ->delimiter(',');
+  command->add_option("--rate", options->rate, "csv-even: lines, videos: pictures a second")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--interpolate", options->interpolate,
+                    "csv-even: on the line between two rows; else each value holds until the next");
+  command->add_flag("--clock", options->clock, "CSV: the time of day (UTC) behind each time");
   command->add_flag("--rows-only", options->rowsOnly,
                     "Without events, log and datagrams (jsonl, mcap)");
   command->add_option("-o,--output", options->output, "A new file; else the text goes to stdout")

@@ -23,7 +23,7 @@ struct Options {
 };
 
 constexpr std::array<std::string_view, sessionStreamCount> streamNames{
-    "events", "log", "telemetry", "referee/raw", "referee", "checkpoints"};
+    "events", "log", "telemetry", "referee/raw", "referee", "checkpoints", "live/state"};
 
 std::string wallText(WallTime time) {
   const std::time_t seconds = std::chrono::system_clock::to_time_t(

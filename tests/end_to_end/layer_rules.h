@@ -76,7 +76,7 @@ inline const QList<Room>& table() {
         {match,
          all("simcore") + QStringList{wire, board, processes, models, cognition, scenario, frame},
          {}},
-        {live, {base, world, simulation, wire, series, board, frame}, {}},
+        {live, {base, world, simulation, wire, series, board, frame}, {"nlohmann/"}},
         {session,
          below + QStringList{board, processes, cognition, scenario, frame, match, live},
          {"nlohmann/"}},

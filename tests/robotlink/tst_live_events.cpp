@@ -261,6 +261,30 @@ class TestLiveEvents : public QObject {
     s.events.clear();
     QCOMPARE(kindsOf(s.at(2.0)), kindsOf(first));
   }
+
+  void aLowBatteryIsSaidOnce() {
+    Stage s;
+    RobotHealth& robot = s.robot(2);
+    const auto volts = [&](double value) {
+      robot.battery = telemetry::batteryAt(value, telemetry::usualBattery);
+    };
+    volts(16.4);
+    s.at(0.0);
+    volts(15.9);
+    const auto events = s.at(1.0);
+    QCOMPARE(kindsOf(events), (Kinds{Kind::BatteryLow}));
+    QCOMPARE(events[0].value, std::optional(159));
+    QCOMPARE(sentenceOf(events[0]), std::string("B2 has a low battery: 15.9 V"));
+    // It trembles around the limit, then another one is put in, which gets low as well.
+    for (const double value : {16.1, 15.9, 16.1}) {
+      volts(value);
+      QVERIFY(s.at(2.0).empty());
+    }
+    volts(18.0);
+    QVERIFY(s.at(3.0).empty());
+    volts(15.8);
+    QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::BatteryLow}));
+  }
 };
 
 QTEST_GUILESS_MAIN(TestLiveEvents)

@@ -11,37 +11,12 @@
 #include <robotlink/live/live_watch.h>
 #include <telemetry/wire/text_protocol.h>
 
-#include "../support/test_socket.h"
+#include "live_ports.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
 
 namespace {
-
-/// Ports of this test: `robots` after a base and the referee's, that nobody has at this moment.
-LiveOptions freeOptions(int robots = 3) {
-  for (int attempt = 0; attempt < 200; ++attempt) {
-    const int base = TestSocket().port();
-    bool free = base + robots + 1 < 65536;
-    for (int i = 1; free && i <= robots + 1; ++i) {
-      const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-      sockaddr_in name{};
-      name.sin_family = AF_INET;
-      name.sin_port = htons(static_cast<std::uint16_t>(base + i));
-      name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-      free = bind(descriptor, reinterpret_cast<sockaddr*>(&name), sizeof name) == 0;
-      close(descriptor);
-    }
-    if (!free) continue;
-    LiveOptions made;
-    made.bind = {INADDR_LOOPBACK};
-    made.portBase = base;
-    made.robots = robots;
-    made.refereePort = base + robots + 1;
-    return made;
-  }
-  qFatal("no free ports");
-}
 
 std::uint16_t portOf(const LiveOptions& options, int robot) {
   return static_cast<std::uint16_t>(options.portBase + robot);

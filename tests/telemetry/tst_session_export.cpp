@@ -230,6 +230,48 @@ class TestSessionExport : public QObject {
         exportText(session(), ExportFormat::CsvLong, {}, [](std::string_view) { return false; });
     QVERIFY(!sink);
   }
+
+  void evenTimes() {
+    // 300 rows at 60/s: 5 s. Ten lines a second begin with the first row.
+    ExportSelection selection;
+    selection.robots = {"match", "B2"};
+    selection.variables = {"BALL_X", "DECISION_ACTION_A"};
+    selection.resampling = {10.0, false};
+    auto lines = textOf(session(), ExportFormat::CsvEven, selection);
+    QCOMPARE(lines[0], QByteArray("time,B2.DECISION_ACTION_A,match.BALL_X"));
+    QCOMPARE(lines.size(), 51);  // 0.0 to 4.9
+    // Every sixth row: held and interpolated agree with it.
+    QCOMPARE(lines[11].split(',')[0], QByteArray("1"));
+    QVERIFY(std::abs(lines[11].split(',')[2].toDouble() - 6.0) < 1e-9);
+    // Between rows: seven lines a second.
+    selection.resampling = {7.0, false};
+    lines = textOf(session(), ExportFormat::CsvEven, selection);
+    QVERIFY(std::abs(lines[2].split(',')[2].toDouble() - 0.8) < 1e-9);  // the row at 8/60
+    QCOMPARE(lines[2].split(',')[1], QByteArray("-8"));
+    selection.resampling.interpolate = true;
+    lines = textOf(session(), ExportFormat::CsvEven, selection);
+    QVERIFY(std::abs(lines[2].split(',')[2].toDouble() - 6.0 / 7.0) < 1e-9);
+    QCOMPARE(lines[2].split(',')[1], QByteArray("-8"));  // a code has nothing between
+    selection.resampling.rate = 0.0;
+    const auto refused = exportText(session(), ExportFormat::CsvEven, selection,
+                                    [](std::string_view) { return true; });
+    QVERIFY(!refused);
+  }
+
+  void timeOfDay() {
+    ExportSelection selection;
+    selection.robots = {"match"};
+    selection.variables = {"BALL_X"};
+    selection.clock = true;
+    // 1 700 000 000 s after 1970, by the computer's own `date`.
+    const auto wide = textOf(session(), ExportFormat::CsvWide, selection);
+    QCOMPARE(wide[0], QByteArray("time,clock,match.BALL_X"));
+    QVERIFY2(wide[1].startsWith("0,2023-11-14T22:13:20.000Z,"), wide[1].constData());
+    QVERIFY2(wide[61].startsWith("1,2023-11-14T22:13:21.000Z,"), wide[61].constData());
+    const auto rows = textOf(session(), ExportFormat::CsvLong, selection);
+    QCOMPARE(rows[0], QByteArray("time,clock,robot,variable,value"));
+    QVERIFY(rows[1].startsWith("0,2023-11-14T22:13:20.000Z,match,BALL_X,"));
+  }
 };
 
 QTEST_GUILESS_MAIN(TestSessionExport)

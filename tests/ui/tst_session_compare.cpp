@@ -5,8 +5,10 @@
 #include <QMenu>
 
 #include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
 #include <ui/sources/compared_session.h>
 
+#include "chart_pane.h"
 #include "compared_item.h"
 #include "session_rig.h"
 #include "timeline_strip.h"
@@ -114,6 +116,57 @@ class TestSessionCompare : public QObject {
     s.window.compared()->open(s.folder.filePath(QStringLiteral("none.mcap")));
     QTRY_VERIFY2(s.notice().contains(QStringLiteral("none.mcap")), qPrintable(s.notice()));
     QVERIFY(!s.window.compared()->isOn());
+  }
+
+  void itsCurvesStandInTheSamePlots() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QVERIFY(!path.isEmpty());
+    auto* plots = s.window.findChild<PlotsDock*>();
+    QVERIFY(plots != nullptr);
+    plots->plotVariables({QStringLiteral("B1/TRUE_X")});
+    s.window.compared()->open(path);
+    QTRY_VERIFY(s.window.compared()->isOn());
+    s.window.timeline()->seek(12.0);
+    plots->time()->setRange({10.5, 14.5});
+    auto* pane = plots->findChild<ChartPane*>();
+    QVERIFY(pane != nullptr);
+    const auto low = [](const std::vector<CurveTrace>& traces) {
+      return traces.empty() || !traces.front().any ? std::nan("") : traces.front().low;
+    };
+    // The same match: the two curves lie on each other.
+    QTRY_VERIFY(!std::isnan(low(pane->comparedTraces())));
+    QTRY_COMPARE(low(pane->comparedTraces()), low(pane->traces()));
+    // Moved by 3 s: what is drawn at 13.5 s is what was there at 10.5 s.
+    s.window.compared()->setOffset(3.0);
+    QTRY_VERIFY(!pane->comparedTraces().empty() && pane->comparedTraces().front().any);
+    const auto first = [](const CurveTrace& trace) {
+      return trace.exact ? trace.samples.front().time : trace.columns.front().time;
+    };
+    QTRY_VERIFY(first(pane->comparedTraces().front()) > 12.9);
+    s.window.compared()->stop();
+    QTRY_VERIFY(std::isnan(low(pane->comparedTraces())));
+  }
+
+  void itIsMovedByHand() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QSignalSpy changed(s.window.compared(), &ComparedSession::changed);
+    s.window.compared()->open(path);
+    QTRY_COMPARE(changed.size(), 1);
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    const QRect row = strip->comparedRect();
+    const QPoint from(row.center()), to(row.center() + QPoint(60, 0));
+    QTest::mousePress(strip, Qt::LeftButton, {}, from);
+    QTest::mouseMove(strip, to);
+    QTest::mouseRelease(strip, Qt::LeftButton, {}, to);
+    const double moved = 60.0 * strip->axis().secondsPerPixel();
+    QVERIFY(std::abs(s.window.compared()->offset() - moved) < 0.05 * moved + 0.05);
+    QVERIFY(!s.window.compared()->isAlignedByTime());
+    s.window.compared()->alignByTime();
+    QCOMPARE(s.window.compared()->offset(), 0.0);
   }
 };
 

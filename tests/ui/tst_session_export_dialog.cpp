@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Export through its dialog: from a session, and from memory.
 #include <QComboBox>
+#include <QDesktopServices>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QSvgRenderer>
+#include <QToolButton>
 
 #include <telemetry/session/session_reader.h>
 #include <ui/field/field_view.h>
@@ -18,6 +21,15 @@
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::Studio;
+
+/// What the desktop was asked to open.
+class UrlCatcher : public QObject {
+  Q_OBJECT
+ public:
+  QList<QUrl> urls;
+ public slots:
+  void take(const QUrl& url) { urls << url; }
+};
 
 class TestSessionExportDialog : public QObject {
   Q_OBJECT
@@ -183,6 +195,49 @@ class TestSessionExportDialog : public QObject {
     dialog->exportTo(s.folder.filePath(QStringLiteral("out.csv")));
     QCOMPARE(failed.size(), 1);
     QVERIFY(message(dialog).contains(QStringLiteral("ends before it begins")));
+  }
+
+  void robotsAndVariablesAreTicked() {
+    Studio s(300);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
+    ExportDialog* dialog = openDialog(s);
+    QVERIFY(dialog != nullptr);
+    choose(dialog, QStringLiteral("even times"));
+    const auto lists = dialog->findChildren<QListWidget*>();
+    QCOMPARE(lists.size(), 2);
+    const auto tick = [](QListWidget* list, const QStringList& names) {
+      for (int i = 0; i < list->count(); ++i) {
+        const bool on = names.contains(list->item(i)->text());
+        list->item(i)->setCheckState(on ? Qt::Checked : Qt::Unchecked);
+      }
+    };
+    QSignalSpy failed(dialog, &ExportDialog::failed), written(dialog, &ExportDialog::written);
+    const QString path = s.folder.filePath(QStringLiteral("some.csv"));
+    tick(lists[0], {});
+    dialog->exportTo(path);
+    QCOMPARE(failed.size(), 1);
+    tick(lists[0], {QStringLiteral("B2"), QStringLiteral("match")});
+    tick(lists[1], {QStringLiteral("TRUE_X"), QStringLiteral("BALL_X")});
+    auto* open = dialog->findChild<QToolButton*>(QStringLiteral("exportOpen"));
+    auto* folder = dialog->findChild<QToolButton*>(QStringLiteral("exportShow"));
+    QVERIFY(!open->isVisibleTo(dialog) && !folder->isVisibleTo(dialog));
+    dialog->exportTo(path);
+    QTRY_VERIFY2_WITH_TIMEOUT(written.size() == 1, qPrintable(message(dialog)), 60'000);
+    const QList<QByteArray> lines = contents(path).split('\n');
+    QCOMPARE(lines[0], QByteArray("time,B2.TRUE_X,match.BALL_X"));
+    // Ten lines a second of about five seconds.
+    QVERIFY2(lines.size() > 40 && lines.size() < 70, qPrintable(QString::number(lines.size())));
+    for (const QByteArray& line : lines.mid(1, 40)) QCOMPARE(line.count(','), 2);
+    QVERIFY(open->isVisibleTo(dialog) && folder->isVisibleTo(dialog));
+    // They show this file and its folder with whatever opens them here.
+    UrlCatcher caught;
+    QDesktopServices::setUrlHandler(QStringLiteral("file"), &caught, "take");
+    open->click();
+    folder->click();
+    QDesktopServices::unsetUrlHandler(QStringLiteral("file"));
+    QCOMPARE(caught.urls.size(), 2);
+    QCOMPARE(caught.urls[0].toLocalFile(), path);
+    QCOMPARE(caught.urls[1].toLocalFile(), QFileInfo(path).absolutePath());
   }
 };
 

@@ -45,6 +45,7 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::RobotBack, "recovery", "is heard again", Shape::Back, 2, false, false, ""},
     {Kind::SecondSender, "second-sender", "is also sent by another program", Shape::None, 0, false,
      true, ""},
+    {Kind::BatteryLow, "battery-low", "has a low battery", Shape::Warning, 4, false, true, ""},
     {Kind::AddressChanged, "address-changed", "has another address", Shape::None, 0, false, false,
      ""},
     {Kind::ClockSet, "clock-set", "the computer's clock was set", Shape::None, 0, false, true,
@@ -146,6 +147,11 @@ std::string predicateOf(const MatchEvent& event) {
       return wordsAnd(event, " from ");
     case Kind::SecondSender:
       return wordsAnd(event, "; this one is ");
+    case Kind::BatteryLow:
+      return std::string(info(event.kind).words) +
+             (event.value ? ": " + std::to_string(*event.value / 10) + '.' +
+                                std::to_string(std::abs(*event.value) % 10) + " V"
+                          : std::string());
     case Kind::ClockSet:
       return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
              std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";

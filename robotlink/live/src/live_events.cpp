@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace pitchboard::link {
@@ -103,7 +104,21 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
   } else if (!penalty && known.penalty) {
     say(Kind::PenaltyOver);
   }
-  known = {health.sender.address, health.timedOut, health.conflict, penalty};
+  // A voltage trembles: it is low until it is well above.
+  constexpr double well = 0.1;
+  bool low = known.batteryLow;
+  if (health.battery && !health.timedOut) {
+    low = health.battery->low || (low && health.battery->fraction < known.lowFraction + well);
+    if (low && !known.batteryLow) {
+      say(Kind::BatteryLow, {}, static_cast<int>(std::lround(health.battery->volts * 10.0)));
+      known.lowFraction = health.battery->fraction;
+    }
+  }
+  known.address = health.sender.address;
+  known.timedOut = health.timedOut;
+  known.conflict = health.conflict;
+  known.penalty = penalty;
+  known.batteryLow = low;
 }
 
 std::vector<MatchEvent> LiveEvents::compare(const MatchFrame& now) {

@@ -29,6 +29,8 @@ class LiveEvents {
     bool timedOut = false;
     bool conflict = false;
     std::optional<Penalty> penalty;
+    bool batteryLow = false;
+    double lowFraction = 0.0;  // when it became low
   };
   void compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out);
   void compareRobot(const RobotFrame& heard, double time, std::vector<MatchEvent>& out);

@@ -6,10 +6,10 @@
 #include <thread>
 
 #include <robotlink/frame/second_sender.h>
+#include <robotlink/live/live_books.h>
 #include <robotlink/live/live_teams.h>
 
 #include "live_events.h"
-#include "live_frame.h"
 
 namespace pitchboard::link {
 namespace {
@@ -26,6 +26,7 @@ constexpr auto framePeriod = 16ms;  // at most so often while something arrives
 constexpr auto idlePeriod = 100ms;  // ages and timeouts go on without messages
 constexpr auto portsPeriod = 500ms;
 constexpr auto reportPeriod = 250ms;
+constexpr auto booksPeriod = 15s;  // a moment of a recording is made from the books before it
 constexpr std::size_t flood = 16;  // datagrams in one go from which on it pays to gather
 constexpr std::size_t maxQueued = 10'000;
 
@@ -38,12 +39,6 @@ telemetry::ReceiverOptions receiverOptions(
                                           options.refereePort);
   if (ports) made.ports = *ports;
   if (options.monitor) made.ports.push_back(telemetry::robotStatesPort);
-  return made;
-}
-
-telemetry::RefereeTracker::Options refereeOptions(const LiveOptions& options) {
-  telemetry::RefereeTracker::Options made;
-  made.version = options.refereeVersion;
   return made;
 }
 
@@ -70,8 +65,7 @@ struct LiveWatch::Impl {
       : clock(std::make_shared<const telemetry::LiveClock>(std::move(source))),
         options(std::move(o)),
         onFrame(std::move(ready)),
-        monitor(options.profile, monitorOptions(options)),
-        referee(refereeOptions(options)) {
+        books(options) {
     boards.set(options.boards);
   }
 
@@ -96,7 +90,8 @@ struct LiveWatch::Impl {
     if (!(old.profile == options.profile)) monitor.setProfile(options.profile);
     monitor.setOptions(monitorOptions(options));
     boards.set(options.boards);
-    referee.setOptions(refereeOptions(options));
+    referee.setOptions(LiveBooks::refereeOptions(options));
+    tellBooks();
     monitorProblem.clear();
     const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
     if (before.ports == after.ports && before.bind == after.bind && receiver) return;
@@ -108,14 +103,15 @@ struct LiveWatch::Impl {
     const std::lock_guard lock(mutex);
     for (const RobotId id : std::exchange(forgetAsked, {})) {
       monitor.forget(numberOf(id), slotOf(id));
+      tellBooks();
     }
     if (!std::exchange(clearAsked, false)) return;
-    monitor.clear();
-    referee = telemetry::RefereeTracker(refereeOptions(options));
+    books.clear(options);
     happened.clear();
     unknownReferee = refusedReferees = 0;
     unknownReason.clear();
     unknownSample.clear();
+    tellBooks();
   }
 
   void takeReferee(const DatagramView& datagram) {
@@ -131,15 +127,11 @@ struct LiveWatch::Impl {
       unknownSample = telemetry::printable(datagram.payload);
       return;
     }
+    books.takeReferee(*packet, datagram);
     if (const auto* state = std::get_if<RefereeState>(&*packet)) {
-      referee.accept(*state, datagram.sender, datagram.time);
       for (const auto& observer : observers) {
         observer->refereeHeard(arrival(datagram.time), datagram, *state);
       }
-    } else if (const auto* reply = std::get_if<telemetry::RobotReply>(&*packet)) {
-      referee.accept(*reply, datagram.sender.address, datagram.time);
-    } else if (const auto* forwarded = std::get_if<telemetry::ForwardedReply>(&*packet)) {
-      referee.accept(forwarded->reply, {forwarded->robot}, datagram.time);
     }
   }
 
@@ -175,8 +167,7 @@ struct LiveWatch::Impl {
   void makeFrame(Steady::time_point now) {
     const std::lock_guard lock(mutex);
     const telemetry::TeamStatus team = monitor.status(clock->now());
-    auto made =
-        std::make_shared<MatchFrame>(liveFrame(options, team, referee, clock->seconds(team.time)));
+    auto made = std::make_shared<MatchFrame>(books.frame(options, team, clock->seconds(team.time)));
     made->serial = ++serial;
     boards.addTo(*made);
     boards.takeRows([this](const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
@@ -193,8 +184,18 @@ struct LiveWatch::Impl {
       if (now >= nextReport) observer->reported(team);
     }
     if (now >= nextReport) nextReport = now + reportPeriod;
+    if (now >= nextBooks) tellBooks();
     frame = std::move(made);
     if (!std::exchange(announced, true) && onFrame) onFrame();
+  }
+
+  /// Needs the lock: what an observer hears after it, is not in the books.
+  void tellBooks() {
+    nextBooks = Steady::now() + booksPeriod;
+    if (observers.empty()) return;
+    const double time = clock->seconds(clock->now());
+    const std::string text = books.text(options, time, clock->began());
+    for (const auto& observer : observers) observer->remembered(time, text);
   }
 
   void tell(const std::vector<MatchEvent>& what) {
@@ -244,15 +245,16 @@ struct LiveWatch::Impl {
   LiveOptions options;  // changed by the thread only
   const std::function<void()> onFrame;
   std::unique_ptr<telemetry::UdpReceiver> receiver;
-  Steady::time_point nextRequest{}, nextPorts{}, nextReport{};
+  Steady::time_point nextRequest{}, nextPorts{}, nextReport{}, nextBooks{};
 
   mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
   std::optional<LiveOptions> pending;
   bool clearAsked = false;
   std::vector<RobotId> forgetAsked;
-  TeamMonitor monitor;
   AttachedRobots boards{[clock = clock] { return clock->seconds(clock->now()); }};
-  telemetry::RefereeTracker referee;
+  LiveBooks books;
+  TeamMonitor& monitor = books.monitor;
+  telemetry::RefereeTracker& referee = books.referee;
   LiveEvents happened;
   std::uint64_t serial = 0, unknownReferee = 0, refusedReferees = 0;
   std::string networkProblem, unknownReason, unknownSample, monitorProblem;
@@ -302,7 +304,7 @@ LiveDetails LiveWatch::details() const {
   details.team = m_impl->monitor.status(m_impl->clock->now());
   if (m_impl->receiver) details.network = m_impl->receiver->status();
   details.networkProblem = m_impl->networkProblem;
-  details.referee = m_impl->referee.counts();
+  details.referee = m_impl->books.referee.counts();
   details.unknownReferee = m_impl->unknownReferee;
   details.unknownRefereeReason = m_impl->unknownReason;
   details.unknownRefereeSample = m_impl->unknownSample;
@@ -323,6 +325,8 @@ telemetry::WallTime LiveWatch::began() const {
 
 void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
   const std::lock_guard lock(m_impl->mutex);
+  const double now = m_impl->clock->seconds(m_impl->clock->now());
+  observer->remembered(now, m_impl->books.text(m_impl->options, now, m_impl->clock->began()));
   m_impl->observers.push_back(std::move(observer));
 }
 

@@ -84,6 +84,7 @@ std::string fieldSvg(const MatchFrame& frame) {
   Drawing d(frame.field);
   drawField(d, frame.field);
   for (const RobotFrame& robot : frame.robots) {
+    if (!robot.poseKnown()) continue;
     const char* fill = teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
     const double radius_m = robot.radius > 0.0 ? robot.radius : frame.field.robotRadius;
     const double radius = 100 * radius_m;

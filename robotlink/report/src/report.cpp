@@ -156,6 +156,26 @@ std::string robots(const SessionStatistics& s) {
   return out + "</tbody></table></div>\n";
 }
 
+std::string links(const SessionStatistics& s) {
+  if (std::ranges::none_of(s.robots, [](const RobotSummary& r) { return r.link.has_value(); })) {
+    return {};
+  }
+  std::string out =
+      "<h2>How they were heard</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot"
+      "</th><th>Heard</th><th>Messages</th><th>Lost</th><th>Silences</th><th>Penalties</th>"
+      "<th>Least battery</th></tr></thead><tbody>\n";
+  for (const RobotSummary& r : s.robots) {
+    if (!r.link) continue;
+    out += "<tr>" + cell(badge(r), "l") +
+           cell(fixed(100 * r.link->heard, 1) + " %", r.link->heard < lowUptime ? "low" : "") +
+           cell(std::to_string(r.link->messages)) +
+           cell(r.link->loss ? fixed(100 * *r.link->loss, 1) + " %" : "–") +
+           cell(std::to_string(r.link->silences)) + cell(std::to_string(r.link->penalties)) +
+           cell(r.link->leastVolts ? fixed(*r.link->leastVolts, 1) + " V" : "–") + "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
 std::string charts(const SessionStatistics& s) {
   std::string errors, ball;
   // A robot that has just begun to look for itself is anywhere: the scale is that of ordinary play.
@@ -236,7 +256,8 @@ std::string reportHtml(const ReportContent& c) {
   out += escaped(c.title.empty() ? "Match report" : c.title) + "</title>\n<style>";
   out += reportStyle;
   out += "</style></head><body><main>\n";
-  out += head(c) + teams(c.statistics) + picture(c) + robots(c.statistics) + charts(c.statistics) +
+  out += head(c) + teams(c.statistics) + picture(c) + robots(c.statistics) + links(c.statistics) +
+         charts(c.statistics) +
          events(c);
   out += "<footer>" + std::to_string(c.statistics.rows) + " rows, " +
          clockText(c.statistics.range.begin) + " to " + clockText(c.statistics.range.end) +

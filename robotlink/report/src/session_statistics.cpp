@@ -7,14 +7,14 @@
 
 #include <base/angles.h>
 #include <robotlink/session/row_slot.h>
-#include <simcore/world/action.h>
+
+#include "live_statistics.h"
 
 namespace pitchboard::link {
 namespace {
 
 constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
 constexpr double flagMemory = 1.0;   // s, as on the robots' cards
-constexpr double leastMove = 10.0;   // cm; believed places tremble by less
 constexpr double centimetres = 100.0;
 
 TeamColor teamOf(const telemetry::GroupInfo& group) {
@@ -82,11 +82,6 @@ struct Robot {
   std::vector<double> errorSum;
   std::vector<std::uint32_t> errorCount;
 };
-
-bool isKick(int code) {
-  const sim::Action* action = sim::findAction(code);
-  return action && action->kind == ActionKind::Kick;
-}
 
 }  // namespace
 
@@ -157,7 +152,7 @@ void StatisticsBuilder::Impl::addRobot(Robot& r, const telemetry::RowView& row) 
     const std::pair<double, double> here{r.x.read(row), r.y.read(row)};
     if (!r.anchor) r.anchor = here;
     const double way = std::hypot(here.first - r.anchor->first, here.second - r.anchor->second);
-    if (way >= leastMove) {
+    if (way >= leastMove * centimetres) {
       r.believedWay += way;
       r.anchor = here;
     }
@@ -202,7 +197,8 @@ void StatisticsBuilder::add(telemetry::GroupId id, const telemetry::GroupInfo& g
   auto known = impl.byId.find(id);
   if (known == impl.byId.end()) {
     Robot* robot = nullptr;
-    if (attributeNumber(group, "robot") != 0) {
+    const char* const number = attribute(group, "live") == "1" ? "number" : "robot";
+    if (attributeNumber(group, number) != 0) {
       const auto [entry, isNew] = impl.robots.try_emplace(group.name, group);
       robot = &entry->second;
       if (!isNew) {
@@ -314,6 +310,7 @@ SessionStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::Ti
 }
 SessionStatistics statisticsOf(const telemetry::SessionReader& session,
                                telemetry::TimeRange range) {
+  if (session.count(telemetry::SessionStream::LiveState) > 0) return liveStatistics(session, range);
   return walked(session, range);
 }
 

@@ -118,8 +118,8 @@ Result<std::shared_ptr<LiveRecorder>> LiveRecorder::create(const std::string& pa
 
 LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
                            telemetry::WallTime zero, const LiveOptions& live)
-    : m_writer(std::move(writer)),
-      m_refereePort(live.refereePort),
+    : LiveRecords(live.refereePort),
+      m_writer(std::move(writer)),
       m_rows(m_writer, rowsOptions(live, zero)),
       m_boards(m_writer) {}
 
@@ -128,40 +128,29 @@ LiveRecorder::~LiveRecorder() = default;
 void LiveRecorder::heard(RobotId id, double time, const telemetry::DatagramView& datagram,
                          const telemetry::TextDecoder& decoder,
                          const telemetry::DecodedText& decoded) {
-  m_writer->append(telemetry::SessionStream::Telemetry,
-                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+  LiveRecords::heard(id, time, datagram, decoder, decoded);
   m_rows.take(datagram, decoded, decoder, slotOf(id));
 }
 
-void LiveRecorder::refereeHeard(double time, const telemetry::DatagramView& datagram,
-                                const telemetry::RefereeState& state) {
-  m_writer->append(telemetry::SessionStream::RefereeRaw,
-                   {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
-  m_refereeNews = state;
-}
-
-void LiveRecorder::unusedHeard(double time, const telemetry::DatagramView& datagram) {
-  const bool ofRobot =
-      datagram.localPort != m_refereePort && datagram.localPort != telemetry::robotStatesPort;
-  m_writer->append(
-      ofRobot ? telemetry::SessionStream::Telemetry : telemetry::SessionStream::RefereeRaw,
-      {time, datagram.sender, datagram.localPort, std::string(datagram.payload)});
+void LiveRecorder::keep(LiveRecord record) {
+  appendRecord(*m_writer, record);
 }
 
 void LiveRecorder::happened(const MatchEvent& event) {
   m_writer->append(sessionEvent(event));
 }
 
-void LiveRecorder::frameMade(const MatchFrame& frame) {
-  const auto news = std::exchange(m_refereeNews, std::nullopt);
-  if (!frame.referee || !news) return;
-  const double time = frame.snapshot.time;
-  m_writer->appendJson(telemetry::SessionStream::Referee, time,
-                       refereeToJson(*news, *frame.referee, time));
-}
-
 void LiveRecorder::reported(const telemetry::TeamStatus& team) {
   m_rows.report(team);
+}
+
+void appendRecord(telemetry::SessionWriter& writer, const LiveRecord& record) {
+  using telemetry::SessionStream;
+  if (record.stream == SessionStream::Telemetry || record.stream == SessionStream::RefereeRaw) {
+    writer.append(record.stream, record.datagram);
+  } else {
+    writer.appendJson(record.stream, record.time, record.json);
+  }
 }
 
 }  // namespace pitchboard::link

@@ -2,11 +2,14 @@
 #include <robotlink/session/match_recorder.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include <base/actions.h>
 #include <base/file_target.h>
+#include <robotlink/session/live_recorder.h>
 #include <robotlink/session/row_walk.h>
 #include <robotlink/session/session_events.h>
 
@@ -14,6 +17,23 @@
 
 namespace pitchboard::link {
 namespace {
+
+/// What was known when it began, and what came later.
+void appendHeard(telemetry::SessionWriter& writer, const LiveMemory& heard, double begin) {
+  using telemetry::SessionStream;
+  LiveMoments moments;
+  const double first = std::max(begin, heard.begin());
+  if (const auto books = moments.booksAt(heard, first)) {
+    writer.appendJson(SessionStream::LiveState, first, *books);
+  }
+  constexpr std::array streams{SessionStream::Telemetry, SessionStream::RefereeRaw,
+                               SessionStream::Referee, SessionStream::LiveState};
+  heard.walk(streams, {first, std::numeric_limits<double>::infinity()},
+             [&writer, first](const LiveRecord& record) {
+               if (record.time > first) appendRecord(writer, record);
+               return true;
+             });
+}
 
 double timeOf(const sim::WorldState& state) {
   return static_cast<double>(state.tick) / state.settings.tickRate;
@@ -148,6 +168,7 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
                if (isNew) known->second = (*writer)->addGroup(group);
                (*writer)->append(known->second, row);
              });
+  if (past.heard) appendHeard(**writer, *past.heard, begin);
   for (const auto& event : past.events) {
     if (event.time >= begin) (*writer)->append(sessionEvent(event));
   }

@@ -143,6 +143,12 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double ti
 }
 
 MatchFrame RecordedFrames::frameAt(const telemetry::SessionReader& session, double time) {
+  if (session.count(telemetry::SessionStream::LiveState) > 0) {
+    if (auto seen = m_live.frameAt(SessionHistory(session), time)) {
+      seen->serial = ++m_serial;
+      return std::move(*seen);
+    }
+  }
   const auto groups = session.groups();
   m_groups.resize(groups.size());
   for (std::size_t i = 0; i < groups.size(); ++i) m_groups[i] = &groups[i].info;

@@ -137,9 +137,9 @@ void Group::widen(std::shared_ptr<const Layout> layout) {
   publish();
 }
 
-std::optional<double> Group::oldestTime() const {
-  if (!m_next.full->empty()) return m_next.full->front().first;
-  if (!m_next.blocks.empty()) return m_next.blocks.front().first;
+std::optional<double> Group::endOfOldest() const {
+  if (!m_next.full->empty()) return m_next.full->front().last;
+  if (!m_next.blocks.empty()) return m_next.blocks.front().last;
   return std::nullopt;
 }
 

@@ -29,8 +29,8 @@ class Group {
   void setLayout(std::shared_ptr<const Layout> layout);
   /// The same, and further Float64 columns behind them, which are holes in the rows so far.
   void widen(std::shared_ptr<const Layout> layout);
-  /// Time of the oldest row that can leave; nothing when only the staging block is left.
-  std::optional<double> oldestTime() const;
+  /// Time of the last row of the oldest chunk; nothing when only the staging block is left.
+  std::optional<double> endOfOldest() const;
   /// Lets the oldest chunk go.
   void dropOldest();
   std::size_t bytes() const { return m_bytes; }

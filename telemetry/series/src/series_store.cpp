@@ -5,6 +5,8 @@
 #include <atomic>
 #include <shared_mutex>
 
+#include <telemetry/series/series_pages.h>
+
 #include "series_group.h"
 
 namespace pitchboard::telemetry {
@@ -18,6 +20,7 @@ struct SeriesStore::Impl {
   std::vector<bool> replaced;  // by a group of the same name with other columns
   std::atomic<std::uint64_t> revision{0}, refused{0};
   std::atomic<std::size_t> bytes{0}, budget{0};
+  std::shared_ptr<SeriesPages> pages;  // of the list's mutex
 
   void account() {
     std::size_t sum = 0;
@@ -32,10 +35,11 @@ struct SeriesStore::Impl {
       series::Group* oldest = nullptr;
       double time = 0.0;
       for (const auto& group : groups) {
-        const auto first = group->oldestTime();
-        if (first && (!oldest || *first < time)) {
+        // By its end: a chunk of a slow group spans an hour, and leaves as a whole.
+        const auto end = group->endOfOldest();
+        if (end && (!oldest || *end < time)) {
           oldest = group.get();
-          time = *first;
+          time = *end;
         }
       }
       if (!oldest) return;
@@ -147,6 +151,7 @@ std::size_t SeriesStore::groups() const {
 std::shared_ptr<const GroupView> SeriesStore::view(GroupId id) const {
   const std::shared_lock lock(m_impl->listMutex);
   if (id >= m_impl->groups.size()) return nullptr;
+  if (m_impl->pages) return pagedView(m_impl->groups[id]->view(), id, m_impl->pages);
   return m_impl->groups[id]->view();
 }
 
@@ -169,6 +174,7 @@ std::optional<SeriesId> SeriesStore::find(std::string_view group, std::string_vi
 std::optional<TimeRange> SeriesStore::range() const {
   std::optional<TimeRange> out;
   const std::shared_lock lock(m_impl->listMutex);
+  if (m_impl->pages) return m_impl->pages->range();
   for (const auto& group : m_impl->groups) {
     const auto one = group->view()->range();
     if (!one) continue;
@@ -179,7 +185,17 @@ std::optional<TimeRange> SeriesStore::range() const {
   return out;
 }
 
+void SeriesStore::setPages(std::shared_ptr<SeriesPages> pages) {
+  const std::lock_guard lock(m_impl->listMutex);
+  m_impl->pages = std::move(pages);
+  m_impl->revision.fetch_add(1);
+}
+
 std::size_t SeriesStore::memoryBytes() const {
+  {
+    const std::shared_lock lock(m_impl->listMutex);
+    if (m_impl->pages) return m_impl->pages->bytes();
+  }
   return m_impl->bytes.load(std::memory_order_relaxed);
 }
 

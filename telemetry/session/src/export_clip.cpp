@@ -30,6 +30,7 @@ class Clip {
       if (!done) return tl::unexpected(done.error());
     }
     addChannels();
+    addOpening();
     bool interrupted = false;
     Result<void> done;
     m_session.walk(
@@ -87,6 +88,19 @@ class Clip {
                                        return stream.topic == topic;
                                      });
       if (known && channel.messageEncoding == "json") m_chunk.add(channel);
+    }
+  }
+
+  /// What moments follow from, and stood before the range.
+  void addOpening() {
+    const std::uint64_t at = m_session.logTime(m_selection.range.begin);
+    for (const auto& [stream, json] : m_selection.opening) {
+      const auto topic = session::streams[static_cast<std::size_t>(stream)].topic;
+      for (const auto& [id, channel] : m_session.file().channels()) {
+        if (!m_selection.messages || channel.topic != topic) continue;
+        m_chunk.add(McapMessage{id, 0, at, at, json});
+        break;
+      }
     }
   }
 

@@ -12,10 +12,11 @@ struct FormatName {
   ExportFormat format;
   std::string_view name, extension;
 };
-constexpr std::array<FormatName, 4> formats{{{ExportFormat::CsvWide, "csv-wide", ".csv"},
+constexpr std::array<FormatName, 5> formats{{{ExportFormat::CsvWide, "csv-wide", ".csv"},
                                              {ExportFormat::CsvLong, "csv-long", ".csv"},
                                              {ExportFormat::JsonLines, "jsonl", ".jsonl"},
-                                             {ExportFormat::Mcap, "mcap", ".mcap"}}};
+                                             {ExportFormat::Mcap, "mcap", ".mcap"},
+                                             {ExportFormat::CsvEven, "csv-even", ".csv"}}};
 
 /// `*` stands for any letters, also none. Linear in the text for every star.
 bool matches(std::string_view pattern, std::string_view text) {
@@ -45,7 +46,7 @@ Result<ExportFormat> exportFormat(std::string_view name) {
     if (format.name == name) return format.format;
   }
   return failure(ErrorCode::InvalidArgument,
-                 "The format must be csv-wide, csv-long, jsonl or mcap, not \"" +
+                 "The format must be csv-wide, csv-even, csv-long, jsonl or mcap, not \"" +
                      std::string(name.substr(0, 40)) + "\".");
 }
 

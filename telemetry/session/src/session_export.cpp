@@ -2,12 +2,16 @@
 #include <telemetry/session/session_export.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include <base/new_file.h>
 
 #include "export_clip.h"
+#include "export_even.h"
 #include "export_text.h"
 #include "session_format.h"
 
@@ -28,11 +32,28 @@ std::string csvField(const std::string& text) {
   return out + "\"";
 }
 
+/// UTC, with milliseconds.
+std::string clockText(WallTime start, double seconds) {
+  const double shown = std::clamp(seconds, -1e9, 1e9);
+  const auto at = std::chrono::floor<std::chrono::milliseconds>(
+      start + Duration(static_cast<std::int64_t>(std::round(shown * 1e9))));
+  const auto whole = std::chrono::floor<std::chrono::seconds>(at);
+  const std::time_t time = std::chrono::system_clock::to_time_t(whole);
+  std::tm parts{};
+  char text[40];
+  if (!gmtime_r(&time, &parts)) return {};
+  std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ",
+                (parts.tm_year + 1900) % 10'000, parts.tm_mon + 1, parts.tm_mday, parts.tm_hour,
+                parts.tm_min, parts.tm_sec, static_cast<int>((at - whole).count()));
+  return text;
+}
+
 /// What a format does with the things of a session. Every function says false to stop.
 class LineWriter {
  public:
-  LineWriter(const SessionReader& session, const Selected& selected, TextBuffer& out)
-      : m_session(session), m_selected(selected), m_out(out) {}
+  LineWriter(const SessionReader& session, const ExportSelection& selection,
+             const Selected& selected, TextBuffer& out)
+      : m_session(session), m_selection(selection), m_selected(selected), m_out(out) {}
   virtual ~LineWriter() = default;
   virtual bool begin() { return true; }
   virtual bool row(const SessionItem& item) = 0;
@@ -41,7 +62,32 @@ class LineWriter {
 
  protected:
   const GroupInfo& info(std::size_t group) const { return m_session.groups()[group].info; }
+  /// "time" and, where it is wanted, "clock".
+  std::string timeHead() const { return m_selection.clock ? "time,clock" : "time"; }
+  /// Both of them. A line has `room` more.
+  void putTime(double time, std::size_t room) {
+    m_time.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(time));
+    m_out.reserve(room + Cell::room + clockRoom);
+    m_out.put(m_time);
+    if (!m_selection.clock) return;
+    m_out.put(',');
+    m_out.put(clockText(m_session.info().start, time));
+  }
+  /// The variables' names, one for each column; how many.
+  std::size_t putNames() {
+    std::size_t columns = 0;
+    for (std::size_t g = 0; g < m_selected.size(); ++g) {
+      if (!m_selected[g].selected) continue;
+      for (const SelectedColumn& column : m_selected[g].columns) {
+        m_out.putSafely("," + csvField(info(g).name + "." + info(g).columns[column.column].name));
+      }
+      columns += m_selected[g].columns.size();
+    }
+    return columns;
+  }
+  static constexpr std::size_t clockRoom = 40;
   const SessionReader& m_session;
+  const ExportSelection& m_selection;
   const Selected& m_selected;
   TextBuffer& m_out;
   Cell m_time;
@@ -53,17 +99,11 @@ class WideWriter : public LineWriter {
 
   bool begin() override {
     m_parts.resize(m_selected.size());
-    m_out.putSafely("time");
-    std::size_t columns = 1;
     for (std::size_t g = 0; g < m_selected.size(); ++g) {
-      if (!m_selected[g].selected) continue;
-      for (const SelectedColumn& column : m_selected[g].columns) {
-        m_out.putSafely("," + csvField(info(g).name + "." + info(g).columns[column.column].name));
-      }
-      m_parts[g].cells.resize(m_selected[g].columns.size());
-      columns += m_parts[g].cells.size();
+      if (m_selected[g].selected) m_parts[g].cells.resize(m_selected[g].columns.size());
     }
-    m_longestLine = columns * (Cell::room + 1) + Cell::room;
+    m_out.putSafely(timeHead());
+    m_longestLine = putNames() * (Cell::room + 1);
     return m_out.endLine();
   }
 
@@ -91,9 +131,7 @@ class WideWriter : public LineWriter {
 
   bool line() {
     m_open = false;
-    m_time.set(ColumnType::Float64, m_bits);
-    m_out.reserve(m_longestLine);
-    m_out.put(m_time);
+    putTime(std::bit_cast<double>(m_bits), m_longestLine);
     for (Part& part : m_parts) {
       for (const Cell& cell : part.cells) {
         m_out.put(',');
@@ -138,25 +176,59 @@ class LongWriter : public NamedWriter {
     prepare([](const GroupInfo& group, const ColumnInfo& column) {
       return "," + csvField(group.name) + "," + csvField(column.name) + ",";
     });
-    m_out.putSafely("time,robot,variable,value");
+    m_out.putSafely(timeHead() + ",robot,variable,value");
     return m_out.endLine();
   }
 
   bool row(const SessionItem& item) override {
-    m_time.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(item.time));
     const auto& columns = m_selected[item.group].columns;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       Cell& cell = m_cells[item.group][i];
       const std::string& prefix = m_prefixes[item.group][i];
       cell.set(columns[i].type, bitsOf(columns[i], item.row));
-      m_out.reserve(2 * Cell::room + prefix.size());
-      m_out.put(m_time);
+      putTime(item.time, Cell::room + prefix.size());
       m_out.put(prefix);
       m_out.put(cell);
       if (!m_out.endLine()) return false;
     }
     return true;
   }
+};
+
+class EvenWriter : public LineWriter {
+ public:
+  EvenWriter(const SessionReader& session, const ExportSelection& selection,
+             const Selected& selected, TextBuffer& out)
+      : LineWriter(session, selection, selected, out),
+        m_rows(session, selected, selection.resampling) {}
+
+  bool begin() override {
+    m_out.putSafely(timeHead());
+    m_longestLine = putNames() * (Cell::room + 1);
+    return m_out.endLine();
+  }
+  bool row(const SessionItem& item) override {
+    return m_rows.add(item, [this](double time, const EvenLine& line) { return put(time, line); });
+  }
+  bool end() override {
+    return m_rows.end([this](double time, const EvenLine& line) { return put(time, line); });
+  }
+
+ private:
+  bool put(double time, const EvenLine& line) {
+    putTime(time, m_longestLine);
+    for (const double value : line) {
+      m_out.put(',');
+      if (std::isnan(value)) continue;
+      m_cell.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(value));
+      m_out.put(m_cell);
+    }
+    return m_out.endLine();
+  }
+
+  EvenRows m_rows;
+  Cell m_cell;
+  std::size_t m_longestLine = 0;
 };
 
 class JsonWriter : public NamedWriter {
@@ -172,7 +244,7 @@ class JsonWriter : public NamedWriter {
   }
 
   bool row(const SessionItem& item) override {
-    putTime(item.time);
+    beginLine(item.time);
     m_out.putSafely(m_heads[item.group]);
     const auto& columns = m_selected[item.group].columns;
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -196,7 +268,7 @@ class JsonWriter : public NamedWriter {
     std::string json(item.message->data);
     std::replace(json.begin(), json.end(), '\n', ' ');
     std::replace(json.begin(), json.end(), '\r', ' ');
-    putTime(item.time);
+    beginLine(item.time);
     m_out.putSafely(
         ",\"stream\":\"" +
         std::string(session::streams[static_cast<std::size_t>(item.stream)].topic.substr(1)) +
@@ -207,7 +279,7 @@ class JsonWriter : public NamedWriter {
   }
 
  private:
-  void putTime(double time) {
+  void beginLine(double time) {
     m_time.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(time));
     m_out.reserve(64);
     m_out.put("{\"time\":");
@@ -228,13 +300,21 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
   std::unique_ptr<LineWriter> writer;
   switch (format) {
     case ExportFormat::CsvWide:
-      writer = std::make_unique<WideWriter>(session, *selected, out);
+      writer = std::make_unique<WideWriter>(session, selection, *selected, out);
       break;
     case ExportFormat::CsvLong:
-      writer = std::make_unique<LongWriter>(session, *selected, out);
+      writer = std::make_unique<LongWriter>(session, selection, *selected, out);
       break;
     case ExportFormat::JsonLines:
-      writer = std::make_unique<JsonWriter>(session, *selected, out);
+      writer = std::make_unique<JsonWriter>(session, selection, *selected, out);
+      break;
+    case ExportFormat::CsvEven:
+      if (!(selection.resampling.rate > 0.0) ||
+          selection.resampling.rate > Resampling::mostPerSecond) {
+        return failure(ErrorCode::InvalidArgument,
+                       "The rate must be above 0 and at most 10000 lines a second.");
+      }
+      writer = std::make_unique<EvenWriter>(session, selection, *selected, out);
       break;
     case ExportFormat::Mcap:
       return failure(ErrorCode::InvalidArgument, "A session is no text; it needs a file.");

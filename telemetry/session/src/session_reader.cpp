@@ -6,6 +6,7 @@
 
 #include "session_loss.h"
 #include "session_reader_impl.h"
+#include "session_summary.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -34,6 +35,7 @@ Result<SessionReader> SessionReader::of(Result<McapReader> file) {
   auto impl = std::make_unique<Impl>(std::move(*file));
   impl->takeMetadata();
   impl->takeChannels();
+  impl->takeSummaries();
   impl->takeChunks();
   impl->findStart();
   impl->noteLosses();
@@ -155,11 +157,26 @@ void SessionReader::Impl::takeChannels() {
       useOfChannel[id].stream = static_cast<SessionStream>(place);
       continue;
     }
+    if (channel.messageEncoding == session::summaryEncoding) continue;  // takeSummaries()
     const auto schema = file.schemas().find(channel.schema);
     note("The channel \"" + channel.topic.substr(0, 80) + "\" (" +
          channel.messageEncoding.substr(0, 20) +
          (schema == file.schemas().end() ? "" : ", " + schema->second.name.substr(0, 80)) +
          ") is not known here; its " + std::to_string(count) + " messages are left out.");
+  }
+}
+
+void SessionReader::Impl::takeSummaries() {
+  for (const auto& [id, channel] : file.channels()) {
+    const auto of = channel.metadata.find(std::string(session::summaryKey));
+    if (channel.messageEncoding != session::summaryEncoding || of == channel.metadata.end())
+      continue;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const bool ofGroup = std::ranges::any_of(groups[g].channels, [&](std::uint16_t rows) {
+        return file.channels().at(rows).topic == of->second;
+      });
+      if (ofGroup) summaryChannels[static_cast<GroupId>(g)].push_back(id);
+    }
   }
 }
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <list>
+#include <map>
 #include <set>
 
+#include <telemetry/mcap/mcap_cursor.h>
 #include <telemetry/session/session_reader.h>
 
 #include "session_format.h"
@@ -29,6 +31,7 @@ struct SessionReader::Impl {
     SessionStream stream = SessionStream::Events;
   };
   std::vector<Use> useOfChannel;  ///< by channel id
+  std::map<GroupId, std::vector<std::uint16_t>> summaryChannels;
   std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
   /// Chunks by their start, and the latest end among the first n.
   std::vector<std::size_t> byStart;
@@ -55,6 +58,7 @@ struct SessionReader::Impl {
   }
   void takeMetadata();
   void takeChannels();
+  void takeSummaries();
   void takeChunks();
   void findStart();
   void noteLosses();

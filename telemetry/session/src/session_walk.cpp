@@ -154,6 +154,21 @@ void SessionReader::messages(SessionStream stream, TimeRange range,
                [&](const SessionItem& item) { return visit(item.time, item.message->data); }, {});
 }
 
+void SessionReader::messages(
+    std::span<const SessionStream> streams, TimeRange range,
+    const std::function<bool(SessionStream, double, std::string_view)>& visit) const {
+  std::vector<std::uint16_t> wanted;
+  for (const SessionStream stream : streams) {
+    const auto& channels = m_impl->channelsOfStream[static_cast<std::size_t>(stream)];
+    wanted.insert(wanted.end(), channels.begin(), channels.end());
+  }
+  std::sort(wanted.begin(), wanted.end());
+  m_impl->walk(
+      logTime(range.begin), logTime(range.end), wanted,
+      [&](const SessionItem& item) { return visit(item.stream, item.time, item.message->data); },
+      {});
+}
+
 std::vector<SessionEvent> SessionReader::events() const {
   std::vector<SessionEvent> out;
   const auto all = range();

@@ -13,6 +13,7 @@
 #include <telemetry/mcap/mcap_writer.h>
 
 #include "session_format.h"
+#include "session_summary.h"
 #include "write_rate.h"
 
 namespace pitchboard::telemetry {
@@ -50,15 +51,20 @@ struct SessionWriter::Impl {
   struct Group {
     GroupInfo info;
     session::RowLayout layout;
+    std::string suffix;  ///< of its topic, when another group has the same one
     std::uint16_t channel = 0;
     std::uint32_t sequence = 0;
     std::uint64_t lastLog = 0;
+    SummaryBuilder summary;
+    std::uint16_t summaryChannel = 0;  ///< 0: there is no part yet
+    std::uint32_t summaries = 0;
   };
 
   mutable std::mutex mutex;  ///< of everything below
   std::condition_variable wake, room;
   std::deque<McapChunk> full;
   McapChunk current;
+  McapChunk sparse;  ///< events and log lines: who lists them need not read the rows
   std::vector<McapChunk> spare;
   std::deque<Attachment> attachments;
   std::size_t waiting = 0;  ///< bytes in `full`, and what the writing thread has in hand
@@ -82,7 +88,10 @@ struct SessionWriter::Impl {
   void write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files);
   bool hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes);
   void closeCurrent();
-  std::uint16_t addChannel(const McapSchema& schema, McapChannel channel);
+  bool isEmpty() const { return current.empty() && sparse.empty(); }
+  std::size_t openBytes() const { return current.bytes() + sparse.bytes(); }
+  std::uint16_t addChannel(McapChunk& to, const McapSchema& schema, McapChannel channel);
+  void keep(Group& group, const SummaryPart& part);
   void note(std::uint64_t log);
 };
 
@@ -126,12 +135,12 @@ void SessionWriter::Impl::run() {
   for (;;) {
     wake.wait_until(lock, next, [this] { return stop || !full.empty() || !attachments.empty(); });
     const bool last = stop;
-    if ((last || Clock::now() >= next) && !current.empty()) closeCurrent();
+    if ((last || Clock::now() >= next) && !isEmpty()) closeCurrent();
     std::deque<McapChunk> chunks;
     std::deque<Attachment> files;
     chunks.swap(full);
     files.swap(attachments);
-    if (current.empty() || Clock::now() >= next) next = Clock::now() + options.chunkInterval;
+    if (isEmpty() || Clock::now() >= next) next = Clock::now() + options.chunkInterval;
     writingSince = Clock::now();
     lock.unlock();
     if (!error) write(chunks, files);
@@ -166,6 +175,7 @@ void SessionWriter::Impl::run() {
   }
   full.clear();
   current.clear();
+  sparse.clear();
   attachments.clear();
   room.notify_all();
 }
@@ -191,9 +201,9 @@ void SessionWriter::Impl::write(std::deque<McapChunk>& chunks, std::deque<Attach
 /// Needs the lock; may let go of it while it waits.
 bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
   if (stop || error) return false;
-  const auto fits = [&] { return waiting + current.bytes() + bytes <= options.queueBytes; };
+  const auto fits = [&] { return waiting + openBytes() + bytes <= options.queueBytes; };
   if (!fits() && options.waitWhenFull && bytes <= options.queueBytes) {
-    if (!current.empty()) closeCurrent();
+    if (!isEmpty()) closeCurrent();
     wake.notify_one();
     room.wait(lock, [&] { return fits() || stop || error; });
     if (stop || error) return false;
@@ -204,23 +214,48 @@ bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_
 }
 
 void SessionWriter::Impl::closeCurrent() {
-  waiting += current.bytes();
-  full.push_back(std::move(current));
-  if (spare.empty()) {
-    current = McapChunk();
-  } else {
-    current = std::move(spare.back());
-    spare.pop_back();
+  for (McapChunk* open : {&current, &sparse}) {
+    if (open->empty()) continue;
+    waiting += open->bytes();
+    full.push_back(std::move(*open));
+    if (spare.empty()) {
+      *open = McapChunk();
+    } else {
+      *open = std::move(spare.back());
+      spare.pop_back();
+    }
   }
 }
 
-std::uint16_t SessionWriter::Impl::addChannel(const McapSchema& schema, McapChannel channel) {
+/// A chunk of its own: who draws a whole day reads these chunks and no others.
+void SessionWriter::Impl::keep(Group& group, const SummaryPart& part) {
+  if (group.summaryChannel == 0 && channels >= mostChannels) return;
+  McapChunk chunk;
+  if (group.summaryChannel == 0) {
+    group.summaryChannel = ++channels;
+    const std::string topic = session::rowTopic(group.info) + group.suffix;
+    chunk.add(McapChannel{group.summaryChannel,
+                          0,
+                          topic + "/summary",
+                          std::string(session::summaryEncoding),
+                          {{std::string(session::summaryKey), topic}}});
+  }
+  const std::string bytes = session::summaryBytes(part);
+  chunk.add(
+      McapMessage{group.summaryChannel, group.summaries++, group.lastLog, group.lastLog, bytes});
+  waiting += chunk.bytes();
+  full.push_back(std::move(chunk));
+  wake.notify_one();
+}
+
+std::uint16_t SessionWriter::Impl::addChannel(McapChunk& to, const McapSchema& schema,
+                                              McapChannel channel) {
   McapSchema numbered = schema;
   numbered.id = ++schemas;
   channel.id = ++channels;
   channel.schema = numbered.id;
-  current.add(numbered);
-  current.add(channel);
+  to.add(numbered);
+  to.add(channel);
   return channel.id;
 }
 
@@ -228,7 +263,7 @@ void SessionWriter::Impl::note(std::uint64_t log) {
   if (!firstLog) firstLog = log;
   lastLog = std::max(lastLog, log);
   state.seconds = static_cast<double>(lastLog - *firstLog) * 1e-9;
-  if (current.bytes() < options.chunkBytes) return;
+  if (openBytes() < options.chunkBytes) return;
   closeCurrent();
   wake.notify_one();
 }
@@ -242,10 +277,14 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
     if (impl.groups[i].info.columns == info.columns) return static_cast<GroupId>(i);
     ++sameTopic;
   }
-  Impl::Group group{info, session::RowLayout(info)};
+  Impl::Group group{.info = info,
+                    .layout = session::RowLayout(info),
+                    .suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string(),
+                    .summary = SummaryBuilder(info)};
   if (!impl.stop && !impl.error && impl.channels < mostChannels) {
-    const std::string suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string();
+    const std::string& suffix = group.suffix;
     group.channel = impl.addChannel(
+        impl.current,
         {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)},
         {0,
          0,
@@ -278,6 +317,9 @@ void SessionWriter::append(GroupId id, const RowView& row) {
       impl.current.addMessage(group.channel, group.sequence++, log, publish, group.layout.size),
       row);
   ++impl.state.rows;
+  const auto start = static_cast<std::uint64_t>(impl.info.start.time_since_epoch().count());
+  const double time = static_cast<double>(static_cast<std::int64_t>(log - start)) / 1e9;
+  if (const auto part = group.summary.add(time, row)) impl.keep(group, *part);
   impl.note(log);
 }
 
@@ -300,15 +342,17 @@ void SessionWriter::appendJson(SessionStream stream, double time, std::string_vi
   if (!impl.hasRoom(lock, json.size() + 64)) return;
   const auto place = static_cast<std::size_t>(stream);
   Impl::Stream& state = impl.streams[place];
+  const bool isSparse = stream == SessionStream::Events || stream == SessionStream::Log;
+  McapChunk& to = isSparse ? impl.sparse : impl.current;
   if (state.channel == 0) {
     const session::StreamInfo& info = session::streams[place];
     state.channel = impl.addChannel(
-        {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)},
+        to, {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)},
         {0, 0, std::string(info.topic), "json", {}});
   }
   const std::uint64_t publish = session::nanoseconds(impl.info.start, time);
   const std::uint64_t log = publish + impl.shift;
-  impl.current.add(McapMessage{state.channel, state.sequence++, log, publish, json});
+  to.add(McapMessage{state.channel, state.sequence++, log, publish, json});
   ++impl.state.messages;
   impl.note(log);
 }
@@ -345,6 +389,13 @@ Result<void> SessionWriter::finish() {
   Impl& impl = *m_impl;
   {
     const std::lock_guard lock(impl.mutex);
+    // A short session is read as it is; of a long one every group has a picture.
+    const bool isLong = std::any_of(impl.groups.begin(), impl.groups.end(),
+                                    [](const auto& group) { return group.summaryChannel != 0; });
+    for (Impl::Group& group : impl.groups) {
+      if (impl.stop || impl.error || !isLong) continue;
+      if (const auto rest = group.summary.finish()) impl.keep(group, *rest);
+    }
     impl.stop = true;
     impl.wake.notify_one();
     impl.room.notify_all();

@@ -33,6 +33,12 @@ double ArrivalStats::jitter() const {
   return std::sqrt(sum / intervals);
 }
 
+std::vector<WallTime> ArrivalStats::times() const {
+  std::vector<WallTime> out;
+  for (std::size_t i = 0; i < m_count; ++i) out.push_back(at(i));
+  return out;
+}
+
 std::optional<Duration> ArrivalStats::interval() const {
   if (m_count < 2) return std::nullopt;
   return (at(m_count - 1) - at(0)) / static_cast<Duration::rep>(m_count - 1);

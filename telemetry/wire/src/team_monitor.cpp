@@ -6,6 +6,8 @@
 #include <functional>
 #include <tuple>
 
+#include "team_monitor_books.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -26,35 +28,6 @@ int counterBits(const Profile& profile) {
 }
 
 }  // namespace
-
-struct TeamMonitor::Robot {
-  int number = 0;
-  int slot = 0;
-  Sender sender;
-  std::optional<Sender> previous;  ///< the one before, when it sends from another one
-  WallTime last{};
-  std::uint64_t messages = 0, bytes = 0, recoveries = 0, duplicates = 0;
-  ArrivalStats arrivals;
-  SequenceStats sequence, previousSequence;
-  ErrorTally errors;
-  struct Process {
-    ProcessFilter filter;
-    bool known = false;
-    WallTime since{};
-  };
-  std::array<Process, processCount> processes{};
-  std::optional<double> volts;
-  double highestVolts = 0.0;
-  std::size_t lastHash = 0;
-  WallTime lastHashTime{};
-  std::shared_ptr<const TextDecoder> decoder;
-  std::vector<double> values;
-  std::vector<std::string> words;
-};
-
-struct TeamMonitor::SenderRecord {
-  SenderStatus status;
-};
 
 TeamMonitor::TeamMonitor(Profile profile, MonitorOptions options)
     : m_options(std::move(options)), m_profile(std::move(profile)) {

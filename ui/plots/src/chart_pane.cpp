@@ -18,6 +18,11 @@ namespace pitchboard::ui {
 namespace {
 constexpr int pixelsPerValueStep = 18;  // px of the mock
 constexpr int lowestChart = 40;
+
+QColor mixed(const QColor& a, const QColor& b, double share) {
+  const auto part = [share](int x, int y) { return qRound(x + (y - x) * share); };
+  return {part(a.red(), b.red()), part(a.green(), b.green()), part(a.blue(), b.blue())};
+}
 }  // namespace
 
 ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
@@ -95,13 +100,16 @@ void ChartPane::draw() {
     const auto i = static_cast<std::size_t>(number);
     m_traces[i] = traceOf(m_curves[i].view(), range, columns);
   });
+  traceCompared(range, columns);
   bool any = false;
   double low = 0.0, high = 0.0;
-  for (const CurveTrace& trace : m_traces) {
-    if (!trace.any) continue;
-    low = any ? std::min(low, trace.low) : trace.low;
-    high = any ? std::max(high, trace.high) : trace.high;
-    any = true;
+  for (const auto* traces : {&m_traces, &m_comparedTraces}) {
+    for (const CurveTrace& trace : *traces) {
+      if (!trace.any) continue;
+      low = any ? std::min(low, trace.low) : trace.low;
+      high = any ? std::max(high, trace.high) : trace.high;
+      any = true;
+    }
   }
   const int steps =
       std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep), 2, 12);
@@ -119,9 +127,28 @@ void ChartPane::draw() {
   if (wantedLeft() != before) emit leftChanged();
 }
 
+/// Of the variables that the compared session has too; curves that are computed have none.
+void ChartPane::traceCompared(telemetry::TimeRange range, int columns) {
+  m_comparedTraces.clear();
+  m_comparedTraces.resize(m_curves.size());
+  const double offset = m_feed->comparedOffset();
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    const CurveSpec& spec = m_curves[i].spec();
+    if (spec.kind != CurveKind::Variable || spec.inputs.isEmpty()) continue;
+    const ColumnView view = m_feed->compared(spec.inputs.front());
+    if (!view) continue;
+    CurveTrace& trace = m_comparedTraces[i];
+    trace = traceOf(view, {range.begin - offset, range.end - offset}, columns);
+    for (telemetry::Sample& sample : trace.samples) sample.time += offset;
+    for (CurveTrace::Column& column : trace.columns) column.time += offset;
+  }
+}
+
 void ChartPane::shape() {
   std::size_t points = 0;
-  for (const CurveTrace& trace : m_traces) points += trace.samples.size() + trace.columns.size();
+  for (const auto* traces : {&m_traces, &m_comparedTraces}) {
+    for (const CurveTrace& trace : *traces) points += trace.samples.size() + trace.columns.size();
+  }
   m_shapes.clear();
   m_shapedFor = timeAxis();
   const ValueScale values = valueScale();
@@ -136,9 +163,33 @@ void ChartPane::shape() {
     m_shapes[i].lines =
         polylines(m_traces[i], m_shapedFor, values, m_shapes[i].look.style == CurveStyle::Steps);
   });
+  m_caption = {QStringLiteral("thin: ") + m_feed->comparedCaption(),
+               m_chart->plotArea().adjusted(4, 2, -4, -2), themeFont(TypeRole::Secondary),
+               palette().color(QPalette::PlaceholderText)};
+  m_comparedShapes.assign(m_curves.size(), {});
+  for (std::size_t i = 0; i < m_comparedShapes.size(); ++i) {
+    // Thinner and paler than the curve beside it; the same hue says which one it belongs to.
+    Shape& other = m_comparedShapes[i];
+    other.look = m_shapes[i].look;
+    other.look.color = mixed(m_shapes[i].look.color, palette().color(QPalette::Base), 0.5);
+    other.look.width = m_shapes[i].look.width * 0.66;
+    other.lines =
+        polylines(m_comparedTraces[i], m_shapedFor, values, other.look.style == CurveStyle::Steps);
+  }
 }
 
 void ChartPane::paintCurves(QPainter& painter) const {
+  bool compared = false;
+  for (std::size_t i = 0; i < m_comparedShapes.size(); ++i) {
+    compared = compared || !m_comparedShapes[i].lines.empty();
+    paintTrace(painter, m_comparedTraces[i], m_comparedShapes[i].lines, m_shapedFor,
+               m_comparedShapes[i].look);
+  }
+  if (compared) {
+    painter.setPen(m_caption.color);
+    painter.setFont(m_caption.font);
+    painter.drawText(m_caption.place, Qt::AlignTop | Qt::AlignRight, m_caption.text);
+  }
   for (std::size_t i = 0; i < m_shapes.size(); ++i) {
     paintTrace(painter, m_traces[i], m_shapes[i].lines, m_shapedFor, m_shapes[i].look);
   }

@@ -20,6 +20,8 @@ class ChartPane : public PlotPane {
   void setBoxTool(bool on) override;
   /// What is drawn of each curve, in the order of curves().
   const std::vector<CurveTrace>& traces() const { return m_traces; }
+  /// The same of the compared session, at the times of what is shown; empty where it has none.
+  const std::vector<CurveTrace>& comparedTraces() const { return m_comparedTraces; }
   ValueScale valueScale() const;
   void extendMenu(QMenu* menu) override;
 
@@ -30,6 +32,7 @@ class ChartPane : public PlotPane {
  private:
   void paintCurves(QPainter& painter) const;
   void shape();
+  void traceCompared(telemetry::TimeRange range, int columns);
   void setValues(ValueLimits limits);
 
   ValueChart* m_chart;
@@ -39,8 +42,15 @@ class ChartPane : public PlotPane {
     std::vector<QPolygonF> lines;
     TraceLook look;
   };
-  std::vector<CurveTrace> m_traces;
-  std::vector<Shape> m_shapes;  // of the traces
+  std::vector<CurveTrace> m_traces, m_comparedTraces;
+  std::vector<Shape> m_shapes, m_comparedShapes;  // of the traces
+  struct Caption {
+    QString text;
+    QRectF place;
+    QFont font;
+    QColor color;
+  };
+  Caption m_caption;  // which session the thin curves are of
   TimeAxis m_shapedFor;
 };
 

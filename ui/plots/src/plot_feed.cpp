@@ -7,6 +7,16 @@
 #include <ui/sources/linked_time.h>
 
 namespace pitchboard::ui {
+namespace {
+
+/// `GROUP/COLUMN`.
+std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, const QString& name) {
+  const qsizetype slash = name.indexOf(QLatin1Char('/'));
+  if (slash <= 0) return {};
+  return rows.find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
+}
+
+}  // namespace
 
 PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
     : QObject(parent), m_source(source), m_time(time), m_timer(new QTimer(this)) {
@@ -38,32 +48,62 @@ void PlotFeed::forget() {
 void PlotFeed::refresh() {
   const auto store = m_source->series();
   const quint64 revision = store ? store->groupsRevision() : 0;
-  if (store != m_store || revision != m_storeRevision) {
+  if (store != m_store) {
     m_store = store;
     m_storeRevision = revision;
     m_found.clear();
     ++m_generation;
+  } else if (revision != m_storeRevision) {
+    m_storeRevision = revision;
+    lookAgain();
   }
   m_views.clear();
   m_time->setData(m_store ? m_store->range() : std::nullopt);
   emit refreshed();
 }
 
+// A robot that is heard for the first time says nothing new of the others: their derived curves
+// stay.
+void PlotFeed::lookAgain() {
+  bool changed = false;
+  std::erase_if(m_found, [&](const auto& known) {
+    const bool other = idOf(*m_store, known.first) != known.second;
+    changed = changed || other;
+    return other;
+  });
+  // What is waited for may have come.
+  if (m_missed || changed) ++m_generation;
+  m_missed = false;
+}
+
 ColumnView PlotFeed::find(const QString& name) {
   if (!m_store) return {};
   auto known = m_found.find(name);
   if (known == m_found.end()) {
-    const qsizetype slash = name.indexOf(QLatin1Char('/'));
-    if (slash <= 0) return {};
-    const auto id =
-        m_store->find(name.left(slash).toStdString(), name.mid(slash + 1).toStdString());
-    if (!id) return {};
+    const auto id = idOf(*m_store, name);
+    if (!id) {
+      m_missed = true;
+      return {};
+    }
     known = m_found.emplace(name, *id).first;
   }
   auto& view = m_views[known->second.group];
   if (!view) view = m_store->view(known->second.group);
   if (!view) return {};
   return {view, known->second.column};
+}
+
+void PlotFeed::setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
+                           const QString& caption) {
+  m_compared = std::move(rows);
+  m_comparedOffset = offset;
+  m_comparedCaption = caption;
+}
+
+ColumnView PlotFeed::compared(const QString& name) const {
+  const auto id = m_compared ? idOf(*m_compared, name) : std::nullopt;
+  if (!id) return {};
+  return {m_compared->view(id->group), id->column};
 }
 
 QString PlotFeed::timeText(double time, int decimals) const {

@@ -52,6 +52,14 @@ class PlotFeed : public QObject {
   /// Grows when variables came or went: what find() said before is void.
   quint64 generation() const { return m_generation; }
 
+  /// Rows of a second session, whose second 0 is at `offset` (s); null: none.
+  void setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
+                   const QString& caption);
+  /// The same variable there, at the times of there; nothing when it has none.
+  ColumnView compared(const QString& name) const;
+  double comparedOffset() const { return m_comparedOffset; }
+  const QString& comparedCaption() const { return m_comparedCaption; }
+
   /// Refreshes by itself while on; plots that cannot be seen cost nothing.
   void setRunning(bool on);
   /// Takes a new look now.
@@ -63,6 +71,7 @@ class PlotFeed : public QObject {
 
  private:
   void forget();
+  void lookAgain();
 
   FrameSource* m_source;
   LinkedTime* m_time;
@@ -70,7 +79,11 @@ class PlotFeed : public QObject {
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;
+  bool m_missed = false;  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;
+  std::shared_ptr<const telemetry::SeriesStore> m_compared;
+  double m_comparedOffset = 0.0;
+  QString m_comparedCaption;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<QString, telemetry::SeriesId> m_found;
 };

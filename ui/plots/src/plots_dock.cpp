@@ -17,6 +17,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plot_menus.h>
+#include <ui/sources/compared_session.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
@@ -89,6 +90,11 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   connect(context.source, &SourceSwitch::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
   if (context.timeline != nullptr) {
     connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
+  }
+  if (context.compared != nullptr) {
+    connect(context.compared, &ComparedSession::changed, this, &PlotsDock::compare);
+    connect(context.compared, &ComparedSession::rowsCame, this, &PlotsDock::scheduleDraw);
+    compare();
   }
   PlotLayout layout;
   if (context.settings != nullptr) {
@@ -313,6 +319,12 @@ void PlotsDock::takeRows() {
   m_drawnData = known;
   m_drawnGeneration = m_feed->generation();
   drawNow();
+}
+
+void PlotsDock::compare() {
+  const ComparedSession& other = *m_context.compared;
+  m_feed->setCompared(other.isOn() ? other.series() : nullptr, other.offset(), other.caption());
+  scheduleDraw();
 }
 
 void PlotsDock::scheduleDraw() {

@@ -2,36 +2,45 @@
 #include <ui/session/export_dialog.h>
 
 #include <QBuffer>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QRegularExpression>
 #include <QSpinBox>
 #include <QTemporaryDir>
+#include <QToolButton>
 
 #include <base/file_target.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
 
+#include "check_list.h"
 #include "video_export.h"
 
 namespace pitchboard::ui {
 namespace {
 
-std::vector<std::string> namesOf(const QString& text) {
-  static const QRegularExpression between(QStringLiteral("[\\s,;]+"));
-  std::vector<std::string> names;
-  for (const QString& name : text.split(between, Qt::SkipEmptyParts)) {
-    names.push_back(name.toStdString());
+QStringList groupNames(const ExportSource& source) {
+  QStringList names;
+  for (const auto& group : source.groups) names << QString::fromStdString(group.name);
+  names.removeDuplicates();
+  return names;
+}
+
+QStringList variableNames(const ExportSource& source) {
+  QStringList names;
+  for (const auto& group : source.groups) {
+    for (const auto& column : group.columns) names << QString::fromStdString(column.name);
   }
+  names.removeDuplicates();
   return names;
 }
 
@@ -45,13 +54,20 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
       m_format(new QComboBox(this)),
       m_begin(new NumberBox(this)),
       m_end(new NumberBox(this)),
-      m_robots(new QLineEdit(this)),
-      m_variables(new QLineEdit(this)),
+      m_when(new QLabel(this)),
+      m_robots(new CheckList(groupNames(m_source), QStringLiteral("Filter, e.g. B1"), this)),
+      m_variables(
+          new CheckList(variableNames(m_source), QStringLiteral("Filter, e.g. VISION"), this)),
+      m_lines(new NumberBox(this)),
+      m_between(new QComboBox(this)),
+      m_clock(new QCheckBox(QStringLiteral("Time of day beside each time"), this)),
       m_size(new QComboBox(this)),
       m_rate(new QSpinBox(this)),
       m_rows(new QFormLayout),
       m_progress(new QProgressBar(this)),
-      m_message(new QLabel(this)) {
+      m_message(new QLabel(this)),
+      m_open(new QToolButton(this)),
+      m_show(new QToolButton(this)) {
   setWindowTitle(QStringLiteral("Export"));
   setObjectName(QStringLiteral("exportDialog"));
   m_format->setObjectName(QStringLiteral("exportFormat"));
@@ -76,8 +92,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   }
   m_begin->setValue(range.begin);
   m_end->setValue(range.end);
-  m_robots->setPlaceholderText(QStringLiteral("all, or e.g. B1 R2 match"));
-  m_variables->setPlaceholderText(QStringLiteral("all, or e.g. VISION_* LOCALIZATION_X"));
+  makeChoices();
   m_message->setWordWrap(true);
   m_message->setForegroundRole(QPalette::PlaceholderText);
   m_progress->setRange(0, 1000);
@@ -85,8 +100,12 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_rows->addRow(QStringLiteral("Form"), m_format);
   m_rows->addRow(QStringLiteral("From"), m_begin);
   m_rows->addRow(QStringLiteral("To"), m_end);
+  m_rows->addRow(QString(), m_when);
   m_rows->addRow(QStringLiteral("Robots"), m_robots);
   m_rows->addRow(QStringLiteral("Variables"), m_variables);
+  m_rows->addRow(QStringLiteral("Lines"), m_lines);
+  m_rows->addRow(QStringLiteral("Between rows"), m_between);
+  m_rows->addRow(QString(), m_clock);
   m_rows->addRow(QStringLiteral("Size"), m_size);
   m_rows->addRow(QStringLiteral("Rate"), m_rate);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
@@ -96,6 +115,11 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   column->addLayout(m_rows);
   column->addWidget(m_progress);
   column->addWidget(m_message);
+  auto* after = new QHBoxLayout;
+  after->addWidget(m_open);
+  after->addWidget(m_show);
+  after->addStretch(1);
+  column->addLayout(after);
   column->addWidget(buttons);
   resize(scaled(this, 420), sizeHint().height());
   connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::showRows);
@@ -127,9 +151,16 @@ void ExportDialog::showRows() {
   const ExportKind kind = form().kind;
   const bool picture = kind == ExportKind::Png || kind == ExportKind::Svg;
   for (QWidget* row : {m_begin, m_end}) m_rows->setRowVisible(row, !picture);
-  for (QWidget* row : {m_robots, m_variables}) {
-    m_rows->setRowVisible(row, kind == ExportKind::Numbers);
-  }
+  const bool numbers = kind == ExportKind::Numbers;
+  const bool table = numbers && form().format != telemetry::ExportFormat::Mcap &&
+                     form().format != telemetry::ExportFormat::JsonLines;
+  const bool even = numbers && form().format == telemetry::ExportFormat::CsvEven;
+  m_rows->setRowVisible(m_when, !picture && m_source.clock.has_value());
+  m_rows->setRowVisible(m_robots, numbers);
+  m_rows->setRowVisible(m_variables, numbers);
+  m_rows->setRowVisible(m_lines, even);
+  m_rows->setRowVisible(m_between, even);
+  m_rows->setRowVisible(m_clock, table && m_source.clock.has_value());
   m_rows->setRowVisible(m_size, picture || kind == ExportKind::Video);
   m_rows->setRowVisible(m_rate, kind == ExportKind::Video);
 }
@@ -155,12 +186,7 @@ void ExportDialog::exportTo(const QString& path) {
   request.session = m_source.session;
   request.path = path;
   request.selection.range = {m_begin->value(), m_end->value()};
-  request.selection.robots = namesOf(m_robots->text());
-  request.selection.variables = namesOf(m_variables->text());
-  if (chosen.kind != ExportKind::Numbers) {
-    request.selection.robots.clear();
-    request.selection.variables.clear();
-  }
+  if (chosen.kind == ExportKind::Numbers && !takeChoices(request.selection)) return;
   if (request.selection.range.begin > request.selection.range.end) {
     fail(QStringLiteral("The range ends before it begins."));
     return;
@@ -281,6 +307,8 @@ void ExportDialog::succeed(const QString& path) {
            .arg(path)
            .arg(static_cast<double>(QFileInfo(path).size()) / 1e6, 0, 'f', 1),
        false);
+  m_written = path;
+  for (QToolButton* button : {m_open, m_show}) button->show();
   emit written(path);
 }
 
@@ -291,6 +319,7 @@ void ExportDialog::fail(const QString& sentence) {
 
 void ExportDialog::setWriting(bool writing) {
   m_writing = writing;
+  for (QToolButton* button : {m_open, m_show}) button->hide();
   // What asks for it may be the video itself.
   if (!writing && m_video) m_video.release()->deleteLater();
   m_progress->setVisible(writing);

@@ -5,6 +5,7 @@
 #include <QtGlobal>
 
 #include <robotlink/report/report.h>
+#include <robotlink/session/live_moments.h>
 #include <robotlink/session/session_events.h>
 
 namespace pitchboard::ui {
@@ -14,6 +15,7 @@ using telemetry::ExportFormat;
 
 const ExportForm forms[] = {
     {"Table, a row per time (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvWide},
+    {"Table at even times (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvEven},
     {"Table, a row per value (CSV)", ExportKind::Numbers, ".csv", ExportFormat::CsvLong},
     {"JSON lines", ExportKind::Numbers, ".jsonl", ExportFormat::JsonLines},
     {"Shorter session (MCAP)", ExportKind::Numbers, ".mcap", ExportFormat::Mcap},
@@ -48,9 +50,12 @@ Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm
   const auto session = telemetry::SessionReader::open(request.session.toStdString());
   if (!session) return tl::unexpected(session.error());
   if (form.kind == ExportKind::Report) return writeReport(*session, request, picture);
-  const auto report =
-      telemetry::exportFile(*session, form.format, request.selection, request.path.toStdString(),
-                            progress, IfExists::Replace);
+  telemetry::ExportSelection selection = request.selection;
+  if (form.format == ExportFormat::Mcap) {
+    selection.opening = link::openingAt(*session, selection.range.begin);
+  }
+  const auto report = telemetry::exportFile(
+      *session, form.format, selection, request.path.toStdString(), progress, IfExists::Replace);
   if (!report) return tl::unexpected(report.error());
   return report->bytes;
 }

@@ -28,10 +28,11 @@ ComparedSession::ComparedSession(Timeline* timeline, QObject* parent)
   connect(&m_file, &ReplayController::opened, this, [this] {
     m_here.reset();
     m_there.reset();
-    m_offset = 0.0;
+    m_offset = offsetByTime();
     showMoment();
     emit changed();
   });
+  connect(&m_file, &ReplayController::loadedChanged, this, &ComparedSession::rowsCame);
   connect(&m_file, &ReplayController::failed, this, &ComparedSession::failed);
 }
 
@@ -75,7 +76,14 @@ void ComparedSession::align() {
 void ComparedSession::alignByTime() {
   m_here.reset();
   m_there.reset();
-  setOffset(0.0);
+  setOffset(offsetByTime());
+}
+
+double ComparedSession::offsetByTime() const {
+  const auto here = m_timeline->available();
+  const auto there = m_file.playback()->range();
+  if (!here || !there || m_file.info().source != "live") return 0.0;
+  return here->begin - there->begin;
 }
 
 QString ComparedSession::caption() const {

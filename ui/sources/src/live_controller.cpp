@@ -62,8 +62,7 @@ void LiveController::stop() {
   m_frame.reset();
   m_rows.reset();
   m_series.reset();
-  m_past.clear();
-  m_pastBytes = 0;
+  m_memory.reset();
   emit restarted();
 }
 
@@ -96,8 +95,6 @@ void LiveController::clear() {
   if (!m_watch) return;
   m_watch->clear();
   m_frame.reset();
-  m_past.clear();
-  m_pastBytes = 0;
   keepRows();
   emit restarted();
 }
@@ -117,46 +114,19 @@ void LiveController::setMemoryBudget(std::size_t bytes) {
 
 void LiveController::keepRows() {
   if (m_rows) m_watch->stopObserving(m_rows);
+  if (m_memory) m_watch->stopObserving(m_memory);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
   m_rows = std::make_shared<RowKeeper>(m_series, m_options, m_watch->began());
   m_watch->observe(m_rows);
-}
-
-namespace {
-
-/// What a frame takes, about: the values of its robots are nearly all of it, and anybody may send
-/// many.
-std::size_t bytesOf(const link::MatchFrame& frame) {
-  std::size_t bytes = sizeof frame;
-  for (const link::RobotFrame& robot : frame.robots) {
-    bytes += sizeof robot;
-    if (!robot.health) continue;
-    for (const link::HeardValue& value : robot.health->values) {
-      bytes += sizeof value + value.name.capacity() + value.text.capacity() + value.unit.capacity();
-    }
-  }
-  return bytes;
-}
-
-}  // namespace
-
-void LiveController::remember() {
-  constexpr double step = 0.2;  // s
-  constexpr std::size_t mostBytes = std::size_t{80} << 20;
-  if (!m_past.empty() && m_frame->snapshot.time < m_past.back()->snapshot.time + step) return;
-  m_past.push_back(m_frame);
-  m_pastBytes += bytesOf(*m_frame);
-  while (m_pastBytes > mostBytes) {
-    m_pastBytes -= bytesOf(*m_past.front());
-    m_past.pop_front();
-  }
+  m_memory = std::make_shared<link::LiveMemory>(m_options.refereePort);
+  m_moments = std::make_unique<link::LiveMoments>();
+  m_watch->observe(m_memory);
 }
 
 FramePtr LiveController::frameAt(double time) const {
-  const auto after =
-      std::upper_bound(m_past.begin(), m_past.end(), time,
-                       [](double t, const FramePtr& frame) { return t < frame->snapshot.time; });
-  return after == m_past.begin() ? nullptr : *std::prev(after);
+  if (!m_memory) return nullptr;
+  auto frame = m_moments->frameAt(*m_memory, time);
+  return frame ? std::make_shared<link::MatchFrame>(std::move(*frame)) : nullptr;
 }
 
 telemetry::WallTime LiveController::began() const {
@@ -208,7 +178,6 @@ void LiveController::deliver() {
   if (!m_watch) return;  // stopped while this was on its way
   m_frame = m_watch->latest();
   if (m_frame) {
-    remember();
     emit frameReceived(m_frame);
   }
   // A receiver may have stopped it.

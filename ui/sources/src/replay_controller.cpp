@@ -3,11 +3,15 @@
 
 #include <QFileInfo>
 #include <algorithm>
+#include <atomic>
+#include <limits>
 
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
 #include <ui/sources/playback.h>
+
+#include "replay_pages.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -17,9 +21,23 @@ QDateTime dateTimeOf(telemetry::WallTime time) {
       std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
 }
 
-/// Rows on their way into memory; looks now and then whether anybody still wants them. What is
-/// damaged anywhere in the file, in sentences.
-QStringList readRows(const QString& path, telemetry::SeriesStore& store,
+/// The first moment that has a robot; the beginning when none has.
+double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRange range,
+                     link::RecordedFrames& frames) {
+  if (!frames.frameAt(session, range.begin).robots.empty()) return range.begin;
+  double first = range.begin;
+  session.rows(range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
+    const auto& attributes = session.groups()[group].info.attributes;
+    if (!attributes.contains("robot") && !attributes.contains("number")) return true;
+    first = row.time;
+    return false;
+  });
+  return first;
+}
+
+/// Rows on their way into memory; looks now and then whether anybody still wants them. Up to
+/// `whole` (s) every row is there. What is damaged anywhere in the file, in sentences.
+QStringList readRows(const QString& path, telemetry::SeriesStore& store, std::atomic<double>& whole,
                      const std::function<bool(double)>& goOn) {
   const auto session = telemetry::SessionReader::open(path.toStdString());
   if (!session) return {};
@@ -35,9 +53,15 @@ QStringList readRows(const QString& path, telemetry::SeriesStore& store,
   const double length = std::max(range->end - range->begin, 1e-9);
   session->rows(*range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
     store.append(ids[group], row);
-    if (++rows % rowsBetweenLooks == 0) wanted = goOn((row.time - range->begin) / length);
+    if (++rows % rowsBetweenLooks == 0) {
+      // Groups do not come quite in step.
+      constexpr double disorder = 1.0;
+      whole = row.time - disorder;
+      wanted = goOn((row.time - range->begin) / length);
+    }
     return wanted;
   });
+  if (wanted) whole = range->end;
   if (!wanted || !session->check([&goOn](double) { return goOn(1.0); })) return {};
   QStringList damage;
   if (!session->isDamaged()) return damage;
@@ -67,6 +91,10 @@ struct ReplayController::File {
   std::string scenario;
   double tickRate = 60.0;
   bool broken = false;
+  bool live = false;   ///< moments are made of datagrams, which only the file holds
+  bool paged = false;  ///< its rows do not fit
+  std::atomic<double> whole = -std::numeric_limits<double>::infinity();  ///< readRows()
+  double start = 0.0;
   QStringList notes;
   FramePtr first;
 
@@ -75,7 +103,22 @@ struct ReplayController::File {
         info(session.info()),
         frames(link::backdropOf(session)),
         memoryFrames(link::backdropOf(session)),
-        tickRate(link::backdropOf(session).tickRate) {}
+        tickRate(link::backdropOf(session).tickRate),
+        live(session.count(telemetry::SessionStream::LiveState) > 0) {}
+
+  void readEvents() {
+    events = link::eventsOf(session);
+    constexpr std::size_t maxLines = 10'000;
+    session.messages(telemetry::SessionStream::Log, range,
+                     [this](double time, std::string_view json) {
+                       if (auto line = telemetry::sessionLogLine(json)) {
+                         line->time = time;
+                         log.push_back(std::move(*line));
+                       }
+                       return log.size() < maxLines;
+                     });
+    addEvents(events, log);
+  }
 };
 
 ReplayController::ReplayController(QObject* parent)
@@ -85,6 +128,7 @@ ReplayController::ReplayController(QObject* parent)
 
 ReplayController::~ReplayController() {
   ++m_generation;
+  ++m_loading;
   m_seeker.waitForDone();
   m_loader.waitForDone();
 }
@@ -123,7 +167,7 @@ std::optional<QDateTime> ReplayController::clock() const {
 void ReplayController::open(const QString& path) {
   const std::uint64_t mine = ++m_generation;
   m_opening = true;
-  m_seeker.start([this, path, mine] {
+  m_seeker.start([this, path, mine, budget = m_budget] {
     auto session = telemetry::SessionReader::open(path.toStdString());
     QString problem;
     std::shared_ptr<File> file;
@@ -138,19 +182,13 @@ void ReplayController::open(const QString& path) {
       for (const std::string& note : file->session.notes()) {
         file->notes << QString::fromStdString(note);
       }
+      file->start = firstMomentOf(file->session, file->range, file->frames);
       file->first =
-          std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, range->begin));
-      file->events = link::eventsOf(file->session);
-      constexpr std::size_t maxLines = 10'000;
-      file->session.messages(telemetry::SessionStream::Log, *range,
-                             [&file](double time, std::string_view json) {
-                               if (auto line = telemetry::sessionLogLine(json)) {
-                                 line->time = time;
-                                 file->log.push_back(std::move(*line));
-                               }
-                               return file->log.size() < maxLines;
-                             });
-      addEvents(file->events, file->log);
+          std::make_shared<link::MatchFrame>(file->frames.frameAt(file->session, file->start));
+      file->paged =
+          file->session.hasSummaries() && bytesOfRows(file->session) > static_cast<double>(budget);
+      // Of a long session they come after the first frame.
+      if (!file->paged) file->readEvents();
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
         file->scenario = std::move(*scenario);
       }
@@ -166,11 +204,23 @@ void ReplayController::open(const QString& path) {
       m_path = path;
       take(file);
     });
+    if (!file || !file->paged) return;
+    file->readEvents();
+    m_toUi.post([this, mine] {
+      if (mine == m_generation) tellRecorded();
+    });
   });
+}
+
+void ReplayController::tellRecorded() {
+  emit eventsRecorded(m_file->events);
+  if (!m_file->log.empty()) emit logReceived(m_file->log);
 }
 
 void ReplayController::close() {
   ++m_generation;
+  ++m_loading;
+  m_pages.reset();
   m_file.reset();
   m_frame.reset();
   m_path.clear();
@@ -181,6 +231,7 @@ void ReplayController::close() {
 }
 
 void ReplayController::take(std::shared_ptr<File> file) {
+  m_pages.reset();
   m_file = std::move(file);
   m_file->rows = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_budget});
   m_frame = m_file->first;
@@ -190,21 +241,25 @@ void ReplayController::take(std::shared_ptr<File> file) {
   m_playback->setRange({});
   m_playback->setTickRate(m_file->tickRate);
   m_playback->setRange(m_file->range);
-  m_playback->toStart();
+  m_playback->seek(m_file->start);
   emit restarted();
   emit frameReceived(m_frame);
-  emit eventsRecorded(m_file->events);
-  if (!m_file->log.empty()) emit logReceived(m_file->log);
+  if (!m_file->paged) tellRecorded();
   emit opened();
   if (!m_file->notes.isEmpty()) emit noted(m_file->notes);
-  load();
+  if (m_file->paged) {
+    page();
+  } else {
+    load();
+  }
 }
 
 FramePtr ReplayController::frameAt(double time) const {
-  if (!m_file) return nullptr;
+  if (!m_file || m_file->live || m_file->paged) return nullptr;
   const auto held = m_file->rows->range();
-  // Memory answers at once where it holds what came before this moment as well.
-  if (held && held->begin <= m_file->range.begin + 1e-9 && time <= held->end) {
+  // Memory answers at once where it holds what came before this moment as well, and every robot's
+  // row of the moment itself.
+  if (held && held->begin <= m_file->range.begin + 1e-9 && time <= m_file->whole) {
     return std::make_shared<link::MatchFrame>(m_file->memoryFrames.frameAt(*m_file->rows, time));
   }
   return nullptr;
@@ -242,30 +297,52 @@ void ReplayController::readMoment() {
 void ReplayController::load() {
   m_loaded = 0.0;
   emit loadedChanged(m_loaded);
-  m_loader.start([this, path = m_path, rows = m_file->rows, mine = m_generation.load()] {
+  m_loader.start([this, path = m_path, file = m_file, rows = m_file->rows, mine = ++m_loading] {
     const auto tell = [this, mine](double part) {
       m_toUi.post([this, part, mine] {
-        if (mine != m_generation) return;
+        if (mine != m_loading) return;
         m_loaded = part;
         emit loadedChanged(part);
         if (part >= 1.0) noteWhatDoesNotFit();
       });
     };
-    const QStringList damage = readRows(path, *rows, [this, mine, &tell](double part) {
+    const QStringList damage = readRows(path, *rows, file->whole, [this, mine, &tell](double part) {
       if (part < 1.0) tell(part);
-      return mine == m_generation;
+      return mine == m_loading;
     });
     tell(1.0);
     if (damage.isEmpty()) return;
     m_toUi.post([this, damage, mine] {
-      if (mine == m_generation && !m_file->broken) emit damageFound(damage);
+      if (mine == m_loading && !m_file->broken) emit damageFound(damage);
     });
+  });
+}
+
+void ReplayController::page() {
+  m_loaded = 0.0;
+  emit loadedChanged(m_loaded);
+  m_loader.start([this, path = m_path, file = m_file, budget = m_budget, mine = ++m_loading] {
+    auto reader = telemetry::SessionReader::open(path.toStdString());
+    m_toUi.post(
+        [this, file, budget, mine, reader = std::make_shared<decltype(reader)>(std::move(reader))] {
+          if (mine != m_loading) return;
+          if (*reader) {
+            for (const telemetry::SessionGroup& group : (*reader)->groups()) {
+              (void)file->rows->addGroup(group.info);
+            }
+            m_pages = std::make_shared<ReplayPages>(std::move(**reader), budget);
+            file->rows->setPages(m_pages);
+          }
+          m_loaded = 1.0;
+          emit loadedChanged(m_loaded);
+        });
   });
 }
 
 void ReplayController::setMemoryBudget(std::size_t bytes) {
   m_budget = bytes;
   if (m_file) m_file->rows->setMemoryBudget(bytes);
+  if (m_pages) m_pages->setBytes(bytes);
 }
 
 void ReplayController::noteWhatDoesNotFit() {
@@ -281,9 +358,7 @@ void ReplayController::noteWhatDoesNotFit() {
 }
 
 void ReplayController::stopLoading() {
-  // Another number for what goes on; moments are read as before.
-  ++m_generation;
-  m_reading = false;
+  ++m_loading;
   m_loaded = 1.0;
   emit loadedChanged(m_loaded);
 }

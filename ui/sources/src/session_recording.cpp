@@ -158,16 +158,12 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
                   [recorder] { return recorder->finish(); }};
 }
 
-telemetry::WallTime SessionRecording::zeroOfLive() const {
-  return m_live->began();
-}
-
 Result<SessionRecording::Recorder> SessionRecording::recordLive(const QString& path) {
   link::RecorderOptions options;
   options.program = programName();
   options.writer = m_writing;
   auto made =
-      link::LiveRecorder::create(path.toStdString(), m_live->options(), zeroOfLive(), options);
+      link::LiveRecorder::create(path.toStdString(), m_live->options(), m_live->began(), options);
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::LiveRecorder> recorder = *made;
   m_live->observe(recorder);
@@ -281,10 +277,12 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
   const auto& events = m_timeline->events()->events();
   past.events.assign(events.begin(), events.end());
   std::shared_ptr<const link::StateArchive> archive;
+  std::shared_ptr<const link::LiveMemory> heard;
   telemetry::SessionInfo about;
   if (live) {
-    about = link::liveSessionInfo(m_live->options(), zeroOfLive(), programName());
+    about = link::liveSessionInfo(m_live->options(), m_live->began(), programName());
     past.profile = telemetry::profileText(m_live->options().profile);
+    heard = m_live->memory();
   } else {
     link::RecorderOptions options;
     options.program = programName();
@@ -294,15 +292,16 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     past.catalog = m_controller->catalog().toJson();
     archive = m_controller->memory()->archive();
   }
-  return
-      [past = std::move(past), rows, archive, about, seconds](const QString& path) -> Result<void> {
-        link::RecentPast all = past;
-        all.rows = rows.get();
-        all.archive = archive.get();
-        const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
-        if (!done) return tl::unexpected(done.error());
-        return {};
-      };
+  return [past = std::move(past), rows, archive, heard, about,
+          seconds](const QString& path) -> Result<void> {
+    link::RecentPast all = past;
+    all.rows = rows.get();
+    all.archive = archive.get();
+    all.heard = heard.get();
+    const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
+    if (!done) return tl::unexpected(done.error());
+    return {};
+  };
 }
 
 void SessionRecording::saveLast(double seconds) {

@@ -51,6 +51,8 @@ class TimelineDock : public QWidget {
               menu.exec(at);
             });
     if (context.compared != nullptr) {
+      connect(m_strip, &TimelineStrip::comparedMoved, context.compared,
+              &ComparedSession::setOffset);
       connect(context.compared, &ComparedSession::changed, this,
               [this, compared = context.compared] {
                 m_strip->setCompared(compared->events(), compared->offset(), compared->caption());

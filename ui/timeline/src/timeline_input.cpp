@@ -22,6 +22,7 @@ constexpr double edgeReach = 4.0;  // px of the mock: where a window's edge is t
 
 TimelineStrip::Grab TimelineStrip::grabAt(QPointF at, Qt::KeyboardModifiers keys) const {
   if (keys & Qt::ShiftModifier) return Grab::Range;
+  if (comparedRect().contains(at.toPoint())) return Grab::Compared;
   const auto window = windowRect();
   const double reach = scaled(this, edgeReach);
   if (window && at.y() >= window->top() && at.y() < window->bottom() + 1 &&
@@ -43,6 +44,9 @@ void TimelineStrip::showCursorAt(QPointF at, Qt::KeyboardModifiers keys) {
       break;
     case Grab::Window:
       setCursor(Qt::OpenHandCursor);
+      break;
+    case Grab::Compared:
+      setCursor(Qt::SizeHorCursor);
       break;
     case Grab::Range:
       setCursor(Qt::IBeamCursor);
@@ -68,6 +72,8 @@ void TimelineStrip::mousePressEvent(QMouseEvent* event) {
   if (m_grab == Grab::Moment) {
     const EventMark* mark = markAt(m_pressedAt);
     m_timeline->seek(mark != nullptr ? m_timeline->events()->event(mark->row).time : m_grabTime);
+  } else if (m_grab == Grab::Compared) {
+    m_grabOffset = m_comparedOffset;
   } else if (m_grab != Grab::Range) {
     m_grabRange = m_plots->range();
     setCursor(m_grab == Grab::Window ? Qt::ClosedHandCursor : Qt::SizeHorCursor);
@@ -110,6 +116,9 @@ void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
       setShown({m_grabRange.begin - seconds, m_grabRange.end - seconds});
       break;
     }
+    case Grab::Compared:
+      emit comparedMoved(m_grabOffset + by);
+      break;
     case Grab::Nothing:
       break;
   }
@@ -123,6 +132,7 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
       m_timeline->seek(m_grabTime);
     }
     if (grabbed == Grab::Range) m_timeline->setSelection({});
+    if (grabbed == Grab::Compared) m_timeline->seek(m_grabTime);
   }
   showCursorAt(event->position(), event->modifiers());
 }

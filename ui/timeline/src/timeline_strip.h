@@ -67,11 +67,13 @@ class TimelineStrip : public QWidget {
   void contextMenuEvent(QContextMenuEvent* event) override;
 
  signals:
+  /// The compared session was moved by hand: its second 0 is to be there, s.
+  void comparedMoved(double offset);
   /// On this event, of the compared session or not; null: on none.
   void menuRequested(QPoint global, const pitchboard::link::MatchEvent* event, bool compared);
 
  private:
-  enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View };
+  enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared };
   void fitAxis();
   void clampShown(telemetry::TimeRange& range) const;
   Grab grabAt(QPointF at, Qt::KeyboardModifiers keys) const;
@@ -91,7 +93,7 @@ class TimelineStrip : public QWidget {
   Timeline* m_timeline;
   LinkedTime* m_plots;
   const EventList* m_compared = nullptr;
-  double m_comparedOffset = 0.0;
+  double m_comparedOffset = 0.0, m_grabOffset = 0.0;
   QString m_comparedCaption;
   TimeAxis m_axis;
   bool m_showsAll = true;

@@ -33,7 +33,7 @@ QWidget* refereeing(const StudioParts& s, QWidget* parent) {
   return makeRefereeingDock(s.controller, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
-  return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings}, parent);
+  return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings, s.compared}, parent);
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);

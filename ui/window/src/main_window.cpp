@@ -220,6 +220,12 @@ void MainWindow::showExport() {
                       ? QStringLiteral("live")
                       : QString::fromStdString(m_controller->scenario().title);
   }
+  if (const auto rows = m_source->series()) {
+    for (telemetry::GroupId id = 0; id < rows->groups(); ++id) {
+      if (const auto view = rows->view(id)) source.groups.push_back(view->info());
+    }
+  }
+  source.clock = m_source->clock();
   auto* dialog =
       new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field, this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);

@@ -263,7 +263,7 @@ void StudioMenus::makeTimeline() {
   stop->setObjectName(QStringLiteral("stopComparing"));
   const auto showCompared = [byTime, stop, compared] {
     stop->setEnabled(compared->isOn());
-    byTime->setEnabled(compared->isOn() && compared->offset() != 0.0);
+    byTime->setEnabled(compared->isOn() && !compared->isAlignedByTime());
   };
   QObject::connect(compared, &ComparedSession::changed, stop, showCompared);
   showCompared();

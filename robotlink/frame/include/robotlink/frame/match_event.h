@@ -42,6 +42,7 @@ enum class MatchEventKind : std::uint8_t {
   RobotSilent,       ///< robot
   RobotBack,         ///< robot
   SecondSender,      ///< robot; detail: the sender that is shown
+  BatteryLow,        ///< robot; value: tenths of a volt
   AddressChanged,    ///< robot; detail: "10.0.0.3 to 10.0.0.7"
   ClockSet,          ///< the computer's; value: by so many seconds
   Penalised,         ///< robot; detail: for what; value: seconds left
@@ -57,7 +58,7 @@ enum class MatchEventKind : std::uint8_t {
   Bookmark,          ///< detail: the user's note
   Other              ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 36;
+inline constexpr std::size_t matchEventKindCount = 37;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

@@ -80,6 +80,10 @@ class LiveObserver {
   virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
+  /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
+  /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
+  /// told at the same time.
+  virtual void remembered(double /*time*/, std::string_view /*books*/) {}
 };
 
 class LiveWatch {

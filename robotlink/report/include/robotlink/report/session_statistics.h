@@ -2,8 +2,8 @@
 #pragma once
 
 // What a match was like, in numbers: computed from rows, whether they stand in a session file or in
-// memory. Simulated matches are judged by the truth, live ones by what the robots believed and
-// sent.
+// memory; of a live match from the frames that were seen. Simulated matches are judged by the
+// truth, live ones by what the robots believed and sent.
 
 #include <array>
 #include <memory>
@@ -33,6 +33,15 @@ struct RobotSummary {
   /// Share of the time in which the process worked, 0 to 1; nothing where rows do not say.
   std::array<std::optional<double>, telemetry::processCount> uptime{};
   std::vector<double> errorCurve;  ///< mean belief error, cm, in equal parts of the time; NaN: none
+  /// How a live robot was heard.
+  struct Link {
+    double heard = 0.0;  ///< share of the time from its first message on, 0 to 1
+    std::uint64_t messages = 0;
+    std::optional<double> loss;  ///< 0 to 1, where its messages are numbered
+    int silences = 0, penalties = 0;
+    std::optional<double> leastVolts;
+  };
+  std::optional<Link> link;
 };
 
 struct TeamSummary {
@@ -69,7 +78,8 @@ class StatisticsBuilder {
   std::unique_ptr<Impl> m_impl;
 };
 
-/// Both walk through every row of the range once.
+/// Both walk through every row of the range once; of a session of live robots through moments, at
+/// most 36 000.
 SessionStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range);
 SessionStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range);
 

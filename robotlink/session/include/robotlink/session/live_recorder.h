@@ -11,6 +11,7 @@
 
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
+#include <robotlink/session/live_memory.h>
 #include <robotlink/session/match_recorder.h>
 
 namespace pitchboard::link {
@@ -27,7 +28,7 @@ std::optional<RefereeView> refereeFromJson(std::string_view json);
 telemetry::SessionInfo liveSessionInfo(const LiveOptions& live, telemetry::WallTime zero,
                                        const std::string& program);
 
-class LiveRecorder : public LiveObserver {
+class LiveRecorder : public LiveRecords {
  public:
   /// `zero`: the moment that counts as 0 s, as in LiveObserver's times. Errors as
   /// SessionWriter::create(). Hand it to LiveWatch::observe().
@@ -40,15 +41,11 @@ class LiveRecorder : public LiveObserver {
   // The watch's thread.
   void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
-  void refereeHeard(double time, const telemetry::DatagramView& datagram,
-                    const telemetry::RefereeState& state) override;
-  void unusedHeard(double time, const telemetry::DatagramView& datagram) override;
   void happened(const MatchEvent& event) override;
   void reported(const telemetry::TeamStatus& team) override;
   void sampled(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) override {
     m_boards.take(group, rows);
   }
-  void frameMade(const MatchFrame& frame) override;
 
   // Any thread.
   telemetry::SessionStatus status() const { return m_writer->status(); }
@@ -59,15 +56,19 @@ class LiveRecorder : public LiveObserver {
   /// The same: rows and values that the limits of LiveRows kept out of the file.
   const telemetry::LiveRows::Refused& refused() const { return m_rows.refused(); }
 
+ protected:
+  void keep(LiveRecord record) override;
+
  private:
   LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer, telemetry::WallTime zero,
                const LiveOptions& live);
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
-  const int m_refereePort;
   telemetry::LiveRows m_rows;
   BoardRowKeeper m_boards;
-  std::optional<telemetry::RefereeState> m_refereeNews;  // not in a frame yet
 };
+
+/// A record of any kind, into a session.
+void appendRecord(telemetry::SessionWriter& writer, const LiveRecord& record);
 
 }  // namespace pitchboard::link

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <robotlink/session/live_memory.h>
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/state_archive.h>
 #include <telemetry/series/series_store.h>
@@ -87,6 +88,7 @@ class MatchRecorder : public TickObserver {
 struct RecentPast {
   const telemetry::SeriesStore* rows = nullptr;
   const StateArchive* archive = nullptr;  ///< null: a live source
+  const LiveMemory* heard = nullptr;      ///< null: a simulated one
   std::vector<MatchEvent> events;
   std::vector<LogLine> log;
   std::string scenario, catalog, profile;  ///< JSON texts; empty: there is none

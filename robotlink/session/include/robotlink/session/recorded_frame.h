@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/session/live_moments.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/session/session_reader.h>
 #include <telemetry/wire/profile.h>
@@ -41,6 +42,8 @@ class RecordedFrames {
 
   /// The frame of the rows at or before `time` (s of the source). A robot of a simulation is there
   /// while it has rows; a live robot from its first message on. origin is Recorded, serial grows.
+  /// A session that has what was known of a live match (since 0.3) gives the frames that were seen;
+  /// of an older one the frame is made of rows, which do not say all.
   MatchFrame frameAt(const telemetry::SeriesStore& rows, double time);
   MatchFrame frameAt(const telemetry::SessionReader& session, double time);
 
@@ -57,6 +60,7 @@ class RecordedFrames {
   void addHealth(std::size_t group, double time, const sim::FieldSpec& field, RobotFrame& robot);
 
   FrameBackdrop m_backdrop;
+  LiveMoments m_live;
   std::uint64_t m_serial = 0;
   double m_lastTime = 0.0;
   std::vector<const telemetry::GroupInfo*> m_groups;  // of the frame being built

@@ -78,6 +78,8 @@ class GroupView {
   virtual SeriesStatistics statistics(std::uint32_t column, TimeRange range) const = 0;
 };
 
+class SeriesPages;
+
 class SeriesStore : public RowSink {
  public:
   explicit SeriesStore(SeriesOptions options = {});
@@ -85,7 +87,8 @@ class SeriesStore : public RowSink {
   SeriesStore(const SeriesStore&) = delete;
   SeriesStore& operator=(const SeriesStore&) = delete;
 
-  // Any thread, but the rows of one group come from one thread at a time.
+  // Any thread, but the rows of one group come from one thread at a time. Of groups whose chunks do
+  // not fit, the chunk leaves first whose last row is the oldest.
   /// A group of this name with the same columns is taken up again, its rows stay; so is one with
   /// further Float64 columns behind them, which are holes in the rows so far. With other columns it
   /// starts empty under a new id.
@@ -113,6 +116,9 @@ class SeriesStore : public RowSink {
   std::size_t memoryBytes() const;
   std::uint64_t refusedRows() const;
   void setMemoryBudget(std::size_t bytes);
+  /// The rows of all groups are there (<telemetry/series/series_pages.h>), not in this store: the
+  /// groups must have been added, and nothing is appended.
+  void setPages(std::shared_ptr<SeriesPages> pages);
 
  private:
   struct Impl;

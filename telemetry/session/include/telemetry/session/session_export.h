@@ -21,18 +21,31 @@ enum class ExportFormat : std::uint8_t {
   CsvWide,  ///< a line per time; a column "B1.VISION_BALL_DIST" per variable, empty where no row is
   CsvLong,  ///< a line per value: time, robot, variable, value
   JsonLines,  ///< a line per row or message
-  Mcap        ///< a session with the selected part
+  Mcap,       ///< a session with the selected part
+  CsvEven     ///< as CsvWide, but at even times: every variable in every line
 };
-/// "csv-wide", "csv-long", "jsonl", "mcap". Error InvalidArgument names them.
+/// "csv-wide", "csv-long", "jsonl", "mcap", "csv-even". Error InvalidArgument names them.
 Result<ExportFormat> exportFormat(std::string_view name);
 /// ".csv", ".jsonl", ".mcap".
 std::string_view fileExtension(ExportFormat format);
+
+/// What CsvEven writes between rows. A row counts for at most 10 s: behind that is a hole.
+struct Resampling {
+  static constexpr double longestHold = 10.0;  ///< s
+  static constexpr double mostPerSecond = 10'000.0;
+  double rate = 10.0;        ///< lines per second, above 0
+  bool interpolate = false;  ///< on the line between two rows; codes and flags are held even then
+};
 
 struct ExportSelection {
   TimeRange range{-1e18, 1e18};        ///< s, both ends included
   std::vector<std::string> robots;     ///< names of groups; empty: all
   std::vector<std::string> variables;  ///< names, * stands for any letters; empty: all
   bool messages = true;                ///< events, log, datagrams too (JsonLines and Mcap)
+  bool clock = false;                  ///< CSV: the time of day as well, UTC, behind the time
+  Resampling resampling{};             ///< of CsvEven
+  /// Mcap: JSON messages that stand before all others, at the beginning of the range.
+  std::vector<std::pair<SessionStream, std::string>> opening{};
 };
 
 struct ExportReport {

@@ -18,6 +18,7 @@
 
 #include <base/result.h>
 #include <telemetry/mcap/mcap_reader.h>
+#include <telemetry/series/series_summary.h>
 #include <telemetry/session/session_types.h>
 
 namespace pitchboard::telemetry {
@@ -87,6 +88,14 @@ class SessionReader {
   /// The messages of a stream in the closed range, with their time, until the visitor says false.
   void messages(SessionStream stream, TimeRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
+  /// The same of several streams, in the order of recording.
+  void messages(std::span<const SessionStream> streams, TimeRange range,
+                const std::function<bool(SessionStream, double time, std::string_view json)>& visit)
+      const;
+  /// Long sessions hold a coarse picture of their rows (since 0.3; not files that broke off).
+  bool hasSummaries() const;
+  /// Of one group; empty when there is none, or `goOn` says false.
+  GroupSummary summary(GroupId group, const std::function<bool()>& goOn = {}) const;
   /// Everything that is known in the closed range; `progress` gets the part that is done (0 to 1)
   /// now and then. Ends when one of them says false.
   bool walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,

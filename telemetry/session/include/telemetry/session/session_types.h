@@ -38,9 +38,10 @@ enum class SessionStream : std::uint8_t {
   Telemetry,   ///< SessionDatagram from a robot
   RefereeRaw,  ///< SessionDatagram of the referee
   Referee,     ///< a referee packet decoded
-  Checkpoints  ///< pieces of a simulated match that can be re-entered exactly
+  Checkpoints,  ///< pieces of a simulated match that can be re-entered exactly
+  LiveState     ///< what was known of a live match; what came later follows from the datagrams
 };
-inline constexpr std::size_t sessionStreamCount = 6;
+inline constexpr std::size_t sessionStreamCount = 7;
 
 /// What is known of an event besides its time and kind, for programs. Empty or 0: does not apply.
 struct EventFacts {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include <telemetry/wire/datagram.h>
 
@@ -19,6 +20,8 @@ class ArrivalStats {
   double rate(WallTime now) const;
   /// Standard deviation of the time between messages, seconds; 0 until there are three.
   double jitter() const;
+  /// Those of the last messages, oldest first: adding them to a new object makes the same one.
+  std::vector<WallTime> times() const;
   /// Mean time between messages; nothing until there are two.
   std::optional<Duration> interval() const;
 

@@ -10,6 +10,9 @@ namespace pitchboard::telemetry {
 
 class ProcessFilter {
  public:
+  ProcessFilter() = default;
+  /// Goes on where another one was.
+  explicit ProcessFilter(double probability) : m_p(std::clamp(probability, 0.001, 0.999)) {}
   /// Takes the flag of one message.
   void update(bool flag) {
     m_p = flag ? 0.9 * m_p / (0.01 + 0.89 * m_p) : 0.1 * m_p / (0.99 - 0.89 * m_p);

@@ -107,9 +107,17 @@ class TeamMonitor {
   /// Forgets robots, senders and counters.
   void clear();
 
+  /// All that later statuses of the robots follow from, as JSON; times count from `zero`. Senders
+  /// and the counters of everybody together are left out.
+  std::string robotsText(WallTime zero) const;
+  /// Goes on from there: from now on it says of the robots what the other one would say. The
+  /// profile and the options are not part of it. Error ParseError; nothing has changed then.
+  Result<void> restoreRobots(std::string_view json, WallTime zero);
+
  private:
   struct Robot;
   struct SenderRecord;
+  friend struct MonitorBooks;  // writes and reads all of it
   Robot* findRobot(int number, const Sender& sender, WallTime time);
   Robot* newRobot(int number, WallTime time);
   bool isOverdue(const Robot& robot, WallTime time) const;

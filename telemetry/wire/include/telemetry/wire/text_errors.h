@@ -58,6 +58,8 @@ class ErrorTally {
   static constexpr std::size_t sampleBytes = 160;
 
   void add(TextErrors errors, std::string_view datagram);
+  /// Errors that were counted before; there is no sample of them.
+  void add(TextError error, std::uint64_t count) { m_kinds[index(error)].count += count; }
   std::uint64_t count(TextError error) const { return m_kinds[index(error)].count; }
   std::uint64_t total() const;
   /// Printable: other bytes as \xNN, cut with "..." where the text is longer.

@@ -21,6 +21,7 @@ class QTabWidget;
 
 namespace pitchboard::ui {
 
+class ComparedSession;
 class NoticeBar;
 class PlotFeed;
 class PlotPage;
@@ -32,10 +33,11 @@ class Timeline;
 /// What the dock shows and moves; everything outlives it.
 struct PlotsContext {
   SourceSwitch* source = nullptr;
-  LinkedTime* time = nullptr;     ///< visible range, cursor and marks of plots and timeline
-  Timeline* timeline = nullptr;   ///< the moment shown, events; may be null
-  PlotTarget* plots = nullptr;    ///< who asks for plots from elsewhere; may be null
-  QSettings* settings = nullptr;  ///< the user's; may be null
+  LinkedTime* time = nullptr;           ///< visible range, cursor and marks of plots and timeline
+  Timeline* timeline = nullptr;         ///< the moment shown, events; may be null
+  PlotTarget* plots = nullptr;          ///< who asks for plots from elsewhere; may be null
+  QSettings* settings = nullptr;        ///< the user's; may be null
+  ComparedSession* compared = nullptr;  ///< whose curves are drawn beside; may be null
 };
 
 class PlotsDock : public QWidget {
@@ -70,6 +72,7 @@ class PlotsDock : public QWidget {
 
  private:
   void makeTools();
+  void compare();
   void scheduleDraw();
   void drawNow();
   void takeRows();

@@ -6,10 +6,13 @@
 // The dialog stays while a worker writes, shows how far it is, and can be cancelled; it never stops
 // the window. UI thread only.
 
+#include <QDateTime>
 #include <QDialog>
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include <telemetry/series/series_store.h>
 #include <ui/base/ui_queue.h>
@@ -17,18 +20,20 @@
 #include <ui/session/export_forms.h>
 #include <ui/sources/session_recording.h>
 
+class QCheckBox;
 class QComboBox;
 class QDialogButtonBox;
 class QFormLayout;
 class QLabel;
-class QLineEdit;
 class QProgressBar;
 class QPushButton;
 class QSpinBox;
 class QTemporaryDir;
+class QToolButton;
 
 namespace pitchboard::ui {
 
+class CheckList;
 class FieldPictures;
 class NumberBox;
 class VideoExport;
@@ -38,6 +43,9 @@ struct ExportSource {
   QString session;                     ///< the file; empty: memory
   std::function<SessionMaker()> make;  ///< from memory: what writes it (SessionRecording)
   QString folder, name;                ///< of the file that is proposed, without its ending
+  /// What can be chosen: the groups of the source.
+  std::vector<telemetry::GroupInfo> groups{};
+  std::optional<QDateTime> clock{};  ///< time of day at second 0, where there is one
 };
 
 class ExportDialog : public QDialog {
@@ -63,6 +71,9 @@ class ExportDialog : public QDialog {
  private:
   const ExportForm& form() const;
   void showRows();
+  void showClock();
+  void makeChoices();
+  bool takeChoices(telemetry::ExportSelection& selection);
   void ask();
   void write(const ExportRequest& request);
   void writeVideo(const ExportRequest& request);
@@ -78,14 +89,21 @@ class ExportDialog : public QDialog {
   QComboBox* m_format;
   NumberBox* m_begin;
   NumberBox* m_end;
-  QLineEdit* m_robots;
-  QLineEdit* m_variables;
+  QLabel* m_when;
+  CheckList* m_robots;
+  CheckList* m_variables;
+  NumberBox* m_lines;
+  QComboBox* m_between;
+  QCheckBox* m_clock;
   QComboBox* m_size;
   QSpinBox* m_rate;
   QFormLayout* m_rows;
   QProgressBar* m_progress;
   QLabel* m_message;
   QPushButton* m_export;
+  QToolButton* m_open;
+  QToolButton* m_show;
+  QString m_written;  // the last file
   QString m_program = QStringLiteral("ffmpeg");
   std::unique_ptr<QTemporaryDir> m_memory;  // holds the session that is written from memory
   std::unique_ptr<VideoExport> m_video;

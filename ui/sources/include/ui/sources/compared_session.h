@@ -2,8 +2,9 @@
 #pragma once
 
 // A second session beside the one that is shown, whatever that is: its moments are for drawing over
-// the field, its events stand in the timeline's second row. Both are aligned by their times, or by
-// an event chosen in each. UI thread only; the file is read on threads of its own.
+// the field, its events stand in the timeline's second row, its curves in the same plots. Both are
+// aligned by their times (live ones by their beginnings: each watch has a second 0 of its own), by
+// an event chosen in each, or by hand. UI thread only; the file is read on threads of its own.
 
 #include <QObject>
 #include <optional>
@@ -30,6 +31,8 @@ class ComparedSession : public QObject {
 
   /// Its events; null while nothing is compared.
   const EventList* events() const;
+  /// Its rows, at its own times; null while nothing is compared.
+  std::shared_ptr<const telemetry::SeriesStore> series() const { return m_file.series(); }
   /// Its second 0 on the timeline of what is shown, s.
   double offset() const { return m_offset; }
   void setOffset(double seconds);
@@ -39,19 +42,23 @@ class ComparedSession : public QObject {
   void alignThere(double there);
   std::optional<double> here() const { return m_here; }
   std::optional<double> there() const { return m_there; }
-  /// Second 0 of both at one moment again.
+  /// Second 0 of both at one moment again; of live sessions the beginnings.
   void alignByTime();
+  bool isAlignedByTime() const { return m_offset == offsetByTime(); }
   /// "match.mcap · +3.20 s"
   QString caption() const;
 
  signals:
   /// On, off, or aligned in another way.
   void changed();
+  /// There are more rows in series().
+  void rowsCame();
   void failed(const QString& sentence);
   /// Its moment that belongs to what is shown; null: none.
   void momentReached(const pitchboard::ui::FramePtr& frame);
 
  private:
+  double offsetByTime() const;
   void align();
   void showMoment();
 

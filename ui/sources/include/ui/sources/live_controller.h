@@ -6,11 +6,11 @@
 // another source is shown. It sends nothing but the monitor request, when that is turned on. UI
 // thread only.
 
-#include <deque>
 #include <memory>
 
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
+#include <robotlink/session/live_memory.h>
 #include <ui/base/ui_queue.h>
 #include <ui/sources/frame_source.h>
 
@@ -49,8 +49,10 @@ class LiveController : public FrameSource {
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_series; }
   QString emptyText() const override;
-  /// From the last minutes: at most five moments a second are kept, and 80 MB in all.
+  /// Made again from the datagrams that are kept.
   FramePtr frameAt(double time) const override;
+  /// Null while nothing is listened to.
+  std::shared_ptr<const link::LiveMemory> memory() const { return m_memory; }
   /// The time of day at 0 s, to the nanosecond.
   telemetry::WallTime began() const;
   std::optional<QDateTime> clock() const override;
@@ -70,7 +72,6 @@ class LiveController : public FrameSource {
 
  private:
   void deliver();
-  void remember();
   void keepRows();
 
   UiQueue m_toUi;
@@ -79,8 +80,8 @@ class LiveController : public FrameSource {
   std::unique_ptr<link::LiveWatch> m_watch;
   FramePtr m_frame;
   std::size_t m_memoryBudget = std::size_t{1} << 30;
-  std::deque<FramePtr> m_past;
-  std::size_t m_pastBytes = 0;
+  std::shared_ptr<link::LiveMemory> m_memory;
+  std::unique_ptr<link::LiveMoments> m_moments;
   std::shared_ptr<RowKeeper> m_rows;
   std::shared_ptr<telemetry::SeriesStore> m_series;
 };

@@ -14,6 +14,8 @@
 
 namespace pitchboard::ui {
 
+class ReplayPages;
+
 class ReplayController : public FrameSource {
   Q_OBJECT
  public:
@@ -45,8 +47,9 @@ class ReplayController : public FrameSource {
   double loaded() const { return m_loaded; }
   /// Goes on without the rows that are not in memory yet: curves end there, moments do not.
   void stopLoading();
-  /// Bytes that rows may take. Of a session that does not fit, the end is in memory: noted() says
-  /// so.
+  /// Bytes that rows may take. Of a session that does not fit, a coarse picture of everything and
+  /// the rows around what is looked at are in memory; of one that has no such picture (it broke
+  /// off, or is older than 0.3) the end is, and noted() says so.
   void setMemoryBudget(std::size_t bytes);
 
  signals:
@@ -64,9 +67,12 @@ class ReplayController : public FrameSource {
   void wantMoment(double time);
   void readMoment();
   void load();
+  void page();
+  void tellRecorded();
   void noteWhatDoesNotFit();
 
   std::shared_ptr<File> m_file;
+  std::shared_ptr<ReplayPages> m_pages;  // null while all rows are in memory
   QString m_path;
   Playback* m_playback;
   FramePtr m_frame;
@@ -75,7 +81,8 @@ class ReplayController : public FrameSource {
   std::size_t m_budget = std::size_t{1} << 30;
   std::optional<double> m_wanted;  // the moment to be shown next
   bool m_reading = false;          // a worker reads a moment
-  std::atomic<std::uint64_t> m_generation = 0;
+  /// Of the file that is open or opening, and of the loading that goes on.
+  std::atomic<std::uint64_t> m_generation = 0, m_loading = 0;
   UiQueue m_toUi;
   Workers m_seeker, m_loader;  // one thread each: a reader belongs to one thread
 };

@@ -82,7 +82,6 @@ class SessionRecording : public QObject {
   void checkHealth();
   void warnOf(const telemetry::SessionStatus& status);
   void finish(bool matchEnds);
-  telemetry::WallTime zeroOfLive() const;
 
   /// What records a source of one kind.
   struct Recorder {

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/live/live_books.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include <robotlink/live/live_teams.h>
+#include <telemetry/wire/base64.h>
+
+#include "live_frame.h"
+
+namespace pitchboard::link {
+namespace {
+
+using Json = nlohmann::json;
+using telemetry::Duration;
+using telemetry::RefereeState;
+using telemetry::WallTime;
+
+const Json* member(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() || found->is_null() ? nullptr : &*found;
+}
+
+template <class T>
+T whole(const Json& object, const char* key, T fallback = {}) {
+  const Json* value = member(object, key);
+  if (value == nullptr || !value->is_number_integer()) return fallback;
+  if (value->is_number_unsigned()) {
+    const auto number = value->get<std::uint64_t>();
+    return std::in_range<T>(number) ? static_cast<T>(number) : fallback;
+  }
+  const auto number = value->get<std::int64_t>();
+  return std::in_range<T>(number) ? static_cast<T>(number) : fallback;
+}
+
+double number(const Json& object, const char* key, double fallback) {
+  const Json* value = member(object, key);
+  return value != nullptr && value->is_number() ? value->get<double>() : fallback;
+}
+
+std::string text(const Json& object, const char* key) {
+  const Json* value = member(object, key);
+  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+/// A setup with its profile in it: the file of the profile may be somewhere else, or not at all,
+/// where the recording is read.
+Json setupJson(const telemetry::TeamSetup& setup) {
+  telemetry::TeamSetup plain = setup;
+  plain.profileName = telemetry::TeamSetup().profileName;
+  return Json{{"setup", telemetry::teamSetupText(plain)},
+              {"profileName", setup.profileName},
+              {"profile", telemetry::profileText(setup.profile)}};
+}
+
+std::optional<telemetry::TeamSetup> setupFrom(const Json& json) {
+  if (!json.is_object()) return {};
+  auto setup = telemetry::parseTeamSetup(text(json, "setup"), "setup");
+  auto profile = telemetry::parseProfile(text(json, "profile"), "profile");
+  if (!setup || !profile) return {};
+  setup->profileName = text(json, "profileName");
+  setup->profile = std::move(*profile);
+  return std::move(*setup);
+}
+
+Json optionsJson(const LiveOptions& options) {
+  const telemetry::BatteryLimits& battery = options.team.battery;
+  Json teams = Json::array();
+  for (const telemetry::TeamSetup& setup : options.team.teams) teams.push_back(setupJson(setup));
+  return Json{{"profile", telemetry::profileText(options.profile)},
+              {"teams", std::move(teams)},
+              {"field", options.field.name},
+              {"ourTeam", options.ourTeam},
+              {"refereeVersion", options.refereeVersion},
+              {"colour", info(options.colour).name},
+              {"colourByNumber", options.colourByNumber},
+              {"timeout", options.team.timeout.count()},
+              {"duplicateWindow", options.team.duplicateWindow.count()},
+              {"battery",
+               {{"cells", battery.cells},
+                {"full", battery.fullPerCell},
+                {"low", battery.lowPerCell},
+                {"empty", battery.emptyPerCell}}}};
+}
+
+/// What is missing, or cannot be, keeps its default.
+LiveOptions optionsFrom(const Json& json) {
+  LiveOptions options;
+  if (const std::string profile = text(json, "profile"); !profile.empty()) {
+    if (auto read = telemetry::parseProfile(profile, "profile")) options.profile = *read;
+  }
+  if (const Json* teams = member(json, "teams"); teams && teams->is_array()) {
+    for (const Json& team : *teams) {
+      if (auto setup = setupFrom(team)) options.team.teams.push_back(std::move(*setup));
+    }
+  }
+  if (auto field = sim::fieldByName(text(json, "field"))) options.field = *field;
+  options.ourTeam = whole<int>(json, "ourTeam");
+  options.refereeVersion = whole<int>(json, "refereeVersion");
+  options.colour = teamColour(text(json, "colour")).value_or(options.colour);
+  const Json* byNumber = member(json, "colourByNumber");
+  options.colourByNumber = byNumber && byNumber->is_boolean() && byNumber->get<bool>();
+  options.team.timeout = Duration(whole(json, "timeout", options.team.timeout.count()));
+  options.team.duplicateWindow =
+      Duration(whole(json, "duplicateWindow", options.team.duplicateWindow.count()));
+  if (const Json* limits = member(json, "battery"); limits && limits->is_object()) {
+    telemetry::BatteryLimits& battery = options.team.battery;
+    battery.cells = std::clamp(whole(*limits, "cells", battery.cells), 0, 1000);
+    battery.fullPerCell = number(*limits, "full", battery.fullPerCell);
+    battery.lowPerCell = number(*limits, "low", battery.lowPerCell);
+    battery.emptyPerCell = number(*limits, "empty", battery.emptyPerCell);
+  }
+  return options;
+}
+
+}  // namespace
+
+LiveBooks::LiveBooks(const LiveOptions& options)
+    : monitor(options.profile, monitorOptions(options)), referee(refereeOptions(options)) {}
+
+telemetry::RefereeTracker::Options LiveBooks::refereeOptions(const LiveOptions& options) {
+  telemetry::RefereeTracker::Options made;
+  made.version = options.refereeVersion;
+  return made;
+}
+
+void LiveBooks::clear(const LiveOptions& options) {
+  monitor.clear();
+  referee = telemetry::RefereeTracker(refereeOptions(options));
+  m_shown.reset();
+  m_other.reset();
+  m_trueData.reset();
+  m_replies.clear();
+}
+
+void LiveBooks::takeReferee(const telemetry::RefereePacket& packet,
+                            const telemetry::DatagramView& datagram) {
+  const auto kept = [&datagram] {
+    return Kept{datagram.time, datagram.sender, datagram.localPort, std::string(datagram.payload)};
+  };
+  const auto reply = [&](const telemetry::RobotReply& said, telemetry::Address robot) {
+    referee.accept(said, robot, datagram.time);
+    if (m_replies.size() < telemetry::RefereeTracker::maxReplies) {
+      m_replies.insert_or_assign({said.team, said.player}, kept());
+    }
+  };
+  if (const auto* state = std::get_if<RefereeState>(&packet)) {
+    const bool shown = referee.accept(*state, datagram.sender, datagram.time);
+    // Of packets that are not shown, only another referee's leaves something behind.
+    const bool other = referee.sender() && referee.sender()->address != datagram.sender.address;
+    if (state->trueData()) {
+      m_trueData = kept();
+    } else if (shown) {
+      m_shown = kept();
+    } else if (other) {
+      m_other = kept();
+    }
+  } else if (const auto* said = std::get_if<telemetry::RobotReply>(&packet)) {
+    reply(*said, datagram.sender.address);
+  } else if (const auto* forwarded = std::get_if<telemetry::ForwardedReply>(&packet)) {
+    reply(forwarded->reply, {forwarded->robot});
+  }
+}
+
+MatchFrame LiveBooks::frame(const LiveOptions& options, const telemetry::TeamStatus& team,
+                            double time) const {
+  return liveFrame(options, team, referee, time);
+}
+
+std::string LiveBooks::text(const LiveOptions& options, double time, WallTime zero) const {
+  Json json{{"time", time}, {"options", optionsJson(options)}};
+  // Its own text, not an object in here: the monitor's form is the monitor's.
+  json["robots"] = monitor.robotsText(zero);
+  Json& packets = json["referee"] = Json::array();
+  const auto put = [&](const Kept& kept) {
+    packets.push_back(Json{{"at", (kept.time - zero).count()},
+                           {"address", kept.sender.address.value},
+                           {"port", kept.sender.port},
+                           {"localPort", kept.localPort},
+                           {"base64", telemetry::toBase64(kept.payload)}});
+  };
+  for (const std::optional<Kept>* kept : {&m_shown, &m_trueData, &m_other}) {
+    if (*kept) put(**kept);
+  }
+  for (const auto& [robot, kept] : m_replies) put(kept);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
+  const Json json = Json::parse(
+      bytes, [](int depth, Json::parse_event_t, Json&) { return depth <= 8; }, false);
+  const Json* options = json.is_object() ? member(json, "options") : nullptr;
+  if (options == nullptr || !options->is_object()) {
+    return failure(ErrorCode::ParseError, "This is no state of a live match.");
+  }
+  LiveOptions known = optionsFrom(*options);
+  Read out{known, LiveBooks(known)};
+  if (auto done = out.books.monitor.restoreRobots(pitchboard::link::text(json, "robots"), zero);
+      !done) {
+    return tl::unexpected(done.error());
+  }
+  if (const Json* packets = member(json, "referee"); packets && packets->is_array()) {
+    for (const Json& packet : *packets) {
+      if (!packet.is_object()) continue;
+      const auto payload = telemetry::fromBase64(pitchboard::link::text(packet, "base64"));
+      if (!payload) continue;
+      const auto decoded = telemetry::decodeReferee(*payload);
+      if (!decoded) continue;
+      constexpr Duration century = std::chrono::hours(24 * 36'525);
+      const Duration at =
+          std::clamp(Duration(whole<std::int64_t>(packet, "at")), -century, century);
+      const telemetry::Sender sender{{whole<std::uint32_t>(packet, "address")},
+                                     whole<std::uint16_t>(packet, "port")};
+      out.books.takeReferee(*decoded, {zero + at, sender, whole<std::uint16_t>(packet, "localPort"),
+                                       false, *payload});
+    }
+  }
+  return out;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/session/live_memory.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <robotlink/session/live_recorder.h>
+
+namespace pitchboard::link {
+namespace {
+
+using telemetry::SessionStream;
+
+constexpr double disorder = 2.0;  // s; threads and ports may swap records within this
+constexpr std::size_t overhead = 128;
+
+std::size_t bytesOf(const LiveRecord& record) {
+  return sizeof record + overhead + record.json.size() + record.datagram.payload.size();
+}
+
+}  // namespace
+
+void LiveRecords::keep(SessionStream stream, double time, const telemetry::DatagramView& datagram) {
+  LiveRecord record;
+  record.stream = stream;
+  record.time = time;
+  record.datagram = {time, datagram.sender, datagram.localPort, std::string(datagram.payload)};
+  keep(std::move(record));
+}
+
+void LiveRecords::heard(RobotId /*id*/, double time, const telemetry::DatagramView& datagram,
+                        const telemetry::TextDecoder& /*decoder*/,
+                        const telemetry::DecodedText& /*decoded*/) {
+  keep(SessionStream::Telemetry, time, datagram);
+}
+
+void LiveRecords::refereeHeard(double time, const telemetry::DatagramView& datagram,
+                               const telemetry::RefereeState& state) {
+  keep(SessionStream::RefereeRaw, time, datagram);
+  m_refereeNews = state;
+}
+
+void LiveRecords::unusedHeard(double time, const telemetry::DatagramView& datagram) {
+  const bool ofRobot =
+      datagram.localPort != m_refereePort && datagram.localPort != telemetry::robotStatesPort;
+  keep(ofRobot ? SessionStream::Telemetry : SessionStream::RefereeRaw, time, datagram);
+}
+
+void LiveRecords::frameMade(const MatchFrame& frame) {
+  const auto news = std::exchange(m_refereeNews, std::nullopt);
+  if (!frame.referee || !news) return;
+  const double time = frame.snapshot.time;
+  LiveRecord record;
+  record.stream = SessionStream::Referee;
+  record.time = time;
+  record.json = refereeToJson(*news, *frame.referee, time);
+  keep(std::move(record));
+}
+
+void LiveRecords::remembered(double time, std::string_view books) {
+  LiveRecord record;
+  record.stream = SessionStream::LiveState;
+  record.time = time;
+  record.json = books;
+  keep(std::move(record));
+}
+
+void LiveMemory::keep(LiveRecord record) {
+  auto kept = std::make_shared<const LiveRecord>(std::move(record));
+  const std::lock_guard lock(m_mutex);
+  m_bytes += bytesOf(*kept);
+  m_records.push_back(std::move(kept));
+  while (m_bytes > m_room && m_records.size() > 1) {
+    m_bytes -= bytesOf(*m_records.front());
+    m_records.pop_front();
+  }
+}
+
+double LiveMemory::begin() const {
+  const std::lock_guard lock(m_mutex);
+  return m_records.empty() ? 0.0 : m_records.front()->time;
+}
+
+void LiveMemory::walk(std::span<const SessionStream> streams, telemetry::TimeRange range,
+                      const std::function<bool(const LiveRecord&)>& visit) const {
+  std::vector<Kept> wanted;
+  {
+    const std::lock_guard lock(m_mutex);
+    const auto first =
+        std::lower_bound(m_records.begin(), m_records.end(), range.begin - disorder,
+                         [](const Kept& record, double time) { return record->time < time; });
+    for (auto record = first; record != m_records.end(); ++record) {
+      if ((*record)->time > range.end + disorder) break;
+      if ((*record)->time < range.begin || (*record)->time > range.end) continue;
+      if (std::ranges::find(streams, (*record)->stream) != streams.end()) wanted.push_back(*record);
+    }
+  }
+  for (const Kept& record : wanted) {
+    if (!visit(*record)) return;
+  }
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Rows that are not all in memory: a coarse picture of everything, and the rows of a stretch that is
+// being looked at. Who holds the file implements it; views of a SeriesStore ask it. Any thread.
+
+#include <memory>
+
+#include <telemetry/series/series_store.h>
+#include <telemetry/series/series_summary.h>
+
+namespace pitchboard::telemetry {
+
+class SeriesPages {
+ public:
+  virtual ~SeriesPages() = default;
+  /// Null while it is being read; asking for it has it read. Not `whole`: its first and last part
+  /// will do, for lists that ask for every group.
+  virtual std::shared_ptr<const GroupSummary> summary(GroupId group, bool whole) = 0;
+  /// Every row of one stretch.
+  struct Stretch {
+    TimeRange range;
+    std::shared_ptr<const GroupView> rows;
+  };
+  /// What is in memory; nothing: no stretch yet.
+  virtual std::optional<Stretch> held(GroupId group) = 0;
+  /// Rows of this range are looked at; they come when there is room for so long a stretch.
+  virtual void want(TimeRange range) = 0;
+  /// Of everything there is.
+  virtual TimeRange range() = 0;
+  virtual std::size_t bytes() = 0;
+};
+
+/// A view of a group whose rows are paged. Where only the coarse picture is in memory, buckets and
+/// extremes are those of 256 rows, and samples are every 256th row.
+std::shared_ptr<const GroupView> pagedView(std::shared_ptr<const GroupView> empty, GroupId group,
+                                           std::shared_ptr<SeriesPages> pages);
+
+}  // namespace pitchboard::telemetry

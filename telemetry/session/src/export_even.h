@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Rows at even times, whatever times they came at: held, or on the line between two of them.
+// Private to the library; one thread.
+
+#include <deque>
+#include <vector>
+
+#include <telemetry/session/session_export.h>
+
+#include "export_selection.h"
+
+namespace pitchboard::telemetry {
+
+/// Numbers of all selected columns at one time; NaN: a hole.
+using EvenLine = std::vector<double>;
+
+class EvenRows {
+ public:
+  EvenRows(const SessionReader& session, const std::vector<SelectedGroup>& selected,
+           const Resampling& resampling);
+
+  /// Rows of a group in order of time. Calls `write(time, line)` for every line that is complete;
+  /// false when it says so.
+  template <class Write>
+  bool add(const SessionItem& item, const Write& write) {
+    take(item);
+    // A group that is silent is not waited for.
+    return writeUntil(readyUntil(item.time), write);
+  }
+  /// What is left, up to the last row.
+  template <class Write>
+  bool end(const Write& write) {
+    return writeUntil(m_last, write);
+  }
+
+ private:
+  struct Row {
+    double time;
+    std::vector<double> values;
+  };
+  struct Group {
+    std::vector<bool> held;  ///< codes and flags: they have nothing between
+    std::deque<Row> rows;    ///< from the one that counts at the next line on
+    bool selected = false;
+  };
+
+  void take(const SessionItem& item);
+  double readyUntil(double now) const;
+  void fill(double time);
+  template <class Write>
+  bool writeUntil(double time, const Write& write) {
+    while (m_any && next() <= time) {
+      fill(next());
+      if (!write(next(), m_line)) return false;
+      ++m_lines;
+    }
+    return true;
+  }
+  double next() const { return m_begin + static_cast<double>(m_lines) / m_resampling.rate; }
+
+  const std::vector<SelectedGroup>& m_selected;
+  Resampling m_resampling;
+  std::vector<Group> m_groups;
+  bool m_any = false;
+  double m_begin = 0.0, m_last = 0.0;
+  std::uint64_t m_lines = 0;
+  EvenLine m_line;
+};
+
+}  // namespace pitchboard::telemetry

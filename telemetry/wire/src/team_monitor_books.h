@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What a TeamMonitor keeps of robots and senders. Private to team_monitor.cpp and
+// team_monitor_books.cpp, which writes it as text and reads it back: a new member of Robot that
+// statuses follow from belongs into both functions there.
+
+#include <telemetry/wire/team_monitor.h>
+
+namespace pitchboard::telemetry {
+
+struct TeamMonitor::Robot {
+  int number = 0;
+  int slot = 0;
+  Sender sender;
+  std::optional<Sender> previous;  ///< the one before, when it sends from another one
+  WallTime last{};
+  std::uint64_t messages = 0, bytes = 0, recoveries = 0, duplicates = 0;
+  ArrivalStats arrivals;
+  SequenceStats sequence, previousSequence;
+  ErrorTally errors;
+  struct Process {
+    ProcessFilter filter;
+    bool known = false;
+    WallTime since{};
+  };
+  std::array<Process, processCount> processes{};
+  std::optional<double> volts;
+  double highestVolts = 0.0;
+  std::size_t lastHash = 0;
+  WallTime lastHashTime{};
+  std::shared_ptr<const TextDecoder> decoder;
+  std::vector<double> values;
+  std::vector<std::string> words;
+};
+
+struct TeamMonitor::SenderRecord {
+  SenderStatus status;
+};
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is replayed of a live match, from its file and from memory, against the frames that were on
+// the screen: real sockets, recorded referee packets, every field.
+
+#include <QFile>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <mutex>
+#include <set>
+
+#include <robotlink/live/live_books.h>
+#include <robotlink/report/report.h>
+#include <robotlink/session/live_recorder.h>
+#include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/session_events.h>
+#include <telemetry/wire/text_protocol.h>
+
+#include "live_ports.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using telemetry::SessionStream;
+
+namespace {
+
+constexpr int robots = 3;
+
+std::string packet(const char* name) {
+  QFile file(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/") + QLatin1String(name));
+  if (!file.open(QIODevice::ReadOnly)) qFatal("no %s", name);
+  return file.readAll().toStdString();
+}
+
+/// Frames as they were made, and how many datagrams had been taken before each.
+class Screen : public LiveObserver {
+ public:
+  struct Seen {
+    MatchFrame frame;
+    std::size_t datagrams;
+  };
+  void heard(RobotId, double time, const telemetry::DatagramView&, const telemetry::TextDecoder&,
+             const telemetry::DecodedText&) override {
+    note(time);
+  }
+  void refereeHeard(double time, const telemetry::DatagramView&,
+                    const telemetry::RefereeState&) override {
+    note(time);
+  }
+  void unusedHeard(double time, const telemetry::DatagramView&) override { note(time); }
+  void frameMade(const MatchFrame& frame) override {
+    const std::lock_guard lock(m_mutex);
+    m_seen.push_back({frame, m_times.size()});
+  }
+  /// Without those for which a datagram that had arrived was still on its way.
+  std::vector<MatchFrame> frames() const {
+    const std::lock_guard lock(m_mutex);
+    std::vector<MatchFrame> out;
+    for (const Seen& seen : m_seen) {
+      const auto arrived = std::ranges::count_if(
+          m_times, [&](double time) { return time <= seen.frame.snapshot.time; });
+      if (static_cast<std::size_t>(arrived) == seen.datagrams) out.push_back(seen.frame);
+    }
+    return out;
+  }
+  std::size_t taken() const {
+    const std::lock_guard lock(m_mutex);
+    return m_times.size();
+  }
+  MatchFrame last() const {
+    const std::lock_guard lock(m_mutex);
+    return m_seen.empty() ? MatchFrame{} : m_seen.back().frame;
+  }
+
+ private:
+  void note(double time) {
+    const std::lock_guard lock(m_mutex);
+    m_times.push_back(time);
+  }
+  mutable std::mutex m_mutex;
+  std::vector<Seen> m_seen;
+  std::vector<double> m_times;
+};
+
+#define SAME(member)                                             \
+  do {                                                           \
+    if (!(a.member == b.member)) return QStringLiteral(#member); \
+  } while (false)
+
+QString difference(const RobotHealth& a, const RobotHealth& b) {
+  SAME(sender);
+  SAME(conflict);
+  SAME(timedOut);
+  SAME(age);
+  SAME(messages);
+  SAME(bytes);
+  SAME(errorCount);
+  SAME(recoveries);
+  SAME(rate);
+  SAME(jitter);
+  SAME(loss);
+  SAME(lost);
+  SAME(duplicates);
+  SAME(late);
+  for (std::size_t i = 0; i < a.processes.size(); ++i) {
+    SAME(processes[i].state);
+    SAME(processes[i].probability);
+    SAME(processes[i].since);
+  }
+  SAME(battery);
+  SAME(poseKnown);
+  SAME(action);
+  SAME(ball);
+  SAME(penalty);
+  SAME(values);
+  return {};
+}
+
+QString difference(const RobotBoardView& a, const RobotBoardView& b) {
+  SAME(actionA);
+  SAME(voltage);
+  SAME(visionLost);
+  SAME(ballDistCm);
+  SAME(panDeg);
+  SAME(localizationX);
+  SAME(localizationY);
+  SAME(localizationTheta);
+  SAME(belief);
+  SAME(controlWorking);
+  SAME(visionWorking);
+  SAME(localizationWorking);
+  SAME(decisionWorking);
+  SAME(imuWorking);
+  return {};
+}
+
+QString difference(const RobotFrame& a, const RobotFrame& b) {
+  SAME(identity.id);
+  SAME(identity.number);
+  SAME(identity.team);
+  SAME(pose);
+  SAME(headYaw);
+  SAME(velocity);
+  SAME(action);
+  SAME(fallen);
+  SAME(board.has_value());
+  SAME(health.has_value());
+  if (a.board) {
+    if (const QString found = difference(*a.board, *b.board); !found.isEmpty()) return found;
+  }
+  return a.health ? difference(*a.health, *b.health) : QString();
+}
+
+QString difference(const RefereeView& a, const RefereeView& b) {
+  SAME(version);
+  SAME(sender);
+  SAME(age);
+  SAME(timedOut);
+  SAME(conflict);
+  SAME(truth.has_value());
+  SAME(replies.size());
+  SAME(state);
+  SAME(setPlay);
+  SAME(phase);
+  SAME(firstHalf);
+  SAME(stopped);
+  SAME(secondsLeft);
+  SAME(secondaryTime);
+  SAME(countdown);
+  SAME(performingTeam);
+  SAME(setPlayStep);
+  SAME(kickOffTeam);
+  for (std::size_t i = 0; i < a.teams.size(); ++i) {
+    SAME(teams[i].number);
+    SAME(teams[i].colour);
+    SAME(teams[i].score);
+    SAME(teams[i].playersLeft);
+  }
+  SAME(ourTeam);
+  return {};
+}
+
+/// The first field in which a replayed frame is not what was seen; empty: none.
+QString difference(const MatchFrame& a, const MatchFrame& b) {
+  SAME(truthKnown);
+  SAME(ballKnown);
+  SAME(snapshot.time);
+  SAME(snapshot.score);
+  SAME(snapshot.clock);
+  SAME(snapshot.clockRunning);
+  SAME(field.name);
+  SAME(robots.size());
+  SAME(referee.has_value());
+  SAME(teamBall.has_value());
+  if (a.teamBall) {
+    SAME(teamBall->position);
+    SAME(teamBall->spread);
+    SAME(teamBall->agree);
+    SAME(teamBall->see);
+  }
+  if (a.referee) {
+    if (const QString found = difference(*a.referee, *b.referee); !found.isEmpty()) {
+      return QStringLiteral("referee ") + found;
+    }
+  }
+  for (std::size_t i = 0; i < a.robots.size(); ++i) {
+    if (const QString found = difference(a.robots[i], b.robots[i]); !found.isEmpty()) {
+      return QStringLiteral("robot %1 ").arg(a.robots[i].id().value) + found;
+    }
+  }
+  return {};
+}
+#undef SAME
+
+}  // namespace
+
+class TestLiveReplay : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  std::shared_ptr<Screen> m_screen = std::make_shared<Screen>();
+  std::shared_ptr<LiveMemory> m_memory;
+  std::string m_path;
+  std::vector<MatchFrame> m_frames;
+
+  static std::string message(int robot, int step) {
+    telemetry::TextMessage m;
+    m.robot = robot;
+    m.x = 300 + 7 * step;
+    m.y = 200 + 40 * robot;
+    m.theta = 15 * step % 360;
+    m.belief = 20.0F + static_cast<float>(step);
+    // Two that see one ball from two places.
+    m.ballDist = robot == 3 ? -1.0F : 100.0F;
+    m.ballAngle = static_cast<float>(-m.theta);
+    m.control = m.vision = m.localization = m.decision = m.imu = 1;
+    if (robot == 2 && step > 4) m.vision = m.decision = 0;
+    m.actionA = 8 + step % 3;
+    m.voltage = 165 - 2 * step;
+    return telemetry::encode(m);
+  }
+
+ private slots:
+  void initTestCase() {
+    LiveOptions options = freeOptions(robots);
+    options.colour = TeamColor::Yellow;  // until the referee gives one
+    m_path = m_folder.filePath("live.mcap").toStdString();
+    LiveWatch watch(options);
+    QTRY_COMPARE(watch.details().network.ports.size(), std::size_t{robots + 1});
+    // It has heard somebody before recording begins.
+    TestSocket robot1, robot2, robot3, twin, referee;
+    const auto port = [&](int robot) {
+      return static_cast<std::uint16_t>(options.portBase + robot);
+    };
+    QVERIFY(robot1.send(port(1), message(1, 0)));
+    QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
+    auto recorder = LiveRecorder::create(m_path, options, watch.began());
+    QVERIFY(recorder);
+    m_memory = std::make_shared<LiveMemory>(options.refereePort);
+    watch.observe(*recorder);
+    watch.observe(m_memory);
+    watch.observe(m_screen);
+
+    std::size_t sent = 0;
+    const auto heard = [&] { return m_screen->taken() == sent; };
+    const char* const packets[] = {"v12hl640_2017.3_INITIAL.bin", "v12hl640_2017.3_PENALISED.bin"};
+    for (int step = 1; step <= 8; ++step) {
+      QVERIFY(robot1.send(port(1), message(1, step)));
+      QVERIFY(robot2.send(port(2), message(2, step)));
+      sent += 2;
+      if (step % 3 == 0) {
+        QVERIFY(robot3.send(port(3), message(3, step)) && robot3.send(port(3), "3 no message"));
+        sent += 2;
+      }
+      // A second program with the number of the second robot.
+      if (step == 4) QVERIFY(twin.send(port(2), message(2, 40)) && ++sent);
+      if (step % 2 == 0) {
+        QVERIFY(referee.send(static_cast<std::uint16_t>(options.refereePort),
+                             packet(packets[step > 4 ? 1 : 0])));
+        ++sent;
+      }
+      if (step == 5) {
+        options.ourTeam = m_screen->last().referee->teams[1].number;
+        options.colour = TeamColor::Yellow;
+        watch.setOptions(options);
+      }
+      QTRY_VERIFY(heard());
+      // A frame of what has just come, and one of some time later.
+      const std::size_t seen = m_screen->frames().size();
+      QTRY_VERIFY(m_screen->frames().size() >= seen + 2);
+    }
+    QTRY_VERIFY(m_screen->last().referee && m_screen->last().referee->ourTeam == options.ourTeam);
+    watch.stopObserving(m_screen);
+    watch.stopObserving(*recorder);
+    watch.stopObserving(m_memory);
+    QVERIFY((*recorder)->finish());
+    m_frames = m_screen->frames();
+  }
+
+  void theWatchHadSomethingToShow() {
+    QVERIFY(m_frames.size() >= 16);
+    const MatchFrame& last = m_frames.back();
+    QCOMPARE(last.robots.size(), std::size_t{4});
+    QVERIFY(last.referee && last.teamBall);
+    const auto any = [&](auto&& what) { return std::ranges::any_of(last.robots, what); };
+    QVERIFY(any([](const RobotFrame& r) { return r.health->penalty.has_value(); }));
+    QVERIFY(any([](const RobotFrame& r) { return r.health->conflict; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.health->jitter > 0.0; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.health->errorCount > 0; }));
+    QVERIFY(any([](const RobotFrame& r) { return r.health->battery && r.health->battery->low; }));
+    QVERIFY(any([](const RobotFrame& r) {
+      return r.health->processes[1].state == telemetry::ProcessState::Silent;
+    }));
+    QVERIFY(last.robots[0].identity.team != m_frames.front().robots[0].identity.team);
+    QVERIFY(m_frames.front().robots[0].health->messages >= 1);
+  }
+
+  void theFileShowsWhatWasSeen() {
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    RecordedFrames frames(backdropOf(*session));
+    for (const MatchFrame& seen : m_frames) {
+      const MatchFrame replayed = frames.frameAt(*session, seen.snapshot.time);
+      QVERIFY(replayed.origin == FrameOrigin::Recorded);
+      const QString found = difference(seen, replayed);
+      QVERIFY2(found.isEmpty(), qPrintable(found));
+    }
+  }
+
+  void inAnyOrder() {
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    RecordedFrames frames(backdropOf(*session));
+    for (std::size_t i = 0; i < m_frames.size(); ++i) {
+      const MatchFrame& seen = m_frames[(i * 7919) % m_frames.size()];
+      const QString found = difference(seen, frames.frameAt(*session, seen.snapshot.time));
+      QVERIFY2(found.isEmpty(), qPrintable(found));
+    }
+  }
+
+  void memoryShowsWhatWasSeen() {
+    LiveMoments moments;
+    for (const MatchFrame& seen : m_frames) {
+      const auto replayed = moments.frameAt(*m_memory, seen.snapshot.time);
+      QVERIFY(replayed);
+      const QString found = difference(seen, *replayed);
+      QVERIFY2(found.isEmpty(), qPrintable(found));
+    }
+    QVERIFY(!moments.frameAt(*m_memory, m_memory->begin() - 1.0));
+  }
+
+  void whatWasSavedOfTheLastSecondsShowsItToo() {
+    const MatchFrame& middle = m_frames[m_frames.size() / 2];
+    telemetry::SeriesStore rows;
+    telemetry::GroupInfo info;
+    info.name = "Robot 1";
+    info.columns.push_back({"X", telemetry::ColumnType::Float64, "cm", "", {}, {}});
+    const auto group = rows.addGroup(info);
+    const double end = m_frames.back().snapshot.time;
+    for (const double time : {0.0, end}) {
+      const double value = 1.0;
+      rows.append(group, {time, {}, {&value, 1}});
+    }
+    RecentPast past;
+    past.rows = &rows;
+    past.heard = m_memory.get();
+    const std::string path = m_folder.filePath("last.mcap").toStdString();
+    const auto saved = saveRecent(path, end - middle.snapshot.time, past,
+                                  liveSessionInfo({}, telemetry::WallTime{}, "test"));
+    QVERIFY(saved);
+    const auto session = telemetry::SessionReader::open(path);
+    QVERIFY(session);
+    QVERIFY(session->count(SessionStream::Telemetry) > 0);
+    QVERIFY(session->count(SessionStream::RefereeRaw) > 0);
+    QVERIFY(session->count(SessionStream::Referee) > 0);
+    QVERIFY(session->range()->begin >= middle.snapshot.time - 1e-6);
+    RecordedFrames frames(backdropOf(*session));
+    for (const MatchFrame& seen : m_frames) {
+      if (seen.snapshot.time < middle.snapshot.time) continue;
+      const QString found = difference(seen, frames.frameAt(*session, seen.snapshot.time));
+      QVERIFY2(found.isEmpty(), qPrintable(found));
+    }
+  }
+
+  void theReportKnowsRobotsScoreAndLink() {
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    const auto range = *session->range();
+    const SessionStatistics s = statisticsOf(*session, {range.begin, range.end});
+    QCOMPARE(s.robots.size(), std::size_t{4});
+    const RefereeView& referee = *m_frames.back().referee;
+    std::size_t scored = 0;
+    for (const TeamSummary& team : s.teams) {
+      for (const RefereeTeamView& side : referee.teams) {
+        if (info(team.team).name != side.colour) continue;
+        ++scored;
+        QCOMPARE(team.score, std::optional(side.score));
+      }
+    }
+    QCOMPARE(scored, std::size_t{2});
+    for (const RobotSummary& robot : s.robots) {
+      const auto shown = std::ranges::find_if(m_frames.back().robots, [&](const RobotFrame& r) {
+        return r.identity.name() + (r.id().value > 65535 ? " (second)" : "") == robot.name;
+      });
+      QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
+      QVERIFY(robot.link && robot.distance);
+      QCOMPARE(robot.link->messages, shown->health->messages);
+      QCOMPARE(robot.link->penalties, shown->health->penalty ? 1 : 0);
+    }
+    // The first robot walked 7 cm a message: what it believes, in steps of at least 10 cm.
+    const auto& first = s.robots.front();
+    QVERIFY(*first.distance > 0.3 && *first.distance < 0.6);
+    QVERIFY(*first.link->leastVolts < 15.0);
+    ReportContent content;
+    content.statistics = s;
+    const QString page = QString::fromStdString(reportHtml(content));
+    QVERIFY(page.contains(QStringLiteral("How they were heard")));
+    QVERIFY(!page.contains(QStringLiteral("No robot was recorded")));
+  }
+
+  void whatHappenedIsInTheFile() {
+    const auto session = telemetry::SessionReader::open(m_path);
+    QVERIFY(session);
+    std::set<MatchEventKind> kinds;
+    for (const MatchEvent& event : eventsOf(*session)) kinds.insert(event.kind);
+    for (const MatchEventKind kind : {MatchEventKind::BatteryLow, MatchEventKind::Penalised,
+                                      MatchEventKind::SecondSender, MatchEventKind::RefereeHeard}) {
+      QVERIFY2(kinds.contains(kind), std::string(info(kind).name).c_str());
+    }
+  }
+
+  void whatIsNoStateIsRefused() {
+    for (const char* bad : {"", "[1]", "{\"options\":{}}"}) QVERIFY(!LiveBooks::read(bad, {}));
+    // Every kind of value where another one should be: read as far as it makes sense.
+    const char* const odd =
+        "{\"options\":{\"profile\":7,\"battery\":[]},\"ids\":[3,{\"number\":\"x\"}],"
+        "\"referee\":[{},{\"base64\":\"?\"}],\"robots\":\"{\\\"robots\\\":[7,{\\\"arrivals\\\":{},"
+        "\\\"values\\\":[null,\\\"x\\\"],\\\"last\\\":1e300}]}\"}";
+    QVERIFY(LiveBooks::read(odd, {}));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestLiveReplay)
+#include "tst_live_replay.moc"

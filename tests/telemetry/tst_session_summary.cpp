@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sessions larger than memory: the coarse picture in the file against the rows themselves, and
+// views that page.
+
+#include <QtTest>
+#include <cmath>
+#include <random>
+
+#include <telemetry/series/series_pages.h>
+
+#include "session_rig.h"
+#include "session_summary.h"
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+using namespace pitchboard::telemetry::rig;
+
+namespace {
+
+constexpr int rowCount = 40'000;  // two parts of a summary and the beginning of a third
+constexpr double rate = 50.0;
+
+struct Column {
+  std::vector<double> times, values;
+};
+
+/// All of the file behind it, and a stretch when it is told to.
+class Pages : public SeriesPages {
+ public:
+  explicit Pages(const SessionReader& session) : m_session(session) {
+    m_range = {session.range()->begin, session.range()->end};
+  }
+  std::shared_ptr<const GroupSummary> summary(GroupId group, bool) override {
+    return std::make_shared<const GroupSummary>(m_session.summary(group));
+  }
+  std::optional<Stretch> held(GroupId group) override {
+    if (!m_rows) return std::nullopt;
+    return Stretch{m_held, m_rows->view(group)};
+  }
+  void want(TimeRange range) override { wanted = range; }
+  TimeRange range() override { return m_range; }
+  std::size_t bytes() override { return 0; }
+
+  void load(TimeRange range) {
+    m_rows = std::make_unique<SeriesStore>();
+    for (const SessionGroup& group : m_session.groups()) m_rows->addGroup(group.info);
+    m_session.rows(range, {}, [this](GroupId group, const RowView& row) {
+      m_rows->append(group, row);
+      return true;
+    });
+    m_held = range;
+  }
+  std::optional<TimeRange> wanted;
+
+ private:
+  const SessionReader& m_session;
+  TimeRange m_range;
+  std::unique_ptr<SeriesStore> m_rows;
+  TimeRange m_held;
+};
+
+}  // namespace
+
+class TestSessionSummary : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir m_folder;
+  std::string m_path;
+  Column m_distance;  // of the second robot
+
+  std::unique_ptr<SessionReader> session() const {
+    return std::make_unique<SessionReader>(std::move(*SessionReader::open(m_path)));
+  }
+
+ private slots:
+  void initTestCase() {
+    m_path = m_folder.filePath("long.mcap").toStdString();
+    SessionWriterOptions options;
+    options.waitWhenFull = true;
+    options.level = 1;
+    auto writer = SessionWriter::create(m_path, sessionInfo(), options);
+    QVERIFY(writer);
+    const GroupId one = (*writer)->addGroup(robotGroup("B1", 1));
+    const GroupId two = (*writer)->addGroup(robotGroup("B2", 2));
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(100.0, 20.0);
+    for (int i = 0; i < rowCount; ++i) {
+      const double time = i / rate;
+      const auto distance = static_cast<float>(i % 1000 == 3 ? std::nan("") : noise(random));
+      const std::uint32_t words[] = {7, static_cast<std::uint32_t>(i / 9000 % 2),
+                                     std::bit_cast<std::uint32_t>(distance)};
+      const double values[] = {std::sin(time), 1.5};
+      (*writer)->append(two, {time, words, values});
+      m_distance.times.push_back(time);
+      m_distance.values.push_back(static_cast<double>(distance));
+      if (i < 100) (*writer)->append(one, {time, words, values});
+      if (i % 5000 == 0) (*writer)->append(SessionEvent{time, "bookmark", "", "here", {}});
+    }
+    QVERIFY((*writer)->finish());
+  }
+
+  void theFileHoldsExtremesOfEvery256Rows() {
+    const auto reader = session();
+    QVERIFY(reader->hasSummaries());
+    QCOMPARE(reader->summary(0).rows(), std::uint64_t{100});
+    const GroupSummary summary = reader->summary(1);
+    QCOMPARE(summary.rows(), std::uint64_t{rowCount});
+    QCOMPARE(summary.parts.size(), std::size_t{3});
+    std::size_t row = 0;
+    for (const SummaryPart& part : summary.parts) {
+      QCOMPARE(part.columns[0].min, std::vector<float>{7.0F});  // it never changed
+      for (std::size_t b = 0; b < part.buckets(); ++b) {
+        float low = INFINITY, high = -INFINITY;
+        QCOMPARE(part.begin[b], m_distance.times[row]);
+        for (std::uint32_t i = 0; i < part.rows[b]; ++i, ++row) {
+          const auto value = static_cast<float>(m_distance.values[row]);
+          if (std::isnan(value)) continue;
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
+        QCOMPARE(part.end[b], m_distance.times[row - 1]);
+        QCOMPARE(part.columns[2].min.at(b), low);
+        QCOMPARE(part.columns[2].max.at(b), high);
+      }
+    }
+    QVERIFY(reader->notes().empty());
+    QCOMPARE(reader->events().size(), std::size_t{8});
+  }
+
+  void aPagedViewShowsTheWholeLengthAndThenEveryRow() {
+    const auto reader = session();
+    auto pages = std::make_shared<Pages>(*reader);
+    SeriesStore store;
+    for (const SessionGroup& group : reader->groups()) store.addGroup(group.info);
+    store.setPages(pages);
+    const auto id = store.find("B2", "VISION_BALL_DIST");
+    QVERIFY(id);
+    const double end = (rowCount - 1) / rate;
+    QCOMPARE(store.range()->end, end);
+    std::vector<SeriesBucket> buckets(40);
+    store.view(id->group)->buckets(id->column, {0.0, end}, buckets);
+    std::size_t row = 0;
+    for (std::size_t b = 0; b < buckets.size(); ++b) {
+      // Every extreme of the rows is in what is drawn at their place.
+      const double until = end * static_cast<double>(b + 1) / 40.0;
+      for (; row < m_distance.times.size() && m_distance.times[row] < until; ++row) {
+        if (std::isnan(m_distance.values[row])) continue;
+        QVERIFY(buckets[b].min <= m_distance.values[row]);
+        QVERIFY(buckets[b].max >= m_distance.values[row]);
+      }
+      QVERIFY(buckets[b].samples > 0);
+    }
+    const SeriesStatistics all = store.view(id->group)->statistics(id->column, {0.0, end});
+    QCOMPARE(all.samples, std::uint64_t{rowCount});
+    QVERIFY(std::abs(all.mean - 100.0) < 10.0);
+
+    // A moment: nothing is made up, it is asked for.
+    pages->wanted.reset();
+    QVERIFY(!store.view(id->group)->at(id->column, 400.0));
+    QVERIFY(pages->wanted && pages->wanted->begin < 400.0 && pages->wanted->end > 400.0);
+    pages->load({390.0, 420.0});
+    const auto view = store.view(id->group);
+    QCOMPARE(view->at(id->column, 400.0)->time, 400.0);
+    std::vector<Sample> samples;
+    QVERIFY(view->samples(id->column, {395.0, 405.0}, samples));
+    QCOMPARE(samples.size(), std::size_t{501});
+    QCOMPARE(samples.front().value, m_distance.values[19'750]);
+    // Beyond the stretch: single rows, and it is said that they are not all.
+    QVERIFY(!view->samples(id->column, {0.0, end}, samples));
+    QVERIFY(samples.size() > 100 && samples.size() < 200);
+    for (const Sample& sample : samples) {
+      const auto at = static_cast<std::size_t>(std::lround(sample.time * rate));
+      const double value = m_distance.values[at];
+      QVERIFY(sample.value == value || (std::isnan(sample.value) && std::isnan(value)));
+    }
+  }
+
+  void bytesThatAreNoSummaryAreRefused() {
+    const auto reader = session();
+    const SummaryPart part = reader->summary(1).parts.front();
+    const std::string bytes = session::summaryBytes(part);
+    const std::size_t columns = part.columns.size();
+    QVERIFY(session::summaryFromBytes(bytes, columns));
+    QVERIFY(!session::summaryFromBytes(bytes, columns - 1));
+    // A column that came later.
+    const auto wide = session::summaryFromBytes(bytes, columns + 1);
+    QVERIFY(wide && std::isnan(wide->columns.back().max.front()));
+    for (std::size_t length = 0; length < bytes.size(); length += 7) {
+      QVERIFY(!session::summaryFromBytes(bytes.substr(0, length), columns));
+    }
+    std::mt19937 random(1);
+    for (int i = 0; i < 2000; ++i) {
+      std::string damaged = bytes;
+      damaged[random() % 64] = static_cast<char>(random());
+      if (const auto read = session::summaryFromBytes(damaged, columns)) {
+        QVERIFY(read->buckets() > 0 && read->columns.size() == columns);
+      }
+    }
+  }
+
+  void aShortSessionHasNone() {
+    const std::string path = m_folder.filePath("short.mcap").toStdString();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    QVERIFY(writer);
+    record(**writer, 300);
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader && !reader->hasSummaries());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestSessionSummary)
+#include "tst_session_summary.moc"

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Rows of a session that does not fit into memory: the coarse picture of a group once it is asked
+// for, and all rows of the stretch that was looked at last. A thread of its own reads the file;
+// whoever asks never waits. Any thread may ask.
+
+#include <atomic>
+#include <list>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include <telemetry/series/series_pages.h>
+#include <telemetry/session/session_reader.h>
+#include <ui/base/workers.h>
+
+namespace pitchboard::ui {
+
+/// Of all rows as they are; in memory they take about as much.
+double bytesOfRows(const telemetry::SessionReader& session);
+
+class ReplayPages : public telemetry::SeriesPages {
+ public:
+  /// `reader`: another one of the same file, for this only. `groups`: what they are in the store
+  /// that is paged, in the order of the file.
+  ReplayPages(telemetry::SessionReader reader, std::size_t bytes);
+  ~ReplayPages() override;
+
+  std::shared_ptr<const telemetry::GroupSummary> summary(telemetry::GroupId group,
+                                                         bool whole) override;
+  std::optional<Stretch> held(telemetry::GroupId group) override;
+  void want(telemetry::TimeRange range) override;
+  telemetry::TimeRange range() override { return m_range; }
+  std::size_t bytes() override;
+
+  void setBytes(std::size_t bytes);
+  /// So long a stretch fits, s.
+  double longest() const;
+
+ private:
+  void work();
+  void readSummary(telemetry::GroupId group);
+  void readRows(telemetry::TimeRange range);
+  void forgetSummaries();
+
+  telemetry::SessionReader m_reader;  // of the worker
+  telemetry::TimeRange m_range;
+  double m_bytesPerSecond = 1.0;
+  std::atomic<bool> m_ends = false;
+
+  mutable std::mutex m_mutex;
+  std::size_t m_room;
+  bool m_working = false;
+  std::set<telemetry::GroupId> m_askedFor;
+  struct Summary {
+    std::shared_ptr<const telemetry::GroupSummary> parts;
+    bool whole = true;  ///< false: the first and the last part are left
+  };
+  std::map<telemetry::GroupId, Summary> m_summaries;
+  std::list<telemetry::GroupId> m_recent;  // newest first
+  std::optional<telemetry::TimeRange> m_wanted, m_held;
+  std::shared_ptr<telemetry::SeriesStore> m_rows;
+  Workers m_worker;  // last: it uses all of the above
+};
+
+}  // namespace pitchboard::ui
