@@ -6,6 +6,7 @@
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
+#include <robotlink/models/robot_models.h>
 #include <simcore/world/field_text.h>
 #include <telemetry/wire/datagram.h>
 

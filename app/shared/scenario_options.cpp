@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <app/scenario_options.h>
+#include <robotlink/models/robot_models.h>
 
 #include <cstdio>
 

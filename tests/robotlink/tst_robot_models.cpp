@@ -5,6 +5,7 @@
 
 #include <resources/resources.h>
 #include <robotlink/match/simulated_match.h>
+#include <robotlink/models/robot_models.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;

@@ -5,6 +5,7 @@
 #include <QtTest>
 #include <cmath>
 
+#include <robotlink/models/robot_models.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/models/robot_models.h>
 #include <ui/noise/noise_dock.h>
 
 #include <QCheckBox>
