@@ -219,6 +219,25 @@ class TestLiveSettings : public QObject {
     QVERIFY(problem->text().contains(QStringLiteral("cannot be written")));
   }
 
+  void theEditorKeepsWhatItDoesNotShow() {
+    QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("p.json"));
+    for (const std::string& name : telemetry::builtInProfiles()) {
+      const auto opened = telemetry::loadProfile(name);
+      QVERIFY2(opened, name.c_str());
+      ProfileEditor editor(*opened, {}, nullptr);
+      editor.setAttribute(Qt::WA_DeleteOnClose, false);
+      QCOMPARE(editor.profile(), *opened);
+      editor.findChild<QTableWidget*>()->setCurrentCell(0, 0);
+      QTest::mouseClick(editor.findChild<QToolButton*>(QStringLiteral("fieldDown")),
+                        Qt::LeftButton);
+      QTest::mouseClick(editor.findChild<QToolButton*>(QStringLiteral("fieldUp")), Qt::LeftButton);
+      QVERIFY2(editor.saveTo(path), name.c_str());
+      const auto saved = telemetry::loadProfile(path.toStdString());
+      QVERIFY2(saved && *saved == *opened, name.c_str());
+    }
+  }
+
   void aSavedProfileIsUsedByTheDialog() {
     Dialog d;
     QTest::mouseClick(d.box<QPushButton>("editProfile"), Qt::LeftButton);

@@ -29,7 +29,7 @@ using telemetry::ProfileField;
 
 enum Column { Name, Type, Unit, Category, Meaning, columns };
 
-constexpr const char* typeWords[] = {"int", "float", "flag"};
+constexpr const char* typeWords[] = {"int", "float", "flag", "text"};
 
 QComboBox* choice(QTableWidget* table, int row, int column) {
   return static_cast<QComboBox*>(table->cellWidget(row, column));
@@ -45,6 +45,7 @@ QString meaningText(FieldMeaning meaning) {
 ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidget* parent)
     : QDialog(parent),
       m_file(file),
+      m_opened(profile),
       m_name(new QLineEdit(this)),
       m_end(new QLineEdit(this)),
       m_table(new QTableWidget(0, columns, this)),
@@ -119,6 +120,8 @@ void ProfileEditor::addRow(int row, const ProfileField& field) {
     m_table->setItem(row, column, new QTableWidgetItem(QString::fromStdString(value)));
   };
   text(Name, field.name);
+  m_table->item(row, Name)->setData(Qt::UserRole, static_cast<qulonglong>(m_fields.size()));
+  m_fields.push_back(field);
   text(Unit, field.unit);
   text(Category, field.category);
   auto* type = new QComboBox(m_table);
@@ -142,13 +145,18 @@ ProfileField ProfileEditor::fieldAt(int row) const {
     const QTableWidgetItem* item = m_table->item(row, column);
     return item == nullptr ? std::string() : item->text().trimmed().toStdString();
   };
-  return {text(Name), static_cast<FieldType>(choice(m_table, row, Type)->currentIndex()),
-          text(Unit), text(Category),
-          static_cast<FieldMeaning>(choice(m_table, row, Meaning)->currentIndex())};
+  ProfileField made = m_fields.at(m_table->item(row, Name)->data(Qt::UserRole).toULongLong());
+  made.name = text(Name);
+  made.type = static_cast<FieldType>(choice(m_table, row, Type)->currentIndex());
+  made.unit = text(Unit);
+  made.category = text(Category);
+  made.meaning = static_cast<FieldMeaning>(choice(m_table, row, Meaning)->currentIndex());
+  return made;
 }
 
 Profile ProfileEditor::profile() const {
-  Profile made;
+  Profile made = m_opened;
+  made.fields.clear();
   made.name = m_name->text().trimmed().toStdString();
   made.end = m_end->text().trimmed().toStdString();
   for (int row = 0; row < m_table->rowCount(); ++row) made.fields.push_back(fieldAt(row));

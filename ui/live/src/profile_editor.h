@@ -2,10 +2,11 @@
 #pragma once
 
 // A profile of messages as a table: one row for each field, in the order of the message. Saved as
-// JSON. What is wrong is said under the table. UI thread only.
+// JSON, with everything of the profile that the table does not show (format, frame, scales, ...). What is wrong is said under the table. UI thread only.
 
 #include <QDialog>
 #include <QString>
+#include <vector>
 
 #include <telemetry/wire/profile.h>
 
@@ -40,6 +41,9 @@ class ProfileEditor : public QDialog {
   void say(const QString& sentence, bool bad);
 
   QString m_file;
+  const telemetry::Profile m_opened;
+  /// Every field that has been put into a row; the row names its place here.
+  std::vector<telemetry::ProfileField> m_fields;
   QLineEdit *m_name, *m_end;
   QTableWidget* m_table;
   QLabel* m_problem;
