@@ -15,6 +15,7 @@
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/text_protocol.h>
 
+#include "frame_difference.h"
 #include "live_ports.h"
 
 using namespace pitchboard;
@@ -80,136 +81,6 @@ class Screen : public LiveObserver {
   std::vector<Seen> m_seen;
   std::vector<double> m_times;
 };
-
-#define SAME(member)                                             \
-  do {                                                           \
-    if (!(a.member == b.member)) return QStringLiteral(#member); \
-  } while (false)
-
-QString difference(const RobotHealth& a, const RobotHealth& b) {
-  SAME(sender);
-  SAME(conflict);
-  SAME(timedOut);
-  SAME(age);
-  SAME(messages);
-  SAME(bytes);
-  SAME(errorCount);
-  SAME(recoveries);
-  SAME(rate);
-  SAME(jitter);
-  SAME(loss);
-  SAME(lost);
-  SAME(duplicates);
-  SAME(late);
-  for (std::size_t i = 0; i < a.processes.size(); ++i) {
-    SAME(processes[i].state);
-    SAME(processes[i].probability);
-    SAME(processes[i].since);
-  }
-  SAME(battery);
-  SAME(poseKnown);
-  SAME(action);
-  SAME(ball);
-  SAME(penalty);
-  SAME(values);
-  return {};
-}
-
-QString difference(const RobotBoardView& a, const RobotBoardView& b) {
-  SAME(actionA);
-  SAME(voltage);
-  SAME(visionLost);
-  SAME(ballDistCm);
-  SAME(panDeg);
-  SAME(localizationX);
-  SAME(localizationY);
-  SAME(localizationTheta);
-  SAME(belief);
-  SAME(controlWorking);
-  SAME(visionWorking);
-  SAME(localizationWorking);
-  SAME(decisionWorking);
-  SAME(imuWorking);
-  return {};
-}
-
-QString difference(const RobotFrame& a, const RobotFrame& b) {
-  SAME(identity.id);
-  SAME(identity.number);
-  SAME(identity.team);
-  SAME(pose);
-  SAME(headYaw);
-  SAME(velocity);
-  SAME(action);
-  SAME(fallen);
-  SAME(board.has_value());
-  SAME(health.has_value());
-  if (a.board) {
-    if (const QString found = difference(*a.board, *b.board); !found.isEmpty()) return found;
-  }
-  return a.health ? difference(*a.health, *b.health) : QString();
-}
-
-QString difference(const RefereeView& a, const RefereeView& b) {
-  SAME(version);
-  SAME(sender);
-  SAME(age);
-  SAME(timedOut);
-  SAME(conflict);
-  SAME(truth.has_value());
-  SAME(replies.size());
-  SAME(state);
-  SAME(setPlay);
-  SAME(phase);
-  SAME(firstHalf);
-  SAME(stopped);
-  SAME(secondsLeft);
-  SAME(secondaryTime);
-  SAME(countdown);
-  SAME(performingTeam);
-  SAME(setPlayStep);
-  SAME(kickOffTeam);
-  for (std::size_t i = 0; i < a.teams.size(); ++i) {
-    SAME(teams[i].number);
-    SAME(teams[i].colour);
-    SAME(teams[i].score);
-    SAME(teams[i].playersLeft);
-  }
-  SAME(ourTeam);
-  return {};
-}
-
-/// The first field in which a replayed frame is not what was seen; empty: none.
-QString difference(const MatchFrame& a, const MatchFrame& b) {
-  SAME(truthKnown);
-  SAME(ballKnown);
-  SAME(snapshot.time);
-  SAME(snapshot.score);
-  SAME(snapshot.clock);
-  SAME(snapshot.clockRunning);
-  SAME(field.name);
-  SAME(robots.size());
-  SAME(referee.has_value());
-  SAME(teamBall.has_value());
-  if (a.teamBall) {
-    SAME(teamBall->position);
-    SAME(teamBall->spread);
-    SAME(teamBall->agree);
-    SAME(teamBall->see);
-  }
-  if (a.referee) {
-    if (const QString found = difference(*a.referee, *b.referee); !found.isEmpty()) {
-      return QStringLiteral("referee ") + found;
-    }
-  }
-  for (std::size_t i = 0; i < a.robots.size(); ++i) {
-    if (const QString found = difference(a.robots[i], b.robots[i]); !found.isEmpty()) {
-      return QStringLiteral("robot %1 ").arg(a.robots[i].id().value) + found;
-    }
-  }
-  return {};
-}
-#undef SAME
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 #include <robotlink/live/live_books.h>
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -45,30 +46,56 @@ std::string text(const Json& object, const char* key) {
   return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-/// A setup with its profile in it: the file of the profile may be somewhere else, or not at all,
-/// where the recording is read.
-Json setupJson(const telemetry::TeamSetup& setup) {
-  telemetry::TeamSetup plain = setup;
-  plain.profileName = telemetry::TeamSetup().profileName;
-  return Json{{"setup", telemetry::teamSetupText(plain)},
-              {"profileName", setup.profileName},
-              {"profile", telemetry::profileText(setup.profile)}};
+/// With the profile itself: a setup names only its file.
+Json teamJson(const telemetry::TeamSetup& team) {
+  Json json{{"name", team.name},
+            {"number", team.number},
+            {"firstPort", team.firstPort},
+            {"lastPort", team.lastPort},
+            {"senders", team.senders},
+            {"profileName", team.profileName},
+            {"profile", telemetry::profileText(team.profile)},
+            {"attacksLeft", team.attacksLeft}};
+  if (team.colour) json["colour"] = info(*team.colour).name;
+  for (const auto& [number, name] : team.robots) json["robots"][std::to_string(number)] = name;
+  return json;
 }
 
-std::optional<telemetry::TeamSetup> setupFrom(const Json& json) {
-  if (!json.is_object()) return {};
-  auto setup = telemetry::parseTeamSetup(text(json, "setup"), "setup");
-  auto profile = telemetry::parseProfile(text(json, "profile"), "profile");
-  if (!setup || !profile) return {};
-  setup->profileName = text(json, "profileName");
-  setup->profile = std::move(*profile);
-  return std::move(*setup);
+telemetry::TeamSetup teamFrom(const Json& json) {
+  telemetry::TeamSetup team;
+  team.name = text(json, "name");
+  team.number = whole<int>(json, "number");
+  team.firstPort = whole<int>(json, "firstPort");
+  team.lastPort = whole<int>(json, "lastPort");
+  team.profileName = text(json, "profileName");
+  if (auto profile = telemetry::parseProfile(text(json, "profile"), "profile")) {
+    team.profile = std::move(*profile);
+  }
+  team.colour = teamColour(text(json, "colour"));
+  const Json* left = member(json, "attacksLeft");
+  team.attacksLeft = left && left->is_boolean() && left->get<bool>();
+  if (const Json* senders = member(json, "senders"); senders && senders->is_array()) {
+    for (const Json& sender : *senders) {
+      if (sender.is_string()) team.senders.push_back(sender.get<std::string>());
+    }
+  }
+  if (const Json* robots = member(json, "robots"); robots && robots->is_object()) {
+    for (const auto& [number, name] : robots->items()) {
+      int value = 0;
+      const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
+      if (read.ec == std::errc() && name.is_string() &&
+          team.robots.size() < telemetry::TeamSetup::maxRobots) {
+        team.robots[value] = name.get<std::string>();
+      }
+    }
+  }
+  return team;
 }
 
 Json optionsJson(const LiveOptions& options) {
   const telemetry::BatteryLimits& battery = options.team.battery;
   Json teams = Json::array();
-  for (const telemetry::TeamSetup& setup : options.team.teams) teams.push_back(setupJson(setup));
+  for (const telemetry::TeamSetup& team : options.team.teams) teams.push_back(teamJson(team));
   return Json{{"profile", telemetry::profileText(options.profile)},
               {"teams", std::move(teams)},
               {"field", options.field.name},
@@ -91,9 +118,12 @@ LiveOptions optionsFrom(const Json& json) {
   if (const std::string profile = text(json, "profile"); !profile.empty()) {
     if (auto read = telemetry::parseProfile(profile, "profile")) options.profile = *read;
   }
+  constexpr std::size_t mostTeams = 16;
   if (const Json* teams = member(json, "teams"); teams && teams->is_array()) {
     for (const Json& team : *teams) {
-      if (auto setup = setupFrom(team)) options.team.teams.push_back(std::move(*setup));
+      if (team.is_object() && options.team.teams.size() < mostTeams) {
+        options.team.teams.push_back(teamFrom(team));
+      }
     }
   }
   if (auto field = sim::fieldByName(text(json, "field"))) options.field = *field;

@@ -143,12 +143,23 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double ti
 }
 
 MatchFrame RecordedFrames::frameAt(const telemetry::SessionReader& session, double time) {
-  if (session.count(telemetry::SessionStream::LiveState) > 0) {
-    if (auto seen = m_live.frameAt(SessionHistory(session), time)) {
-      seen->serial = ++m_serial;
-      return std::move(*seen);
+  if (session.count(telemetry::SessionStream::LiveState) == 0) return rowFrameAt(session, time);
+  auto seen = m_live.frameAt(SessionHistory(session), time);
+  if (!seen) return rowFrameAt(session, time);
+  seen->serial = ++m_serial;
+  // Robots that are this computer send nothing: their blackboards are rows.
+  const bool hasBoards = std::ranges::any_of(session.groups(), [](const auto& group) {
+    return attribute(group.info, "live") != "1" && attributeNumber(group.info, "robot") != 0;
+  });
+  if (hasBoards) {
+    for (RobotFrame& robot : rowFrameAt(session, time).robots) {
+      if (!robot.health && !seen->robot(robot.id())) seen->robots.push_back(std::move(robot));
     }
   }
+  return std::move(*seen);
+}
+
+MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, double time) {
   const auto groups = session.groups();
   m_groups.resize(groups.size());
   for (std::size_t i = 0; i < groups.size(); ++i) m_groups[i] = &groups[i].info;

@@ -139,7 +139,7 @@ struct MonitorBooks {
   }
 
   static Robot read(const Json& json, const std::shared_ptr<const TextDecoder>& current,
-                    WallTime zero) {
+                    const Surroundings& field, WallTime zero) {
     const Reader in(json, zero);
     Robot robot;
     robot.number = in.whole<int>("number");
@@ -187,7 +187,7 @@ struct MonitorBooks {
     robot.decoder = current;
     if (const std::string text = in.text("profile"); !text.empty()) {
       if (auto profile = parseProfile(text, "profile")) {
-        robot.decoder = std::make_shared<const TextDecoder>(std::move(*profile));
+        robot.decoder = std::make_shared<const TextDecoder>(std::move(*profile), field);
       }
     }
     return robot;
@@ -219,7 +219,7 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
   read.reserve(MonitorOptions::maxRobots);
   for (const Json& robot : *robots) {
     if (robot.is_object() && read.size() < MonitorOptions::maxRobots) {
-      read.push_back(MonitorBooks::read(robot, m_decoder, zero));
+      read.push_back(MonitorBooks::read(robot, m_decoder, m_options.field, zero));
     }
   }
   m_robots = std::move(read);

@@ -52,6 +52,7 @@ class RecordedFrames {
   struct Flags;
   template <class LookBack>
   MatchFrame build(double time, LookBack&& lookBack);
+  MatchFrame rowFrameAt(const telemetry::SessionReader& session, double time);
   const Layout& layoutOf(std::size_t group);
   void addReferee(const telemetry::SessionReader& session, double time, MatchFrame& frame);
   void fillMatch(std::size_t group, MatchFrame& frame);
