@@ -18,8 +18,8 @@ constexpr double mostMoments = 36'000;
 struct Robot {
   RobotSummary out;
   std::optional<Point> anchor;
-  double way = 0.0;        // m
-  double present = 0.0;    // s since its first message
+  double way = 0.0;      // m
+  double present = 0.0;  // s since its first message
   bool wasKicking = false, wasFallen = false;
   std::array<double, telemetry::processCount> worked{}, known{};
 };

@@ -257,8 +257,7 @@ std::string reportHtml(const ReportContent& c) {
   out += reportStyle;
   out += "</style></head><body><main>\n";
   out += head(c) + teams(c.statistics) + picture(c) + robots(c.statistics) + links(c.statistics) +
-         charts(c.statistics) +
-         events(c);
+         charts(c.statistics) + events(c);
   out += "<footer>" + std::to_string(c.statistics.rows) + " rows, " +
          clockText(c.statistics.range.begin) + " to " + clockText(c.statistics.range.end) +
          (c.session.program.empty() ? "" : ", recorded by " + escaped(c.session.program)) +

@@ -14,9 +14,8 @@ constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 /// Values of one kind only need one.
 void shorten(std::vector<float>& values) {
   const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-  const bool same = std::all_of(values.begin(), values.end(), [&](float value) {
-    return bits(value) == bits(values.front());
-  });
+  const bool same = std::all_of(values.begin(), values.end(),
+                                [&](float value) { return bits(value) == bits(values.front()); });
   if (same && !values.empty()) values.resize(1);
 }
 

@@ -26,7 +26,8 @@ std::string nameProblem(const ProfileField& field, std::set<std::string>& names)
   if (field.name.starts_with("OTHER_")) {
     return "Names that begin with OTHER_ are kept for fields without a name.";
   }
-  if (!names.insert(field.name).second) return "Two fields are called " + inQuotes(field.name) + ".";
+  if (!names.insert(field.name).second)
+    return "Two fields are called " + inQuotes(field.name) + ".";
   if (field.unit.size() > profile_words::maxNameBytes ||
       field.category.size() > profile_words::maxNameBytes) {
     return "A unit or category has at most 60 characters.";

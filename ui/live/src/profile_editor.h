@@ -2,7 +2,8 @@
 #pragma once
 
 // A profile of messages as a table: one row for each field, in the order of the message. Saved as
-// JSON, with everything of the profile that the table does not show (format, frame, scales, ...). What is wrong is said under the table. UI thread only.
+// JSON, with everything of the profile that the table does not show (format, frame, scales, ...).
+// What is wrong is said under the table. UI thread only.
 
 #include <QDialog>
 #include <QString>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rows that are not all in memory: a coarse picture of everything, and the rows of a stretch that is
-// being looked at. Who holds the file implements it; views of a SeriesStore ask it. Any thread.
+// Rows that are not all in memory: a coarse picture of everything, and the rows of a stretch that
+// is being looked at. Who holds the file implements it; views of a SeriesStore ask it. Any thread.
 
 #include <memory>
 

@@ -89,9 +89,9 @@ class SessionReader {
   void messages(SessionStream stream, TimeRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
   /// The same of several streams, in the order of recording.
-  void messages(std::span<const SessionStream> streams, TimeRange range,
-                const std::function<bool(SessionStream, double time, std::string_view json)>& visit)
-      const;
+  void messages(
+      std::span<const SessionStream> streams, TimeRange range,
+      const std::function<bool(SessionStream, double time, std::string_view json)>& visit) const;
   /// Long sessions hold a coarse picture of their rows (since 0.3; not files that broke off).
   bool hasSummaries() const;
   /// Of one group; empty when there is none, or `goOn` says false.

@@ -33,11 +33,11 @@ struct SessionInfo {
 
 /// Streams of JSON messages.
 enum class SessionStream : std::uint8_t {
-  Events,      ///< SessionEvent
-  Log,         ///< LogLine
-  Telemetry,   ///< SessionDatagram from a robot
-  RefereeRaw,  ///< SessionDatagram of the referee
-  Referee,     ///< a referee packet decoded
+  Events,       ///< SessionEvent
+  Log,          ///< LogLine
+  Telemetry,    ///< SessionDatagram from a robot
+  RefereeRaw,   ///< SessionDatagram of the referee
+  Referee,      ///< a referee packet decoded
   Checkpoints,  ///< pieces of a simulated match that can be re-entered exactly
   LiveState     ///< what was known of a live match; what came later follows from the datagrams
 };
