@@ -203,7 +203,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
     look.word =
         QStringLiteral("timeout %1 s").arg(static_cast<int>(telemetry::secondsOf(now.health->age)));
     look.opacity = 0.45;
-  } else if (now.health && now.health->penalty) {
+  } else if (now.penalty || (now.health && now.health->penalty)) {
     look.word = QStringLiteral("penalised");
   }
   robot.body.setLook(look);

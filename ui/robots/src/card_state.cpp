@@ -140,6 +140,10 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     card.detailTip = QStringLiteral("Age of the tick shown; distance walked");
     if (robot.board) card.values = boardValues(robot, *robot.board);
     chooseTag(card, robot.statistics, action, robot.fallen);
+    if (card.tagKind == TagKind::None && robot.penalty) {
+      card.tagKind = TagKind::Warning;
+      card.tag = QStringLiteral("penalised %1 s").arg(robot.penalty->secondsLeft);
+    }
     if (card.tagKind == TagKind::None) tagProcesses(card, robot);
     cards.push_back(std::move(card));
   }
