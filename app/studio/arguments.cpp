@@ -27,7 +27,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--speed", a.speed, "Simulated seconds per second, 0.01 to 1000, or max")
       ->type_name("X|max")
       ->capture_default_str();
-  shared::addRobotsOptions(app, a.robots);
+  shared::addRobotsOptions(app, a.processes);
   app.add_option("--theme", a.theme, "Colours, this time only")
       ->type_name("light|dark")
       ->check(CLI::IsMember({"light", "dark"}));
@@ -178,7 +178,7 @@ Result<link::Scenario> scenarioOf(const Arguments& arguments) {
   shared::ScenarioOptions match = arguments.match;
   if (!arguments.renderScenario.empty()) match.scenario = arguments.renderScenario;
   auto scenario = shared::scenarioFrom(match);
-  if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.robots);
+  if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.processes);
   if (!scenario) return scenario;
   // Asks the engine itself whether it can play this, before a window is opened.
   if (const auto trial = sim::Simulation::create(scenario->settings); !trial) {

@@ -23,7 +23,7 @@ struct Arguments {
   shared::ScenarioOptions match;
   std::string cognition = "external";
   std::string speed = "1";
-  shared::RobotsOptions robots;
+  shared::RobotsOptions processes;
   std::string theme;
   bool paused = false;
   std::optional<std::uint64_t> playTo;

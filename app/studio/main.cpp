@@ -54,7 +54,7 @@ ui::ThemeChoice themeOf(const Arguments& arguments, const QSettings& settings) {
 link::MatchOptions matchOptions(const Arguments& arguments) {
   link::MatchOptions options;
   options.cognition = cognitionOf(arguments);
-  shared::apply(arguments.robots, options);
+  shared::apply(arguments.processes, options);
   options.thoughts = true;
   options.robotProgram = link::besideOwnProgram("pitchboard-robot");
   return options;
