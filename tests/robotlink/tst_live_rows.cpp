@@ -18,7 +18,7 @@ const WallTime zero{std::chrono::seconds(1'700'000'000)};
 struct Rig {
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
   TeamMonitor monitor;
-  LiveRows rows{store, {.zero = zero, .name = {}}};
+  LiveRows rows{store, {.zero = zero, .name = {}, .attributes = {}}};
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
     DatagramView datagram;

@@ -3,6 +3,7 @@
 // robots with a foot.
 #include <QtTest>
 
+#include <base/angles.h>
 #include <resources/resources.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/models/robot_models.h>
@@ -48,8 +49,8 @@ class TestRobotModels : public QObject {
       QVERIFY2(model, model ? "" : model.error().text().c_str());
       QCOMPARE(model->name, name);
       QVERIFY(!robotModelText(name).title.empty() && !robotModelText(name).description.empty());
-      const std::string text = resourceText("robots/" + name + ".json");
-      QVERIFY(text.find("\"sources\"") != std::string::npos);
+      const std::string_view text = resourceText("robots/" + name + ".json");
+      QVERIFY(text.find("\"sources\"") != std::string_view::npos);
       QCOMPARE(robotModelToText(*model), name);
     }
   }
@@ -153,7 +154,7 @@ class TestRobotModels : public QObject {
     QVERIFY(!model);
     QVERIFY2(QString::fromStdString(model.error().text()).contains(error),
              model.error().text().c_str());
-    QVERIFY(robotModelFromText("kidsize", "").error().text().find("kid-size") != std::string::npos);
+    QVERIFY(robotModelFromText("kidsize", "").error().text().find("kid-size") != std::string_view::npos);
   }
 
   void anotherModelWhileTheMatchPlays() {
