@@ -231,6 +231,7 @@ inline QString headerOfPackage(const QString& target) {
                                                {"box2d::box2d", "box2d/"},
                                                {"nlohmann_json::nlohmann_json", "nlohmann/"},
                                                {"ZLIB::ZLIB", "zlib.h"},
+                                               {"PkgConfig::SLEEF", "sleef.h"},
                                                {"PkgConfig::ZSTD", "zstd.h"},
                                                {"PkgConfig::muparser", "muParser.h"},
                                                {"CLI11::CLI11", "CLI/"},

@@ -43,7 +43,7 @@ class TestCliExport : public QObject {
                                 "B1,match", "--variables", "TRUE_X,BALL_X", "--clock"});
     QVERIFY2(run.exitCode == 0, run.err.constData());
     const QList<QByteArray> lines = run.out.trimmed().split('\n');
-    QCOMPARE(lines[0], QByteArray("time,clock,B1.TRUE_X,match.BALL_X"));
+    QCOMPARE(lines[0], QByteArray("time,clock,match.BALL_X,B1.TRUE_X"));
     QVERIFY2(lines.size() >= 24 && lines.size() <= 26, run.out.constData());
     static const QRegularExpression form(QStringLiteral(
         "^[0-9.e-]+,20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\d\\.\\d\\d\\dZ,-?[0-9.e-]+,"

@@ -32,9 +32,27 @@ QJsonObject expected(const QString& name) {
   return QJsonDocument::fromJson(file.readAll())["expected"].toObject();
 }
 
+// While a kick-off or a set play of one team goes on: the others keep away from the ball.
+int wordInPlay(const QString& name, const QJsonObject& state, int team) {
+  const bool hasBall = state["kickOffTeamNumber"].toInt() == team;
+  const int secondary = state["secGameState"].toInt();
+  if (secondary >= 4 && secondary <= 9) {
+    const QByteArray info = QByteArray::fromHex(state["secGameStateInfoHex"].toString().toLatin1());
+    const bool frozen = state["size"].toInt() == 688 ? info[1] == 0 : info[1] == 1;
+    if (frozen) return 1;
+    return info[0] == team ? 2 : 11;
+  }
+  const bool ofStandardPlatform = name.contains("spl"), ofHumanoids = name.contains("hl");
+  if (!ofStandardPlatform && !ofHumanoids && state["setPlay"].toInt() != 0) return hasBall ? 2 : 11;
+  const bool kickOff = !ofStandardPlatform && state["secondaryTime"].toInt() > 0 &&
+                       state.contains("kickOffTeamNumber") && secondary == 0 &&
+                       state["gamePhase"].toInt() == 0;
+  return kickOff && !hasBall ? 12 : 2;
+}
+
 // What the rules say of a robot without a penalty, from the recording's description.
-int wordOf(const QJsonObject& state) {
-  if (state["secState"].toInt() == 3 || state["gamePhase"].toInt() == 3) return 1;  // timeout
+int wordOf(const QString& name, const QJsonObject& state, int team) {
+  if (state["secGameState"].toInt() == 3 || state["gamePhase"].toInt() == 3) return 1;  // timeout
   if (state["stopped"].toInt() != 0) return 1;
   switch (state["state"].toInt()) {
     case 1:
@@ -42,7 +60,7 @@ int wordOf(const QJsonObject& state) {
     case 2:
       return 12;
     case 3:
-      return 2;
+      return wordInPlay(name, state, team);
     default:
       return 1;
   }
@@ -102,7 +120,7 @@ class TestRefereeObeyed : public QObject {
         int& done = stands ? penalised : free;
         if (done++ > 0) continue;  // one of each kind is enough
         hears(packet(name), team["number"].toInt(), player["n"].toInt(),
-              stands ? 1 : wordOf(state));
+              stands ? 1 : wordOf(name, state, team["number"].toInt()));
       }
     }
     QVERIFY(free + penalised > 0);

@@ -75,6 +75,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_variables->setObjectName(QStringLiteral("exportVariables"));
   m_message->setObjectName(QStringLiteral("exportMessage"));
   m_size->setObjectName(QStringLiteral("exportSize"));
+  m_begin->setObjectName(QStringLiteral("exportBegin"));
+  m_end->setObjectName(QStringLiteral("exportEnd"));
   m_rate->setObjectName(QStringLiteral("exportRate"));
   m_progress->setObjectName(QStringLiteral("exportProgress"));
   for (const ExportForm& form : exportForms()) m_format->addItem(QString::fromUtf8(form.words));
