@@ -60,6 +60,11 @@ struct Game {
     tick();
     QVERIFY(simulation->placeBall(place, velocity));
   }
+  /// From a robot's centre to that of a ball which lies 5 mm before it.
+  double atTheBall() const {
+    const sim::FieldSpec& field = simulation->state().settings.field;
+    return sim::robotRadius(simulation->state(), 0) + field.ballRadius + 0.005;
+  }
   bool state(PlayState state) { return call({.kind = CallKind::State, .state = state}); }
   bool happened(sim::EventKind kind) const {
     return std::any_of(events.begin(), events.end(),
@@ -284,7 +289,7 @@ class TestReferee : public QObject {
     Game game("humanoid-2021", true);
     game.runTo(80);
     // Blue 2 stands at (-2.5, 2): the ball rolls past it over the touch line.
-    game.touch({-2.5, 2.225}, {0.0, 3.0});
+    game.touch({-2.5, 2.0 + game.atTheBall()}, {0.0, 3.0});
     game.runTo(82);
     QCOMPARE(game.game().setPlay, SetPlay::ThrowIn);
     QCOMPARE(game.game().setPlayTeam, 1);
@@ -299,7 +304,7 @@ class TestReferee : public QObject {
       game.runTo(80);
       const int robot = byDefender ? 4 : 2;  // red 1 or blue 2, before the right goal line
       QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{4.0, 2.5}, 0.0}));
-      game.touch({4.225, 2.5}, {3.0, 0.0});
+      game.touch({4.0 + game.atTheBall(), 2.5}, {3.0, 0.0});
       game.runTo(82);
       QCOMPARE(game.game().setPlay, byDefender ? SetPlay::CornerKick : SetPlay::GoalKick);
       QCOMPARE(game.game().setPlayTeam, byDefender ? 0 : 1);
@@ -315,7 +320,7 @@ class TestReferee : public QObject {
     rules.name = "ours";
     QVERIFY(game.simulation->setReferee(rules));
     game.runTo(80);
-    game.touch({-2.5, 2.225}, {0.0, 3.0});
+    game.touch({-2.5, 2.0 + game.atTheBall()}, {0.0, 3.0});
     game.runTo(82);
     QCOMPARE(game.game().setPlay, SetPlay::None);
     QVERIFY(std::abs(game.simulation->snapshot().ball.y) < 3.0);

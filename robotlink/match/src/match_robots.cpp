@@ -23,6 +23,20 @@ bool isToldOtherwise(const sim::RobotModel& a, const sim::RobotModel& b) {
   return told(a) != told(b) || a.kickLaw != b.kickLaw;
 }
 
+/// Refuses a name that is neither one of our behaviours nor "none of ours".
+Result<void> checkBehaviour(const std::string& behaviour) {
+  const auto known = behaviours();
+  if (behaviour != noBehaviour && std::none_of(known.begin(), known.end(), [&](const auto& b) {
+        return b.name == behaviour;
+      })) {
+    std::vector<std::string_view> names;
+    for (const BehaviourInfo& b : known) names.push_back(b.name);
+    names.push_back(noBehaviour);
+    return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const ScenarioRobot& robot) {
@@ -65,6 +79,7 @@ Result<void> SimulatedMatch::checkShirt(const sim::RobotIdentity& identity) cons
 
 Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
   if (auto free = checkShirt(robot.identity); !free) return free;
+  if (auto known = checkBehaviour(robot.behaviour); !known) return known;
   if (auto added = m_simulation.addRobot(robot.identity, robot.pose, robot.model); !added)
     return added;
   const RobotId id = robot.identity.id;
@@ -154,15 +169,7 @@ Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behavio
     return failure(ErrorCode::NotFound,
                    "there is no robot " + std::to_string(id.value) + " on the field");
   }
-  const auto known = behaviours();
-  if (behaviour != noBehaviour && std::none_of(known.begin(), known.end(), [&](const auto& b) {
-        return b.name == behaviour;
-      })) {
-    std::vector<std::string_view> names;
-    for (const BehaviourInfo& b : known) names.push_back(b.name);
-    names.push_back(noBehaviour);
-    return failure(ErrorCode::NotFound, unknownName("behaviour", behaviour, names));
-  }
+  if (auto known = checkBehaviour(behaviour); !known) return known;
   const std::string before = std::exchange(changed->behaviour, behaviour);
   // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
   const RuntimeProfile runtimeBefore = changed->runtime;

@@ -55,14 +55,14 @@ Point withinWalls(const FieldSpec& field, const Point& p) {
 }
 
 bool isFree(const FieldSpec& field, const Point& from, const Point& to,
-            std::span<const Point> robots) {
+            std::span<const Standing> robots) {
   for (const double x : {-field.halfLength(), field.halfLength()}) {
     for (const double y : {-field.goalWidth / 2.0, field.goalWidth / 2.0}) {
       if (toSegment({x, y}, from, to) < field.goalPostRadius + field.ballRadius) return false;
     }
   }
-  return std::none_of(robots.begin(), robots.end(), [&](const Point& robot) {
-    return toSegment(robot, from, to) < field.robotRadius + field.ballRadius + margin;
+  return std::none_of(robots.begin(), robots.end(), [&](const Standing& robot) {
+    return toSegment(robot.place, from, to) < robot.radius + field.ballRadius + margin;
   });
 }
 
@@ -80,7 +80,7 @@ bool isInGoal(const FieldSpec& field, const Point& ball) {
 }
 
 Crossing crossingOf(const FieldSpec& field, const BallWay& way, const Point& now,
-                    std::span<const Point> robots) {
+                    std::span<const Standing> robots) {
   if (!isInField(field, way.from)) return {};
   const bool isOut = !isInField(field, now);
   const Point aim = withinWalls(field, way.aim);

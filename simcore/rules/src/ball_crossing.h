@@ -23,8 +23,14 @@ bool isInField(const FieldSpec& field, const Point& ball);
 /// The ball lies in a goal: behind its line, between the posts, before the net's back.
 bool isInGoal(const FieldSpec& field, const Point& ball);
 
+/// A robot as an obstacle.
+struct Standing {
+  Point place;
+  double radius = 0.0;
+};
+
 /// `now`: where the ball is after the tick. `robots`: what may have stopped it on its way.
 Crossing crossingOf(const FieldSpec& field, const BallWay& way, const Point& now,
-                    std::span<const Point> robots);
+                    std::span<const Standing> robots);
 
 }  // namespace pitchboard::sim

@@ -81,9 +81,10 @@ void applyRules(WorldState& world, RigidBodyState& state, const BallWay& way,
   const FieldSpec& field = world.settings.field;
   RigidBall& ball = state.ball;
   if (isInField(field, ball.position) && isInField(field, way.aim)) return;
-  std::array<Point, highestRobotNumber> robots;
+  std::array<Standing, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), state.robots.size());
-  for (std::size_t i = 0; i < count; ++i) robots[i] = state.robots[i].pose.position;
+  for (std::size_t i = 0; i < count; ++i)
+    robots[i] = {state.robots[i].pose.position, robotRadius(world, i)};
   const Crossing crossing = crossingOf(field, way, ball.position, std::span(robots).first(count));
   if (crossing.line == Crossing::Line::Goal) {
     scoreGoal(world, ball, crossing.right, events);

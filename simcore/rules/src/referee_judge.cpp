@@ -39,11 +39,12 @@ void RefereeTable::judge(const BallWay& way) {
 /// Who has the ball: a kick of this tick, else the nearest that touches it.
 void RefereeTable::followTouches(const BallWay&) {
   std::optional<std::size_t> toucher;
-  double nearest = m_field.robotRadius + m_field.ballRadius + touchMargin;
+  double nearest = touchMargin;
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
     const double d = std::sqrt(squared(m_now.robots[i].pose.position, m_now.ball));
-    if (d < nearest && teamOf(i) >= 0) {
-      nearest = d;
+    const double gap = d - radiusOf(i) - m_field.ballRadius;
+    if (gap < nearest && teamOf(i) >= 0) {
+      nearest = gap;
       toucher = i;
     }
   }
@@ -83,9 +84,9 @@ void RefereeTable::followTouches(const BallWay&) {
 /// Goals and a ball that is out. True when play does not go on as it was.
 bool RefereeTable::judgeLines(const BallWay& way) {
   if (m_game.step == SetPlayStep::Placing) return false;  // the ball is dead
-  std::array<Point, highestRobotNumber> robots;
+  std::array<Standing, highestRobotNumber> robots;
   const std::size_t count = std::min(robots.size(), m_now.robots.size());
-  for (std::size_t i = 0; i < count; ++i) robots[i] = m_now.robots[i].pose.position;
+  for (std::size_t i = 0; i < count; ++i) robots[i] = {m_now.robots[i].pose.position, radiusOf(i)};
   Crossing crossing = crossingOf(m_field, way, m_now.ball, std::span(robots).first(count));
   if (crossing.line == Crossing::Line::None) {
     if (isInField(m_field, m_now.ball)) return false;
@@ -208,8 +209,9 @@ void RefereeTable::judgeRobots() {
       continue;
     }
     watch.downTicks = robot.fallen ? watch.downTicks + 1 : 0;
-    const bool out = std::abs(robot.pose.position.x) > m_field.halfLength() + m_field.robotRadius ||
-                     std::abs(robot.pose.position.y) > m_field.halfWidth() + m_field.robotRadius;
+    const double radius = radiusOf(i);
+    const bool out = std::abs(robot.pose.position.x) > m_field.halfLength() + radius ||
+                     std::abs(robot.pose.position.y) > m_field.halfWidth() + radius;
     // Who fetches a ball from the line may stand behind it.
     const bool fetches = m_game.setPlay != SetPlay::None || !m_game.ballFree;
     watch.outsideTicks = out && !fetches ? watch.outsideTicks + 1 : 0;
@@ -233,11 +235,11 @@ void RefereeTable::judgePushing(std::size_t robot) {
   }
   const RobotSnapshot& pusher = m_now.robots[robot];
   const double toBall = std::sqrt(squared(pusher.pose.position, m_now.ball));
-  const double touching = 2.0 * m_field.robotRadius + contactMargin;
   bool pushes = false;
   for (std::size_t j = 0; j < m_now.robots.size() && toBall < pushersReach; ++j) {
     if (j == robot || teamOf(j) < 0 || teamOf(j) == teamOf(robot)) continue;
     const Point& other = m_now.robots[j].pose.position;
+    const double touching = radiusOf(robot) + radiusOf(j) + contactMargin;
     if (!within(pusher.pose.position, other, touching)) continue;
     const double lead = toBall - std::sqrt(squared(other, m_now.ball));
     const double dx = other.x - pusher.pose.position.x, dy = other.y - pusher.pose.position.y;
@@ -287,12 +289,13 @@ void RefereeTable::judgeKickOff() {
       }
       continue;
     }
+    const double radius = radiusOf(i);
     const double forward = way(team) * at.x;
-    const bool inCircle = within(at, {}, circle + m_field.robotRadius);
+    const bool inCircle = within(at, {}, circle + radius);
     const bool kicks = m_game.kickOff == team;
-    const bool beyond = forward > -m_field.robotRadius && !(kicks && inCircle);
-    const bool outside = std::abs(at.x) > m_field.halfLength() + m_field.robotRadius ||
-                         std::abs(at.y) > m_field.halfWidth() + m_field.robotRadius;
+    const bool beyond = forward > -radius && !(kicks && inCircle);
+    const bool outside = std::abs(at.x) > m_field.halfLength() + radius ||
+                         std::abs(at.y) > m_field.halfWidth() + radius;
     const bool tooNear = !kicks && within(at, {}, circle);
     if (beyond || outside || tooNear) penalise(i, PenaltyKind::IllegalPosition);
   }

@@ -86,7 +86,7 @@ void RefereeTable::putOutside(std::size_t robot) {
   const double x =
       middle ? own * 0.5 : own * std::max(0.5, m_field.halfLength() - m_field.penaltyMarkDistance);
   const double side = ball().y > 0.0 ? -1.0 : 1.0;
-  const double beyond = std::max(m_field.robotRadius + 0.02, m_field.border * 0.6);
+  const double beyond = std::max(radiusOf(robot) + 0.02, m_field.border * 0.6);
   const double y = side * (m_field.halfWidth() + beyond);
   const int spots = static_cast<int>(std::abs(x) / spotSpacing) + 1;
   Point spot{x, y};

@@ -114,8 +114,8 @@ void RefereeTable::beginSetPlay(SetPlay play, int team, const Point& place) {
 /// Puts the ball where it is taken, and robots that stand on that place beside it.
 void RefereeTable::ballPlaced() {
   putBall(m_game.restart);
-  const double room = m_field.robotRadius + m_field.ballRadius + 0.1;
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
+    const double room = radiusOf(i) + m_field.ballRadius + 0.1;
     const Point at = place(i);
     if (!within(at, m_game.restart, room)) continue;
     const double dx = at.x - m_game.restart.x, dy = at.y - m_game.restart.y;

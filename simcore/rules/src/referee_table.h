@@ -87,6 +87,11 @@ class RefereeTable {
     m_events.push_back({kind, m_world.tick, robot, value});
   }
   bool plays(std::size_t robot) const;  ///< belongs to one of the two teams, is not penalised
+  /// m; the published physics knows one robot only, that of the field.
+  double radiusOf(std::size_t robot) const {
+    return std::holds_alternative<RigidBodyState>(m_world.physics) ? robotRadius(m_world, robot)
+                                                                   : m_field.robotRadius;
+  }
   int teamOf(std::size_t robot) const { return m_game.teamOf(m_world.robots[robot].team); }
   GamePlayer* player(std::size_t robot);
   const GamePlayer* player(std::size_t robot) const;
