@@ -25,13 +25,15 @@ Played naiveAt40(const sim::RobotModel& model) {
   scenario.robots[0].behaviour = "naive";
   scenario.robots[0].model = model;
   scenario.robots[0].pose = {{-4.0, 0.0}, 0.0};
-  scenario.ball = {-3.5, 0.0};
+  // Not 50 cm before it: the published rule then gaits in place (naive_decision.h).
+  const double start = -3.55;
+  scenario.ball = {start, 0.0};
   MatchOptions options;
   options.process.distanceToKick = 40.0;
   auto match = SimulatedMatch::create(scenario, options).value();
   for (int i = 0; i < 25 * 60; ++i) match.tick();
   const sim::Snapshot now = match.simulation().snapshot();
-  return {now.robots[0].statistics.kicks, now.ball.x + 3.5};
+  return {now.robots[0].statistics.kicks, now.ball.x - start};
 }
 
 }  // namespace
@@ -154,7 +156,8 @@ class TestRobotModels : public QObject {
     QVERIFY(!model);
     QVERIFY2(QString::fromStdString(model.error().text()).contains(error),
              model.error().text().c_str());
-    QVERIFY(robotModelFromText("kidsize", "").error().text().find("kid-size") != std::string_view::npos);
+    QVERIFY(robotModelFromText("kidsize", "").error().text().find("kid-size") !=
+            std::string_view::npos);
   }
 
   void anotherModelWhileTheMatchPlays() {

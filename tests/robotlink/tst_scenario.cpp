@@ -248,8 +248,8 @@ class TestScenario : public QObject {
   }
 
   void missingFilesAndNames() {
-    QCOMPARE(loadScenario("match-3v4").error().message,
-             std::string("there is no built-in scenario and no file \"match-3v4\"; did you mean "
+    QCOMPARE(loadScenario("match-3v").error().message,
+             std::string("there is no built-in scenario and no file \"match-3v\"; did you mean "
                          "\"match-3v3\"?"));
     QVERIFY(
         loadScenario("/nonexistent/a.json").error().text().starts_with("/nonexistent/a.json: "));

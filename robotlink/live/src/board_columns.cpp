@@ -7,6 +7,11 @@
 #include <robotlink/blackboard/variable_meanings.h>
 
 namespace pitchboard::link {
+namespace {
+
+constexpr auto hole = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN());
+
+}  // namespace
 
 BoardColumns::BoardColumns(const VariableCatalog& catalog) {
   const VariableMeanings& meanings = VariableMeanings::published();
@@ -22,7 +27,8 @@ BoardColumns::BoardColumns(const VariableCatalog& catalog) {
       column.labels.clear();
     }
     if (const auto absent = meanings.absent(variable.name); absent && !isInt) {
-      m_holes.push_back({m_columns.size(), static_cast<float>(*absent)});
+      m_holes.push_back(
+          {m_columns.size(), std::bit_cast<std::uint32_t>(static_cast<float>(*absent))});
     }
     m_columns.push_back(std::move(column));
     m_words.push_back(
@@ -34,11 +40,15 @@ void BoardColumns::read(const Blackboard& board, std::span<std::uint32_t> out) c
   std::array<std::uint32_t, Blackboard::words> words;
   board.copyWords(words);
   for (std::size_t i = 0; i < m_words.size(); ++i) out[i] = words[m_words[i]];
-  constexpr float hole = std::numeric_limits<float>::quiet_NaN();
   for (const Hole& one : m_holes) {
-    std::uint32_t& word = out[one.column];
-    if (std::bit_cast<float>(word) == one.absent) word = std::bit_cast<std::uint32_t>(hole);
+    if (out[one.column] == one.absent) out[one.column] = hole;
   }
+}
+
+std::uint32_t BoardColumns::boardWord(std::string_view name, std::uint32_t word) {
+  if (word != hole) return word;
+  const auto absent = VariableMeanings::published().absent(name);
+  return absent ? std::bit_cast<std::uint32_t>(static_cast<float>(*absent)) : word;
 }
 
 }  // namespace pitchboard::link

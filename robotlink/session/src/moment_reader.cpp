@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include <robotlink/live/board_columns.h>
 #include <robotlink/session/state_archive.h>
 
 #include "session_checkpoint.h"
@@ -42,11 +43,12 @@ std::vector<BoardWord> boardWords(const telemetry::GroupInfo& group,
   for (const telemetry::ColumnInfo& column : group.columns) {
     if (column.type == telemetry::ColumnType::Float64) continue;
     if (place >= words.size()) break;
-    const std::uint32_t bits = words[place++];
+    std::uint32_t bits = words[place++];
     const Variable* variable = catalog.find(column.name);
     const auto type =
         column.type == telemetry::ColumnType::Int32 ? VariableType::Int : VariableType::Float;
     if (!variable || variable->type != type) continue;
+    if (type == VariableType::Float) bits = BoardColumns::boardWord(column.name, bits);
     const int base = type == VariableType::Int ? 0 : Blackboard::floatOffset;
     out.push_back({base + variable->index, bits});
   }

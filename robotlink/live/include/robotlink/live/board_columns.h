@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <robotlink/blackboard/variable_catalog.h>
@@ -24,13 +25,16 @@ class BoardColumns {
   /// The words of the columns, in their order; `out` has size() words. A float that says "not seen"
   /// (VariableMeanings::absent) is NaN, so that it is a hole in every curve.
   void read(const Blackboard& board, std::span<std::uint32_t> out) const;
+  /// What stood on the blackboard where the row of a float has this word: a hole is "not seen"
+  /// again, every other word is itself.
+  static std::uint32_t boardWord(std::string_view name, std::uint32_t word);
 
  private:
   std::vector<telemetry::ColumnInfo> m_columns;
   std::vector<std::uint16_t> m_words;  // place of each column on the blackboard
   struct Hole {
     std::size_t column;
-    float absent;
+    std::uint32_t absent;  // the word of that float
   };
   std::vector<Hole> m_holes;
 };
