@@ -23,6 +23,7 @@ const char* reasonText(const std::string& finishedBy) {
   if (finishedBy == "goal") return "a goal was scored";
   if (finishedBy == "ball_out") return "the ball left the field";
   if (finishedBy == "duration") return "the time was up";
+  if (finishedBy == "full_time") return "the final whistle";
   return "interrupted";
 }
 

@@ -13,7 +13,7 @@ struct Outcome {
   std::uint64_t ticks = 0;
   double simulatedSeconds = 0.0;
   double wallSeconds = 0.0;
-  std::string finishedBy;  ///< "duration", "goal", "ball_out", "interrupted"
+  std::string finishedBy;  ///< as of SimulatedMatch, or "interrupted"
   std::string noise;       ///< name of the preset, or "custom"
 };
 
