@@ -15,8 +15,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::string_view magic = "PBst";
-// 2: the referee and the game; 3: kinds of robots, past moments.
-constexpr std::uint64_t version = 3;
+// 2: the referee and the game; 3: kinds of robots, past moments; 4: a kind that several have, once.
+constexpr std::uint64_t version = 4;
 constexpr std::size_t longestText = 256;
 // Physics stays well-behaved within these; a match never comes near them.
 constexpr double farthest = 1e6;
@@ -47,6 +47,12 @@ class Writer {
   template <class Physics>
   void alternative(const Physics& physics) {
     putVarint(m_out, physics.index());
+  }
+  template <class T>
+  bool repeats(const std::vector<T>& list, std::size_t index) {
+    const bool same = index > 0 && list[index] == list[index - 1];
+    putVarint(m_out, same ? 1 : 0);
+    return same;
   }
   template <class T>
   bool present(const std::optional<T>& value) {
@@ -97,6 +103,12 @@ class Reader {
   requires requires { lastOf(Enum{}); }
   void value(Enum& value) {
     value = static_cast<Enum>(limited(static_cast<std::uint64_t>(lastOf(Enum{}))));
+  }
+  template <class T>
+  bool repeats(std::vector<T>& list, std::size_t index) {
+    if (limited(index > 0 ? 1 : 0) == 0) return false;
+    list[index] = list[index - 1];
+    return true;
   }
   template <class T>
   bool present(std::optional<T>& value) {

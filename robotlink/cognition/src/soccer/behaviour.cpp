@@ -96,8 +96,21 @@ Pose Supporter::kickOff(const WorldModel& world) {
     m_side = world.pose().position.y >= 0.0 ? 1.0 : -1.0;
     const Point place{x, m_side * y};
     const double own = distance(world.pose().position, place);
+    // Everybody just walks then: of three or more (a keeper, too) the one nearest to the striker's
+    // place is taken for the striker, who needs none of these.
+    const Point front = Striker::kickOff(world).position;
+    const TeamMate* striker = nullptr;
+    int mates = 0;
     for (const auto& mate : world.mates()) {
-      const bool supports = mate && mate->intention != Intention::Keep;
+      if (!mate) continue;
+      ++mates;
+      if (!striker || distance(mate->position, front) < distance(striker->position, front)) {
+        striker = &*mate;
+      }
+    }
+    if (mates < 3) striker = nullptr;
+    for (const auto& mate : world.mates()) {
+      const bool supports = mate && &*mate != striker && mate->intention != Intention::Keep;
       if (supports && distance(mate->position, place) < own - 0.05 &&
           distance(mate->position, place) < distance(mate->position, {x, -m_side * y})) {
         m_side = -m_side;

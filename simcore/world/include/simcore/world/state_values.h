@@ -8,7 +8,8 @@
 // enumeration; count(vector) before the elements of a vector whose size is its own (a reader
 // resizes it there); sameCount(vector, size) where the size is known already; alternative(variant)
 // before the physics (a reader chooses it there); present(optional) before what may not be there (a
-// reader makes it there), true when it is.
+// reader makes it there), true when it is. A saved form may have repeats(vector, index), too: true
+// when this element is the one before it once more, and is not visited.
 
 #include <simcore/world/world_state.h>
 
@@ -96,7 +97,12 @@ void visitValues(World& world, Visitor& v) {
   v.count(world.robots);
   for (auto& r : world.robots) state_values::all(v, r.id.value, r.team, r.number, r.imuStartsAt180);
   v.sameCount(world.models, world.robots.size());
-  for (auto& model : world.models) state_values::robotModel(model, v);
+  for (std::size_t i = 0; i < world.models.size(); ++i) {
+    if constexpr (requires { v.repeats(world.models, i); }) {
+      if (v.repeats(world.models, i)) continue;
+    }
+    state_values::robotModel(world.models[i], v);
+  }
   v.sameCount(world.statistics, world.robots.size());
   for (auto& r : world.statistics) {
     state_values::all(v, r.distanceWalked, r.kicks, r.falls, r.unknownActions, r.lastUnknownAction);
