@@ -126,6 +126,7 @@ void MonteCarloLocalization::reset() {
   m_spread = false;
   m_slow = m_fast = m_sinceBearing = 0.0;
   m_lastImu.reset();
+  m_imuShift = 0.0;
   m_remembered = {};
 }
 
@@ -220,7 +221,11 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
   if (usable(input.imuYaw)) {
     if (m_lastImu && m_parameters.yawByImu) {
       const double turned = wrapToPi(*input.imuYaw - *m_lastImu);
-      if (std::abs(turned - turn) < imuJump) turn = turned;
+      if (std::abs(turned - turn) < imuJump) {
+        turn = turned;
+      } else {
+        m_imuShift = wrapToPi(m_imuShift + turn - turned);
+      }
     }
     m_lastImu = input.imuYaw;
   }
@@ -295,6 +300,14 @@ void MonteCarloLocalization::weighImu(double yaw) {
       s * static_cast<float>(repeatable::sin(yaw + offset));
   // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
   if (m_imuZero == ImuZero::Unknown) a = a.abs();
+  // After a jump nothing but bearings can tell a robot that was turned from an IMU that was reset.
+  if (m_imuShift != 0.0) {
+    auto b = m_b.head(n);
+    b = c * static_cast<float>(repeatable::cos(yaw + offset + m_imuShift)) +
+        s * static_cast<float>(repeatable::sin(yaw + offset + m_imuShift));
+    if (m_imuZero == ImuZero::Unknown) b = b.abs();
+    a = a.max(b);
+  }
   const auto kappa = static_cast<float>(1.0 / (m_parameters.imuSigma * m_parameters.imuSigma));
   const auto floor = static_cast<float>(imuOutliers);
   a = floor + (1.0F - floor) * (kappa * (a - 1.0F)).exp();

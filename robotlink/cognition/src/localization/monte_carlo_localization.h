@@ -157,6 +157,7 @@ class MonteCarloLocalization {
   Array m_weight, m_noise, m_a, m_b, m_d;
   std::array<Remembered, 4> m_remembered;
   std::optional<double> m_lastImu;
+  double m_imuShift = 0.0;  // to be added to its yaw if its jumps were resets; 0: none was seen
   double m_slow = 0.0, m_fast = 0.0, m_sinceBearing = 0.0, m_resetShare = 0.0;
   int m_columns, m_rows;  // of the histogram
   std::vector<std::uint32_t> m_cellStamp;

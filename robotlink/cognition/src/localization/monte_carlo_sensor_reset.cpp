@@ -22,7 +22,8 @@ double MonteCarloLocalization::drawYaw(CounterRandom& random) const {
   if (!m_lastImu || random.uniform() < imuOutliers) return (2 * random.uniform() - 1) * pi;
   const bool left =
       m_imuZero == ImuZero::Left || (m_imuZero == ImuZero::Unknown && random.uniform() < 0.5);
-  return random.normal(*m_lastImu + (left ? pi : 0.0), 0.5 * m_parameters.imuSigma);
+  const double shift = m_imuShift != 0.0 && random.uniform() < 0.5 ? m_imuShift : 0.0;
+  return random.normal(*m_lastImu + (left ? pi : 0.0) + shift, 0.5 * m_parameters.imuSigma);
 }
 
 bool MonteCarloLocalization::onField(const Point& p) const {
