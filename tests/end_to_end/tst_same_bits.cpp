@@ -38,14 +38,14 @@ class TestSameBits : public QObject {
     QTest::newRow("localization, team play and realistic noise")
         << QStringList{"--scenario", "match-3v3", "--noise",    "realistic",
                        "--seed",     "7",         "--duration", "1200"}
-        << QStringLiteral("GOLDEN1");
+        << QStringLiteral("0xe29c18bfde200c6a");
     QTest::newRow("two kinds of robots with their own noise")
         << QStringList{"--scenario",    "match-3v3", "--noise",       "robot",
                        "--robot-model", "kid-size",  "--robot-model", "red=adult-size",
                        "--duration",    "300"}
-        << QStringLiteral("GOLDEN2");
-    QTest::newRow("with a referee")
-        << QStringList{"--scenario", "match-4v4", "--duration", "300"} << QStringLiteral("GOLDEN3");
+        << QStringLiteral("0xc71a68c0fd6cb3c8");
+    QTest::newRow("with a referee") << QStringList{"--scenario", "match-4v4", "--duration", "300"}
+                                    << QStringLiteral("0xb6755b4b5f5ea4a9");
   }
   void withAndWithoutFusedMultiplyAdd() {
     QFETCH(QStringList, match);
