@@ -7,10 +7,13 @@ export LC_ALL=C TZ=UTC
 gzip -9nc "$1" >"$3/changelog.gz"
 {
   end=''
+  entry=0
   while IFS= read -r line; do
     if [[ $line =~ ^##\ ([0-9.]+)\ \((.*)\)$ ]]; then
       [ -z "$end" ] || printf '\n%s\n\n' "$end"
-      end=" -- $2  $(date -R -d "${BASH_REMATCH[2]}")"
+      # Two versions of one day: the newer one is later in the day.
+      end=" -- $2  $(date -R -d "${BASH_REMATCH[2]} 12:00 $entry minutes ago")"
+      entry=$((entry + 1))
       printf 'pitchboard (%s-1) unstable; urgency=medium\n\n' "${BASH_REMATCH[1]}"
     elif [[ $line == "- "* ]]; then
       fold -s -w 75 <<<"${line#- }" | sed '1s/^/  * /; 2,$s/^/    /; s/ *$//'
