@@ -91,8 +91,8 @@ class TestFieldView : public QObject {
     scenario->robots[0].behaviour = link::noBehaviour;
     controller.open(*scenario, false);
     QTRY_VERIFY(controller.frame() && controller.frame()->robots.size() == 1);
-    const auto board = link::SystemVSegments::open(link::blackboardKey(RobotId{1}, options.keyBase.value()),
-                                                   link::AttachMode::AttachOnly);
+    const auto board = link::SystemVSegments::open(
+        link::blackboardKey(RobotId{1}, options.keyBase.value()), link::AttachMode::AttachOnly);
     QVERIFY2(board, board ? "" : board.error().text().c_str());
     const link::RobotVariables v;
     const auto yaw = [&] { return static_cast<double>(board->read(v.imuEulerZ)); };
