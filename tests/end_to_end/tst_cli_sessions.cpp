@@ -15,7 +15,7 @@
 #include <telemetry/session/session_reader.h>
 
 #include "../support/program_run.h"
-#include "../support/test_socket.h"
+#include "../support/session_values.h"
 
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
@@ -47,29 +47,6 @@ bool same(double a, double b) {
 /// As the exports write numbers; nan for what is none.
 double numberOf(const QByteArray& text) {
   return std::strtod(text.constData(), nullptr);
-}
-
-double valueOf(const GroupInfo& info, const RowView& row, std::size_t column) {
-  std::size_t words = 0, values = 0;
-  for (std::size_t i = 0; i < column; ++i) {
-    ++(info.columns[i].type == ColumnType::Float64 ? values : words);
-  }
-  switch (info.columns[column].type) {
-    case ColumnType::Int32:
-      return std::bit_cast<std::int32_t>(row.words[words]);
-    case ColumnType::Float32:
-      return double(std::bit_cast<float>(row.words[words]));
-    case ColumnType::Float64:
-      break;
-  }
-  return row.values[values];
-}
-
-std::size_t columnOf(const GroupInfo& info, const std::string& name) {
-  for (std::size_t i = 0; i < info.columns.size(); ++i) {
-    if (info.columns[i].name == name) return i;
-  }
-  qFatal("there is no column %s", name.c_str());
 }
 
 /// By time, robot and variable.
@@ -272,85 +249,6 @@ class TestCliSessions : public QObject {
       QCOMPARE(self.exitCode, 2);
       QVERIFY2(self.err.contains("being read"), self.err.constData());
     }
-  }
-
-  void liveRobotsAreRecorded() {
-    TestSocket robot;
-    int base = 0, referee = 0;
-    {
-      const TestSocket first, second;
-      base = first.port() - 1;
-      referee = second.port() == base + 2 ? base + 3 : second.port();
-    }
-    const QString path = newPath(".mcap");
-    QProcess process;
-    process.start(program, {"record", "--live", "--bind", "127.0.0.1", "--robots", "2",
-                            "--port-base", QString::number(base), "--gamecontroller-port",
-                            QString::number(referee), "-o", path});
-    QByteArray err;
-    QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"),
-                             10'000);
-    const auto robotPort = static_cast<std::uint16_t>(base + 1);
-    const auto refereePort = static_cast<std::uint16_t>(referee);
-    const QByteArray packet = contents(QStringLiteral(PITCHBOARD_TEST_DATA) +
-                                       QStringLiteral("/gamecontroller/v11hl592_FINISHED.bin"));
-    QVERIFY(!packet.isEmpty());
-    for (int i = 0; i < 40; ++i) {
-      const std::string text =
-          "1 " + std::to_string(400 + i) + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT";
-      QVERIFY(robot.send(robotPort, text));
-    }
-    QVERIFY(robot.send(robotPort, "hello\xff there"));
-    QVERIFY(
-        robot.send(refereePort, std::string_view(packet.constData(), std::size_t(packet.size()))));
-    QVERIFY(robot.send(refereePort, "no packet"));
-    // A chunk is on the disk after a second: seen from outside while it goes on.
-    QTRY_VERIFY_WITH_TIMEOUT(
-        [&] {
-          const auto session = SessionReader::open(path.toStdString());
-          return session && session->count(SessionStream::Telemetry) == 41 &&
-                 session->count(SessionStream::RefereeRaw) == 2;
-        }(),
-        5000);
-    process.terminate();
-    QVERIFY(process.waitForFinished(10'000));
-    err += process.readAllStandardError();
-    QVERIFY2(process.exitCode() == 0, err.constData());
-
-    const auto session = SessionReader::open(path.toStdString());
-    QVERIFY(session && session->complete() && session->notes().empty());
-    QCOMPARE(session->info().source, std::string("live"));
-    // The robot, and how well it is heard.
-    QCOMPARE(session->groups().size(), std::size_t{2});
-    const GroupId ofRobot = session->groups()[0].info.attributes.contains("link") ? 1 : 0;
-    const GroupInfo& info = session->groups()[ofRobot].info;
-    std::vector<double> places;
-    session->rows(always, {}, [&](GroupId group, const RowView& row) {
-      if (group != ofRobot) return true;
-      const double x = valueOf(info, row, columnOf(info, "X"));
-      if (places.empty() || places.back() != x) places.push_back(x);
-      return true;
-    });
-    QCOMPARE(places.size(), std::size_t{40});
-    QCOMPARE(places.front(), 400.0);
-    QCOMPARE(places.back(), 439.0);
-    std::vector<std::string> payloads;
-    session->messages(SessionStream::Telemetry, always, [&](double, std::string_view json) {
-      if (const auto datagram = sessionDatagram(json)) payloads.push_back(datagram->payload);
-      return true;
-    });
-    QCOMPARE(payloads.size(), std::size_t{41});
-    QCOMPARE(payloads.back(), std::string("hello\xff there"));
-    QByteArray state;
-    session->messages(SessionStream::Referee, always, [&](double, std::string_view json) {
-      state = QByteArray(json.data(), qsizetype(json.size()));
-      return true;
-    });
-    const QJsonObject referees = QJsonDocument::fromJson(state).object();
-    QVERIFY2(!referees["stateName"].toString().isEmpty(), state.constData());
-    QVERIFY(referees["teams"][0]["players"].isArray() &&
-            referees["teams"][1].toObject().contains("playersLeft"));
-    QVERIFY(!session->attachment("profile.json")->empty());
   }
 
   void badRequestsAreSentences_data() {

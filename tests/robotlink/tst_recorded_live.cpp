@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A live session by hand, seen again from its books and, as in older files, from its rows.
+
+#include <QtTest>
+
+#include <robotlink/live/live_books.h>
+#include <robotlink/session/live_recorder.h>
+#include <robotlink/session/moment_reader.h>
+#include <robotlink/session/moment_scenario.h>
+#include <robotlink/session/recorded_frame.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+class TestRecordedLive : public QObject {
+  Q_OBJECT
+  QTemporaryDir m_folder;
+
+ private slots:
+  void aPacketAsTheCommandLineWritesItIsRead() {
+    const auto view = refereeFromJson(
+        R"({"header":"RGme","version":12,"stateName":"SET","state":2,"firstHalf":false,"stopped":1,
+            "kickOffTeamNumber":null,"secsRemaining":-7,"time":3.5,
+            "teams":[{"number":5,"colour":0,"score":2,"players":[]},{"number":6,"colour":1,"score":1}]})");
+    QVERIFY(view);
+    QCOMPARE(view->state, std::string("SET"));
+    QVERIFY(!view->firstHalf && view->stopped && !view->kickOffTeam);
+    QCOMPARE(view->secondsLeft, -7);
+    QCOMPARE(view->teams[0].score, 2);
+    QVERIFY(!view->teams[0].colour.empty());
+    for (const char* bad :
+         {"", "[]", "{", "{\"stateName\":3}", "{\"stateName\":\"x\",\"teams\":[1]}"}) {
+      const auto read = refereeFromJson(bad);
+      QVERIFY(!read || read->state == "x");
+    }
+  }
+
+  void liveIsRecordedAndSeenAgain_data() {
+    QTest::addColumn<bool>("books");
+    QTest::newRow("as it was known") << true;
+    QTest::newRow("from rows, as in older files") << false;
+  }
+  void liveIsRecordedAndSeenAgain() {
+    QFETCH(bool, books);
+    const std::string path =
+        m_folder.filePath(books ? "live.mcap" : "live_rows.mcap").toStdString();
+    LiveOptions live;
+    const telemetry::WallTime zero = std::chrono::system_clock::now();
+    auto recorder = LiveRecorder::create(path, live, zero).value();
+    LiveBooks known(live);
+    telemetry::TeamMonitor& monitor = known.monitor;
+    // As a watch does when it is observed.
+    if (books) recorder->remembered(0.5, known.text(live, 0.5, zero));
+    const auto hear = [&](double time, std::string text) {
+      telemetry::DatagramView datagram;
+      datagram.time = zero + std::chrono::nanoseconds(static_cast<std::int64_t>(time * 1e9));
+      datagram.sender = {{0x7f000001}, 5000};
+      datagram.localPort = 1241;
+      datagram.payload = text;
+      QVERIFY(monitor.take(datagram) == telemetry::TeamMonitor::Verdict::Used);
+      recorder->heard(RobotId{1}, time, datagram, monitor.decoder(), monitor.decoded());
+    };
+    hear(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
+    recorder->reported(monitor.status(zero + std::chrono::milliseconds(1500)));
+    hear(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
+    telemetry::DatagramView packet;
+    packet.payload = std::string_view("RGme\0\xff", 6);
+    recorder->refereeHeard(2.0, packet, {});
+    MatchFrame frame;
+    frame.snapshot.time = 2.0;
+    frame.referee.emplace();
+    frame.referee->state = "PLAYING";
+    frame.referee->secondsLeft = 432;
+    frame.referee->teams[1].score = 3;
+    recorder->frameMade(frame);
+    MatchEvent taken;
+    taken.kind = MatchEventKind::PortLost;
+    taken.time = 2.0;
+    taken.value = 1241;
+    recorder->happened(taken);
+    QVERIFY(recorder->finish());
+
+    const auto session = telemetry::SessionReader::open(path).value();
+    QCOMPARE(session.count(telemetry::SessionStream::Telemetry), std::uint64_t{2});
+    QCOMPARE(session.count(telemetry::SessionStream::RefereeRaw), std::uint64_t{1});
+    QCOMPARE(session.events().size(), std::size_t{1});
+    RecordedFrames frames(backdropOf(session));
+    const MatchFrame seen = frames.frameAt(session, 2.1);
+    QVERIFY(!seen.truthKnown && !seen.ballKnown);
+    QCOMPARE(seen.robots.size(), std::size_t{1});
+    const RobotFrame& robot = seen.robots[0];
+    QVERIFY(std::hypot(robot.pose.position.x - 0.1, robot.pose.position.y) < 1e-9);
+    QVERIFY(robot.board->decisionWorking);
+    QCOMPARE(robot.board->voltage, 189);
+    QVERIFY(robot.health && robot.health->ball && !robot.timedOut());
+    // What it said stands in the frame as it did in Live.
+    const telemetry::TeamStatus team = monitor.status(zero + std::chrono::milliseconds(2100));
+    QVERIFY(robot.health->battery && team.robots.at(0).battery);
+    if (books) {
+      QVERIFY(robot.health->battery == team.robots[0].battery);
+    } else {
+      // Rows keep the voltage of a link to 1/1024 V.
+      const double volts = robot.health->battery->volts;
+      QVERIFY(std::abs(volts - team.robots[0].battery->volts) <= 0.5 / 1024);
+      QVERIFY(robot.health->battery == telemetry::batteryAt(volts, telemetry::usualBattery));
+    }
+    QCOMPARE(robot.health->sender.address, team.robots[0].sender.address);
+    QCOMPARE(robot.health->values.size(), team.robots[0].words.size());
+    for (std::size_t i = 0; i < robot.health->values.size(); ++i) {
+      QCOMPARE(std::stod(robot.health->values[i].text), team.robots[0].values[i]);
+      QCOMPARE(robot.health->values[i].name, team.robots[0].decoder->name(i));
+    }
+    // The packet itself was none that can be read: only the decoded one says something.
+    QCOMPARE(seen.referee.has_value(), !books);
+    if (!books) {
+      QCOMPARE(seen.referee->state, std::string("PLAYING"));
+      QVERIFY(seen.snapshot.score == (sim::Score{0, 3}));
+    }
+    QVERIFY(!frames.frameAt(session, 1.1).robots[0].board->decisionWorking);
+    QCOMPARE(momentFromSession(session, 2.0, VariableCatalog::published()).error().code,
+             ErrorCode::NotFound);
+    const MomentScenario made = scenarioFromMoment(seen);
+    QVERIFY(SimulatedMatch::create(made.scenario, {}));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRecordedLive)
+#include "tst_recorded_live.moc"
