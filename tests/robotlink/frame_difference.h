@@ -117,6 +117,7 @@ inline QString difference(const MatchFrame& a, const MatchFrame& b) {
   SAME(snapshot.clockRunning);
   SAME(field.name);
   SAME(robots.size());
+  SAME(drawings);
   SAME(referee.has_value());
   SAME(teamBall.has_value());
   if (a.teamBall) {

@@ -12,6 +12,7 @@
 #include "ball_item.h"
 #include "belief_item.h"
 #include "compared_item.h"
+#include "drawing_items.h"
 #include "live_items.h"
 #include "overlay_items.h"
 #include "robot_item.h"
@@ -33,6 +34,7 @@ enum Height {
   pathHeight,
   ballHeight,
   robotHeight,
+  drawingHeight,
   toolHeight
 };
 
@@ -94,6 +96,7 @@ FieldScene::FieldScene(QObject* parent)
     : QGraphicsScene(parent),
       m_ball(new BallItem(&m_style)),
       m_teamBall(new TeamBallItem(&m_style)),
+      m_drawings(std::make_unique<DrawingItems>(this, &m_style, drawingHeight)),
       m_compared(new ComparedItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
@@ -125,6 +128,7 @@ void FieldScene::styleChanged() {
     robot->path.styleChanges();
   }
   m_teamBall->styleChanges();
+  m_drawings->styleChanges();
   m_compared->styleChanges();
   m_ball->styleChanges();
   m_eopra->styleChanges();
@@ -138,6 +142,7 @@ void FieldScene::showFrame(const FramePtr& frame) {
   m_frame = frame;
   m_ball->setVisible(frame && frame->ballKnown);
   m_teamBall->setBall(frame ? frame->teamBall : std::nullopt);
+  m_drawings->show(frame.get(), m_selection);
   if (!frame) {
     m_robots.clear();
     setSelection({});
@@ -284,6 +289,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
     robot->wedge.styleChanges();
   }
   showThoughts();
+  if (m_style.drawings.onlySelected) m_drawings->show(m_frame.get(), m_selection);
   showSelected();
   emit selectionChangedTo(m_selection);
 }

@@ -18,6 +18,7 @@ namespace pitchboard::ui {
 class BallItem;
 class BeliefItem;
 class ComparedItem;
+class DrawingItems;
 class OtherPoseItem;
 class RobotItem;
 class RubberBandItem;
@@ -99,6 +100,7 @@ class FieldScene : public QGraphicsScene {
   std::optional<RobotId> m_followed;
   BallItem* m_ball;
   TeamBallItem* m_teamBall;
+  std::unique_ptr<DrawingItems> m_drawings;
   ComparedItem* m_compared;
   SectorItem* m_eopra;
   SectorItem* m_starVars;

@@ -31,9 +31,10 @@ enum class FieldLayer {
   Eopra,
   StarVars,
   Particles,
-  PlannedPath
+  PlannedPath,
+  Drawings
 };
-inline constexpr int fieldLayerCount = 12;
+inline constexpr int fieldLayerCount = 13;
 
 class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
