@@ -65,6 +65,7 @@ inline QString difference(const RobotFrame& a, const RobotFrame& b) {
   SAME(identity.id);
   SAME(identity.number);
   SAME(identity.team);
+  SAME(ownName);
   SAME(pose);
   SAME(headYaw);
   SAME(velocity);

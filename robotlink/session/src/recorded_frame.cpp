@@ -283,6 +283,7 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   const RobotId id = idOfSender(
       l.robot.value, [&frame](RobotId wanted) { return frame.robot(wanted) != nullptr; });
   RobotFrame& robot = frame.robots.emplace_back();
+  robot.ownName = attribute(info, "name");
   RobotBoardView& board = robot.board.emplace();
   board.key = attributeNumber(info, "key");
   board.behaviour = attribute(info, "behaviour");

@@ -51,10 +51,10 @@ DrawingsMenu::DrawingsMenu(FieldScene* scene, QAction* show, QWidget* parent)
 }
 
 void DrawingsMenu::fill() {
+  qDeleteAll(std::exchange(m_made, {}));  // with their entries in this menu
   for (QAction* action : actions()) {
     if (action != m_show) delete action;
   }
-  qDeleteAll(std::exchange(m_made, {}));
   QAction* selected = addAction(QStringLiteral("Only of selected robots"));
   selected->setCheckable(true);
   selected->setChecked(m_scene->style().drawings.onlySelected);

@@ -7,6 +7,7 @@
 
 #include <robotlink/frame/belief.h>
 #include <simcore/world/published_frame.h>
+#include <ui/base/robot_words.h>
 #include <ui/sources/pose_difference.h>
 
 #include "ball_item.h"
@@ -14,6 +15,7 @@
 #include "compared_item.h"
 #include "drawing_items.h"
 #include "live_items.h"
+#include "name_labels.h"
 #include "overlay_items.h"
 #include "robot_item.h"
 #include "sector_items.h"
@@ -35,6 +37,7 @@ enum Height {
   ballHeight,
   robotHeight,
   drawingHeight,
+  nameHeight,
   toolHeight
 };
 
@@ -55,6 +58,13 @@ BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) 
     const double sigma =
         sim::published_frame::metresFromCm(static_cast<double>(robot.board->belief));
     look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
+  }
+  look.number = robot.identity.number;
+  if (look.ghost && look.believed) {
+    const Point& there = look.believed->position;
+    if (pitchboard::distance(there, robot.pose.position) >= BeliefItem::apart) {
+      look.stands = robot.pose.position;
+    }
   }
   look.origin = link::perceivingPose(field, robot).position;
   look.ball = link::perceivedBall(field, robot);
@@ -100,14 +110,15 @@ FieldScene::FieldScene(QObject* parent)
       m_compared(new ComparedItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
+      m_names(new NameLabelsItem(&m_style)),
       m_ruler(new RulerItem(&m_style)),
       m_band(new RubberBandItem(&m_style)) {
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {
       {m_ball, ballHeight},    {m_teamBall, ballHeight},   {m_compared, beliefHeight},
-      {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_ruler, toolHeight},
-      {m_band, toolHeight}};
+      {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_names, nameHeight},
+      {m_ruler, toolHeight},   {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
     item->setZValue(height);
     item->setVisible(false);
@@ -156,8 +167,22 @@ void FieldScene::showFrame(const FramePtr& frame) {
   matchRobots();
   m_ball->setBall(frame->snapshot.ball);
   for (const link::RobotFrame& robot : frame->robots) showRobot(robot);
+  showNames();
   showThoughts();
   showSelected();
+}
+
+void FieldScene::showNames() {
+  std::vector<NameLabelsItem::Robot> named;
+  const bool shown = m_style.shows(FieldLayer::Numbers);
+  m_names->setVisible(shown);
+  for (const auto& [id, robot] : m_robots) {
+    if (!shown || !robot->body.isVisible()) continue;
+    const RobotLook& look = robot->body.look();
+    named.push_back({id, toScene(look.pose.position), m_style.drawRadius(look.radius),
+                     robotName(look.team, look.number)});
+  }
+  m_names->setRobots(std::move(named));
 }
 
 // Of the selected robots, or of all while none is selected: six clouds at once hide each other.

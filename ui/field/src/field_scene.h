@@ -19,6 +19,7 @@ class BallItem;
 class BeliefItem;
 class ComparedItem;
 class DrawingItems;
+class NameLabelsItem;
 class OtherPoseItem;
 class RobotItem;
 class RubberBandItem;
@@ -87,6 +88,7 @@ class FieldScene : public QGraphicsScene {
   void matchRobots();
   void showRobot(const link::RobotFrame& now);
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
+  void showNames();
   void showThoughts();
   void showSelected();
   void setSelection(std::vector<RobotId> ids);
@@ -104,6 +106,7 @@ class FieldScene : public QGraphicsScene {
   ComparedItem* m_compared;
   SectorItem* m_eopra;
   SectorItem* m_starVars;
+  NameLabelsItem* m_names;
   RulerItem* m_ruler;
   RubberBandItem* m_band;
 };
