@@ -65,6 +65,7 @@ inline QString difference(const RobotFrame& a, const RobotFrame& b) {
   SAME(identity.id);
   SAME(identity.number);
   SAME(identity.team);
+  SAME(ownName);
   SAME(pose);
   SAME(headYaw);
   SAME(velocity);
@@ -117,6 +118,7 @@ inline QString difference(const MatchFrame& a, const MatchFrame& b) {
   SAME(snapshot.clockRunning);
   SAME(field.name);
   SAME(robots.size());
+  SAME(drawings);
   SAME(referee.has_value());
   SAME(teamBall.has_value());
   if (a.teamBall) {

@@ -143,6 +143,10 @@ class TestCardState : public QObject {
     for (const CardState& state : {base, silent, low, tagged}) look(state, false, false);
     look(base, true, false);
     look(base, false, true);
+    // A collapsed card keeps its alarm.
+    look(tagged, false, true);
+    tagged.tagKind = TagKind::Error;
+    look(tagged, false, true);
   }
 
   void clicksSelectAndCollapse() {

@@ -151,12 +151,20 @@ class TestFieldView : public QObject {
     QTRY_VERIFY(std::abs(wrapToPi(pose(1).yaw + radiansFromDegrees(90))) < 0.06);
   }
 
-  void wheelOverARobotTurnsIt() {
+  // Only one that is selected: who zooms over a crowd does not want to turn it.
+  void wheelOverASelectedRobotTurnsIt() {
+    const double scale = m_canvas->transform().m11();
     wheel(at(pose(1).position), 120);
+    QVERIFY(m_canvas->transform().m11() > scale);
+    QTest::keyClick(m_canvas, Qt::Key_Home);
+    m_view->select({RobotId{1}});
+    wheel(at(pose(1).position), 120);
+    QCOMPARE(m_canvas->transform().m11(), scale);
     QTRY_VERIFY(std::abs(pose(1).yaw - radiansFromDegrees(5)) < 1e-6);
   }
 
   void everyNotchOfTheWheelCounts() {
+    m_view->select({RobotId{1}});
     for (int i = 0; i < 4; ++i) wheel(at(pose(1).position), 120);
     QTRY_VERIFY(std::abs(pose(1).yaw - radiansFromDegrees(20)) < 1e-6);
   }
@@ -325,7 +333,8 @@ class TestFieldView : public QObject {
     QTest::newRow("kick right") << "Kick right" << 4;
     QTest::newRow("pass left") << "Pass left" << 12;
     QTest::newRow("pass right") << "Pass right" << 13;
-    QTest::newRow("walk") << "Walk forward" << 1;
+    QTest::newRow("walk") << "Walk forward, fast" << 1;
+    QTest::newRow("greet") << "Greetings" << 19;
   }
   void menuOfARobotCommandsIt() {
     QFETCH(QString, text);
@@ -500,7 +509,7 @@ class TestFieldView : public QObject {
 
   void layerOptionsChangeThePicture() {
     const auto options = m_view->layerOptionActions();
-    QCOMPARE(options.size(), std::size_t(3));
+    QCOMPARE(options.size(), std::size_t(4));
     const QSize size(640, 455);
     const QImage one = m_view->picture(size);
     options[0]->setChecked(true);  // fields of view of robots that are not selected

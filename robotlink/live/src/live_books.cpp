@@ -156,8 +156,25 @@ telemetry::RefereeTracker::Options LiveBooks::refereeOptions(const LiveOptions& 
   return made;
 }
 
+std::optional<telemetry::TeamMonitor::Verdict> LiveBooks::takeRobot(
+    const telemetry::DatagramView& datagram, double time) {
+  const telemetry::DatagramParts parts = telemetry::partsOf(datagram.payload);
+  if (parts.drawing.empty()) return monitor.take(datagram);
+  if (auto drawing = telemetry::parseDrawing(parts.drawing); !drawing) {
+    // For a stranger's there is no need of a sentence.
+    if (monitor.firstOfTeam(datagram, {})) (void)drawings.take(parts.drawing, time);
+  } else if (const auto first = monitor.firstOfTeam(datagram, drawing->team)) {
+    (void)drawings.take(std::move(*drawing), time, *first);
+  }
+  if (parts.message.empty()) return std::nullopt;
+  telemetry::DatagramView message = datagram;
+  message.payload = parts.message;
+  return monitor.take(message);
+}
+
 void LiveBooks::clear(const LiveOptions& options) {
   monitor.clear();
+  drawings.clear();
   referee = telemetry::RefereeTracker(refereeOptions(options));
   m_shown.reset();
   m_other.reset();
@@ -196,13 +213,19 @@ void LiveBooks::takeReferee(const telemetry::RefereePacket& packet,
 
 MatchFrame LiveBooks::frame(const LiveOptions& options, const telemetry::TeamStatus& team,
                             double time) const {
-  return liveFrame(options, team, referee, time);
+  MatchFrame frame = liveFrame(options, team, referee, time);
+  frame.drawings = drawings.at(time);
+  frame.drawingProblem = drawings.lastProblem();
+  return frame;
 }
 
 std::string LiveBooks::text(const LiveOptions& options, double time, WallTime zero) const {
   Json json{{"time", time}, {"options", optionsJson(options)}};
   // Its own text, not an object in here: the monitor's form is the monitor's.
   json["robots"] = monitor.robotsText(zero);
+  for (const auto& [heard, drawn] : drawings.pages(time)) {
+    json["drawings"].push_back(Json{{"at", heard}, {"text", drawn}});
+  }
   Json& packets = json["referee"] = Json::array();
   const auto put = [&](const Kept& kept) {
     packets.push_back(Json{{"at", (kept.time - zero).count()},
@@ -230,6 +253,12 @@ Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
   if (auto done = out.books.monitor.restoreRobots(pitchboard::link::text(json, "robots"), zero);
       !done) {
     return tl::unexpected(done.error());
+  }
+  if (const Json* pages = member(json, "drawings"); pages && pages->is_array()) {
+    for (const Json& page : *pages) {
+      if (!page.is_object()) continue;
+      (void)out.books.drawings.take(pitchboard::link::text(page, "text"), number(page, "at", 0.0));
+    }
   }
   if (const Json* packets = member(json, "referee"); packets && packets->is_array()) {
     for (const Json& packet : *packets) {

@@ -274,6 +274,7 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     out.identity.id = idOfSlot(robot.number, robot.slot);
     out.identity.number = telemetry::numberInTeam(robot.number, options.team.teams.size());
     out.identity.team = colourOf(options, robot.number, ours, frame.referee);
+    out.ownName = ownNameOf(options, robot.number);
     RobotHealth& health = out.health.emplace(healthOf(robot));
     health.penalty = penaltyOf(state, refereeNumberOf(options, robot.number), out.identity.number);
     out.action = health.action.value_or(0);

@@ -150,7 +150,7 @@ struct LiveWatch::Impl {
         takeReferee(datagram);
         continue;
       }
-      const auto verdict = monitor.take(datagram);
+      const auto verdict = books.takeRobot(datagram, arrival(datagram.time));
       if (observers.empty() || verdict == TeamMonitor::Verdict::SenderRefused) continue;
       if (verdict != TeamMonitor::Verdict::Used) {
         unused(datagram);

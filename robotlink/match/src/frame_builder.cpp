@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <robotlink/match/match_drawings.h>
 #include <robotlink/match/referee_packet.h>
 
 namespace pitchboard::link {
@@ -61,6 +62,12 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
     if (const auto index = simulation.indexOf(thoughts.robot)) {
       out.robots[*index].thoughts = thoughts;
     }
+  }
+  out.drawings.clear();
+  out.drawingProblem.clear();
+  if (const MatchDrawings* drawings = match.drawings()) {
+    out.drawings = drawings->book().at(m_snapshot.time);
+    out.drawingProblem = drawings->problem();
   }
   out.referee.reset();
   out.refereeRules.clear();

@@ -61,8 +61,12 @@ void MatchPlayer::tick() {
 void MatchPlayer::tellEvents() {
   m_events.clear();
   m_match.takeEvents(m_events);
-  if (m_events.empty()) return;
-  for (const auto& observer : m_observers) observer->happened(m_events);
+  m_drawings.clear();
+  m_match.takeDrawings(m_drawings);
+  for (const auto& observer : m_observers) {
+    if (!m_events.empty()) observer->happened(m_events);
+    if (!m_drawings.empty()) observer->drew(m_drawings);
+  }
 }
 
 void MatchPlayer::showMoment() {

@@ -228,6 +228,11 @@ Result<void> SimulatedMatch::startForeign(Seat& seat, SeatProcess& process) {
   for (auto& [name, value] : managed.spec.environment) {
     if (auto done = replaced(value); !done) return done;
   }
+  constexpr const char* drawTo = "PITCHBOARD_DRAW";
+  auto& environment = managed.spec.environment;
+  if (std::ranges::none_of(environment, [](const auto& set) { return set.first == drawTo; })) {
+    environment.emplace_back(drawTo, "127.0.0.1:" + std::to_string(number()->drawingPort()));
+  }
   if (seat.runtime.name == "published-tree") {
     if (auto good = checkPublishedTree(values, seat.board.key()); !good) return good;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <robotlink/cognition/referee_word.h>
+#include <robotlink/match/match_drawings.h>
 
 #include "match_events.h"
 #include "match_referee.h"
@@ -58,6 +59,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_thoughts = std::move(other.m_thoughts);
   m_events = std::move(other.m_events);
   m_referee = std::move(other.m_referee);
+  m_drawings = std::move(other.m_drawings);
   m_claim = std::move(other.m_claim);
   m_speed = other.m_speed;
   m_still = other.m_still;
@@ -251,6 +253,13 @@ void SimulatedMatch::takeEvents(std::vector<MatchEvent>& out) {
   m_events->look(m_simulation.state(), finishedBy());
   m_events->takeNews(m_simulation.state(), m_processes->takeNews());
   m_events->take(out);
+}
+
+void SimulatedMatch::takeDrawings(std::vector<HeardDrawing>& out) {
+  if (!m_claim) return;
+  if (!m_drawings) m_drawings = std::make_unique<MatchDrawings>(number()->drawingPort());
+  const sim::WorldState& state = m_simulation.state();
+  m_drawings->hear(static_cast<double>(state.tick) / state.settings.tickRate, out);
 }
 
 std::vector<RobotThoughts> SimulatedMatch::thoughts() {

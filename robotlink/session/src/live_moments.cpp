@@ -67,7 +67,7 @@ struct LiveMoments::Impl {
     const telemetry::DatagramView datagram{at(kept.time), kept.sender, kept.localPort, false,
                                            kept.payload};
     if (record.stream == SessionStream::Telemetry) {
-      (void)known->books.monitor.take(datagram);
+      (void)known->books.takeRobot(datagram, kept.time);
     } else if (const auto packet = telemetry::decodeReferee(kept.payload)) {
       known->books.takeReferee(*packet, datagram);
     }

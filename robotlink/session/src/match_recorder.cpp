@@ -9,6 +9,7 @@
 
 #include <base/actions.h>
 #include <base/file_target.h>
+#include <robotlink/session/drawing_moments.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/row_walk.h>
 #include <robotlink/session/session_events.h>
@@ -100,10 +101,16 @@ void MatchRecorder::ticked(const SimulatedMatch& match, std::chrono::nanoseconds
 void MatchRecorder::writeEvents() {
   for (const MatchEvent& event : m_events) m_writer->append(sessionEvent(event));
   m_events.clear();
+  for (const HeardDrawing& drawing : m_drawings) appendRecord(*m_writer, drawingRecord(drawing));
+  m_drawings.clear();
 }
 
 void MatchRecorder::happened(std::span<const MatchEvent> events) {
   m_events.insert(m_events.end(), events.begin(), events.end());
+}
+
+void MatchRecorder::drew(std::span<const HeardDrawing> drawings) {
+  m_drawings.insert(m_drawings.end(), drawings.begin(), drawings.end());
 }
 
 void MatchRecorder::append(const MatchEvent& event) {
@@ -169,6 +176,13 @@ Result<telemetry::SessionStatus> saveRecent(const std::string& path, double seco
                (*writer)->append(known->second, row);
              });
   if (past.heard) appendHeard(**writer, *past.heard, begin);
+  if (past.drawn) {
+    constexpr std::array drawings{telemetry::SessionStream::Telemetry};
+    past.drawn->walk(drawings, {begin, range->end}, [&writer](const LiveRecord& record) {
+      appendRecord(**writer, record);
+      return true;
+    });
+  }
   for (const auto& event : past.events) {
     if (event.time >= begin) (*writer)->append(sessionEvent(event));
   }

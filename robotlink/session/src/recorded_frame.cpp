@@ -175,6 +175,9 @@ MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, d
   };
   MatchFrame frame = build(time, lookBack);
   addReferee(session, time, frame);
+  if (session.count(telemetry::SessionStream::Telemetry) > 0) {
+    frame.drawings = m_drawings.at(SessionHistory(session), time);
+  }
   return frame;
 }
 
@@ -280,6 +283,7 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   const RobotId id = idOfSender(
       l.robot.value, [&frame](RobotId wanted) { return frame.robot(wanted) != nullptr; });
   RobotFrame& robot = frame.robots.emplace_back();
+  robot.ownName = attribute(info, "name");
   RobotBoardView& board = robot.board.emplace();
   board.key = attributeNumber(info, "key");
   board.behaviour = attribute(info, "behaviour");

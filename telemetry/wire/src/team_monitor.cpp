@@ -240,6 +240,12 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
   return Verdict::Used;
 }
 
+std::optional<int> TeamMonitor::firstOfTeam(const DatagramView& datagram,
+                                            std::optional<int> team) const {
+  if (!m_options.senders.allows(datagram.sender.address)) return std::nullopt;
+  return m_router->firstOfTeam(datagram, team);
+}
+
 void TeamMonitor::arrive(Robot& robot, WallTime time) {
   if (robot.messages > 0 && since(time, robot.last) >= m_options.timeout) {
     ++robot.recoveries;

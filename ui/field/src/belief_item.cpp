@@ -9,6 +9,13 @@
 #include "field_stamps.h"
 
 namespace pitchboard::ui {
+namespace {
+
+constexpr double fullUntil = 0.3;    // m of uncertainty; beyond it the disc thins out
+constexpr double noseReach = 1.75;   // of the ghost's radius
+constexpr double readable_px = 6.5;  // radius of a ring in which a number can be read
+
+}  // namespace
 
 void BeliefItem::setLook(const BeliefLook& look) {
   if (look == m_look) return;
@@ -29,10 +36,13 @@ QRectF BeliefItem::computeBounds() const {
   QRectF bounds;
   const double margin = m_style->metres(2.0);
   if (m_look.believed) {
-    const double radius =
-        std::max({m_look.sigma, leastRadius, m_style->robotDrawRadius()}) + margin;
+    const double radius = std::max({m_look.sigma, leastRadius, ghostRadius() * noseReach}) + margin;
     const QPointF at = toScene(m_look.believed->position);
     bounds = QRectF(at.x() - radius, at.y() - radius, 2 * radius, 2 * radius);
+    if (m_look.stands) {
+      const QPointF robot = toScene(*m_look.stands);
+      bounds |= QRectF(robot.x() - margin, robot.y() - margin, 2 * margin, 2 * margin);
+    }
   }
   if (m_look.ball) {
     const double radius = m_style->ballDrawRadius() + margin;
@@ -45,43 +55,72 @@ QRectF BeliefItem::computeBounds() const {
 }
 
 void BeliefItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
-  if (m_look.believed) paintGhost(painter);
+  if (m_look.believed) {
+    const ScreenPainting screen(painter, toScene(m_look.believed->position));
+    if (m_style->shows(FieldLayer::Belief)) paintDisc(painter, screen);
+    if (m_look.ghost && m_style->shows(FieldLayer::Ghost)) paintGhost(painter, screen);
+  }
   if (m_look.ball && m_style->shows(FieldLayer::PerceivedBall)) paintPerceivedBall(painter);
 }
 
-void BeliefItem::paintGhost(QPainter* painter) const {
-  const ScreenPainting screen(painter, toScene(m_look.believed->position));
+void BeliefItem::paintDisc(QPainter* painter, const ScreenPainting& screen) const {
   const double scale = screen.pixelsPerMetre();
   const QColor team = theme().team(m_look.team);
-  if (m_style->shows(FieldLayer::Belief)) {
-    // In half pixels, so that a changing uncertainty still finds its stamp.
-    const int size = static_cast<int>(std::lround(2 * std::max(m_look.sigma, leastRadius) * scale));
-    const double radius = size / 2.0;
-    QColor fill = team;
-    fill.setAlphaF(isDarkTheme() ? 0.15F : 0.22F);
-    QPen pen(isDarkTheme() ? team : team.darker(115), 1.3);
-    pen.setDashPattern({3.0, 2.4});
-    pen.setCapStyle(Qt::FlatCap);
-    drawStamp(painter, {}, {Stamp::Kind::Belief, size, fill.rgba(), pen.color().rgba(), {}},
-              {radius + 2, radius + 2}, [&](QPainter& p) {
-                p.setPen(pen);
-                p.setBrush(fill);
-                p.drawEllipse(QPointF(0, 0), radius, radius);
-              });
+  // In half pixels, so that a changing uncertainty still finds its stamp.
+  const int size = static_cast<int>(std::lround(2 * std::max(m_look.sigma, leastRadius) * scale));
+  const double radius = size / 2.0;
+  // One that knows nothing must not cover the field: what is spread over more ground is thinner.
+  const double thin = std::min(1.0, fullUntil / std::max(m_look.sigma, leastRadius));
+  QColor fill = team;
+  fill.setAlpha(static_cast<int>(std::lround((isDarkTheme() ? 38 : 56) * thin)));
+  QPen pen(onGrass(isDarkTheme() ? team : team.darker(115), std::max(0.45, std::sqrt(thin))), 1.3);
+  pen.setDashPattern({3.0, 2.4});
+  pen.setCapStyle(Qt::FlatCap);
+  drawStamp(painter, {}, {Stamp::Kind::Belief, size, fill.rgba(), pen.color().rgba(), {}},
+            {radius + 2, radius + 2}, [&](QPainter& p) {
+              p.setPen(pen);
+              p.setBrush(fill);
+              p.drawEllipse(QPointF(0, 0), radius, radius);
+            });
+}
+
+void BeliefItem::paintGhost(QPainter* painter, const ScreenPainting& screen) const {
+  const double radius = ghostRadius() * screen.pixelsPerMetre();
+  const QColor line = onGrass(theme().fieldLines, isDarkTheme() ? 0.72 : 0.95);
+  if (m_look.stands) {
+    const QPointF robot =
+        screen.pixels(toScene(*m_look.stands) - toScene(m_look.believed->position));
+    const double away = std::hypot(robot.x(), robot.y());
+    painter->setPen(QPen(line, 0.8));
+    if (away > radius) painter->drawLine(robot * (radius / away), robot);
   }
-  if (m_look.ghost && m_style->shows(FieldLayer::Ghost)) {
-    const double radius = std::max(m_style->field.robotRadius * scale, 5.0) * 0.85;
-    const QColor line = onGrass(theme().fieldLines, isDarkTheme() ? 0.72 : 0.95);
-    const QPen pen(line, std::clamp(radius * 0.13, 1.2, 2.2), Qt::SolidLine, Qt::FlatCap);
-    drawStamp(painter, {}, {Stamp::Kind::Ghost, stampSize(radius), line.rgba(), 0, {}},
-              {radius + 2, radius + 2}, [&](QPainter& p) {
-                p.setPen(pen);
-                p.setBrush(Qt::NoBrush);
-                p.drawEllipse(QPointF(0, 0), radius, radius);
-              });
-    painter->setPen(pen);
-    painter->drawLine(QPointF(0, 0), screen.direction(m_look.believed->yaw) * radius * 1.25);
-  }
+  const double stroke = std::clamp(radius * 0.13, 1.2, 2.2);
+  const bool numbered =
+      m_look.number > 0 && radius >= readable_px && m_style->shows(FieldLayer::Numbers);
+  const QString number = numbered ? QString::number(m_look.number) : QString();
+  drawStamp(
+      painter, {}, {Stamp::Kind::Ghost, stampSize(radius), line.rgba(), 0, number},
+      {radius + 2, radius + 2}, [&](QPainter& p) {
+        p.setPen(QPen(line, stroke));
+        p.setBrush(Qt::NoBrush);
+        p.drawEllipse(QPointF(0, 0), radius, radius);
+        if (number.isEmpty()) return;
+        p.setFont(fieldFont(
+            static_cast<int>(std::lround(std::max(8.0, radius * (number.size() > 1 ? 1.05 : 1.3)))),
+            false));
+        p.drawText(QRectF(-radius, -radius, 2 * radius, 2 * radius), Qt::AlignCenter, number);
+      });
+  // The same nose as a robot's, so that both read alike.
+  const QPointF ahead = screen.direction(m_look.believed->yaw), side(-ahead.y(), ahead.x());
+  const QPointF nose[] = {ahead * radius * noseReach, ahead * radius * 1.12 + side * radius * 0.45,
+                          ahead * radius * 1.12 - side * radius * 0.45};
+  painter->setPen(Qt::NoPen);
+  painter->setBrush(line);
+  painter->drawPolygon(nose, 3);
+}
+
+double BeliefItem::ghostRadius() const {
+  return std::max(m_style->field.robotRadius, m_style->metres(5.0)) * 0.85;
 }
 
 void BeliefItem::paintPerceivedBall(QPainter* painter) const {

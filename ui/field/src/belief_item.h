@@ -17,6 +17,8 @@ struct BeliefLook {
   double sigma = 0.0;            ///< metres, of the particles
   std::optional<Point> ball;     ///< perceived, in the field's frame
   bool ghost = true;             ///< false: the robot itself is drawn at the believed pose
+  int number = 0;                ///< of the robot
+  std::optional<Point> stands;   ///< where it really is, when the ghost is far from it
   Point origin;                  ///< where the line to the ball begins
   double opacity = 1.0;
   bool operator==(const BeliefLook&) const = default;
@@ -24,6 +26,8 @@ struct BeliefLook {
 
 class BeliefItem : public QGraphicsItem {
  public:
+  /// From this distance on a line joins a ghost to its robot, m.
+  static constexpr double apart = 0.5;
   /// The published telemetry draws no smaller circle (SYSTEM.md section 7).
   static constexpr double leastRadius = 0.15;
 
@@ -38,7 +42,9 @@ class BeliefItem : public QGraphicsItem {
 
  private:
   QRectF computeBounds() const;
-  void paintGhost(QPainter* painter) const;
+  double ghostRadius() const;  // m
+  void paintDisc(QPainter* painter, const ScreenPainting& screen) const;
+  void paintGhost(QPainter* painter, const ScreenPainting& screen) const;
   void paintPerceivedBall(QPainter* painter) const;
   void paintBallInside(QPainter* painter) const;
 

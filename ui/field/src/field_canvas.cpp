@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_canvas.h"
 
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -148,6 +150,13 @@ void FieldCanvas::paintEmptyState(QPainter* painter) const {
   painter->drawText(box.adjusted(14, 8, -14, -8), wrapped, text);
 }
 
+// Not all that is seen moves with the scene: the frame round the field, what is said when it is
+// empty. Pixels that are shifted instead of painted would leave traces of them behind.
+void FieldCanvas::scrollContentsBy(int dx, int dy) {
+  QGraphicsView::scrollContentsBy(dx, dy);
+  viewport()->update();
+}
+
 void FieldCanvas::resizeEvent(QResizeEvent* event) {
   QGraphicsView::resizeEvent(event);
   if (m_fitted) fit();
@@ -229,6 +238,16 @@ void FieldCanvas::contextMenuEvent(QContextMenuEvent* event) {
 
 bool FieldCanvas::viewportEvent(QEvent* event) {
   if (event->type() == QEvent::Leave) emit cursorMoved(m_cursor, false);
+  if (event->type() == QEvent::ToolTip && m_hoverText) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    const QString text = m_hoverText(metresAt(QPointF(help->pos())));
+    if (text.isEmpty()) {
+      QToolTip::hideText();
+    } else {
+      QToolTip::showText(help->globalPos(), text, viewport());
+    }
+    return true;
+  }
   return QGraphicsView::viewportEvent(event);
 }
 

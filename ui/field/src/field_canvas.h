@@ -32,6 +32,11 @@ class FieldCanvas : public QGraphicsView {
   /// Asked first for every key; says whether it took it.
   void setKeyHandler(std::function<bool(QKeyEvent*)> handler) { m_keyHandler = std::move(handler); }
 
+  /// What is said of the robot on which the mouse rests.
+  void setHoverText(std::function<QString(const QPointF& metres)> text) {
+    m_hoverText = std::move(text);
+  }
+
   /// What to say while there are no robots; an empty text: how to begin a simulation.
   void setEmptyText(std::function<QString()> text) { m_emptyText = std::move(text); }
 
@@ -47,6 +52,7 @@ class FieldCanvas : public QGraphicsView {
   void changeEvent(QEvent* event) override;
   void drawBackground(QPainter* painter, const QRectF& rect) override;
   void drawForeground(QPainter* painter, const QRectF& rect) override;
+  void scrollContentsBy(int dx, int dy) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
@@ -71,6 +77,7 @@ class FieldCanvas : public QGraphicsView {
   FieldBackground m_background;
   std::function<bool(QKeyEvent*)> m_keyHandler;
   std::function<QString()> m_emptyText;
+  std::function<QString(const QPointF&)> m_hoverText;
   QPointF m_cursor;
   QPointF m_panFrom;
   bool m_panning = false;

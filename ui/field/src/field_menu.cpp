@@ -2,8 +2,8 @@
 #include "field_menu.h"
 
 #include <QMenu>
+#include <QStringList>
 #include <algorithm>
-#include <array>
 #include <numbers>
 
 #include <ui/base/robot_words.h>
@@ -14,86 +14,117 @@
 namespace pitchboard::ui {
 namespace {
 
-void addPlaces(QMenu* menu, FieldScene* scene, MatchController* controller, const QPointF& metres) {
-  QMenu* add =
-      menu->addMenu(themedIcon(QStringLiteral("list-add")), QStringLiteral("Add robot here"));
+bool canEdit(const FieldScene* scene, const MatchController* controller) {
+  return controller && scene->frame() && !scene->style().readOnly;
+}
+
+void addRobotsAt(QMenu* menu, const QString& words, MatchController* controller,
+                 const QPointF& metres) {
+  QMenu* add = menu->addMenu(themedIcon(QStringLiteral("list-add")), words);
   for (const TeamColorInfo& team : teamColors) {
     const Pose pose{fromScene(metres), team.facesLeft ? std::numbers::pi : 0.0};
     add->addAction(capitalised(team.name), controller, [controller, color = team.color, pose] {
       controller->edits()->addRobot(color, pose);
     });
   }
-  menu->addAction(QStringLiteral("Place ball here"), controller, [controller, scene, metres] {
-    controller->edits()->moveBall(scene->ball(), fromScene(metres));
-  });
 }
 
-void addRobotActions(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
-  struct Entry {
-    const char* text;
-    int action;
-  };
-  constexpr std::array<Entry, 6> entries{{{"Kick left", 5},
-                                          {"Kick right", 4},
-                                          {"Pass left", 12},
-                                          {"Pass right", 13},
-                                          {"Walk forward", 1},
-                                          {"Stop", 0}}};
-  for (const Entry& entry : entries) {
-    menu->addAction(QString::fromUtf8(entry.text), controller,
-                    [controller, ids, action = entry.action] {
-                      for (const RobotId id : ids) controller->edits()->commandAction(id, action);
-                    });
+/// What can be done with these robots; `scene` shows them.
+void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
+               const std::vector<RobotId>& ids, const FieldMenuActions& actions) {
+  const bool editable = canEdit(scene, controller);
+  const RobotId id = ids.front();
+  if (editable) {
+    addRobotMenus(menu, controller, ids);
+    menu->addSeparator();
+    menu->addAction(QStringLiteral("Pose…"), menu, [actions, id] { actions.editPose(id); });
+    menu->addAction(QStringLiteral("Blackboard…"), menu,
+                    [actions, id] { actions.showBlackboard(id); });
   }
-  addBehaviourMenu(menu, controller, ids);
-  addRuntimeMenu(menu, controller, ids);
-  addTeamMenu(menu, controller, ids);
-  if (ids.size() == 1) addNumberMenu(menu, controller, ids.front());
-  addModelMenu(menu, controller, ids);
+  QAction* follow = menu->addAction(QStringLiteral("Follow"));
+  follow->setCheckable(true);
+  follow->setChecked(scene->followed() == id);
+  QObject::connect(follow, &QAction::toggled, scene, [scene, id](bool on) {
+    scene->setFollowed(on ? std::optional(id) : std::nullopt);
+  });
+  QAction* trail = menu->addAction(QStringLiteral("Hide trail"));
+  trail->setCheckable(true);
+  trail->setChecked(!scene->isTrailShown(id));
+  QObject::connect(trail, &QAction::toggled, scene, [scene, ids](bool hide) {
+    for (const RobotId robot : ids) scene->setTrailShown(robot, !hide);
+  });
+  if (!editable) return;
+  menu->addSeparator();
+  menu->addAction(themedIcon(QStringLiteral("edit-delete")),
+                  ids.size() == 1 ? QStringLiteral("Remove robot")
+                                  : QStringLiteral("Remove %1 robots").arg(ids.size()),
+                  controller, [controller, ids] { controller->edits()->removeRobots(ids); });
+}
+
+void addBall(QMenu* menu, FieldScene* scene, MatchController* controller,
+             const FieldMenuActions& actions) {
+  menu->addAction(QStringLiteral("Place and speed of the ball…"), menu,
+                  [actions] { actions.editBall(); });
+  menu->addAction(QStringLiteral("Ball to the centre mark"), controller,
+                  [controller, scene] { controller->edits()->moveBall(scene->ball(), Point{}); });
+}
+
+void addSelecting(QMenu* menu, FieldScene* scene) {
+  QMenu* select = menu->addMenu(QStringLiteral("Select"));
+  for (const link::RobotFrame& robot : scene->frame()->robots) {
+    const auto& ids = scene->selection();
+    QAction* action = select->addAction(robotName(robot.identity));
+    action->setCheckable(true);
+    action->setChecked(std::find(ids.begin(), ids.end(), robot.id()) != ids.end());
+    QObject::connect(action, &QAction::triggered, scene,
+                     [scene, id = robot.id()] { scene->toggle(id); });
+  }
+  select->addSeparator();
+  select->addAction(QStringLiteral("All"), scene, &FieldScene::selectAll);
+  select->addAction(QStringLiteral("None"), scene, [scene] { scene->select({}); });
 }
 
 }  // namespace
 
+void fillRobotsMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
+                    const QPointF& metres, const FieldMenuActions& actions) {
+  if (!scene->frame()) return;
+  if (!scene->frame()->robots.empty()) addSelecting(menu, scene);
+  const std::vector<RobotId> ids = scene->selection();
+  if (!ids.empty()) {
+    QStringList names;
+    for (const RobotId id : ids) {
+      if (const auto* robot = scene->frame()->robot(id)) names << robotName(robot->identity);
+    }
+    menu->addSection(names.join(QStringLiteral(", ")));
+    addRobots(menu, scene, controller, ids, actions);
+  }
+  if (!canEdit(scene, controller)) return;
+  menu->addSeparator();
+  addRobotsAt(menu, QStringLiteral("Add robot"), controller, metres);
+  addBall(menu, scene, controller, actions);
+}
+
 void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
                    const QPointF& metres, const FieldMenuActions& actions) {
   const FieldHit hit = scene->hit(metres);
-  const bool editable = controller && scene->frame() && !scene->style().readOnly;
+  const bool editable = canEdit(scene, controller);
   if (hit.kind == FieldHit::Kind::Robot || hit.kind == FieldHit::Kind::Handle) {
-    const RobotId id = hit.robot;
     const auto& selected = scene->selection();
-    if (std::find(selected.begin(), selected.end(), id) == selected.end()) scene->select({id});
-    const std::vector<RobotId> ids = scene->selection();
-    if (editable) {
-      addRobotActions(menu, controller, ids);
-      menu->addSeparator();
-      menu->addAction(QStringLiteral("Pose…"), menu, [actions, id] { actions.editPose(id); });
+    if (std::find(selected.begin(), selected.end(), hit.robot) == selected.end()) {
+      scene->select({hit.robot});
     }
-    QAction* follow = menu->addAction(QStringLiteral("Follow"));
-    follow->setCheckable(true);
-    follow->setChecked(scene->followed() == id);
-    QObject::connect(follow, &QAction::toggled, scene, [scene, id](bool on) {
-      scene->setFollowed(on ? std::optional(id) : std::nullopt);
-    });
-    QAction* trail = menu->addAction(QStringLiteral("Hide trail"));
-    trail->setCheckable(true);
-    trail->setChecked(!scene->isTrailShown(id));
-    QObject::connect(trail, &QAction::toggled, scene, [scene, ids](bool hide) {
-      for (const RobotId robot : ids) scene->setTrailShown(robot, !hide);
-    });
-    if (editable) {
-      menu->addSeparator();
-      menu->addAction(themedIcon(QStringLiteral("edit-delete")),
-                      ids.size() == 1 ? QStringLiteral("Remove robot")
-                                      : QStringLiteral("Remove %1 robots").arg(ids.size()),
-                      controller, [controller, ids] { controller->edits()->removeRobots(ids); });
-    }
+    std::vector<RobotId> ids = scene->selection();
+    // What concerns one concerns the one that was clicked.
+    std::iter_swap(ids.begin(), std::find(ids.begin(), ids.end(), hit.robot));
+    addRobots(menu, scene, controller, ids, actions);
   } else if (editable && hit.kind == FieldHit::Kind::Ball) {
-    menu->addAction(QStringLiteral("Place and speed of the ball…"), menu,
-                    [actions] { actions.editBall(); });
-    menu->addAction(QStringLiteral("Ball to the centre mark"), controller,
-                    [controller, scene] { controller->edits()->moveBall(scene->ball(), Point{}); });
+    addBall(menu, scene, controller, actions);
   } else if (editable) {
-    addPlaces(menu, scene, controller, metres);
+    addRobotsAt(menu, QStringLiteral("Add robot here"), controller, metres);
+    menu->addAction(QStringLiteral("Place ball here"), controller, [controller, scene, metres] {
+      controller->edits()->moveBall(scene->ball(), fromScene(metres));
+    });
   }
   if (editable) {
     menu->addSeparator();

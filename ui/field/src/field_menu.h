@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The field's context menu. Window thread; it lives as long as it is open.
+// The field's context menu, and what the menu bar offers of robots and ball. Window thread; it
+// lives as long as it is open.
 
 #include <QPointF>
 #include <functional>
@@ -15,6 +16,7 @@ namespace pitchboard::ui {
 /// What the menu cannot do through the controller or the scene.
 struct FieldMenuActions {
   std::function<void(RobotId)> editPose;
+  std::function<void(RobotId)> showBlackboard;
   std::function<void()> editBall;
   std::function<void()> saveMoment;
 };
@@ -22,5 +24,9 @@ struct FieldMenuActions {
 /// Fills `menu` for the place where it was asked for.
 void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
                    const QPointF& metres, const FieldMenuActions& actions);
+
+/// The same for the selected robots, and selecting them; new ones come to `metres`.
+void fillRobotsMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
+                    const QPointF& metres, const FieldMenuActions& actions);
 
 }  // namespace pitchboard::ui

@@ -267,8 +267,9 @@ bool FieldPointer::turnAt(const QPointF& at, double notches) {
   const FieldHit hit = m_scene->hit(at);
   if (hit.kind != FieldHit::Kind::Robot || !canEdit()) return false;
   const auto& selected = m_scene->selection();
-  const bool together = std::find(selected.begin(), selected.end(), hit.robot) != selected.end();
-  auto placements = standing(together ? selected : std::vector<RobotId>{hit.robot});
+  // Who zooms over a crowd does not want to turn it.
+  if (std::find(selected.begin(), selected.end(), hit.robot) == selected.end()) return false;
+  auto placements = standing(selected);
   for (RobotPlacement& placement : placements) {
     placement.to.yaw = wrapToPi(placement.from.yaw + radiansFromDegrees(notches * degreesPerNotch));
   }

@@ -33,7 +33,7 @@ class FieldPointer : public QObject {
   void move(const QPointF& at, Qt::KeyboardModifiers modifiers);
   void release(const QPointF& at, Qt::KeyboardModifiers modifiers);
   void doubleClick(const QPointF& at);
-  /// The wheel over a robot; false when there is none.
+  /// The wheel over one of the selected robots turns them; false when there is none.
   bool turnAt(const QPointF& at, double notches);
   /// Puts back what is being dragged; says whether anything was.
   bool cancel();

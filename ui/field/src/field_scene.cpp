@@ -7,12 +7,15 @@
 
 #include <robotlink/frame/belief.h>
 #include <simcore/world/published_frame.h>
+#include <ui/base/robot_words.h>
 #include <ui/sources/pose_difference.h>
 
 #include "ball_item.h"
 #include "belief_item.h"
 #include "compared_item.h"
+#include "drawing_items.h"
 #include "live_items.h"
+#include "name_labels.h"
 #include "overlay_items.h"
 #include "robot_item.h"
 #include "sector_items.h"
@@ -33,6 +36,8 @@ enum Height {
   pathHeight,
   ballHeight,
   robotHeight,
+  drawingHeight,
+  nameHeight,
   toolHeight
 };
 
@@ -53,6 +58,13 @@ BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) 
     const double sigma =
         sim::published_frame::metresFromCm(static_cast<double>(robot.board->belief));
     look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
+  }
+  look.number = robot.identity.number;
+  if (look.ghost && look.believed) {
+    const Point& there = look.believed->position;
+    if (pitchboard::distance(there, robot.pose.position) >= BeliefItem::apart) {
+      look.stands = robot.pose.position;
+    }
   }
   look.origin = link::perceivingPose(field, robot).position;
   look.ball = link::perceivedBall(field, robot);
@@ -94,17 +106,19 @@ FieldScene::FieldScene(QObject* parent)
     : QGraphicsScene(parent),
       m_ball(new BallItem(&m_style)),
       m_teamBall(new TeamBallItem(&m_style)),
+      m_drawings(std::make_unique<DrawingItems>(this, &m_style, drawingHeight)),
       m_compared(new ComparedItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
+      m_names(new NameLabelsItem(&m_style)),
       m_ruler(new RulerItem(&m_style)),
       m_band(new RubberBandItem(&m_style)) {
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {
       {m_ball, ballHeight},    {m_teamBall, ballHeight},   {m_compared, beliefHeight},
-      {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_ruler, toolHeight},
-      {m_band, toolHeight}};
+      {m_eopra, sectorHeight}, {m_starVars, sectorHeight}, {m_names, nameHeight},
+      {m_ruler, toolHeight},   {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
     item->setZValue(height);
     item->setVisible(false);
@@ -125,6 +139,7 @@ void FieldScene::styleChanged() {
     robot->path.styleChanges();
   }
   m_teamBall->styleChanges();
+  m_drawings->styleChanges();
   m_compared->styleChanges();
   m_ball->styleChanges();
   m_eopra->styleChanges();
@@ -138,6 +153,7 @@ void FieldScene::showFrame(const FramePtr& frame) {
   m_frame = frame;
   m_ball->setVisible(frame && frame->ballKnown);
   m_teamBall->setBall(frame ? frame->teamBall : std::nullopt);
+  m_drawings->show(frame.get(), m_selection);
   if (!frame) {
     m_robots.clear();
     setSelection({});
@@ -151,8 +167,22 @@ void FieldScene::showFrame(const FramePtr& frame) {
   matchRobots();
   m_ball->setBall(frame->snapshot.ball);
   for (const link::RobotFrame& robot : frame->robots) showRobot(robot);
+  showNames();
   showThoughts();
   showSelected();
+}
+
+void FieldScene::showNames() {
+  std::vector<NameLabelsItem::Robot> named;
+  const bool shown = m_style.shows(FieldLayer::Numbers);
+  m_names->setVisible(shown);
+  for (const auto& [id, robot] : m_robots) {
+    if (!shown || !robot->body.isVisible()) continue;
+    const RobotLook& look = robot->body.look();
+    named.push_back({id, toScene(look.pose.position), m_style.drawRadius(look.radius),
+                     robotName(look.team, look.number)});
+  }
+  m_names->setRobots(std::move(named));
 }
 
 // Of the selected robots, or of all while none is selected: six clouds at once hide each other.
@@ -284,6 +314,7 @@ void FieldScene::setSelection(std::vector<RobotId> ids) {
     robot->wedge.styleChanges();
   }
   showThoughts();
+  if (m_style.drawings.onlySelected) m_drawings->show(m_frame.get(), m_selection);
   showSelected();
   emit selectionChangedTo(m_selection);
 }

@@ -18,6 +18,8 @@ namespace pitchboard::ui {
 class BallItem;
 class BeliefItem;
 class ComparedItem;
+class DrawingItems;
+class NameLabelsItem;
 class OtherPoseItem;
 class RobotItem;
 class RubberBandItem;
@@ -86,6 +88,7 @@ class FieldScene : public QGraphicsScene {
   void matchRobots();
   void showRobot(const link::RobotFrame& now);
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
+  void showNames();
   void showThoughts();
   void showSelected();
   void setSelection(std::vector<RobotId> ids);
@@ -99,9 +102,11 @@ class FieldScene : public QGraphicsScene {
   std::optional<RobotId> m_followed;
   BallItem* m_ball;
   TeamBallItem* m_teamBall;
+  std::unique_ptr<DrawingItems> m_drawings;
   ComparedItem* m_compared;
   SectorItem* m_eopra;
   SectorItem* m_starVars;
+  NameLabelsItem* m_names;
   RulerItem* m_ruler;
   RubberBandItem* m_band;
 };

@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 
 /// What a stamp looks like: equal ones are the same picture.
 struct Stamp {
-  enum class Kind { Belief, Ghost, Disc, Ball, PerceivedBall, Ring, Text, BoldText };
+  enum class Kind { Belief, Ghost, Disc, Ball, PerceivedBall, Ring, Text, BoldText, Plate };
   Kind kind = Kind::Disc;
   int size = 0;  ///< of any unit that the kind likes
   QRgb color = 0;

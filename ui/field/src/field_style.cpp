@@ -99,6 +99,34 @@ void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text,
             });
 }
 
+namespace {
+
+const QFont& plateFont() {
+  return fieldFont(11, true);
+}
+
+}  // namespace
+
+QSizeF plateSize(const QString& text) {
+  const QFontMetricsF metrics(plateFont());
+  return {metrics.horizontalAdvance(text) + 10, metrics.height() + 2};
+}
+
+void drawPlateText(QPainter* painter, const QPointF& centre, const QString& text) {
+  const QSizeF size = plateSize(text);
+  const QRectF box(-size.width() / 2, -size.height() / 2, size.width(), size.height());
+  const QColor ground(16, 20, 24, 215);
+  drawStamp(painter, centre, {Stamp::Kind::Plate, 0, ground.rgba(), 0, text},
+            {size.width() / 2 + 1, size.height() / 2 + 1}, [&](QPainter& p) {
+              p.setPen(Qt::NoPen);
+              p.setBrush(ground);
+              p.drawRoundedRect(box, 3, 3);
+              p.setFont(plateFont());
+              p.setPen(Qt::white);
+              p.drawText(box, Qt::AlignCenter, text);
+            });
+}
+
 QString fieldNumber(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   const double rounded = std::round(value * scale) / scale;

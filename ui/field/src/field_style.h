@@ -13,12 +13,28 @@
 #include <QString>
 #include <array>
 #include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
 
 #include <base/geometry.h>
 #include <simcore/world/field.h>
 #include <ui/field/field_view.h>
 
 namespace pitchboard::ui {
+
+/// Which drawings of the robots' programs are not shown, by layer's name and robot's number.
+struct DrawingChoice {
+  bool onlySelected = false;
+  std::set<std::string> hiddenLayers;
+  std::set<int> hiddenRobots;
+  std::set<std::pair<int, std::string>> hidden;
+
+  bool shows(int robot, const std::string& layer) const {
+    return !hiddenRobots.contains(robot) && !hiddenLayers.contains(layer) &&
+           !hidden.contains({robot, layer});
+  }
+};
 
 struct FieldStyle {
   double pixelsPerMetre = 60.0;  ///< of the view; items size their bounding rectangles by it
@@ -28,8 +44,9 @@ struct FieldStyle {
   bool wedgeForAll = false;      ///< field of view of all robots, else of the selected ones
   int eopraGranularity = 4;      ///< m = 4 or 6
   sim::FieldSpec field;
-  std::array<bool, fieldLayerCount> layers{true,  true,  true,  true,  true,  true,
-                                           false, false, false, false, false, false};
+  std::array<bool, fieldLayerCount> layers{true,  true,  true,  true,  true,  true, false,
+                                           false, false, false, false, false, true};
+  DrawingChoice drawings;
 
   bool shows(FieldLayer layer) const { return layers[static_cast<std::size_t>(layer)]; }
   /// A length that is at least so many pixels on the screen, metres.
@@ -79,6 +96,10 @@ QColor onGrass(const QColor& color, double opacity);
 /// Text centred on a point in pixels, with a thin shade behind it so that it reads on any ground.
 void drawHaloText(QPainter* painter, const QPointF& centre, const QString& text, const QFont& font,
                   const QColor& color, const QColor& halo);
+/// The same on a plate of its own: for words that must be read on grass, lines and robots alike.
+void drawPlateText(QPainter* painter, const QPointF& centre, const QString& text);
+/// How much room that takes, pixels.
+QSizeF plateSize(const QString& text);
 /// Fixed decimals and a real minus sign.
 QString fieldNumber(double value, int decimals);
 

@@ -12,6 +12,7 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 
+#include "drawings_menu.h"
 #include "field_canvas.h"
 #include "field_pointer.h"
 #include "help_overlay.h"
@@ -34,7 +35,8 @@ constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "
                                                              {"EOPRA sectors", "F7"},
                                                              {"StarVars sectors", "F8"},
                                                              {"Particles of localization", ""},
-                                                             {"Planned path", ""}}};
+                                                             {"Planned path", ""},
+                                                             {"Drawings", ""}}};
 
 struct ToolText {
   FieldTool tool;
@@ -54,7 +56,7 @@ FieldTools::FieldTools(FieldScene* scene, FieldPointer* pointer, FieldCanvas* ca
                        HelpOverlay* help, QWidget* field)
     : QObject(field), m_scene(scene), m_pointer(pointer), m_canvas(canvas), m_help(help) {
   makeLayers();
-  makeLayerOptions();
+  makeLayerOptions(field);
   makeTools();
   makeViews();
   makeStrip(field);
@@ -110,7 +112,7 @@ void FieldTools::makeViews() {
   connect(m_keys, &QAction::triggered, this, [this] { m_help->toggle(); });
 }
 
-void FieldTools::makeLayerOptions() {
+void FieldTools::makeLayerOptions(QWidget* field) {
   auto* all = new QAction(QStringLiteral("Field of view of all robots"), this);
   all->setCheckable(true);
   all->setChecked(m_scene->style().wedgeForAll);
@@ -130,6 +132,10 @@ void FieldTools::makeLayerOptions() {
     });
     m_layerOptions.push_back(action);
   }
+  m_drawings =
+      new DrawingsMenu(m_scene, m_layers[static_cast<std::size_t>(FieldLayer::Drawings)], field);
+  m_drawings->menuAction()->setText(QStringLiteral("Drawings of robots' programs"));
+  m_layerOptions.push_back(m_drawings->menuAction());
 }
 
 void FieldTools::makeStrip(QWidget* field) {

@@ -13,6 +13,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class DrawingsMenu;
 class FieldCanvas;
 class FieldPointer;
 class FieldScene;
@@ -37,7 +38,7 @@ class FieldTools : public QObject {
 
  private:
   void makeLayers();
-  void makeLayerOptions();
+  void makeLayerOptions(QWidget* field);
   void makeTools();
   void makeViews();
   void makeStrip(QWidget* field);
@@ -52,6 +53,7 @@ class FieldTools : public QObject {
   QToolBar* m_strip = nullptr;
   std::vector<QAction*> m_layers;
   std::vector<QAction*> m_layerOptions;
+  DrawingsMenu* m_drawings = nullptr;
   std::vector<QAction*> m_tools;
   QAction* m_flip = nullptr;
   QAction* m_fit = nullptr;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/field/field_view.h>
 
+#include <QAbstractItemView>
 #include <QAction>
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMenu>
@@ -22,6 +24,7 @@
 #include "field_tools.h"
 #include "film_painter.h"
 #include "help_overlay.h"
+#include "hover_text.h"
 #include "pose_editor.h"
 
 namespace pitchboard::ui {
@@ -50,6 +53,7 @@ struct FieldView::Private : FieldKeyTarget {
   void openBallEditor();
   void openEditor(PoseEdit edit);
   void openMenu(QPoint globalPosition, QPointF metres);
+  FieldMenuActions menuActions();
   bool handleKey(QKeyEvent* event);
   /// Nothing can be moved in a match that is only watched.
   MatchController* editor() const { return scene->style().readOnly ? nullptr : controller; }
@@ -182,12 +186,16 @@ void FieldView::Private::openEditor(PoseEdit edit) {
   editor->show();
 }
 
+FieldMenuActions FieldView::Private::menuActions() {
+  return {[this](RobotId id) { openPoseEditor(id); },
+          [this](RobotId id) { emit q->blackboardRequested(id); }, [this] { openBallEditor(); },
+          [this] { emit q->saveScenarioRequested(); }};
+}
+
 void FieldView::Private::openMenu(QPoint globalPosition, QPointF metres) {
   auto* menu = new QMenu(q);
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  fillFieldMenu(menu, scene, controller, metres,
-                {[this](RobotId id) { openPoseEditor(id); }, [this] { openBallEditor(); },
-                 [this] { emit q->saveScenarioRequested(); }});
+  fillFieldMenu(menu, scene, controller, metres, menuActions());
   if (menu->isEmpty()) {
     delete menu;
     return;
@@ -219,6 +227,11 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   layout->addWidget(d->canvas, 1);
   setFocusProxy(d->canvas);
   d->canvas->setKeyHandler([this](QKeyEvent* event) { return d->handleKey(event); });
+  d->canvas->setHoverText([this](const QPointF& metres) {
+    const FieldHit hit = d->scene->hit(metres);
+    const bool isRobot = hit.kind == FieldHit::Kind::Robot || hit.kind == FieldHit::Kind::Handle;
+    return isRobot ? hoverText(*d->scene->frame(), hit.robot) : QString();
+  });
   connect(d->canvas, &FieldCanvas::cursorMoved, this, &FieldView::cursorMoved);
   connect(d->canvas, &FieldCanvas::menuRequested, this,
           [this](QPoint at, QPointF metres) { d->openMenu(at, metres); });
@@ -291,6 +304,38 @@ std::vector<QAction*> FieldView::layerOptionActions() const {
 
 std::vector<QAction*> FieldView::viewActions() const {
   return d->tools->viewActions();
+}
+
+void FieldView::fillRobotsMenu(QMenu* menu) {
+  const QPointF centre = d->canvas->metresAt(QRectF(d->canvas->viewport()->rect()).center());
+  ui::fillRobotsMenu(menu, d->scene, d->controller, centre, d->menuActions());
+}
+
+void FieldView::editPose(RobotId id) {
+  d->openPoseEditor(id);
+}
+
+void FieldView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  window()->installEventFilter(this);
+}
+
+// A selection may be made by a card or a menu: keys that move or remove it and that nobody else in
+// the window wants come here.
+bool FieldView::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() != QEvent::KeyPress || watched != window()) {
+    return QWidget::eventFilter(watched, event);
+  }
+  auto* key = static_cast<QKeyEvent*>(event);
+  constexpr int wanted[] = {Qt::Key_Delete, Qt::Key_Home, Qt::Key_Left,
+                            Qt::Key_Right,  Qt::Key_Up,   Qt::Key_Down};
+  const QWidget* focus = QApplication::focusWidget();
+  // Whoever goes through a list there means its rows.
+  const bool inList = qobject_cast<const QAbstractItemView*>(focus) != nullptr;
+  if (!inList && std::ranges::find(wanted, key->key()) != std::end(wanted) && d->handleKey(key)) {
+    return true;
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void FieldView::fitField() {

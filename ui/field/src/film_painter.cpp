@@ -33,6 +33,8 @@ void paintCaption(QImage& picture, const link::MatchFrame& frame) {
 FilmPainter::FilmPainter(const FieldStyle& style) {
   m_scene.changeStyle([&style](FieldStyle& own) {
     own.layers = style.layers;
+    own.drawings = style.drawings;
+    own.drawings.onlySelected = false;  // nothing is selected in a film
     own.flipped = style.flipped;
     own.wedgeForAll = style.wedgeForAll;
     own.eopraGranularity = style.eopraGranularity;

@@ -24,13 +24,18 @@ void TeamBallItem::setBall(const std::optional<link::TeamBall>& ball) {
   update();
 }
 
+QString TeamBallItem::words() const {
+  return QStringLiteral("%1 of %2 agree").arg(m_ball.agree).arg(m_ball.see);
+}
+
 double TeamBallItem::radius() const {
   return std::max(m_ball.spread, m_style->ballDrawRadius() + m_style->metres(5.0));
 }
 
 QRectF TeamBallItem::boundingRect() const {
-  const double reach = radius() + m_style->metres(26.0);
-  const double wide = reach + m_style->metres(50.0);
+  const QSizeF plate = plateSize(words());
+  const double reach = radius() + m_style->metres(14.0 + plate.height());
+  const double wide = std::max(reach, m_style->metres(plate.width() / 2 + 2.0));
   return {-wide, -reach, 2 * wide, 2 * reach};
 }
 
@@ -45,9 +50,7 @@ void TeamBallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWi
   painter->drawEllipse(QPointF(0, 0), ring, ring);
   painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
   painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
-  drawHaloText(painter, {0, -ring - 9},
-               QStringLiteral("%1 of %2 agree").arg(m_ball.agree).arg(m_ball.see),
-               fieldFont(10, false), theme().fieldLines, halo());
+  drawPlateText(painter, {0, -ring - 12}, words());
 }
 
 void OtherPoseItem::setOther(const OtherPose& other) {
@@ -63,7 +66,9 @@ QRectF OtherPoseItem::boundingRect() const {
   const double wide = reach + m_style->metres(30.0);
   const QRectF own(-wide, -reach, 2 * wide, 2 * reach);
   const QPointF joined = toScene(m_other.here) - toScene(m_other.pose.position);
-  return own.united(QRectF(QPointF(0, 0), joined).normalized());
+  const double margin = m_style->metres(2.0);
+  return own.united(
+      QRectF(QPointF(0, 0), joined).normalized().adjusted(-margin, -margin, margin, margin));
 }
 
 void OtherPoseItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {

@@ -21,6 +21,7 @@ class TeamBallItem : public QGraphicsItem {
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
  private:
+  QString words() const;
   double radius() const;  // metres
   const FieldStyle* m_style;
   link::TeamBall m_ball;

@@ -13,6 +13,7 @@ namespace pitchboard::ui {
 namespace {
 
 constexpr double handleGap_px = 18.0;
+constexpr double wordGap_px = 10.0;
 
 void paintNumber(QPainter& painter, double radius, const QString& text) {
   const double size = radius * (text.size() > 1 ? 1.12 : 1.38);
@@ -31,14 +32,13 @@ RobotItem::RobotItem(const FieldStyle* style, RobotId id) : m_style(style), m_id
 
 void RobotItem::setLook(const RobotLook& look) {
   if (look == m_look) return;
-  if (look.selected != m_look.selected || look.word != m_look.word ||
-      look.radius != m_look.radius) {
+  if (look.selected != m_look.selected || look.followed != m_look.followed ||
+      look.word != m_look.word || look.radius != m_look.radius) {
     prepareGeometryChange();
   }
   const bool moved = !(look.pose.position == m_look.pose.position);
   m_look = look;
   if (moved) setPos(toScene(look.pose.position));
-  setOpacity(look.opacity);
   update();
 }
 
@@ -53,14 +53,17 @@ double RobotItem::handleRadius(const FieldStyle& style) {
 }
 
 QRectF RobotItem::boundingRect() const {
-  double reach = bodyRadius() * 1.8 + m_style->metres(3.0);
-  if (m_look.selected) {
-    reach = bodyRadius() * 1.7 + m_style->metres(handleGap_px + 8.0);
+  const double radius = bodyRadius();
+  double reach = radius * 1.8 + m_style->metres(3.0);
+  if (m_look.selected || m_look.followed) {
+    reach =
+        std::max(radius * 1.8, radius * 1.7 + m_style->metres(handleGap_px)) + m_style->metres(8.0);
   }
   QRectF area(-reach, -reach, 2 * reach, 2 * reach);
   if (!m_look.word.isEmpty()) {
-    const double half = m_style->metres(60.0);
-    const double tall = bodyRadius() + m_style->metres(28.0);
+    const QSizeF plate = plateSize(m_look.word) / 2;
+    const double half = m_style->metres(plate.width() + 2.0);
+    const double tall = radius * 1.7 + m_style->metres(wordGap_px + plate.height() + 2.0);
     area = area.united(QRectF(-half, -tall, 2 * half, 2 * tall));
   }
   return area;
@@ -72,10 +75,13 @@ void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   if (m_style->ornaments && (m_look.selected || m_look.followed)) {
     paintSelection(painter, screen, radius);
   }
+  // One that is not heard is faint; what is said of it is not.
+  const double before = painter->opacity();
+  painter->setOpacity(before * m_look.opacity);
   paintBody(painter, screen, radius);
+  painter->setOpacity(before);
   if (!m_look.word.isEmpty()) {
-    drawHaloText(painter, {0, radius * 1.7 + 9}, m_look.word, fieldFont(11, false),
-                 theme().fieldLines, theme().fieldBorder.darker(isDarkTheme() ? 130 : 190));
+    drawPlateText(painter, {0, radius * 1.7 + wordGap_px}, m_look.word);
   }
 }
 
@@ -146,11 +152,6 @@ void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, doubl
                 p.drawEllipse(QPointF(0, 0), radius, radius);
                 if (!text.isEmpty()) paintNumber(p, radius, text);
               });
-  }
-  if (numbered && !fitsInside) {
-    // Too small to write in: the name goes beside the robot.
-    drawHaloText(painter, {0, -radius - 8}, robotName(m_look.team, m_look.number),
-                 fieldFont(10, true), theme().fieldLines, theme().fieldBorder.darker(130));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/robots/card_state.h>
 
+#include <QStringList>
 #include <algorithm>
 
 #include <robotlink/frame/belief.h>
@@ -102,6 +103,16 @@ void CardTracker::updateLamps(History& history, const link::RobotFrame& robot, b
   }
 }
 
+QString subtitleOf(const link::RobotFrame& robot) {
+  QStringList parts;
+  if (!robot.ownName.empty()) parts << QString::fromStdString(robot.ownName);
+  if (robot.board && !robot.board->behaviour.empty()) {
+    parts << (robot.board->behaviour == link::noBehaviour ? QStringLiteral("own process")
+                                                          : capitalised(robot.board->behaviour));
+  }
+  return parts.join(QStringLiteral(" · "));
+}
+
 std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64 now) {
   const bool heard = std::any_of(frame.robots.begin(), frame.robots.end(),
                                  [](const auto& robot) { return robot.health.has_value(); });
@@ -125,6 +136,8 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     card.team = robot.identity.team;
     card.number = robot.identity.number;
     card.name = robotName(robot.identity);
+    card.subtitle = subtitleOf(robot);
+    card.runtime = QString::fromStdString(robot.runtime);
     int action = robot.action;
     History& history = m_robots[card.id];
     card.battery = link::batteryOf(robot);

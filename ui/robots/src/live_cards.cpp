@@ -101,6 +101,7 @@ std::vector<CardState> liveCards(const link::MatchFrame& frame) {
     card.team = identity.team;
     card.number = identity.number;
     card.name = robotName(identity);
+    card.subtitle = subtitleOf(heard);
     card.live = true;
     card.timedOut = robot.timedOut;
     card.battery = robot.battery;

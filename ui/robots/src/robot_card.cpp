@@ -7,6 +7,7 @@
 #include <QMouseEvent>
 #include <QToolTip>
 
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -28,7 +29,9 @@ void RobotCard::setState(const CardState& state) {
   m_state = state;
   if (taller) updateGeometry();
   setAccessibleName(state.name);
-  setAccessibleDescription(QStringLiteral("%1, %2").arg(state.action, state.tag));
+  QStringList said{state.subtitle, state.action, state.tag};
+  said.removeAll(QString());
+  setAccessibleDescription(said.join(QStringLiteral(", ")));
   if (!footOnly)
     update();
   else if (!m_collapsed)
@@ -55,6 +58,11 @@ void RobotCard::setCollapsed(bool collapsed) {
   update();
 }
 
+void RobotCard::collapse(bool collapsed) {
+  setCollapsed(collapsed);
+  emit collapsedByHand(collapsed);
+}
+
 QSize RobotCard::sizeHint() const {
   int height = 30;
   if (!m_collapsed) {
@@ -74,12 +82,18 @@ QSize RobotCard::minimumSizeHint() const {
 bool RobotCard::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
+    const bool alarm = m_state.tagKind != TagKind::None;
     QString tip;
-    for (int lamp = 0; lamp < CardState::lampCount && m_parts.processes; ++lamp) {
-      if (lampRect(lamp).contains(help->pos())) tip = lampTip(lamp);
+    if (alarm && tagRect().contains(help->pos())) {
+      tip = m_state.tag;
+    } else if (!m_collapsed && rowRect(2).contains(help->pos())) {
+      tip = QStringLiteral("%1\n%2").arg(m_state.action, m_state.detailTip);
+    } else if (rowRect(0).contains(help->pos())) {
+      tip = headTip();
     }
-    if (!m_collapsed && rowRect(2).contains(help->pos())) {
-      tip = m_state.detailTip;
+    for (int lamp = 0; lamp < CardState::lampCount && m_parts.processes; ++lamp) {
+      if (m_collapsed && alarm) break;  // the tag stands in their place
+      if (lampRect(lamp).contains(help->pos())) tip = lampTip(lamp);
     }
     if (tip.isEmpty())
       QToolTip::hideText();
@@ -88,6 +102,19 @@ bool RobotCard::event(QEvent* event) {
     return true;
   }
   return QFrame::event(event);
+}
+
+QString RobotCard::headTip() const {
+  QStringList lines{m_state.name};
+  if (!m_state.subtitle.isEmpty()) lines << m_state.subtitle;
+  if (!m_state.runtime.isEmpty()) lines << QStringLiteral("Runs: %1").arg(m_state.runtime);
+  if (m_state.battery) {
+    lines << QStringLiteral("Battery %1 %, %2 V")
+                 .arg(qRound(m_state.battery->fraction * 100))
+                 .arg(numberText(m_state.battery->volts, 1));
+  }
+  if (m_collapsed) lines << m_state.action;
+  return lines.join(QLatin1Char('\n'));
 }
 
 QString RobotCard::lampTip(int lamp) const {
@@ -105,7 +132,7 @@ QString RobotCard::lampTip(int lamp) const {
 void RobotCard::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QFrame::mousePressEvent(event);
   if (chevronRect().contains(event->pos()))
-    setCollapsed(!m_collapsed);
+    collapse(!m_collapsed);
   else
     emit clicked(event->modifiers());
   m_pressed = event->pos();
@@ -134,10 +161,10 @@ void RobotCard::keyPressEvent(QKeyEvent* event) {
       emit clicked(event->modifiers());
       return;
     case Qt::Key_Left:
-      setCollapsed(true);
+      collapse(true);
       return;
     case Qt::Key_Right:
-      setCollapsed(false);
+      collapse(false);
       return;
     default:
       QFrame::keyPressEvent(event);

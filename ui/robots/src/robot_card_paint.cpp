@@ -48,14 +48,44 @@ QRect RobotCard::chevronRect() const {
   return {row.right() - scaled(this, 16), row.top(), scaled(this, 20), row.height()};
 }
 
+QRect RobotCard::batteryRect() const {
+  return {chevronRect().left() - scaled(this, 40), rowRect(0).center().y() - scaled(this, 4),
+          scaled(this, 36), scaled(this, 10)};
+}
+
+QRect RobotCard::voltsRect() const {
+  const QRect row = rowRect(0);
+  const int right = batteryRect().left() - scaled(this, 6), wide = scaled(this, 48);
+  return {right - wide, row.top(), wide, row.height()};
+}
+
+QRect RobotCard::tagRect() const {
+  const QFontMetrics metrics(themeFont(TypeRole::Small, true));
+  const int wanted = metrics.horizontalAdvance(m_state.tag) + scaled(this, 12);
+  if (m_collapsed) {
+    const QRect row = rowRect(0);
+    const int left = lampRect(0).left() - scaled(this, 4);
+    const int right =
+        m_state.battery && m_parts.battery ? voltsRect().left() : chevronRect().left();
+    return {left, row.top(), std::min(wanted, right - left - scaled(this, 2)), row.height()};
+  }
+  const QRect row = rowRect(1);
+  const int room = m_parts.processes
+                       ? row.right() - lampRect(CardState::lampCount - 1).right() - scaled(this, 4)
+                       : row.width();
+  const int wide = std::min(wanted, room);
+  return {row.right() - wide + 1, row.top(), wide, row.height()};
+}
+
 void RobotCard::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   paintFrame(painter);
   paintHead(painter);
-  paintLamps(painter);
+  const bool alarm = m_state.tagKind != TagKind::None;
+  if (!m_collapsed || !alarm) paintLamps(painter);
+  if (alarm) paintTag(painter);
   if (m_collapsed) return;
-  paintTag(painter);
   paintFoot(painter);
   paintValues(painter);
 }
@@ -64,12 +94,17 @@ void RobotCard::paintFrame(QPainter& painter) const {
   painter.setPen(m_selected || hasFocus() ? theme().accentLine : theme().innerLine);
   painter.setBrush(m_state.timedOut ? theme().view : theme().window);
   painter.drawRoundedRect(sharp(rect()), corner, corner);
-  if (m_selected) {
+  // A collapsed card has no room for more than its tag; the edge is seen from afar.
+  const bool alarm = m_collapsed && m_state.tagKind != TagKind::None;
+  if (m_selected || alarm) {
     QPainterPath outline;
     outline.addRoundedRect(rect(), corner, corner);
     painter.save();
     painter.setClipPath(outline);
-    painter.fillRect(0, 0, scaled(this, 3), height(), theme().accentLine);
+    const QColor edge = !alarm                              ? theme().accentLine
+                        : m_state.tagKind == TagKind::Error ? theme().errorText
+                                                            : theme().warningText;
+    painter.fillRect(0, 0, scaled(this, 3), height(), edge);
     painter.restore();
   }
 }
@@ -86,8 +121,18 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.setPen(Qt::white);
   painter.drawText(badge, Qt::AlignCenter, QString::number(m_state.number));
   painter.setPen(theme().text);
-  painter.drawText(row.adjusted(row.height() + scaled(this, 8), 0, 0, 0),
-                   Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
+  const QRect name = row.adjusted(row.height() + scaled(this, 8), 0, 0, 0);
+  painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
+  if (!m_collapsed && !m_state.subtitle.isEmpty()) {
+    const int taken = painter.fontMetrics().horizontalAdvance(m_state.name) + scaled(this, 8);
+    const int end = m_state.battery && m_parts.battery ? voltsRect().left() : chevronRect().left();
+    const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
+    painter.setFont(themeFont(TypeRole::Secondary));
+    painter.setPen(theme().secondaryText);
+    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
+                     painter.fontMetrics().elidedText(m_state.subtitle, Qt::ElideRight,
+                                                      room.width() - scaled(this, 4)));
+  }
 
   painter.setOpacity(1.0);
   painter.setPen(theme().secondaryText);
@@ -98,8 +143,7 @@ void RobotCard::paintHead(QPainter& painter) const {
   if (!m_state.battery || !m_parts.battery) return;
   painter.setOpacity(greyed);
   const bool low = m_state.batteryLow();
-  const QRect bar(chevronRect().left() - scaled(this, 40), row.center().y() - scaled(this, 4),
-                  scaled(this, 36), scaled(this, 10));
+  const QRect bar = batteryRect();
   const QColor color = low ? theme().errorText : theme().secondaryText;
   painter.setPen(color);
   painter.setBrush(Qt::NoBrush);
@@ -109,10 +153,8 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.fillRect(inside, color);
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
-  painter.drawText(
-      QRect(row.left(), row.top(), bar.left() - scaled(this, 6) - row.left(), row.height()),
-      Qt::AlignRight | Qt::AlignVCenter,
-      numberText(m_state.battery->volts, 1) + QStringLiteral(" V"));
+  painter.drawText(voltsRect(), Qt::AlignRight | Qt::AlignVCenter,
+                   numberText(m_state.battery->volts, 1) + QStringLiteral(" V"));
   painter.setOpacity(1.0);
 }
 
@@ -150,22 +192,16 @@ void RobotCard::paintLamps(QPainter& painter) const {
 }
 
 void RobotCard::paintTag(QPainter& painter) const {
-  if (m_state.tagKind == TagKind::None) return;
   const bool error = m_state.tagKind == TagKind::Error;
   painter.setFont(themeFont(TypeRole::Small, true));
-  const QRect row = rowRect(1);
-  const int wide = qMin(
-      painter.fontMetrics().horizontalAdvance(m_state.tag) + scaled(this, 12),
-      m_parts.processes ? row.right() - lampRect(CardState::lampCount - 1).right() - scaled(this, 4)
-                        : row.width());
-  const QRect box(row.right() - wide + 1, row.top(), wide, row.height());
+  const QRect box = tagRect();
   painter.setPen(Qt::NoPen);
   painter.setBrush(error ? theme().errorGround : theme().warningGround);
   painter.drawRoundedRect(box, 2, 2);
   painter.setPen(error ? theme().errorText : theme().warningText);
   painter.drawText(
       box, Qt::AlignCenter,
-      painter.fontMetrics().elidedText(m_state.tag, Qt::ElideRight, wide - scaled(this, 6)));
+      painter.fontMetrics().elidedText(m_state.tag, Qt::ElideRight, box.width() - scaled(this, 6)));
 }
 
 void RobotCard::paintFoot(QPainter& painter) const {

@@ -25,6 +25,8 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
   constexpr int refreshMilliseconds = 100;
   setObjectName(QStringLiteral("robotCards"));
   setFrameShape(QFrame::NoFrame);
+  // A click on a card selects; the keys stay with the field.
+  setFocusPolicy(Qt::NoFocus);
   setWidgetResizable(true);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* list = new QWidget(this);
@@ -44,6 +46,10 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
   m_column->addWidget(m_empty);
   m_column->addStretch(1);
   setWidget(list);
+  m_dropMark = new QFrame(list);
+  m_dropMark->setObjectName(QStringLiteral("dropMark"));
+  m_dropMark->setAutoFillBackground(true);
+  m_dropMark->hide();
   loadParts();
 
   m_clock.start();
@@ -57,6 +63,8 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
     refresh();
   });
   connect(context.selection, &RobotSelection::changed, this, &RobotsDock::showSelection);
+  connect(context.selection, &RobotSelection::blackboardRequested, this,
+          &RobotsDock::showBlackboard);
 }
 
 QSize RobotsDock::sizeHint() const {
@@ -105,6 +113,7 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
       m_floating.erase(window);
     }
   }
+  collapseMany(states.size());
   bool isNew = false;
   for (const CardState& state : states) {
     RobotCard*& card = m_cards[state.id];
@@ -121,14 +130,28 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
   showSelection();
 }
 
+void RobotsDock::collapseMany(std::size_t robots) {
+  const bool isMany = robots >= many;
+  if (std::exchange(m_isMany, isMany) == isMany) return;
+  for (const auto& [id, card] : m_cards) {
+    if (!m_byHand.contains(id)) card->setCollapsed(isMany);
+  }
+}
+
 RobotCard* RobotsDock::makeCard(RobotId id) {
   auto* card = new RobotCard(widget());
   card->setParts(m_parts);
-  connect(card, &RobotCard::clicked, this, [this, id](Qt::KeyboardModifiers modifiers) {
-    if (modifiers & Qt::ControlModifier)
-      m_context.selection->toggle(id);
+  card->setCollapsed(m_isMany);
+  connect(card, &RobotCard::collapsedByHand, this, [this, id] { m_byHand.insert(id); });
+  connect(card, &RobotCard::clicked, this, [this, id, card](Qt::KeyboardModifiers modifiers) {
+    RobotSelection* selection = m_context.selection;
+    const std::vector<RobotId> ids =
+        modifiers & Qt::ControlModifier ? selection->toggled(id) : std::vector<RobotId>{id};
+    // Whoever goes from card to card by keys stays there.
+    if (card->hasFocus())
+      selection->set(ids);
     else
-      m_context.selection->set({id});
+      selection->choose(ids);
   });
   connect(card, &RobotCard::menuRequested, this,
           [this, card](const QPoint& at) { showMenu(card, at); });
@@ -172,23 +195,49 @@ void RobotsDock::moveCard(RobotId id, qsizetype place) {
 
 void RobotsDock::follow(RobotCard* card, const QPoint& at) {
   if (m_floating.count(card->state().id) != 0) return;
-  const QPoint here = widget()->mapFromGlobal(at);
   if (!viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
     setCursor(Qt::DragCopyCursor);
+    m_dropMark->hide();
     return;
   }
   unsetCursor();
+  showDropMark(placeAt(card, at));
+}
+
+/// The place that the card would have in the list, among the others.
+qsizetype RobotsDock::placeAt(RobotCard* card, const QPoint& globalPosition) const {
+  const QPoint here = widget()->mapFromGlobal(globalPosition);
   qsizetype place = 0;
   for (const RobotCard* other : cards()) {
     if (other != card && other->geometry().center().y() < here.y()) ++place;
   }
-  if (cards().indexOf(card) != place) moveCard(card->state().id, place);
+  return place;
+}
+
+/// A line where the card that is dragged would go.
+void RobotsDock::showDropMark(qsizetype place) {
+  QList<RobotCard*> others = cards();
+  others.removeIf([](const RobotCard* card) { return card->isDragged(); });
+  if (others.isEmpty()) return;
+  const int thick = scaled(this, 3), gap = m_column->spacing();
+  const QRect beside = others[std::min(place, others.size() - 1)]->geometry();
+  const int middle = place < others.size() ? beside.top() - gap / 2 : beside.bottom() + gap / 2;
+  m_dropMark->setGeometry(beside.left(), middle - thick / 2, beside.width(), thick);
+  QPalette palette = m_dropMark->palette();
+  palette.setColor(QPalette::Window, theme().accentLine);
+  m_dropMark->setPalette(palette);
+  m_dropMark->raise();
+  m_dropMark->show();
 }
 
 void RobotsDock::drop(RobotCard* card, const QPoint& at) {
   unsetCursor();
+  m_dropMark->hide();
   const RobotId id = card->state().id;
-  if (m_floating.count(id) != 0 || viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
+  if (m_floating.count(id) != 0) return;
+  if (viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
+    const qsizetype place = placeAt(card, at);
+    if (cards().indexOf(card) != place) moveCard(id, place);
     return;
   }
   floatCard(id);
@@ -243,7 +292,10 @@ void RobotsDock::showSelection() {
 }
 
 void RobotsDock::setAllCollapsed(bool collapsed) {
-  for (const auto& [id, card] : m_cards) card->setCollapsed(collapsed);
+  for (const auto& [id, card] : m_cards) {
+    card->setCollapsed(collapsed);
+    m_byHand.insert(id);
+  }
 }
 
 QWidget* makeRobotsDock(const RobotsContext& context, QWidget* parent) {

@@ -57,18 +57,42 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   const RobotId id = card->state().id;
   MatchController* controller = m_context.controller;
   if (controller->edits()->robot(id) == nullptr) return;
-  addBehaviourMenu(&menu, controller, {id});
-  addRuntimeMenu(&menu, controller, {id});
-  addTeamMenu(&menu, controller, {id});
-  addNumberMenu(&menu, controller, id);
-  addModelMenu(&menu, controller, {id});
-  menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] {
-    (new BlackboardWindow(m_context.controller, id, window()))->show();
-  });
+  addRobotMenus(&menu, controller, {id});
+  menu.addSeparator();
+  menu.addAction(QStringLiteral("Pose…"), this,
+                 [this, id] { emit m_context.selection->poseRequested(id); });
+  menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] { showBlackboard(id); });
   menu.addAction(themedIcon(QStringLiteral("edit-delete")),
                  QStringLiteral("Remove %1").arg(card->state().name), controller,
                  [controller, id] { controller->edits()->removeRobots({id}); });
   menu.addSeparator();
+}
+
+void RobotsDock::showBlackboard(RobotId id) {
+  if (m_context.controller->edits()->robot(id) == nullptr) return;
+  (new BlackboardWindow(m_context.controller, id, window()))->show();
+}
+
+void RobotsDock::addCardActions(QMenu& menu) {
+  const QList<RobotCard*> listed = cards();
+  QMenu* own = menu.addMenu(QStringLiteral("Cards"));
+  if (!listed.isEmpty()) addPartActions(*own, listed.front());
+  addListActions(*own);
+  for (const RobotId id : m_context.selection->ids()) {
+    const auto card = m_cards.find(id);
+    if (card == m_cards.end() || m_floating.count(id) != 0) continue;
+    own->addAction(QStringLiteral("%1 in a window of its own").arg(card->second->state().name),
+                   this, [this, id] { floatCard(id); });
+  }
+}
+
+void RobotsDock::addListActions(QMenu& menu) {
+  menu.addAction(QStringLiteral("Collapse all"), this, [this] { setAllCollapsed(true); });
+  menu.addAction(QStringLiteral("Expand all"), this, [this] { setAllCollapsed(false); });
+  menu.addAction(QStringLiteral("Order by number"), this, [this] {
+    std::sort(m_order.begin(), m_order.end());
+    arrange();
+  });
 }
 
 void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
@@ -130,12 +154,7 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   }
   addPartActions(menu, card);
   menu.addSeparator();
-  menu.addAction(QStringLiteral("Collapse all"), this, [this] { setAllCollapsed(true); });
-  menu.addAction(QStringLiteral("Expand all"), this, [this] { setAllCollapsed(false); });
-  menu.addAction(QStringLiteral("Order by number"), this, [this] {
-    std::sort(m_order.begin(), m_order.end());
-    arrange();
-  });
+  addListActions(menu);
   menu.exec(at);
 }
 

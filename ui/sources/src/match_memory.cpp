@@ -19,18 +19,25 @@ void MatchMemory::begin() {
   m_rows = std::make_shared<MatchRows>(m_budget);
   m_sampler = std::make_shared<link::MatchSampler>(m_rows, link::MatchSamplerOptions{m_everyNth});
   m_archive = std::make_shared<link::StateArchive>();
+  m_drawings = std::make_shared<link::DrawingMemory>();
+  m_drawn = {};
 }
 
 void MatchMemory::forget() {
   m_rows.reset();
   m_sampler.reset();
   m_archive.reset();
+  m_drawings.reset();
   m_past.reset();
 }
 
 std::vector<std::shared_ptr<link::TickObserver>> MatchMemory::observers() const {
   if (!m_sampler) return {};
-  return {m_sampler, m_archive};
+  return {m_sampler, m_archive, m_drawings};
+}
+
+std::shared_ptr<const link::LiveHistory> MatchMemory::drawn() const {
+  return m_drawings;
 }
 
 void MatchMemory::setMemoryBudget(std::size_t bytes) {
@@ -71,6 +78,7 @@ FramePtr MatchMemory::frameAt(double time) const {
   if (past->robots.empty() && !newest->robots.empty() && time < rows->range()->begin) {
     return nullptr;
   }
+  past->drawings = m_drawn.at(*m_drawings, time);
   return past;
 }
 

@@ -104,7 +104,8 @@ struct ReplayController::File {
         frames(link::backdropOf(session)),
         memoryFrames(link::backdropOf(session)),
         tickRate(link::backdropOf(session).tickRate),
-        live(session.count(telemetry::SessionStream::LiveState) > 0) {}
+        live(session.count(telemetry::SessionStream::LiveState) > 0 ||
+             session.count(telemetry::SessionStream::Telemetry) > 0) {}
 
   void readEvents() {
     events = link::eventsOf(session);

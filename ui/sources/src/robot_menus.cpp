@@ -7,6 +7,7 @@
 #include <QMenu>
 #include <algorithm>
 
+#include <base/actions.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
 #include <ui/base/robot_words.h>
@@ -32,6 +33,43 @@ QAction* addChoice(QActionGroup* group, QMenu* menu, const QString& text, bool c
 }
 
 }  // namespace
+
+void addRobotMenus(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
+  addOrderMenu(menu, controller, ids);
+  addBehaviourMenu(menu, controller, ids);
+  addRuntimeMenu(menu, controller, ids);
+  addTeamMenu(menu, controller, ids);
+  if (ids.size() == 1) addNumberMenu(menu, controller, ids.front());
+  addModelMenu(menu, controller, ids);
+}
+
+void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
+  if (ids.empty()) return;
+  QMenu* orders = menu->addMenu(QStringLiteral("Order"));
+  const auto offer = [&](const ActionInfo& action) {
+    orders->addAction(capitalised(action.words), controller, [controller, ids, action] {
+      for (const RobotId id : ids) controller->edits()->commandAction(id, action.code);
+    });
+  };
+  // What is ordered most often comes first.
+  const auto isFrequent = [](const ActionInfo& action) {
+    return action.kind == ActionKind::Kick || action.kind == ActionKind::Stop;
+  };
+  for (const ActionInfo& action : knownActions) {
+    if (isFrequent(action)) offer(action);
+  }
+  orders->addSeparator();
+  for (const ActionInfo& action : knownActions) {
+    if (!isFrequent(action)) offer(action);
+  }
+  orders->addSeparator();
+  for (const bool on : {true, false}) {
+    orders->addAction(on ? QStringLiteral("Search the ball") : QStringLiteral("Stop searching"),
+                      controller, [controller, ids, on] {
+                        for (const RobotId id : ids) controller->edits()->commandSearch(id, on);
+                      });
+  }
+}
 
 void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
   if (!allOf(*controller, ids, [](const auto&) { return true; })) return;

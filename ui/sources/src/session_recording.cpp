@@ -278,6 +278,7 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
   past.events.assign(events.begin(), events.end());
   std::shared_ptr<const link::StateArchive> archive;
   std::shared_ptr<const link::LiveMemory> heard;
+  std::shared_ptr<const link::LiveHistory> drawn;
   telemetry::SessionInfo about;
   if (live) {
     about = link::liveSessionInfo(m_live->options(), m_live->began(), programName());
@@ -291,13 +292,15 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     past.scenario = link::scenarioToJson(m_controller->scenario());
     past.catalog = m_controller->catalog().toJson();
     archive = m_controller->memory()->archive();
+    drawn = m_controller->memory()->drawn();
   }
-  return [past = std::move(past), rows, archive, heard, about,
+  return [past = std::move(past), rows, archive, heard, drawn, about,
           seconds](const QString& path) -> Result<void> {
     link::RecentPast all = past;
     all.rows = rows.get();
     all.archive = archive.get();
     all.heard = heard.get();
+    all.drawn = drawn.get();
     const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
     if (!done) return tl::unexpected(done.error());
     return {};

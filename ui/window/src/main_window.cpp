@@ -285,6 +285,10 @@ void MainWindow::connectField() {
   connect(m_selection, &RobotSelection::changed, m_field, &FieldView::select);
   connect(m_field, &FieldView::followedChanged, m_selection, &RobotSelection::follow);
   connect(m_selection, &RobotSelection::followedChanged, m_field, &FieldView::follow);
+  connect(m_selection, &RobotSelection::chosen, m_field, qOverload<>(&QWidget::setFocus));
+  connect(m_selection, &RobotSelection::poseRequested, m_field, &FieldView::editPose);
+  connect(m_field, &FieldView::blackboardRequested, m_selection,
+          &RobotSelection::blackboardRequested);
   connect(m_overlay, &LiveOverlay::otherReceived, m_field, &FieldView::showOther);
   connect(m_compared, &ComparedSession::momentReached, m_field, &FieldView::showCompared);
   connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);

@@ -15,6 +15,7 @@
 #include <ui/live/live_settings_dialog.h>
 #include <ui/plots/plot_menus.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/robots/robots_dock.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/live_overlay.h>
@@ -51,6 +52,7 @@ void StudioMenus::make() {
   makeFile();
   makeEdit();
   makeView();
+  makeRobots();
   makeSimulation();
   makeTimeline();
   makePlots();
@@ -186,6 +188,19 @@ void StudioMenus::makeView() {
   QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
     this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
   });
+}
+
+void StudioMenus::makeRobots() {
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Robots"));
+  QObject::connect(menu, &QMenu::aboutToShow, &m_window,
+                   [menu, field = m_parts.field, window = &m_window] {
+                     qDeleteAll(menu->findChildren<QMenu*>(Qt::FindDirectChildrenOnly));
+                     menu->clear();
+                     field->fillRobotsMenu(menu);
+                     menu->addSeparator();
+                     if (auto* cards = window->findChild<RobotsDock*>())
+                       cards->addCardActions(*menu);
+                   });
 }
 
 void StudioMenus::makeSimulation() {

@@ -44,6 +44,7 @@ class StudioMenus {
   void makeEdit();
   void makeView();
   void makeThemes(QMenu* menu);
+  void makeRobots();
   void makeSimulation();
   void makeTimeline();
   void makePlots();

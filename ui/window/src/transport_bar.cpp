@@ -74,6 +74,8 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   stretch->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   addWidget(stretch);
   addWidget(m_scoreboard);
+  // A choice made by mouse leaves the keys with the field.
+  for (QComboBox* box : findChildren<QComboBox*>()) box->setFocusPolicy(Qt::TabFocus);
 
   constexpr int scoreMilliseconds = 100;
   auto* timer = new QTimer(this);

@@ -16,6 +16,7 @@
 #include <simcore/world/field.h>
 #include <simcore/world/noise.h>
 #include <simcore/world/snapshot.h>
+#include <telemetry/wire/drawing_book.h>
 
 namespace pitchboard::link {
 
@@ -30,6 +31,8 @@ struct MatchFrame {
   std::uint64_t serial = 0;  ///< grows with every frame
   sim::GameSnapshot snapshot;
   std::vector<RobotFrame> robots;
+  std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
+  std::string drawingProblem;                      ///< why the last one was not drawn; or empty
   std::optional<RefereeView> referee;  ///< once one was heard
   std::string refereeRules;            ///< of a simulated match; empty: without a referee
   bool refereeAutomatic = false;       ///< its referee calls by itself

@@ -44,6 +44,7 @@ struct RobotFrame : sim::RobotSnapshot {
   /// Shared by many frames: processes seldom change. Read with processes().
   std::shared_ptr<const std::vector<ProcessStatus>> processList;
 
+  std::string ownName;    ///< what its team calls it (team setups); empty: nothing known
   std::string runtime;    ///< who runs, as it was chosen for it; empty: nothing was
   bool ofOthers = false;  ///< its processes were started by somebody else, if by anybody
 

@@ -23,7 +23,12 @@ struct LiveBooks {
 
   telemetry::TeamMonitor monitor;
   telemetry::RefereeTracker referee;
+  telemetry::DrawingBook drawings;
 
+  /// A datagram of a robot's port, that came so many seconds after the watch began: its drawing and
+  /// its message. Nothing: it had no message.
+  std::optional<telemetry::TeamMonitor::Verdict> takeRobot(const telemetry::DatagramView& datagram,
+                                                           double time);
   static telemetry::RefereeTracker::Options refereeOptions(const LiveOptions& options);
   /// A datagram of the referee's port that decoded to this.
   void takeReferee(const telemetry::RefereePacket& packet, const telemetry::DatagramView& datagram);

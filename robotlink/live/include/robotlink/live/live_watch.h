@@ -71,7 +71,8 @@ class LiveObserver {
                      const telemetry::TextDecoder&, const telemetry::DecodedText&) {}
   virtual void refereeHeard(double /*time*/, const telemetry::DatagramView&,
                             const telemetry::RefereeState&) {}
-  /// A datagram of an allowed sender that was not used: it could not be decoded, or is no state.
+  /// A datagram of an allowed sender that gave no values: it could not be decoded, is no state, or
+  /// only draws.
   virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
   virtual void happened(const MatchEvent&) {}
   /// How everybody is heard, a few times a second.

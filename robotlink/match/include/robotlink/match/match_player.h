@@ -47,7 +47,8 @@ class MatchPlayer {
   Played play(Clock::time_point now, std::uint64_t lastTick = noLastTick);
   /// One tick, whatever the pace.
   void tick();
-  /// Tells the observers what has happened between ticks: processes that ended, orders by hand.
+  /// Tells the observers what has happened between ticks: processes that ended, orders by hand,
+  /// and what was drawn.
   void tellEvents();
   /// Shows the observers a moment without a tick.
   void showMoment();
@@ -60,6 +61,7 @@ class MatchPlayer {
   double m_speed = unlimitedSpeed;
   std::vector<std::shared_ptr<TickObserver>> m_observers;
   std::vector<MatchEvent> m_events;  // scratch of tellEvents()
+  std::vector<HeardDrawing> m_drawings;
 };
 
 }  // namespace pitchboard::link

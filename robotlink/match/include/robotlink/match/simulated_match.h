@@ -66,8 +66,10 @@ struct MatchOptions {
   std::optional<int> obeyReferee;
 };
 
+class MatchDrawings;
 class MatchEvents;
 class MatchReferee;
+struct HeardDrawing;
 struct Moment;
 struct SeatProcess;
 
@@ -95,6 +97,12 @@ class SimulatedMatch {
   /// Appends what has happened since the last call, at most the newest 1000: in the simulation,
   /// to the clock, to processes (as the supervisor knows them), and the end of the match.
   void takeEvents(std::vector<MatchEvent>& out);
+
+  /// Appends what programs have drawn since the last call. A match that shares blackboards with
+  /// other programs hears it on its drawing port (MatchNumber).
+  void takeDrawings(std::vector<HeardDrawing>& out);
+  /// Null while nothing can be heard.
+  const MatchDrawings* drawings() const { return m_drawings.get(); }
 
   const Scenario& scenario() const { return m_scenario; }
   sim::Simulation& simulation() { return m_simulation; }
@@ -239,6 +247,7 @@ class SimulatedMatch {
   std::optional<ThoughtsReceiver> m_thoughts;
   std::unique_ptr<MatchEvents> m_events;
   std::unique_ptr<MatchReferee> m_referee;
+  std::unique_ptr<MatchDrawings> m_drawings;
   std::shared_ptr<MatchClaim> m_claim;
   double m_speed = 0.0;
   bool m_still = false;

@@ -11,6 +11,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/match/match_drawings.h>
 #include <robotlink/match/simulated_match.h>
 
 namespace pitchboard::link {
@@ -27,6 +28,8 @@ class TickObserver {
   /// from here and not from what ticked() has shown. Before the ticked() of a match that stands
   /// still.
   virtual void worldChanged(const SimulatedMatch& /*match*/) {}
+  /// As happened(): what programs have drawn on the field.
+  virtual void drew(std::span<const HeardDrawing> /*drawings*/) {}
   virtual void logged(const LogLine& /*line*/) {}
   /// It was taken out of the observers: nothing more is shown to it.
   virtual void left() {}

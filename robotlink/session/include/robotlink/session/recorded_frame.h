@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/session/drawing_moments.h>
 #include <robotlink/session/live_moments.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/session/session_reader.h>
@@ -62,6 +63,7 @@ class RecordedFrames {
 
   FrameBackdrop m_backdrop;
   LiveMoments m_live;
+  DrawingMoments m_drawings;
   std::uint64_t m_serial = 0;
   double m_lastTime = 0.0;
   std::vector<const telemetry::GroupInfo*> m_groups;  // of the frame being built

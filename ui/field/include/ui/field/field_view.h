@@ -15,6 +15,7 @@
 #include <ui/sources/match_controller.h>
 
 class QAction;
+class QMenu;
 
 namespace pitchboard::ui {
 
@@ -31,9 +32,10 @@ enum class FieldLayer {
   Eopra,
   StarVars,
   Particles,
-  PlannedPath
+  PlannedPath,
+  Drawings
 };
-inline constexpr int fieldLayerCount = 12;
+inline constexpr int fieldLayerCount = 13;
 
 class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
@@ -61,6 +63,10 @@ class FieldView : public QWidget, public FieldPictures {
   std::vector<QAction*> layerOptionActions() const;
   /// Select, ruler, add, flip, fit, keys: for the View menu; also on the tool strip.
   std::vector<QAction*> viewActions() const;
+  /// What can be done with the selected robots, with all of them and the ball, for the menu bar.
+  void fillRobotsMenu(QMenu* menu);
+  /// Opens the editor for the pose of this robot.
+  void editPose(RobotId id);
   void fitField();
   void setFlipped(bool flipped);
   bool isFlipped() const;
@@ -73,10 +79,15 @@ class FieldView : public QWidget, public FieldPictures {
   void followedChanged(std::optional<pitchboard::RobotId> id);
   /// Cursor in metres on the field; not valid when the cursor left it.
   void cursorMoved(QPointF metres, bool valid);
+  void blackboardRequested(pitchboard::RobotId id);
   void saveScenarioRequested();
   void loadMatchRequested();  ///< F2
   void resetRequested();      ///< F3
   void clearRequested();      ///< F4
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   struct Private;

@@ -39,6 +39,8 @@ struct CardState {
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
+  QString subtitle;  ///< what its team calls it, and its behaviour; may be empty
+  QString runtime;   ///< who runs, where somebody has chosen
   std::array<Lamp, lampCount> lamps;
   QString tag;
   TagKind tagKind = TagKind::None;
@@ -56,6 +58,9 @@ struct CardState {
   /// What lamp i stands for: in Live the letter C is control, not communication.
   QString process(std::size_t lamp) const;
 };
+
+/// What stands behind the name on a card: what its team calls it, its behaviour.
+QString subtitleOf(const link::RobotFrame& robot);
 
 /// The cards of robots that are heard: everything they say is in the frame.
 std::vector<CardState> liveCards(const link::MatchFrame& frame);

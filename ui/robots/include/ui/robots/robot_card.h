@@ -30,11 +30,14 @@ class RobotCard : public QFrame {
   bool isSelected() const { return m_selected; }
   void setCollapsed(bool collapsed);
   bool isCollapsed() const { return m_collapsed; }
+  /// It is being dragged to another place.
+  bool isDragged() const { return m_dragging; }
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 
  signals:
   void clicked(Qt::KeyboardModifiers modifiers);
+  void collapsedByHand(bool collapsed);
   void menuRequested(const QPoint& globalPosition);
   /// Dragged by hand: to another place in the list, or out of it.
   void dragged(const QPoint& globalPosition);
@@ -62,7 +65,12 @@ class RobotCard : public QFrame {
   void paintTag(QPainter& painter) const;
   void paintFoot(QPainter& painter) const;
   void paintValues(QPainter& painter) const;
+  QRect batteryRect() const;
+  QRect voltsRect() const;
+  QRect tagRect() const;
+  void collapse(bool collapsed);
   QString lampTip(int lamp) const;
+  QString headTip() const;
 
   CardState m_state;
   CardParts m_parts;

@@ -8,11 +8,13 @@
 #include <QElapsedTimer>
 #include <QScrollArea>
 #include <map>
+#include <set>
 
 #include <ui/robots/card_state.h>
 #include <ui/robots/robot_card.h>
 
 class QDockWidget;
+class QFrame;
 class QLabel;
 class QMenu;
 class QSettings;
@@ -50,6 +52,11 @@ class RobotsDock : public QScrollArea {
   void moveCard(RobotId id, qsizetype place);
   void setParts(const CardParts& parts);
   const CardParts& parts() const { return m_parts; }
+  /// What concerns the cards, for the menu bar.
+  void addCardActions(QMenu& menu);
+  void showBlackboard(RobotId id);
+  /// From so many robots on cards are collapsed, unless somebody opens them.
+  static constexpr std::size_t many = 9;
   QSize sizeHint() const override;
 
  protected:
@@ -69,6 +76,10 @@ class RobotsDock : public QScrollArea {
   void showMenu(RobotCard* card, const QPoint& at);
   void addMatchActions(QMenu& menu, RobotCard* card);
   void addPartActions(QMenu& menu, RobotCard* card);
+  void addListActions(QMenu& menu);
+  void collapseMany(std::size_t robots);
+  qsizetype placeAt(RobotCard* card, const QPoint& globalPosition) const;
+  void showDropMark(qsizetype place);
 
   RobotsContext m_context;
   CardTracker m_tracker;
@@ -77,6 +88,9 @@ class RobotsDock : public QScrollArea {
   std::map<RobotId, RobotCard*> m_cards;
   std::map<RobotId, QDockWidget*> m_floating;
   std::vector<RobotId> m_order;  // of all robots ever seen here
+  std::set<RobotId> m_byHand;    // collapsed or opened by the user
+  bool m_isMany = false;
+  QFrame* m_dropMark;
   QVBoxLayout* m_column;
   QLabel* m_empty;
 };

@@ -54,6 +54,8 @@ class MatchMemory : public QObject {
   /// The exact states of the recent past; another one after `restarted`, null while there is no
   /// match.
   std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
+  /// What programs have drawn in the recent past; as archive().
+  std::shared_ptr<const link::LiveHistory> drawn() const;
   /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and
   /// what could be undone. The controller's `errorOccurred` when memory does not hold it any more.
   void continueFrom(double time);
@@ -68,6 +70,8 @@ class MatchMemory : public QObject {
   std::shared_ptr<MatchRows> m_rows;
   std::shared_ptr<link::MatchSampler> m_sampler;
   std::shared_ptr<link::StateArchive> m_archive;
+  std::shared_ptr<link::DrawingMemory> m_drawings;
+  mutable link::DrawingMoments m_drawn;
   mutable std::unique_ptr<link::RecordedFrames> m_past;  // rebuilds frames; made when asked for
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Submenus that the card of a robot and the field's context menu share.
+// What the menus of a robot's card, of the field and of the menu bar share, so that each offers the
+// same.
 
 #include <vector>
 
@@ -11,6 +12,10 @@ class QMenu;
 
 namespace pitchboard::ui {
 
+/// All of the submenus below, orders first.
+void addRobotMenus(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
+/// "Order": every action a robot knows, and searching the ball.
+void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);
 /// "Behaviour", "Team" and "Model" of these robots, "Number" of one; what all of them have is
 /// marked. Does nothing for robots that the controller does not know.
 void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids);

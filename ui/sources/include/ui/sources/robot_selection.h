@@ -27,14 +27,22 @@ class RobotSelection : public QObject {
     m_ids = ids;
     emit changed(m_ids);
   }
-  void toggle(RobotId id) {
+  /// With this robot in it, or without, if it was there.
+  std::vector<RobotId> toggled(RobotId id) const {
     std::vector<RobotId> ids = m_ids;
     const auto found = std::find(ids.begin(), ids.end(), id);
     if (found != ids.end())
       ids.erase(found);
     else
       ids.push_back(id);
+    return ids;
+  }
+  void toggle(RobotId id) { set(toggled(id)); }
+
+  /// The same by a mouse outside of the field, to which the keys then belong: `chosen`.
+  void choose(const std::vector<RobotId>& ids) {
     set(ids);
+    emit chosen();
   }
 
   std::optional<RobotId> followed() const { return m_followed; }
@@ -47,6 +55,10 @@ class RobotSelection : public QObject {
  signals:
   void changed(const std::vector<pitchboard::RobotId>& ids);
   void followedChanged(std::optional<pitchboard::RobotId> id);
+  void chosen();
+  // Asked for in one part of the window, opened by another.
+  void poseRequested(pitchboard::RobotId id);
+  void blackboardRequested(pitchboard::RobotId id);
 
  private:
   std::vector<RobotId> m_ids;

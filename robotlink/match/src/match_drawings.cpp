@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/match/match_drawings.h>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::uint32_t thisComputer = 0x7f000001;
+constexpr std::size_t mostWaiting = 4096, mostBytes = std::size_t{8} << 20;
+
+}  // namespace
+
+MatchDrawings::MatchDrawings(int port) {
+  telemetry::ReceiverOptions options;
+  options.bind = {thisComputer};
+  options.ports = {static_cast<std::uint16_t>(port)};
+  options.maxDatagrams = mostWaiting;
+  options.maxBytes = mostBytes;
+  auto receiver = telemetry::UdpReceiver::start(std::move(options));
+  if (receiver) {
+    m_receiver = std::move(*receiver);
+  } else {
+    m_problem = receiver.error().text();
+  }
+}
+
+void MatchDrawings::hear(double time, std::vector<HeardDrawing>& out) {
+  if (!m_receiver || !m_receiver->take(m_batch)) return;
+  for (std::size_t i = 0; i < m_batch.size(); ++i) {
+    const telemetry::DatagramView datagram = m_batch[i];
+    // Of a message with a drawing behind it only the drawing concerns the match.
+    const std::string_view drawing = telemetry::partsOf(datagram.payload).drawing;
+    const std::string_view text = drawing.empty() ? datagram.payload : drawing;
+    if (!m_book.take(text, time)) continue;
+    out.push_back({time, datagram.sender, datagram.localPort, std::string(text)});
+  }
+}
+
+std::string MatchDrawings::problem() const {
+  if (!m_receiver) return m_problem;
+  for (const telemetry::PortStatus& port : m_receiver->status().ports) {
+    if (!port.problem.empty()) {
+      return "drawings are not heard on UDP " + std::to_string(port.port) + ": " + port.problem;
+    }
+  }
+  return m_book.lastProblem();
+}
+
+}  // namespace pitchboard::link

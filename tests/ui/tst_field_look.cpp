@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the field shows: nothing stays behind of what has moved, names can be read, beliefs and
+// drawings are seen, the mouse gets an answer. With real events, and by comparing pictures.
+
+#include <QAction>
+#include <QApplication>
+#include <QGraphicsView>
+#include <QHelpEvent>
+#include <QMenu>
+#include <QScreen>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolTip>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include <robotlink/frame/match_frame.h>
+#include <simcore/world/published_frame.h>
+#include <telemetry/wire/drawing_book.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+
+#include "drawings_menu.h"
+#include "hover_text.h"
+#include "name_labels.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+/// As its localization writes it; whole centimetres and degrees.
+void believe(const link::MatchFrame& frame, link::RobotFrame& robot, const Pose& pose) {
+  const auto written = sim::published_frame::localizationFromStudio(frame.field, pose);
+  robot.board->localizationX = static_cast<int>(std::lround(written.x));
+  robot.board->localizationY = static_cast<int>(std::lround(written.y));
+  robot.board->localizationTheta = static_cast<int>(std::lround(written.degrees));
+}
+
+std::shared_ptr<link::MatchFrame> frameOf(int robots) {
+  static std::uint64_t serial = 0;
+  auto frame = std::make_shared<link::MatchFrame>();
+  frame->serial = ++serial;
+  for (int i = 0; i < robots; ++i) {
+    link::RobotFrame robot;
+    robot.identity.id = {i + 1};
+    robot.identity.number = i / 2 + 1;
+    robot.identity.team = i % 2 == 0 ? TeamColor::Blue : TeamColor::Red;
+    robot.pose = {{-3.0 + 0.7 * i, 1.5 - 0.5 * i}, 0.4 * i};
+    robot.headYaw = robot.pose.yaw;
+    robot.board.emplace();
+    robot.board->behaviour = "striker";
+    robot.board->localizationWorking = true;
+    believe(*frame, robot, {{robot.pose.position.x + 0.1, robot.pose.position.y}, robot.pose.yaw});
+    robot.board->belief = 30.0F;
+    frame->robots.push_back(robot);
+  }
+  return frame;
+}
+
+}  // namespace
+
+class TestFieldLook : public QObject {
+  Q_OBJECT
+
+  std::unique_ptr<FieldView> m_view;
+  QGraphicsView* m_canvas = nullptr;
+
+  QPoint at(const Point& p) const {
+    return m_canvas->viewportTransform().map(QPointF(p.x, p.y)).toPoint();
+  }
+  void move(const QPoint& to, Qt::MouseButtons held) {
+    QMouseEvent event(QEvent::MouseMove, QPointF(to),
+                      m_canvas->viewport()->mapToGlobal(QPointF(to)), Qt::NoButton, held, {});
+    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
+  }
+  void wheel(const QPoint& point, int delta) {
+    QWheelEvent event(QPointF(point), m_canvas->viewport()->mapToGlobal(QPointF(point)), {},
+                      QPoint(0, delta), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
+  }
+  /// What stands on the screen, painted piece by piece.
+  QImage onScreen() {
+    for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+    return m_view->screen()
+        ->grabWindow(m_view->winId())
+        .toImage()
+        .convertToFormat(QImage::Format_RGB32);
+  }
+  /// The first pixel that a full repaint changes; empty: none.
+  QString leftBehind() {
+    const QImage shown = onScreen();
+    m_canvas->viewport()->repaint();
+    const QImage fresh = onScreen();
+    if (shown.isNull() || shown.size() != fresh.size()) return QStringLiteral("no picture");
+    constexpr int slack = 3;  // of smooth edges
+    for (int y = 0; y < shown.height(); ++y) {
+      for (int x = 0; x < shown.width(); ++x) {
+        const QRgb a = shown.pixel(x, y), b = fresh.pixel(x, y);
+        if (std::abs(qRed(a) - qRed(b)) > slack || std::abs(qGreen(a) - qGreen(b)) > slack ||
+            std::abs(qBlue(a) - qBlue(b)) > slack) {
+          return QStringLiteral("%1, %2: %3 instead of %4")
+              .arg(x)
+              .arg(y)
+              .arg(QColor(a).name(), QColor(b).name());
+        }
+      }
+    }
+    return {};
+  }
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+  void init() {
+    m_view = std::make_unique<FieldView>(nullptr);
+    m_view->resize(900, 660);
+    m_view->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+    m_canvas = m_view->findChild<QGraphicsView*>();
+    m_canvas->setFocus();
+  }
+  void cleanup() { m_view.reset(); }
+
+  // Panned, followed, zoomed, with words, rings, names, drawings and the focus frame: after every
+  // step the screen is what a full repaint shows.
+  void nothingStaysBehind_data() {
+    QTest::addColumn<int>("zoom");
+    QTest::newRow("fitted") << 0;
+    QTest::newRow("far") << -8;
+    QTest::newRow("near") << 12;
+  }
+  void nothingStaysBehind() {
+    QFETCH(int, zoom);
+    auto frame = frameOf(8);
+    frame->ballKnown = true;
+    frame->robots[1].fallen = true;
+    frame->robots[2].health.emplace();
+    frame->robots[2].health->poseKnown = frame->robots[2].health->timedOut = true;
+    frame->robots[2].health->age = std::chrono::seconds(12345);
+    frame->robots[3].penalty = link::Penalty{"pushing", 20};
+    believe(*frame, frame->robots[4], {{2.5, 2.0}, 1.0});
+    frame->teamBall = link::TeamBall{{1.0, -1.0}, 0.2, 2, 3};
+    telemetry::DrawingBook book;
+    QVERIFY(
+        book.take("PBD1 1\nlayer a robot\narrow 0 0 1 0.5\ntext 0.5 0.5 a rather long text\n"
+                  "width 12\npolygon 0 0 0.5 0.5 1 -0.5\nlayer b\ndisc -2 -2 0.7",
+                  0.0));
+    frame->drawings = book.at(0.0);
+    for (QAction* layer : m_view->layerActions()) layer->setChecked(true);
+    m_view->showFrame(frame);
+    m_view->select({RobotId{1}, RobotId{2}});
+    const QPoint middle = m_canvas->viewport()->rect().center();
+    for (int i = 0; i < std::abs(zoom); ++i) wheel(middle, zoom > 0 ? 120 : -120);
+    QCOMPARE(leftBehind(), QString());
+
+    QTest::mousePress(m_canvas->viewport(), Qt::MiddleButton, {}, middle);
+    for (const QPoint step : {QPoint(13, 5), QPoint(40, -30), QPoint(-60, 90), QPoint(7, 7)}) {
+      move(middle + step, Qt::MiddleButton);
+      const QString left = leftBehind();
+      QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("panned: ") + left));
+    }
+    QTest::mouseRelease(m_canvas->viewport(), Qt::MiddleButton, {}, middle);
+
+    for (const bool follow : {false, true}) {
+      m_view->follow(follow ? std::optional(RobotId{2}) : std::nullopt);
+      for (int step = 0; step < 5; ++step) {
+        auto next = std::make_shared<link::MatchFrame>(*frame);
+        next->serial += 1;
+        next->snapshot.time += 0.1;
+        for (link::RobotFrame& robot : next->robots) {
+          robot.pose.position.x += 0.13;
+          robot.pose.position.y -= 0.08;
+          robot.pose.yaw += 0.3;
+        }
+        next->snapshot.ball.x += 0.3;
+        next->teamBall->position.y += 0.2;
+        frame = next;
+        m_view->showFrame(frame);
+        const QString left = leftBehind();
+        QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("followed: ") + left));
+      }
+    }
+    for (const auto& ids : {std::vector<RobotId>{}, {RobotId{3}}, {RobotId{4}, RobotId{8}}}) {
+      m_view->select(ids);
+      const QString left = leftBehind();
+      QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("selected: ") + left));
+    }
+    auto empty = std::make_shared<link::MatchFrame>(*frame);
+    empty->robots.resize(3);
+    empty->teamBall.reset();
+    empty->drawings.clear();
+    m_view->showFrame(empty);
+    QCOMPARE(leftBehind(), QString());
+  }
+
+  void namesOfACrowdAreAllRead_data() {
+    QTest::addColumn<int>("robots");
+    QTest::addColumn<double>("apart");
+    QTest::addColumn<double>("radius");
+    QTest::newRow("a heap") << 11 << 9.0 << 10.0;
+    QTest::newRow("a row") << 22 << 6.0 << 5.0;
+    QTest::newRow("two on one place") << 2 << 0.0 << 12.0;
+    QTest::newRow("small ones") << 6 << 40.0 << 4.0;
+  }
+  void namesOfACrowdAreAllRead() {
+    QFETCH(int, robots);
+    QFETCH(double, apart);
+    QFETCH(double, radius);
+    std::vector<NamedRobot> crowd;
+    for (int i = 0; i < robots; ++i) {
+      crowd.push_back({RobotId{i + 1}, {apart * i, 3.0 * (i % 3)}, radius, {18.0, 9.0}});
+    }
+    std::map<RobotId, int> before;
+    const auto placed = placeNames(crowd, before);
+    QCOMPARE(placed.size(), crowd.size());
+    const auto box = [](const PlacedName& name) {
+      return QRectF(name.centre.x() - 9.0, name.centre.y() - 4.5, 18.0, 9.0);
+    };
+    for (std::size_t a = 0; a < placed.size(); ++a) {
+      for (std::size_t b = a + 1; b < placed.size(); ++b) {
+        QVERIFY(!box(placed[a]).intersects(box(placed[b])));
+      }
+      for (const NamedRobot& robot : crowd) {
+        const QRectF name = box(placed[a]);
+        const double x = std::clamp(robot.at.x(), name.left(), name.right());
+        const double y = std::clamp(robot.at.y(), name.top(), name.bottom());
+        QVERIFY(std::hypot(x - robot.at.x(), y - robot.at.y()) >= radius - 0.01);
+      }
+    }
+    // They do not jump about when everybody has moved a little.
+    for (NamedRobot& robot : crowd) robot.at += QPointF(0.2, 0.1);
+    const auto again = placeNames(crowd, before);
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      const QPointF way = again[i].centre - placed[i].centre;
+      QVERIFY(std::hypot(way.x(), way.y()) < 1.0);
+    }
+  }
+  void aNumberThatCanBeReadNeedsNoName() {
+    std::map<RobotId, int> before;
+    const std::vector<NamedRobot> robots{{RobotId{1}, {0, 0}, 10.0, {18.0, 9.0}},
+                                         {RobotId{2}, {21, 0}, 10.0, {18.0, 9.0}}};
+    QVERIFY(placeNames(robots, before).empty());
+  }
+
+  void anUnsureBeliefCoversLess() {
+    // The colour of the ground a little beside the robot, for growing uncertainty.
+    double before = 1e9;
+    for (const float sigma : {40.0F, 80.0F, 200.0F, 400.0F}) {
+      auto frame = frameOf(1);
+      frame->robots[0].pose.position = {0.0, 1.0};
+      believe(*frame, frame->robots[0], frame->robots[0].pose);
+      for (QAction* layer : m_view->layerActions()) layer->setChecked(false);
+      m_view->showFrame(frame);
+      const QSize size(1040, 740);
+      const QImage without = m_view->picture(size);
+      frame = std::make_shared<link::MatchFrame>(*frame);
+      frame->robots[0].board->belief = sigma;
+      m_view->layerActions()[std::size_t(FieldLayer::Belief)]->setChecked(true);
+      m_view->showFrame(frame);
+      const QImage with = m_view->picture(size);
+      const QPoint beside(520 + 24, 370 - 100 + 12);
+      const QColor a(without.pixel(beside)), b(with.pixel(beside));
+      const double covers = std::abs(a.red() - b.red()) + std::abs(a.green() - b.green()) +
+                            std::abs(a.blue() - b.blue());
+      QVERIFY2(covers < before, qPrintable(QStringLiteral("%1 at %2").arg(covers).arg(sigma)));
+      before = covers;
+    }
+    QVERIFY(before <= 12.0);
+  }
+
+  void aFarGhostIsJoinedToItsRobot() {
+    const auto lineAt = [this](double away) {
+      auto frame = frameOf(1);
+      frame->robots[0].pose = {{0.0, 2.0}, 0.0};
+      believe(*frame, frame->robots[0], {{0.0, 2.0 - away}, 0.0});
+      for (QAction* layer : m_view->layerActions()) layer->setChecked(false);
+      m_view->layerActions()[std::size_t(FieldLayer::Ghost)]->setChecked(true);
+      m_view->showFrame(frame);
+      const QImage ghost = m_view->picture(QSize(1040, 740));
+      m_view->layerActions()[std::size_t(FieldLayer::Ghost)]->setChecked(false);
+      const QImage none = m_view->picture(QSize(1040, 740));
+      const int y = 370 - static_cast<int>(100 * (2.0 - away / 2));
+      return ghost.copy(515, y, 10, 1) != none.copy(515, y, 10, 1);
+    };
+    QVERIFY(lineAt(1.5));
+    QVERIFY(lineAt(0.55));
+    QVERIFY(!lineAt(0.47));
+  }
+
+  void theMouseIsAnswered() {
+    auto frame = frameOf(2);
+    frame->robots[0].pose = {{0.0, 0.0}, 0.0};
+    believe(*frame, frame->robots[0], {{0.3, 0.4}, 0.5});
+    frame->robots[0].ownName = "Lea";
+    auto path = std::make_shared<link::PlannedPath>();
+    path->points = {{0.0, 0.0}, {1.25, -0.5}};
+    frame->robots[0].thoughts = link::RobotThoughts{RobotId{1}, nullptr, path, 0.0, 0.0};
+    m_view->showFrame(frame);
+    const QString text = hoverText(*frame, RobotId{1});
+    for (const char* part : {"B1 Lea · Striker", "Action: stop", "Target: x 1.25 m",
+                             "Belief: 50 cm and 29° off, σ 30 cm"}) {
+      QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
+    }
+    const QPoint place = at({0.0, 0.0});
+    QHelpEvent help(QEvent::ToolTip, place, m_canvas->viewport()->mapToGlobal(place));
+    QCoreApplication::sendEvent(m_canvas->viewport(), &help);
+    QCOMPARE(QToolTip::text(), text);
+    const QPoint ground = at({0.0, -3.0});
+    QHelpEvent beside(QEvent::ToolTip, ground, m_canvas->viewport()->mapToGlobal(ground));
+    QCoreApplication::sendEvent(m_canvas->viewport(), &beside);
+    QTRY_VERIFY(!QToolTip::isVisible());
+    QVERIFY(hoverText(*frame, RobotId{9}).isEmpty());
+  }
+
+  void drawingsAreShownByRobotAndLayer() {
+    auto frame = frameOf(2);
+    telemetry::DrawingBook book;
+    QVERIFY(
+        book.take("PBD1 1\nlayer plan\nline -4 -2 4 -2\nlayer seen robot\ncolour red\n"
+                  "disc 1 0 0.3",
+                  0.0));
+    QVERIFY(book.take("PBD1 2\nlayer plan\nline -4 -2.5 4 -2.5", 0.0));
+    const QSize size(1040, 740);
+    m_view->showFrame(frame);
+    const QImage without = m_view->picture(size);
+    frame = std::make_shared<link::MatchFrame>(*frame);
+    frame->drawings = book.at(0.0);
+    m_view->showFrame(frame);
+    const QImage all = m_view->picture(size);
+    QVERIFY(all != without);
+    // 100 pixels are a metre: the line of robot 1, and the disc 1 m in front of it.
+    const auto changed = [&](const QImage& image, double x, double y) {
+      const QPoint p(520 + static_cast<int>(100 * x), 370 - static_cast<int>(100 * y));
+      return image.pixel(p) != without.pixel(p);
+    };
+    const Pose& one = frame->robots[0].pose;
+    const auto disc = [&](const QImage& image) {
+      return changed(image, one.position.x + std::cos(one.yaw), one.position.y + std::sin(one.yaw));
+    };
+    QVERIFY(changed(all, 3.0, -2.0) && changed(all, 3.0, -2.5) && disc(all));
+
+    auto* menu = m_view->findChild<DrawingsMenu*>();
+    QVERIFY(menu);
+    const auto toggle = [&](const QStringList& path) {
+      emit menu->aboutToShow();
+      QMenu* inside = menu;
+      for (const QString& text : path) {
+        const auto actions = inside->actions();
+        const auto found = std::ranges::find_if(
+            actions, [&](const QAction* action) { return action->text() == text; });
+        if (found == actions.end()) return false;
+        if ((*found)->menu() == nullptr) {
+          (*found)->toggle();
+        } else {
+          inside = (*found)->menu();
+        }
+      }
+      return true;
+    };
+    QVERIFY(toggle({"plan"}));  // of both
+    QImage now = m_view->picture(size);
+    QVERIFY(!changed(now, 3.0, -2.0) && !changed(now, 3.0, -2.5) && disc(now));
+    QVERIFY(toggle({"plan"}));
+    QVERIFY(toggle({"B1", "plan"}));
+    now = m_view->picture(size);
+    QVERIFY(!changed(now, 3.0, -2.0) && changed(now, 3.0, -2.5) && disc(now));
+    QVERIFY(toggle({"B1", "Drawings of this robot"}));
+    now = m_view->picture(size);
+    QVERIFY(changed(now, 3.0, -2.5) && !disc(now));
+    QVERIFY(toggle({"B1", "Drawings of this robot"}) && toggle({"B1", "plan"}));
+    QCOMPARE(m_view->picture(size), all);
+    QVERIFY(toggle({"Only of selected robots"}));
+    QCOMPARE(m_view->picture(size), without);
+    m_view->select({RobotId{2}});
+    now = m_view->picture(size);
+    QVERIFY(changed(now, 3.0, -2.5) && !changed(now, 3.0, -2.0));
+    m_view->select({});
+    QVERIFY(toggle({"Only of selected robots"}));
+    m_view->layerActions()[std::size_t(FieldLayer::Drawings)]->setChecked(false);
+    QCOMPARE(m_view->picture(size), without);
+    m_view->layerActions()[std::size_t(FieldLayer::Drawings)]->setChecked(true);
+    // A layer that counts from its robot goes with it.
+    auto moved = std::make_shared<link::MatchFrame>(*frame);
+    moved->robots[0].pose.position = {3.0, -3.0};
+    moved->robots[0].pose.yaw = std::numbers::pi;
+    m_view->showFrame(moved);
+    QVERIFY(changed(m_view->picture(size), 2.0, -3.0));
+    // What was not drawn is said in the menu.
+    moved->drawingProblem = "drawing, line 2: no";
+    emit menu->aboutToShow();
+    QVERIFY(std::ranges::any_of(menu->actions(), [](const QAction* action) {
+      return action->text().contains(QStringLiteral("line 2: no"));
+    }));
+  }
+};
+
+QTEST_MAIN(TestFieldLook)
+#include "tst_field_look.moc"

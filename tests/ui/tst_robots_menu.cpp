@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Robots by their cards and by the menu bar, in a whole window with real keys and clicks: whoever
+// has no mouse can do the same, and the keys of the field act wherever robots were chosen.
+#include <QComboBox>
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QGraphicsView>
+#include <QHelpEvent>
+#include <QMenuBar>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QToolTip>
+#include <QUndoStack>
+#include <QtTest>
+
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/window/main_window.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestRobotsMenu : public QObject {
+  Q_OBJECT
+
+  struct Studio {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    MatchController controller;
+    MainWindow window;
+    explicit Studio(int more = 0) : controller(options()), window(&controller, &settings) {
+      link::Scenario scenario = link::loadScenario("match-3v3").value();
+      for (int i = 0; i < more; ++i) {
+        link::ScenarioRobot robot;
+        robot.identity.id = {7 + i};
+        robot.identity.number = 4 + i;
+        robot.pose = {{-4.0 + 0.5 * i, -2.5}, 0.0};
+        scenario.robots.push_back(robot);
+      }
+      controller.open(scenario, true);
+      window.resize(1280, 800);
+      window.show();
+    }
+    static link::MatchOptions options() {
+      link::MatchOptions made;
+      made.cognition = link::Cognition::Inline;
+      return made;
+    }
+    RobotsDock* dock() { return window.findChild<RobotsDock*>(); }
+    QList<RobotCard*> cards() { return dock()->cards(); }
+    QMenu* robotsMenu() {
+      for (QAction* action : window.menuBar()->actions()) {
+        if (action->text() != QStringLiteral("&Robots")) continue;
+        emit action->menu()->aboutToShow();
+        return action->menu();
+      }
+      return nullptr;
+    }
+    /// Goes down the menu by these texts.
+    QAction* entry(const QStringList& path) {
+      QMenu* menu = robotsMenu();
+      QAction* found = nullptr;
+      for (const QString& text : path) {
+        found = nullptr;
+        for (QAction* action : menu->actions()) {
+          if (action->text() == text) found = action;
+        }
+        if (found == nullptr) return nullptr;
+        menu = found->menu();
+      }
+      return found;
+    }
+    bool trigger(const QStringList& path) {
+      QAction* found = entry(path);
+      if (found != nullptr) found->trigger();
+      return found != nullptr;
+    }
+    Pose pose(int id) {
+      const auto* robot = controller.frame()->robot(RobotId{id});
+      return robot ? robot->pose : Pose{};
+    }
+  };
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void theMenuDoesWhatTheMouseDoes() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    QVERIFY(!s.entry({"Behaviour"}));  // of nobody
+    QVERIFY(s.trigger({"Select", "B2"}));
+    QCOMPARE(s.window.field()->selection(), std::vector{RobotId{2}});
+    QVERIFY(s.entry({"Select", "B2"})->isChecked());
+    QVERIFY(s.trigger({"Behaviour", "Keeper"}));
+    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->board->behaviour, std::string("keeper"));
+    QVERIFY(s.entry({"Behaviour", "Keeper"})->isChecked());
+    QVERIFY(s.trigger({"Order", "Kick left"}));
+    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->board->actionA, 5);
+    QVERIFY(s.trigger({"Number", "9"}));
+    QTRY_COMPARE(s.controller.frame()->robot(RobotId{2})->identity.number, 9);
+    QVERIFY(s.trigger({"Pose…"}));
+    auto* x = s.window.field()->findChild<QDoubleSpinBox*>(QStringLiteral("x"));
+    QVERIFY(x);
+    x->setValue(-2.25);
+    QTest::keyClick(x, Qt::Key_Return);
+    QTRY_VERIFY(std::abs(s.pose(2).position.x + 2.25) < 1e-6);
+    QVERIFY(s.trigger({"Blackboard…"}));
+    QVERIFY(std::ranges::any_of(s.window.findChildren<QDialog*>(), [](const QDialog* dialog) {
+      return dialog->windowTitle() == QStringLiteral("Blackboard of B9");
+    }));
+    QVERIFY(s.trigger({"Select", "All"}));
+    QVERIFY(s.trigger({"Remove 6 robots"}));
+    QTRY_VERIFY(s.controller.frame()->robots.empty());
+    QVERIFY(s.trigger({"Add robot", "Red"}));
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(1));
+    QVERIFY(s.trigger({"Ball to the centre mark"}));
+    QVERIFY(s.trigger({"Cards", "Collapse all"}));
+    QTRY_VERIFY(!s.cards().isEmpty() && s.cards()[0]->isCollapsed());
+  }
+
+  // Opened and used by keys alone.
+  void theMenuOpensByKeys() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    QVERIFY(QTest::qWaitForWindowActive(&s.window));
+    QTest::keyClick(&s.window, Qt::Key_R, Qt::AltModifier);
+    QTRY_VERIFY(qobject_cast<QMenu*>(QApplication::activePopupWidget()));
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QCOMPARE(menu->actions().front()->text(), QStringLiteral("Select"));
+    QTest::keyClick(menu, Qt::Key_Escape);
+  }
+
+  void theFieldsKeysActOnWhatACardChose() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    QVERIFY(QTest::qWaitForWindowActive(&s.window));
+    auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("scenarioChooser"));
+    auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    QVERIFY(canvas->hasFocus());
+    QTest::mouseClick(chooser, Qt::LeftButton);
+    chooser->hidePopup();
+    QTRY_VERIFY(canvas->hasFocus());
+    // From another part of the window to a card: the keys belong to the field.
+    chooser->setFocus();
+    QTest::mouseClick(s.cards()[1], Qt::LeftButton, {}, QPoint(60, 60));
+    QVERIFY(canvas->hasFocus());
+    const RobotId id = s.cards()[1]->state().id;
+    const Pose before = s.pose(id.value);
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Right, Qt::ShiftModifier);
+    QTRY_VERIFY(std::abs(s.pose(id.value).position.x - before.position.x - 0.1) < 1e-6);
+    // Whoever goes through the cards by keys keeps them, and still moves and removes.
+    RobotCard* card = s.cards()[2];
+    const RobotId other = card->state().id;
+    card->setFocus();
+    QTest::keyClick(card, Qt::Key_Space);
+    QVERIFY(card->hasFocus());
+    QCOMPARE(s.window.field()->selection(), std::vector{other});
+    QTest::keyClick(card, Qt::Key_Delete);
+    QTRY_VERIFY(!s.controller.frame()->robot(other));
+  }
+
+  void manyCardsCollapseByThemselves() {
+    Studio few(2), many(3);  // eight and nine
+    QTRY_COMPARE(few.cards().size(), qsizetype(8));
+    QTRY_COMPARE(many.cards().size(), qsizetype(9));
+    QVERIFY(!few.cards()[0]->isCollapsed() && many.cards()[0]->isCollapsed());
+    // What somebody opens stays open, whoever comes or goes.
+    RobotCard* mine = many.cards()[4];
+    mine->setFocus();
+    QTest::keyClick(mine, Qt::Key_Right);
+    QVERIFY(!mine->isCollapsed());
+    many.controller.edits()->removeRobots({RobotId{9}});
+    QTRY_COMPARE(many.cards().size(), qsizetype(8));
+    QVERIFY(!many.cards()[0]->isCollapsed());
+    QTest::keyClick(mine, Qt::Key_Left);
+    many.controller.edits()->undoStack()->undo();
+    QTRY_COMPARE(many.cards().size(), qsizetype(9));
+    QVERIFY(many.cards()[0]->isCollapsed() && mine->isCollapsed());
+    QTest::keyClick(mine, Qt::Key_Right);
+    many.controller.edits()->removeRobots({RobotId{8}, RobotId{9}});
+    QTRY_COMPARE(many.cards().size(), qsizetype(7));
+    QVERIFY(!mine->isCollapsed());
+  }
+
+  void aCardSaysWhoItIs() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    s.controller.edits()->setBehaviour({RobotId{1}}, QStringLiteral("keeper"));
+    QTRY_COMPARE(s.cards()[0]->state().subtitle, QStringLiteral("Keeper"));
+    QVERIFY(s.cards()[0]->accessibleDescription().startsWith(QStringLiteral("Keeper, ")));
+    RobotCard* card = s.cards()[0];
+    const QPoint head(40, 12);
+    QHelpEvent help(QEvent::ToolTip, head, card->mapToGlobal(head));
+    QCoreApplication::sendEvent(card, &help);
+    QVERIFY(QToolTip::text().startsWith(QStringLiteral("B1\nKeeper")));
+  }
+
+  void aMarkSaysWhereADraggedCardGoes() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    auto* mark = s.dock()->findChild<QWidget*>(QStringLiteral("dropMark"));
+    RobotCard* first = s.cards()[0];
+    const RobotCard* third = s.cards()[2];
+    const auto below = [&] {
+      return first->mapFromGlobal(third->mapToGlobal(QPoint(60, third->height() - 4)));
+    };
+    QTest::mousePress(first, Qt::LeftButton, {}, QPoint(60, 40));
+    QTest::mouseMove(first, QPoint(60, 70));
+    QTest::mouseMove(first, below());
+    QVERIFY(mark->isVisible());
+    QVERIFY(mark->geometry().top() > third->geometry().center().y());
+    QCOMPARE(s.cards()[0], first);  // not yet
+    QTest::mouseRelease(first, Qt::LeftButton, {}, below());
+    QVERIFY(!mark->isVisible());
+    QCOMPARE(s.cards()[2], first);
+  }
+};
+
+QTEST_MAIN(TestRobotsMenu)
+#include "tst_robots_menu.moc"

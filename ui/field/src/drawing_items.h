@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What robots' programs draw on the field (docs/DRAWINGS.md): an item for each layer of each robot.
+// A layer that counts from its robot goes where the robot goes. UI thread; belongs to the scene.
+
+#include <QGraphicsItem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <base/ids.h>
+#include <telemetry/wire/drawing_book.h>
+
+#include "field_style.h"
+
+namespace pitchboard::ui {
+
+/// One layer of one robot.
+class DrawingItem : public QGraphicsItem {
+ public:
+  explicit DrawingItem(const FieldStyle* style) : m_style(style) {}
+  /// `origin`: from where its coordinates count.
+  void setLayer(std::shared_ptr<const telemetry::DrawingLayer> layer, TeamColor team,
+                const Pose& origin);
+  void styleChanges();
+  QRectF boundingRect() const override { return m_bounds; }
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  void paintShape(QPainter* painter, const ScreenPainting& screen,
+                  const telemetry::DrawingShape& shape) const;
+  QPointF onField(const Point& p) const;
+  QColor colourOf(const telemetry::DrawingShape& shape) const;
+  QRectF computeBounds() const;
+
+  const FieldStyle* m_style;
+  std::shared_ptr<const telemetry::DrawingLayer> m_layer;
+  TeamColor m_team = TeamColor::Blue;
+  Pose m_origin;
+  QRectF m_bounds;
+};
+
+class DrawingItems {
+ public:
+  /// The items lie at this height of the scene.
+  DrawingItems(QGraphicsScene* scene, const FieldStyle* style, double height)
+      : m_scene(scene), m_style(style), m_height(height) {}
+
+  void show(const link::MatchFrame* frame, const std::vector<RobotId>& selection);
+  void styleChanges();
+
+ private:
+  QGraphicsScene* m_scene;
+  const FieldStyle* m_style;
+  double m_height;
+  std::map<std::pair<int, std::string>, std::unique_ptr<DrawingItem>> m_items;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hover_text.h"
+
+#include <QStringList>
+#include <cmath>
+
+#include <base/angles.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/frame/belief.h>
+#include <robotlink/frame/match_frame.h>
+#include <ui/base/robot_words.h>
+#include <ui/sources/pose_difference.h>
+
+#include "field_style.h"
+
+namespace pitchboard::ui {
+namespace {
+
+QString placeText(const Point& p) {
+  return QStringLiteral("x %1 m  y %2 m").arg(fieldNumber(p.x, 2), fieldNumber(p.y, 2));
+}
+
+QString distanceText(double metres) {
+  return metres < 1.0 ? QStringLiteral("%1 cm").arg(std::lround(metres * 100))
+                      : QStringLiteral("%1 m").arg(fieldNumber(metres, 2));
+}
+
+QString beliefText(const link::MatchFrame& frame, const link::RobotFrame& robot) {
+  const double sigma = static_cast<double>(robot.board->belief) / 100.0;
+  const QString sure = QStringLiteral("σ %1").arg(distanceText(sigma));
+  if (!frame.truthKnown) return QStringLiteral("Belief: %1").arg(sure);
+  const auto believed = link::believedPose(frame.field, *robot.board);
+  if (!believed) return QStringLiteral("Belief: localization does not work");
+  const double turned = std::abs(wrapToPi(believed->yaw - robot.pose.yaw));
+  return QStringLiteral("Belief: %1 and %2° off, %3")
+      .arg(distanceText(distance(believed->position, robot.pose.position)))
+      .arg(std::lround(degreesFromRadians(turned)))
+      .arg(sure);
+}
+
+}  // namespace
+
+QString hoverText(const link::MatchFrame& frame, RobotId id) {
+  const link::RobotFrame* robot = frame.robot(id);
+  if (robot == nullptr) return {};
+  QStringList lines;
+  QString head = robotName(robot->identity);
+  if (!robot->ownName.empty()) head += QLatin1Char(' ') + QString::fromStdString(robot->ownName);
+  if (robot->board && !robot->board->behaviour.empty()) {
+    head += robot->board->behaviour == link::noBehaviour
+                ? QStringLiteral(" · your own process")
+                : QStringLiteral(" · ") + capitalised(robot->board->behaviour);
+  }
+  lines << head;
+  const int action = robot->board ? robot->board->actionA : robot->action;
+  lines << QStringLiteral("Action: %1").arg(actionText(action));
+  if (robot->thoughts && robot->thoughts->path && !robot->thoughts->path->points.empty()) {
+    const link::PlannedPath& path = *robot->thoughts->path;
+    lines << QStringLiteral("Target: %1%2")
+                 .arg(placeText(path.points.back()),
+                      path.complete ? QString() : QStringLiteral(" (no way leads there)"));
+  }
+  if (robot->poseKnown()) {
+    lines << QStringLiteral("At %1  %2°")
+                 .arg(placeText(robot->pose.position),
+                      fieldNumber(degreesFromRadians(robot->pose.yaw), 0));
+  }
+  if (robot->board && robot->poseKnown()) lines << beliefText(frame, *robot);
+  if (const auto ball = link::perceivedBall(frame.field, *robot)) {
+    QString seen = QStringLiteral("Sees the ball at %1").arg(placeText(*ball));
+    if (frame.ballKnown && frame.truthKnown) {
+      seen += QStringLiteral(", %1 off").arg(distanceText(distance(*ball, frame.snapshot.ball)));
+    }
+    lines << seen;
+  }
+  if (robot->timedOut()) {
+    lines << QStringLiteral("Not heard for %1 s")
+                 .arg(static_cast<int>(telemetry::secondsOf(robot->health->age)));
+  }
+  const auto& penalty = robot->penalty  ? robot->penalty
+                        : robot->health ? robot->health->penalty
+                                        : robot->penalty;
+  if (penalty) {
+    lines << QStringLiteral("Penalised: %1, %2 s")
+                 .arg(QString::fromStdString(penalty->words))
+                 .arg(penalty->secondsLeft);
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+}  // namespace pitchboard::ui

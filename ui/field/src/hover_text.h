@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the field says of a robot when the mouse rests on it. Pure function.
+
+#include <QString>
+
+#include <base/ids.h>
+
+namespace pitchboard::link {
+struct MatchFrame;
+}
+
+namespace pitchboard::ui {
+
+/// Lines of plain text: name, behaviour, action, target, how far its belief is off, what is wrong.
+/// Empty for a robot that is not in the frame.
+QString hoverText(const link::MatchFrame& frame, RobotId id);
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "name_labels.h"
+
+#include <QFontMetricsF>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double readable_px = 6.5;  // radius of a disc in which a number can be read
+constexpr double covered = 0.55;     // of the radius: where the number stands
+constexpr double gap_px = 3.0;
+constexpr std::array<double, 4> steps_px{0.0, 12.0, 26.0, 44.0};
+constexpr int namePixels = 10;
+const double diagonal = std::sqrt(0.5);
+
+const std::array<QPointF, 8> directions{QPointF(0, -1),
+                                        QPointF(0, 1),
+                                        QPointF(1, 0),
+                                        QPointF(-1, 0),
+                                        QPointF(diagonal, -diagonal),
+                                        QPointF(-diagonal, -diagonal),
+                                        QPointF(diagonal, diagonal),
+                                        QPointF(-diagonal, diagonal)};
+
+double distance(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
+bool needsName(const NamedRobot& robot, std::span<const NamedRobot> all) {
+  if (robot.radius < readable_px) return true;
+  return std::ranges::any_of(all, [&robot](const NamedRobot& other) {
+    return other.id != robot.id &&
+           distance(other.at, robot.at) < other.radius + covered * robot.radius;
+  });
+}
+
+QRectF boxOf(const QPointF& centre, const QSizeF& size) {
+  return {centre.x() - size.width() / 2, centre.y() - size.height() / 2, size.width(),
+          size.height()};
+}
+
+/// How much of a box lies on discs and on other names, in pixels of length.
+double overlap(const QRectF& box, std::span<const NamedRobot> robots,
+               const std::vector<QRectF>& taken) {
+  double sum = 0.0;
+  for (const NamedRobot& robot : robots) {
+    const QPointF nearest(std::clamp(robot.at.x(), box.left(), box.right()),
+                          std::clamp(robot.at.y(), box.top(), box.bottom()));
+    sum += std::max(0.0, robot.radius - distance(nearest, robot.at));
+  }
+  for (const QRectF& other : taken) {
+    const QRectF both = box & other;
+    if (!both.isEmpty()) sum += both.width() + both.height();
+  }
+  return sum;
+}
+
+const QFont& nameFont() {
+  return fieldFont(namePixels, true);
+}
+
+}  // namespace
+
+std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots,
+                                   std::map<RobotId, int>& before) {
+  std::vector<PlacedName> placed;
+  std::vector<QRectF> taken;
+  std::map<RobotId, int> kept;
+  constexpr int count = static_cast<int>(directions.size() * steps_px.size());
+  for (const NamedRobot& robot : robots) {
+    if (!needsName(robot, robots)) continue;
+    const auto known = before.find(robot.id);
+    const int first = known == before.end() ? 0 : known->second;
+    int best = first;
+    double least = std::numeric_limits<double>::infinity();
+    QRectF bestBox;
+    for (int i = -1; i < count && least > 0.0; ++i) {
+      const int choice = i < 0 ? first : i;
+      const QPointF& way = directions[static_cast<std::size_t>(choice) % directions.size()];
+      const double step = steps_px[static_cast<std::size_t>(choice) / directions.size()];
+      const double away = robot.radius + gap_px + step +
+                          std::abs(way.x()) * robot.name.width() / 2 +
+                          std::abs(way.y()) * robot.name.height() / 2;
+      const QRectF box = boxOf(robot.at + way * away, robot.name);
+      const double over = overlap(box, robots, taken);
+      if (over >= least) continue;
+      least = over;
+      best = choice;
+      bestBox = box;
+    }
+    taken.push_back(bestBox);
+    kept[robot.id] = best;
+    placed.push_back(
+        {robot.id, bestBox.center(), static_cast<std::size_t>(best) >= directions.size()});
+  }
+  before = std::move(kept);
+  return placed;
+}
+
+void NameLabelsItem::setRobots(std::vector<Robot> robots) {
+  m_robots = std::move(robots);
+  place();
+}
+
+void NameLabelsItem::styleChanges() {
+  place();
+}
+
+void NameLabelsItem::place() {
+  const double scale = m_style->pixelsPerMetre;
+  const double side = m_style->flipped ? -1.0 : 1.0;
+  const QFontMetricsF metrics(nameFont());
+  std::vector<NamedRobot> named;
+  named.reserve(m_robots.size());
+  for (const Robot& robot : m_robots) {
+    named.push_back({robot.id,
+                     {side * robot.at.x() * scale, -side * robot.at.y() * scale},
+                     robot.radius * scale,
+                     {metrics.horizontalAdvance(robot.name) + 2, metrics.ascent()}});
+  }
+  std::vector<Label> labels;
+  for (const PlacedName& name : placeNames(named, m_before)) {
+    const auto robot = std::ranges::find(m_robots, name.id, &Robot::id);
+    const auto screen = std::ranges::find(named, name.id, &NamedRobot::id);
+    labels.push_back(
+        {robot->at, screen->radius, name.centre - screen->at, name.apart, robot->name});
+  }
+  QRectF bounds;
+  for (const Label& label : labels) {
+    const double reach =
+        m_style->metres(std::hypot(label.offset.x(), label.offset.y()) +
+                        metrics.horizontalAdvance(label.name) / 2 + metrics.height() / 2 + 6.0);
+    bounds |= QRectF(label.robot.x() - reach, label.robot.y() - reach, 2 * reach, 2 * reach);
+  }
+  if (labels.empty() && m_labels.empty()) return;
+  prepareGeometryChange();
+  m_labels = std::move(labels);
+  m_bounds = bounds;
+  update();
+}
+
+void NameLabelsItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  const QColor line = theme().fieldLines,
+               shade = theme().fieldBorder.darker(isDarkTheme() ? 160 : 200);
+  for (const Label& label : m_labels) {
+    const ScreenPainting screen(painter, label.robot);
+    const double away = std::hypot(label.offset.x(), label.offset.y());
+    if (label.apart && away > label.radius) {
+      painter->setPen(QPen(line, 1.0));
+      painter->drawLine(label.offset * (label.radius / away), label.offset * 0.9);
+    }
+    drawHaloText(painter, label.offset, label.name, nameFont(), line, shade);
+  }
+}
+
+}  // namespace pitchboard::ui
