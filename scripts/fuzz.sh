@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs the fuzz targets for a bounded time: scripts/fuzz.sh [SECONDS each] [text|drawings|referee|profile|session|formats ...]
+# Runs the fuzz targets (tests/fuzz/fuzz_NAME.cpp) for a bounded time: scripts/fuzz.sh [SECONDS each] [NAME ...]
 # New inputs stay in build/fuzz/corpus; an input that breaks something ends the run with an error and
 # stands in build/fuzz/findings. Turn it into a test.
 set -euo pipefail
@@ -9,7 +9,10 @@ seconds=${1:-60}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "error: SECONDS must be a whole number" >&2; exit 2; }
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(text drawings referee profile session formats)
+all=(tests/fuzz/fuzz_*.cpp)
+all=("${all[@]##*/fuzz_}")
+all=("${all[@]%.cpp}")
+[ ${#targets[@]} -gt 0 ] || targets=("${all[@]}")
 
 cmake --preset fuzz >/dev/null
 build=build/fuzz
@@ -17,10 +20,11 @@ ninja -C "$build" -j2 "${targets[@]/#/fuzz_}"
 
 seeds=$build/seeds
 rm -rf "$seeds"
-mkdir -p "$seeds/text" "$seeds/drawings" "$seeds/referee" "$seeds/profile" "$seeds/session" "$seeds/formats" "$build/findings"
+mkdir -p "${all[@]/#/$seeds/}" "$build/findings"
 cp tests/data/gamecontroller/*.bin "$seeds/referee/"
 cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
+cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$seeds/rules/"
 cp tests/data/sessions/*.mcap "$seeds/session/"
 printf 'PBD1 3 12\nlayer a/b robot 0.5\ncolour #11223344\nwidth 3\narrow 0 0 1.5 -0.5\ntext 1 1 hello\nmore c\ndisc 1 2 0.3\n' \
   > "$seeds/drawings/shapes.txt"

@@ -68,7 +68,8 @@ class TestManagement : public QObject {
   bool said(const char* text) { return output().contains(text); }
   void endsWithoutRemains(int signal = SIGTERM) {
     std::vector<qint64> pids;
-    for (const char* name : {"localization", "team", "decision", "communication", "own"}) {
+    for (const char* name :
+         {"localization", "team", "decision", "planning", "communication", "own"}) {
       for (const qint64 pid : pidsOf(name)) pids.push_back(pid);
     }
     ::kill(static_cast<pid_t>(m_manager->processId()), signal);
@@ -97,7 +98,8 @@ class TestManagement : public QObject {
     QTest::addColumn<QByteArray>("list");
     QTest::addColumn<QStringList>("order");
     QTest::newRow("as listed by the program")
-        << QByteArray() << QStringList{"localization", "team", "decision", "communication"};
+        << QByteArray()
+        << QStringList{"localization", "team", "decision", "planning", "communication"};
     QTest::newRow("as the file says") << QByteArray("processes = communication, decision\n")
                                       << QStringList{"communication", "decision"};
   }
@@ -138,7 +140,7 @@ class TestManagement : public QObject {
     auto board = SystemVSegments::open(m_key, AttachMode::AttachOnly);
     board->write(m_variables.decisionWorking, 0);
     QTRY_COMPARE(board->read(m_variables.decisionWorking), 1);
-    for (const char* other : {"localization", "team", "communication"}) {
+    for (const char* other : {"localization", "team", "planning", "communication"}) {
       QCOMPARE(pidsOf(other).size(), std::size_t{1});
     }
     endsWithoutRemains();

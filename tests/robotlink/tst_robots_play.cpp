@@ -76,16 +76,20 @@ class TestRobotsPlay : public QObject {
   // A robot that was not told where it attacks finds it out, and never scores on its own goal.
   void aRobotFindsItsSide_data() {
     QTest::addColumn<bool>("left");
-    QTest::newRow("starts facing right") << false;
-    QTest::newRow("starts facing left") << true;
+    QTest::addColumn<double>("x");  // attacking to the right
+    QTest::newRow("starts facing right") << false << -2.0;
+    QTest::newRow("starts facing left") << true << -2.0;
+    QTest::newRow("starts facing right, its goal behind the ball") << false << 2.0;
+    QTest::newRow("starts facing left, its goal behind the ball") << true << 2.0;
   }
   void aRobotFindsItsSide() {
     QFETCH(bool, left);
+    QFETCH(double, x);
     int goals = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      const double side = left ? 1.0 : -1.0;
+      const double side = left ? -1.0 : 1.0;
       Scenario scenario = alone("striker", left ? TeamColor::Red : TeamColor::Blue,
-                                {{side * 2.0, 0.5}, left ? std::numbers::pi : 0.0}, "realistic");
+                                {{side * x, 0.5}, left ? std::numbers::pi : 0.0}, "realistic");
       scenario.settings.seed = seed;
       scenario.settings.afterGoal = sim::AfterGoal::StopClock;
       MatchOptions options;

@@ -252,8 +252,8 @@ class TestRuntimeProfile : public QObject {
     match.tick();
     QVERIFY(namesOf(match, 2).empty());
     for (const int other : {1, 3, 4, 5, 6}) {
-      QCOMPARE(namesOf(match, other),
-               (std::vector<std::string>{"localization", "team", "decision", "communication"}));
+      QCOMPARE(namesOf(match, other), (std::vector<std::string>{"localization", "team", "decision",
+                                                                "planning", "communication"}));
     }
     QVERIFY(match.robotsOfOthers().empty());
     const auto mine = SystemVSegments::open(m_base + 200, AttachMode::AttachOnly);

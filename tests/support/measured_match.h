@@ -68,7 +68,9 @@ inline MatchMeasure playMatch(SimulatedMatch& match, double seconds) {
   const double rate = match.simulation().state().settings.tickRate;
   const auto ticks = static_cast<int>(seconds * rate);
   const auto second = static_cast<int>(rate);
-  const double touch = 2 * match.simulation().state().settings.field.robotRadius + 0.005;
+  const auto radius = [&match](std::size_t robot) {
+    return sim::robotRadius(match.simulation().state(), robot);
+  };
   long long touching = 0, samples = 0;
   std::vector<char> touched(64 * 64, 0);
   for (int t = 1; t <= ticks; ++t) {
@@ -86,7 +88,7 @@ inline MatchMeasure playMatch(SimulatedMatch& match, double seconds) {
       for (std::size_t j = 0; j < n; ++j) {
         if (i == j) continue;
         const Point a = now.robots[i].pose.position, b = now.robots[j].pose.position;
-        const bool contact = distance(a, b) < touch;
+        const bool contact = distance(a, b) < radius(i) + radius(j) + 0.005;
         any = any || contact;
         char& before = touched[i * 64 + j];
         measure.collisions += contact && !before && i < j;

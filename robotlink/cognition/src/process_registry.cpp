@@ -8,6 +8,7 @@
 #include <robotlink/cognition/naive_decision.h>
 
 #include "localization/localization.h"
+#include "planning/planning.h"
 #include "soccer/behaviour.h"
 #include "team/communication.h"
 #include "team/team_talk.h"
@@ -64,6 +65,8 @@ constexpr std::array processes{
                 "pitchboard-robot team --robot 1 --team 0"},
     ProcessInfo{"decision", "chooses the robot's action", makeDecision,
                 "pitchboard-robot decision --robot 1 --behaviour striker"},
+    ProcessInfo{"planning", "walks to the target that decision gives, round what stands in the way",
+                makePlanning, "pitchboard-robot planning --robot 1"},
     ProcessInfo{"communication", "hears the referee, sends telemetry and team messages by UDP",
                 makeCommunication,
                 "pitchboard-robot communication --robot 1 --udp-address 127.0.0.1"},

@@ -37,13 +37,13 @@ Result<void> checkPublishedTree(const std::map<std::string, std::string>& values
 
 }  // namespace
 
-Result<RuntimeProfile> SimulatedMatch::runtimeFor(const ScenarioRobot& robot) const {
+Result<RuntimeProfile> SimulatedMatch::runtimeFor(const Wish& wish) const {
   if (m_options.cognition == Cognition::None) {
     return loadRuntime({std::string(ownRuntime), {}, {}});
   }
-  RuntimeChoice choice = m_scenario.runtimeOf(robot);
+  RuntimeChoice choice = wish.choice;
   // Without a behaviour of ours the robot is an obstacle, or somebody else's.
-  if (!choice.isChosen() && robot.behaviour == noBehaviour) choice.profile = ownRuntime;
+  if (!choice.isChosen() && wish.behaviour == noBehaviour) choice.profile = ownRuntime;
   if (!choice.isChosen()) choice = m_options.runtime;
   return loadRuntime(choice);
 }
@@ -105,12 +105,15 @@ bool SimulatedMatch::wants(const Seat& seat, const ProfileProcess& process) cons
       return behaviour ? behaviour->usesPose || decides : decides;
     case OnlyFor::Separate:
       return m_options.cognition != Cognition::Inline;
+    case OnlyFor::Target:
+      return behaviour && behaviour->usesPose && seat.runtime.usesExtension();
   }
   return true;
 }
 
 Result<void> SimulatedMatch::startProcesses(Seat& seat) {
   seat.facesLeft = identityOf(seat.id).imuStartsAt180;
+  seat.extended = seat.runtime.usesExtension();
   std::vector<std::unique_ptr<SeatProcess>> all;
   for (const ProfileProcess& profile : seat.runtime.processes) {
     if (!wants(seat, profile)) continue;

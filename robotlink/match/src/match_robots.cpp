@@ -39,14 +39,14 @@ Result<void> checkBehaviour(const std::string& behaviour) {
 
 }  // namespace
 
-Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const ScenarioRobot& robot) {
-  const RobotId id = robot.identity.id;
-  auto runtime = runtimeFor(robot);
+Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const Wish& wish) {
+  const RobotId id = wish.id;
+  auto runtime = runtimeFor(wish);
   if (!runtime) return tl::unexpected(runtime.error());
   auto seat = std::make_unique<Seat>(Blackboard::onHeap());
   seat->id = id;
-  seat->behaviour = robot.behaviour;
-  seat->choice = m_scenario.runtimeOf(robot);
+  seat->behaviour = wish.behaviour;
+  seat->choice = wish.choice;
   bool fresh = true;
   if (sharesBoard(*seat, *runtime)) {
     if (auto identified = identify(); !identified) return tl::unexpected(identified.error());
@@ -88,7 +88,7 @@ Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
     (void)m_simulation.removeRobot(id);
     return tl::unexpected(error);
   };
-  auto seat = makeSeat(robot);
+  auto seat = makeSeat({id, robot.behaviour, m_scenario.runtimeOf(robot)});
   if (!seat) return giveUp(seat.error());
   for (std::size_t i = 0; i < m_nextWrite; ++i) {
     const ResolvedWrite& write = m_writes[i];
@@ -129,7 +129,8 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   for (const sim::RobotIdentity& identity : moment.state.robots) {
     if (seat(identity.id)) continue;
     const MomentRobot* known = moment.robot(identity.id);
-    auto made = makeSeat({identity, {}, known ? known->behaviour : std::string(noBehaviour), {}});
+    auto made = makeSeat({identity.id, known ? known->behaviour : std::string(noBehaviour),
+                          m_scenario.runtimeOf(identity.team, {})});
     if (!made) return tl::unexpected(made.error());
     added.push_back(std::move(*made));
   }
@@ -173,7 +174,7 @@ Result<void> SimulatedMatch::setBehaviour(RobotId id, const std::string& behavio
   const std::string before = std::exchange(changed->behaviour, behaviour);
   // Nobody said who runs, so the behaviour does: without one the robot is somebody else's.
   const RuntimeProfile runtimeBefore = changed->runtime;
-  auto runtime = runtimeFor({identityOf(id), {}, behaviour, changed->choice});
+  auto runtime = runtimeFor({id, behaviour, changed->choice});
   if (!runtime) {
     changed->behaviour = before;
     return tl::unexpected(runtime.error());
@@ -207,7 +208,8 @@ Result<void> SimulatedMatch::setRuntime(RobotId id, const RuntimeChoice& choice)
     return failure(ErrorCode::NotFound,
                    "there is no robot " + std::to_string(id.value) + " on the field");
   }
-  auto runtime = runtimeFor({identityOf(id), {}, changed->behaviour, choice});
+  auto runtime =
+      runtimeFor({id, changed->behaviour, m_scenario.runtimeOf(identityOf(id).team, choice)});
   if (!runtime) return tl::unexpected(runtime.error());
   if (changed->board.key() == 0 && runtime->hasOwn() && choice.isChosen()) {
     return failure(

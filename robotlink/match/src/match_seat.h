@@ -36,6 +36,7 @@ struct SimulatedMatch::Seat {
   std::string behaviour;
   RuntimeChoice choice;              ///< as told for this robot; may be nothing
   RuntimeProfile runtime;            ///< what that means
+  bool extended = false;             // its decision knows the extension of the map
   bool facesLeft = false;            // what its processes were told
   std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;

@@ -31,6 +31,7 @@ SimulatedMatch::SimulatedMatch(const Scenario& scenario, const MatchOptions& opt
       m_catalog(&catalog),
       m_variables(catalog),
       m_bridge(m_variables),
+      m_extendedBridge(RobotVariables(catalog.withExtension())),
       m_events(std::make_unique<MatchEvents>()),
       m_referee(std::make_unique<MatchReferee>()),
       m_processes(std::make_unique<ProcessManager>()) {}
@@ -47,6 +48,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
   m_catalog = other.m_catalog;
   m_variables = std::move(other.m_variables);
   m_bridge = std::move(other.m_bridge);
+  m_extendedBridge = std::move(other.m_extendedBridge);
   m_writes = std::move(other.m_writes);
   m_seats = std::move(other.m_seats);
   m_commands = std::move(other.m_commands);
@@ -207,6 +209,10 @@ void SimulatedMatch::followJump() {
   m_goalSeen = m_outSeen = false;
 }
 
+const BlackboardBridge& SimulatedMatch::bridgeOf(const Seat& seat) const {
+  return seat.extended ? m_extendedBridge : m_bridge;
+}
+
 void SimulatedMatch::tick() {
   if (m_simulation.state().tick != m_expectedTick) followJump();
   applyDueWrites();
@@ -218,7 +224,7 @@ void SimulatedMatch::tick() {
     m_outSeen = m_outSeen || event.kind == sim::EventKind::BallOut;
   }
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
-    m_bridge.publish(m_percepts[i], m_seats[i]->board);
+    bridgeOf(*m_seats[i]).publish(m_percepts[i], m_seats[i]->board);
   }
   m_expectedTick = m_simulation.state().tick;
   if (m_simulation.state().game) {

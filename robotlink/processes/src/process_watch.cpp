@@ -128,17 +128,25 @@ void ProcessManager::sample(Entry& entry, Time now) {
 }
 
 /// How many cycles a program does in a second of its own time is the same at every speed, as long
-/// as it has time to sleep. One that never sleeps is one that nobody can judge.
+/// as it has time to sleep. What it does at ×1 is what it has to do; at a higher speed, that is
+/// learned only while work takes next to nothing of its time. One that never sleeps is one that
+/// nobody can judge.
 void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
-  constexpr double busy = 0.9;  // share of the time in which it worked, or waited for a core
+  constexpr double busy = 0.9, idle = 0.1;
   ProcessStatus& status = statusOf(entry);
+  const double speed = entry.time->speed();
   const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
-  const double rate = cycles / (seconds * entry.time->speed());
-  if ((use.readySeconds - entry.readySeconds) / seconds < busy) {
+  const double rate = cycles / (seconds * speed);
+  // In which it worked, or waited for a core.
+  const double share = std::clamp((use.readySeconds - entry.readySeconds) / seconds, 0.0, 1.0);
+  if (share < (speed <= 1.0 ? busy : idle)) {
     entry.cyclesPerSecond = entry.cyclesPerSecond > 0.0 ? (entry.cyclesPerSecond + rate) / 2 : rate;
     status.achieved = status.speed;
   } else if (entry.cyclesPerSecond > 0.0) {
-    status.achieved = status.speed * std::min(1.0, rate / entry.cyclesPerSecond);
+    // While it sleeps its time passes as it should: no more than the rest can be lost.
+    status.achieved = status.speed * std::clamp(rate / entry.cyclesPerSecond, 1.0 - share, 1.0);
+  } else if (share < busy) {
+    status.achieved = status.speed * (1.0 - share);
   }
 }
 

@@ -21,7 +21,8 @@ constexpr double longestTime = 3600.0;  // s
 
 constexpr std::array<std::string_view, 3> builtIn{referenceRuntime, ownRuntime, "published-tree"};
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
-constexpr std::array<std::string_view, 4> conditions{"everyone", "behaviour", "pose", "separate"};
+constexpr std::array<std::string_view, 5> conditions{"everyone", "behaviour", "pose", "separate",
+                                                     "target"};
 
 struct SignalName {
   std::string_view name;
@@ -187,6 +188,11 @@ Result<RuntimeProfile> named(const std::string& nameOrPath) {
 bool RuntimeProfile::hasOwn() const {
   return processes.empty() || std::any_of(processes.begin(), processes.end(),
                                           [](const auto& one) { return !one.isReference(); });
+}
+
+bool RuntimeProfile::usesExtension() const {
+  return std::any_of(processes.begin(), processes.end(),
+                     [](const auto& one) { return one.reference == "decision"; });
 }
 
 std::vector<std::string> builtInRuntimes() {

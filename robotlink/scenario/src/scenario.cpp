@@ -4,9 +4,13 @@
 namespace pitchboard::link {
 
 RuntimeChoice Scenario::runtimeOf(const ScenarioRobot& robot) const {
-  if (robot.runtime.isChosen()) return robot.runtime;
-  const auto team = runtimes.find(robot.identity.team);
-  return team == runtimes.end() ? RuntimeChoice{} : team->second;
+  return runtimeOf(robot.identity.team, robot.runtime);
+}
+
+RuntimeChoice Scenario::runtimeOf(TeamColor team, const RuntimeChoice& own) const {
+  if (own.isChosen()) return own;
+  const auto found = runtimes.find(team);
+  return found == runtimes.end() ? RuntimeChoice{} : found->second;
 }
 
 }  // namespace pitchboard::link

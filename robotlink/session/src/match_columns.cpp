@@ -9,6 +9,8 @@
 #include <base/angles.h>
 #include <simcore/world/published_frame.h>
 
+#include "game_columns.h"
+
 namespace pitchboard::link {
 namespace {
 
@@ -172,6 +174,8 @@ std::vector<ColumnInfo> truthColumns() {
     out.push_back(infoOf(column));
     if (column.kind == ColumnKind::Enumeration) out.back().labels = actionLabels();
   }
+  const auto ofGame = playerColumns();
+  out.insert(out.end(), ofGame.begin(), ofGame.end());
   return out;
 }
 
@@ -195,6 +199,7 @@ void readTruth(const SimulatedMatch& match, const sim::Snapshot& snapshot,
     r.seenBallBearing = radiansFromDegrees(static_cast<double>(board.read(v.visionPanDeg)));
   }
   for (std::size_t i = 0; i < robotColumns.size(); ++i) out[i] = robotColumns[i].read(r);
+  readPlayer(match.simulation().state(), robot.identity, out.subspan(robotColumns.size()));
 }
 
 std::vector<ColumnInfo> matchColumns() {
@@ -204,13 +209,17 @@ std::vector<ColumnInfo> matchColumns() {
   }
   out.push_back(
       {"TICK_TIME", ColumnType::Float64, "µs", timing, ColumnKind::Number, {}, microseconds});
+  const auto ofGame = gameColumns();
+  out.insert(out.end(), ofGame.begin(), ofGame.end());
   return out;
 }
 
-void readMatch(const sim::Snapshot& snapshot, double tickTime_us, std::span<double> out) {
+void readMatch(const sim::WorldState& world, const sim::Snapshot& snapshot, double tickTime_us,
+               std::span<double> out) {
   for (std::size_t i = 0; i < theMatchColumns.size(); ++i)
     out[i] = theMatchColumns[i].read(snapshot);
   out[theMatchColumns.size()] = tickTime_us;
+  readGame(world, out.subspan(theMatchColumns.size() + 1));
 }
 
 }  // namespace pitchboard::link

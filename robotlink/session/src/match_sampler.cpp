@@ -55,7 +55,8 @@ void MatchSampler::sampleInto(std::span<const Outlet> outlets, const SimulatedMa
   const auto append = [&](std::size_t group, const telemetry::RowView& row) {
     for (const Outlet& outlet : outlets) outlet.sink->append(outlet.groups[group], row);
   };
-  readMatch(m_snapshot, std::chrono::duration<double, std::micro>(tickTime).count(), m_matchValues);
+  readMatch(match.simulation().state(), m_snapshot,
+            std::chrono::duration<double, std::micro>(tickTime).count(), m_matchValues);
   append(0, {m_snapshot.time, {}, m_matchValues});
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotSnapshot& robot = m_snapshot.robots[i];

@@ -173,17 +173,21 @@ class Maker {
       note("Nobody knows where " + name + " was; it stands at the centre mark.");
     }
     const Point wanted = robot.pose.position;
-    robot.pose.position = inside(field, wanted, field.robotRadius);
+    robot.pose.position = inside(field, wanted, radiusOf(robot));
     robot.pose.yaw = std::remainder(robot.pose.yaw, 2 * 3.141592653589793);
     if (robot.pose.position != wanted) {
       note(name + " stood outside the walls and was moved inside.");
     }
   }
 
+  double radiusOf(const ScenarioRobot& robot) const {
+    return robot.model.radius > 0.0 ? robot.model.radius
+                                    : m_out.scenario.settings.field.robotRadius;
+  }
+
   void pushApart() {
     auto& robots = m_out.scenario.robots;
     const sim::FieldSpec& field = m_out.scenario.settings.field;
-    const double least = 2 * field.robotRadius + gap;
     std::set<std::size_t> moved;
     for (int round = 0; round < mostPushes; ++round) {
       bool free = true;
@@ -192,14 +196,15 @@ class Maker {
           Point& p = robots[a].pose.position;
           Point& q = robots[b].pose.position;
           const double between = distance(p, q);
+          const double least = radiusOf(robots[a]) + radiusOf(robots[b]) + gap;
           if (between >= least - gap / 2) continue;
           free = false;
           // On the very same spot: apart in a direction that differs from pair to pair.
           const double angle = between > 1e-9 ? direction(p, q) : static_cast<double>(7 * a + b);
           const double push = (least - between) / 2;
           const Point step{push * std::cos(angle), push * std::sin(angle)};
-          p = inside(field, {p.x - step.x, p.y - step.y}, field.robotRadius);
-          q = inside(field, {q.x + step.x, q.y + step.y}, field.robotRadius);
+          p = inside(field, {p.x - step.x, p.y - step.y}, radiusOf(robots[a]));
+          q = inside(field, {q.x + step.x, q.y + step.y}, radiusOf(robots[b]));
           moved.insert({a, b});
         }
       }

@@ -11,6 +11,7 @@
 #include <robotlink/frame/belief.h>
 #include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_rows.h>
+#include <robotlink/match/referee_packet.h>
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/session/live_recorder.h>
 #include <simcore/world/parameters.h>
@@ -238,6 +239,7 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
     }
     addRobot(i, time, known->second, frame);
   }
+  if (match) addGame(*match, frame);
   for (std::size_t a = 0; a < frame.robots.size(); ++a) {
     for (std::size_t b = a + 1; b < frame.robots.size(); ++b) {
       RobotFrame &one = frame.robots[a], &other = frame.robots[b];
@@ -247,6 +249,29 @@ MatchFrame RecordedFrames::build(double time, LookBack&& lookBack) {
     }
   }
   return frame;
+}
+
+/// The scoreboard of a simulated match, from the columns of its game.
+void RecordedFrames::addGame(std::size_t match, MatchFrame& frame) {
+  auto world = gameFromRow(*layoutOf(match).game, m_rows[match].view());
+  if (!world) return;
+  const std::size_t left = world->game->leftTeam();
+  world->game->teams[left].score = frame.snapshot.score.left;
+  world->game->teams[1 - left].score = frame.snapshot.score.right;
+  for (std::size_t i = 0; i < m_groups.size(); ++i) {
+    if (!m_groups[i] || !m_rows[i].present) continue;
+    const Layout& layout = layoutOf(i);
+    if (layout.robot.value == 0 || layout.live || !layout.player) continue;
+    if (std::abs(m_rows[i].time - m_rows[match].time) > timeTolerance) continue;
+    if (const RobotFrame* robot = frame.robot(layout.robot)) {
+      addPlayer(*layout.player, m_rows[i].view(), robot->identity, *world);
+    }
+  }
+  frame.referee = refereeView(*world);
+  frame.refereeAutomatic = world->settings.referee->automatic;
+  for (RobotFrame& robot : frame.robots) {
+    robot.penalty = refereePenalty(*world, robot.identity);
+  }
 }
 
 void RecordedFrames::fillMatch(std::size_t group, MatchFrame& frame) {

@@ -5,11 +5,14 @@
 // message and the truth call the same thing differently. Private to robotlink.
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/row_slot.h>
+
+#include "game_columns.h"
 
 namespace pitchboard::link {
 
@@ -32,8 +35,10 @@ struct RecordedFrames::Layout {
       scoreLeft = findSlot(group, {"SCORE_LEFT"});
       scoreRight = findSlot(group, {"SCORE_RIGHT"});
       tickTime = findSlot(group, {"TICK_TIME"});
+      game.emplace(group);
       return;
     }
+    player.emplace(group);
     trueX = findSlot(group, {"TRUE_X"});
     trueY = findSlot(group, {"TRUE_Y"});
     trueYaw = findSlot(group, {"TRUE_YAW"});
@@ -109,6 +114,8 @@ struct RecordedFrames::Layout {
   RowSlot actionA, voltage, lost, ballDist, pan, locX, locY, locTheta, belief, age, rate, loss,
       errors, volts, jitter, lostMessages, duplicates, late;
   std::array<RowSlot, flagCount> flags;
+  std::optional<GameSlots> game;      // of the match
+  std::optional<PlayerSlots> player;  // of a robot
 };
 
 }  // namespace pitchboard::link

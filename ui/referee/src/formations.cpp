@@ -47,6 +47,24 @@ Point ballOf(Kind kind, const sim::FieldSpec& field) {
   return {};
 }
 
+sim::SetPlay setPlayOf(Kind kind) {
+  switch (kind) {
+    case KickOff:
+      return sim::SetPlay::None;
+    case Corner:
+      return sim::SetPlay::CornerKick;
+    case ThrowIn:
+      return sim::SetPlay::ThrowIn;
+    case GoalKick:
+      return sim::SetPlay::GoalKick;
+    case FreeKick:
+      return sim::SetPlay::DirectFreeKick;
+    case PenaltyKick:
+      return sim::SetPlay::PenaltyKick;
+  }
+  return sim::SetPlay::None;
+}
+
 }  // namespace
 
 const std::vector<Formation>& formations() {
@@ -70,6 +88,8 @@ FormationPlaces placesOf(std::size_t index, const link::MatchFrame& frame, bool 
   const double turn = leftAttacks ? 1.0 : -1.0;
   const Point ball = ballOf(kind, field);
   places.ball = {turn * ball.x, turn * ball.y};
+  places.setPlay = setPlayOf(kind);
+  places.attackers = link::teamOn(leftAttacks ? link::Side::Left : link::Side::Right, robots);
   for (const link::Side side : {link::Side::Left, link::Side::Right}) {
     const TeamColor team = link::teamOn(side, robots);
     std::vector<sim::RobotIdentity> own;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <robotlink/frame/match_frame.h>
+#include <simcore/world/game_state.h>
 
 namespace pitchboard::ui {
 
@@ -23,6 +24,8 @@ const std::vector<Formation>& formations();
 struct FormationPlaces {
   Point ball;
   std::vector<std::pair<RobotId, Pose>> robots;  ///< of the two teams that play
+  sim::SetPlay setPlay = sim::SetPlay::None;     ///< that begins like this
+  TeamColor attackers = TeamColor::Blue;         ///< who has the ball
 };
 
 /// `leftAttacks`: the team that defends the left goal has the ball. `index` of formations().

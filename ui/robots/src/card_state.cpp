@@ -18,6 +18,16 @@ bool communicationRuns(const link::RobotFrame& robot) {
   });
 }
 
+/// Which processes run for it, on a line of its own.
+QString runsText(const link::RobotFrame& robot) {
+  QStringList names;
+  for (const link::ProcessStatus& one : robot.processes()) {
+    if (one.pid != 0) names << QString::fromStdString(one.name);
+  }
+  return names.isEmpty() ? QString()
+                         : QStringLiteral("\nRuns: ") + names.join(QStringLiteral(", "));
+}
+
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
 void tagProcesses(CardState& card, const link::RobotFrame& robot) {
   for (const link::ProcessStatus& one : robot.processes()) {
@@ -150,7 +160,7 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     // Age only matters when it grows; a small one would flicker.
     card.detail = (frame.paused ? QStringLiteral("paused") : ageText(m_age)) +
                   QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
-    card.detailTip = QStringLiteral("Age of the tick shown; distance walked");
+    card.detailTip = QStringLiteral("Age of the tick shown; distance walked") + runsText(robot);
     if (robot.board) card.values = boardValues(robot, *robot.board);
     chooseTag(card, robot.statistics, action, robot.fallen);
     if (card.tagKind == TagKind::None && robot.penalty) {

@@ -69,10 +69,15 @@ RobotVariables::RobotVariables(const VariableCatalog& catalog) {
       names.floatVar("VISION_YELLOW_LANDMARK_DEG"), names.floatVar("VISION_PURPLE_LANDMARK_DEG")};
   for (std::size_t robot = 0; robot < robotDist.size(); ++robot) {
     char name[32];
+    constexpr std::size_t published = 11;
+    const auto floatVar = [&](const char* wanted) {
+      if (robot < published) return names.floatVar(wanted);
+      return catalog.floatVar(wanted).value_or(FloatVar{-1});
+    };
     std::snprintf(name, sizeof name, "VISION_RBT%02d_DIST", static_cast<int>(robot) + 1);
-    robotDist[robot] = names.floatVar(name);
+    robotDist[robot] = floatVar(name);
     std::snprintf(name, sizeof name, "VISION_RBT%02d_ANGLE", static_cast<int>(robot) + 1);
-    robotAngle[robot] = names.floatVar(name);
+    robotAngle[robot] = floatVar(name);
   }
 }
 

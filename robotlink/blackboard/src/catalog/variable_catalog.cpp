@@ -93,17 +93,46 @@ std::optional<Error> checkCatalogText(std::string_view& text, std::string_view s
   return std::nullopt;
 }
 
+// Constants that need parsing: made once and never changed.
 const VariableCatalog& VariableCatalog::published() {
-  // Made once and never changed: a constant that needs parsing.
-  static const VariableCatalog catalog = [] {
-    auto read = fromJson(resourceText("blackboard.json"), "blackboard.json");
-    if (!read) {
-      std::fprintf(stderr, "pitchboard: built-in %s\n", read.error().text().c_str());
-      std::abort();
-    }
-    return *std::move(read);
-  }();
+  static const VariableCatalog catalog = builtIn("blackboard.json");
   return catalog;
+}
+
+const VariableCatalog& VariableCatalog::extended() {
+  static const VariableCatalog catalog = published().withExtension();
+  return catalog;
+}
+
+VariableCatalog VariableCatalog::withExtension() const {
+  static const VariableCatalog extension = builtIn("blackboard_extension.json");
+  const auto word = [](const Variable& variable) {
+    return variable.index + (variable.type == VariableType::Float ? Blackboard::floatOffset : 0);
+  };
+  VariableCatalog out = *this;
+  for (const Variable& more : extension.variables()) {
+    const bool taken = std::any_of(
+        m_variables.begin(), m_variables.end(),
+        [&](const Variable& own) { return own.name == more.name || word(own) == word(more); });
+    if (!taken) out.m_variables.push_back(more);
+  }
+  out.sort();
+  return out;
+}
+
+void VariableCatalog::sort() {
+  std::sort(m_variables.begin(), m_variables.end(), [](const Variable& a, const Variable& b) {
+    return std::tie(a.type, a.index) < std::tie(b.type, b.index);
+  });
+}
+
+VariableCatalog VariableCatalog::builtIn(const char* resource) {
+  auto read = fromJson(resourceText(resource), resource);
+  if (!read) {
+    std::fprintf(stderr, "pitchboard: built-in %s\n", read.error().text().c_str());
+    std::abort();
+  }
+  return *std::move(read);
 }
 
 Result<VariableCatalog> VariableCatalog::fromFile(const std::string& path) {
@@ -179,10 +208,7 @@ Result<VariableCatalog> VariableCatalog::make(const std::vector<CatalogEntry>& e
     accepted.push_back(&entry);
     catalog.m_variables.push_back({entry.name, entry.type, static_cast<int>(entry.index)});
   }
-  std::sort(catalog.m_variables.begin(), catalog.m_variables.end(),
-            [](const Variable& a, const Variable& b) {
-              return std::tie(a.type, a.index) < std::tie(b.type, b.index);
-            });
+  catalog.sort();
   return catalog;
 }
 

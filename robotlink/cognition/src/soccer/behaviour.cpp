@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "soccer/behaviour.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <base/angles.h>
@@ -14,7 +16,7 @@ Choice Behaviour::choose(const WorldModel& world) {
       return play(world);
     case Referee::Ready:
       if (world.localized()) {
-        Choice choice = walkTo(world, kickOff(world), Intention::Walk);
+        Choice choice = goTo(world, kickOff(world), atKickOff());
         choice.search = true;
         return choice;
       }
@@ -29,21 +31,21 @@ Choice Behaviour::choose(const WorldModel& world) {
   return {acts::stop, Intention::Idle, {}, true};
 }
 
-Choice Behaviour::walkTo(const WorldModel& world, const Pose& pose, Intention intention,
-                         double near) {
-  const auto act = m_walk.step(world, {pose, near, 0.35, true});
-  return {act.value_or(acts::stop), intention, pose.position, !world.seesBall()};
+Choice Behaviour::goTo(const WorldModel& world, const Pose& pose, Intention intention,
+                       double near) {
+  const auto target = walkTo(world, pose, near, 0.35, Ball::KeepClear);
+  return {target ? Move(*target) : acts::stop, intention, pose.position, !world.seesBall()};
 }
 
 Choice Behaviour::lookForBall(const WorldModel& world) {
-  return {m_search.step(world, m_walk), Intention::Search, {}, true};
+  return {m_search.step(world), Intention::Search, {}, true};
 }
 
 Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
   if (world.seesBall()) {
     m_told = world.now();
     m_search.restart();
-    return {m_attack.step(world, m_walk, aimFrom(world, ball)), Intention::Ball, ball, false};
+    return {m_attack.step(world, aimFrom(world, ball)), Intention::Ball, ball, false};
   }
   // Seen by a team-mate or remembered. If it is not there, it is looked for.
   constexpr double patience = 4.0;  // s at a place where no ball is
@@ -52,8 +54,8 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
   if (!shouldSee) m_told = world.now();
   if (world.now() - m_told > patience) return lookForBall(world);
   const Pose there{ball, direction(world.pose().position, ball)};
-  const auto act = m_walk.step(world, {there, 0.5, 0.5, false});
-  return {act.value_or(acts::turnRight), Intention::Ball, ball, true};
+  const auto target = walkTo(world, there, 0.5, 0.5, Ball::Ignore);
+  return {target ? Move(*target) : acts::turnRight, Intention::Ball, ball, true};
 }
 
 bool Striker::takesBall(const WorldModel& world, const Point& ball) const {
@@ -71,7 +73,7 @@ Choice Striker::play(const WorldModel& world) {
   m_attacking = !world.localized() || takesBall(world, *ball);
   if (m_attacking) return toBall(world, *ball);
   m_search.restart();
-  return walkTo(world, supportPose(world, *ball), Intention::Support, 0.25);
+  return goTo(world, supportPose(world, *ball), Intention::Support, 0.25);
 }
 
 Pose Striker::supportPose(const WorldModel& world, const Point& ball) const {
@@ -87,39 +89,47 @@ Pose Striker::kickOff(const WorldModel& world) {
   return {{-0.5 * world.field().centreCircleDiameter - 0.35, 0.0}, 0.0};
 }
 
+/// Where supporters stand, each in a place of its own: whoever is nearest to one takes it, and
+/// everybody works out the same from what the team tells. Settled soon, so that nobody changes
+/// places on the way.
 Pose Supporter::kickOff(const WorldModel& world) {
+  constexpr double forgets = 5.0, settles = 1.0;  // s; until all have told that they support
   const double x = -0.25 * world.field().length, y = 0.22 * world.field().width;
-  // The nearer side, unless a team-mate is nearer to it: two supporters take one each. Chosen once
-  // for a kick-off, so that nobody changes sides on the way.
-  constexpr double forgets = 5.0;  // s
-  if (world.now() - m_sideAsked > forgets) {
-    m_side = world.pose().position.y >= 0.0 ? 1.0 : -1.0;
-    const Point place{x, m_side * y};
-    const double own = distance(world.pose().position, place);
-    // Everybody just walks then: of three or more (a keeper, too) the one nearest to the striker's
-    // place is taken for the striker, who needs none of these.
-    const Point front = Striker::kickOff(world).position;
-    const TeamMate* striker = nullptr;
-    int mates = 0;
-    for (const auto& mate : world.mates()) {
-      if (!mate) continue;
-      ++mates;
-      if (!striker || distance(mate->position, front) < distance(striker->position, front)) {
-        striker = &*mate;
-      }
-    }
-    if (mates < 3) striker = nullptr;
-    for (const auto& mate : world.mates()) {
-      const bool supports = mate && &*mate != striker && mate->intention != Intention::Keep;
-      if (supports && distance(mate->position, place) < own - 0.05 &&
-          distance(mate->position, place) < distance(mate->position, {x, -m_side * y})) {
-        m_side = -m_side;
-        break;
-      }
-    }
+  const std::array<Point, mostTeamMates + 1> places{{{x, y}, {x, -y}, {x, 0.0}, {x - 1.0, 0.0}}};
+  if (world.now() - m_placeAsked > forgets) m_placeBegan = world.now();
+  if (world.now() - m_placeBegan < settles) m_place = freePlace(world, places);
+  m_placeAsked = world.now();
+  return {places[m_place], 0.0};
+}
+
+std::size_t Supporter::freePlace(const WorldModel& world, std::span<const Point> places) {
+  std::vector<Point> supporters{world.pose().position};  // this robot first
+  for (const auto& mate : world.mates()) {
+    if (mate && mate->intention == Intention::Support) supporters.push_back(mate->position);
   }
-  m_sideAsked = world.now();
-  return {{x, m_side * y}, 0.0};
+  // As many places as supporters; two take the sides.
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < std::max<std::size_t>(2, supporters.size()); ++i) free.push_back(i);
+  std::vector<bool> placed(supporters.size(), false);
+  while (true) {
+    std::size_t who = 0, where = 0;
+    double least = 1e9;
+    for (std::size_t s = 0; s < supporters.size(); ++s) {
+      for (std::size_t f = 0; f < free.size() && !placed[s]; ++f) {
+        const double way = distance(supporters[s], places[free[f]]);
+        // Two of the same way: the one on the left first, whoever asks.
+        const bool nearer =
+            way < least - 1e-9 || (way < least + 1e-9 && supporters[s].y > supporters[who].y);
+        if (!nearer) continue;
+        who = s;
+        where = f;
+        least = way;
+      }
+    }
+    if (who == 0) return free[where];
+    placed[who] = true;
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(where));
+  }
 }
 
 bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
@@ -145,7 +155,7 @@ Choice Keeper::play(const WorldModel& world) {
   if (!world.localized() || !ball) {
     m_clearing = false;
     if (world.localized() && distance(world.pose().position, kickOff(world).position) > 0.4) {
-      Choice home = walkTo(world, kickOff(world), Intention::Keep, 0.2);
+      Choice home = goTo(world, kickOff(world), Intention::Keep, 0.2);
       home.search = true;
       return home;
     }
@@ -166,7 +176,7 @@ Choice Keeper::play(const WorldModel& world) {
   const double angle = std::clamp(direction(world.ownGoal(), *ball), -1.2, 1.2);
   const Point place{world.ownGoal().x + 0.2 + 0.6 * arc * repeatable::cos(angle),
                     world.ownGoal().y + arc * repeatable::sin(angle)};
-  Choice choice = walkTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
+  Choice choice = goTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
   choice.search = !world.seesBall();
   return choice;
 }

@@ -4,6 +4,8 @@
 // A behaviour: chooses one action a cycle from the world model. To add one, derive from it here or
 // in a file of your own and add a line to the list in cognitive_process.cpp.
 
+#include <span>
+
 #include "soccer/skills.h"
 #include "soccer/world_model.h"
 
@@ -11,7 +13,7 @@ namespace pitchboard::link {
 
 /// What a behaviour decided in one cycle.
 struct Choice {
-  Act act;
+  Move move;
   Intention intention = Intention::Idle;
   std::optional<Point> target;  ///< where it is going, for the team and for display
   bool search = false;          ///< vision shall turn the head to find the ball
@@ -19,23 +21,22 @@ struct Choice {
 
 class Behaviour {
  public:
-  explicit Behaviour(const sim::FieldSpec& field) : m_walk(field) {}
   virtual ~Behaviour() = default;
   /// The referee says play and the robot stands.
   virtual Choice play(const WorldModel& world) = 0;
   /// Where it waits for the kick-off: in its own half and outside the centre circle.
   virtual Pose kickOff(const WorldModel& world) = 0;
+  /// What it tells its team on the way there.
+  virtual Intention atKickOff() const { return Intention::Walk; }
 
   /// Referee and falls first, then play().
   Choice choose(const WorldModel& world);
-  const Walk& walk() const { return m_walk; }
 
  protected:
-  Choice walkTo(const WorldModel& world, const Pose& pose, Intention intention, double near = 0.15);
+  Choice goTo(const WorldModel& world, const Pose& pose, Intention intention, double near = 0.15);
   Choice toBall(const WorldModel& world, const Point& ball);
   Choice lookForBall(const WorldModel& world);
 
-  Walk m_walk;
   Search m_search;
   Attack m_attack;
   double m_told = -1e9;  // when the ball was last where it was said to be
@@ -44,7 +45,6 @@ class Behaviour {
 /// Goes for the ball and the goal; leaves the ball to a team-mate that is there first.
 class Striker : public Behaviour {
  public:
-  using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
 
@@ -57,23 +57,24 @@ class Striker : public Behaviour {
 /// Stays behind and beside the ball; goes for it when it is there clearly before its team-mates.
 class Supporter : public Striker {
  public:
-  using Striker::Striker;
   Pose kickOff(const WorldModel& world) override;
+  Intention atKickOff() const override { return Intention::Support; }
 
  protected:
   bool takesBall(const WorldModel& world, const Point& ball) const override;
 
  private:
-  double m_side = 0.0;        // of its place for the kick-off: +1 left, −1 right
-  double m_sideAsked = -1e9;  // s
+  static std::size_t freePlace(const WorldModel& world, std::span<const Point> places);
+  std::size_t m_place = 0;                          // for the kick-off
+  double m_placeAsked = -1e9, m_placeBegan = -1e9;  // s
 };
 
 /// Stays between the ball and its own goal; clears the ball when it comes near.
 class Keeper : public Behaviour {
  public:
-  using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
+  Intention atKickOff() const override { return Intention::Keep; }
 
  private:
   bool m_clearing = false;
@@ -82,7 +83,6 @@ class Keeper : public Behaviour {
 /// Stands.
 class Idle : public Behaviour {
  public:
-  using Behaviour::Behaviour;
   Choice play(const WorldModel&) override { return {}; }
   Pose kickOff(const WorldModel& world) override { return world.pose(); }
 };

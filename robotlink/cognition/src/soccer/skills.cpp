@@ -11,31 +11,14 @@
 namespace pitchboard::link {
 namespace {
 
+using acts::turn;
 using std::numbers::pi;
 
-constexpr double planPeriod = 0.2;       // s: 5 Hz
-constexpr double robotClearance = 0.12;  // m between two bodies
-constexpr double postClearance = 0.06;
-constexpr double ballClearance = 0.08;
 // Of the distance to the ball, beyond that at which the body touches it (0.22 m for the published
 // robot and ball):
 constexpr double behindBall = 0.14;  // m, where an attack begins
 constexpr double kickDistance = 0.025;
 constexpr double kickBearing = 0.42;  // rad: the published kick's sector reaches 30 degrees
-
-struct Gait {
-  Act act;
-  double direction;  // rad from the heading
-};
-constexpr std::array<Gait, 4> gaits{{{acts::forward, 0.0},
-                                     {acts::sidleLeft, pi / 2},
-                                     {acts::sidleRight, -pi / 2},
-                                     {acts::backward, pi}}};
-
-double speedOf(const WorldModel& world, const Act& act) {
-  const sim::GaitSpeed speed = sim::gaitSpeed(world.body(), act.action, act.b);
-  return repeatable::hypot(speed.forward, speed.left);
-}
 
 /// From where this robot's foot hits the ball surely, m between the centres.
 double kicksFrom(const WorldModel& world) {
@@ -45,82 +28,17 @@ double kicksFrom(const WorldModel& world) {
   return std::max(near, world.body().kickReach - surely);
 }
 
-Act turn(double angle) {
-  return angle > 0.0 ? acts::turnLeft : acts::turnRight;
-}
-
 }  // namespace
 
-void Walk::plan(const WorldModel& world, const Goal& goal) {
-  const sim::FieldSpec& field = world.field();
-  m_obstacles.clear();
-  const double body = 2 * field.robotRadius + robotClearance;
-  for (const Point& mate : world.matePlaces()) m_obstacles.push_back({mate, body});
-  for (const Point& opponent : world.opponents()) m_obstacles.push_back({opponent, body});
-  for (const double x : {-field.halfLength(), field.halfLength()}) {
-    for (const double y : {-field.goalWidth / 2, field.goalWidth / 2}) {
-      m_obstacles.push_back({{x, y}, field.goalPostRadius + field.robotRadius + postClearance});
-    }
-  }
-  if (goal.roundBall && world.seesBall()) {
-    m_obstacles.push_back(
-        {world.toField(world.ballInFront()), field.robotRadius + field.ballRadius + ballClearance});
-  }
-  m_path = m_planner.plan(world.pose().position, goal.pose.position, m_obstacles);
-  m_planned = world.now();
-  m_plannedFor = goal.pose.position;
+std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double near, double facing,
+                             Ball ball) {
+  Target target{pose, near, facing, {}};
+  if (target.isReached(world.pose())) return std::nullopt;
+  if (ball == Ball::KeepClear && world.seesBall()) target.ball = world.toField(world.ballInFront());
+  return target;
 }
 
-std::optional<Act> Walk::step(const WorldModel& world, const Goal& goal) {
-  const Pose& pose = world.pose();
-  const double left = distance(pose.position, goal.pose.position);
-  const double facing = wrapToPi(goal.pose.yaw - pose.yaw);
-  if (left < goal.near) {
-    m_gait = -1;
-    if (std::abs(facing) < goal.facing) return std::nullopt;
-    return turn(facing);
-  }
-  if (world.now() - m_planned >= planPeriod - 1e-9 ||
-      distance(m_plannedFor, goal.pose.position) > 0.15) {
-    plan(world, goal);
-  }
-  if (m_path.points.empty()) return acts::stop;
-  m_stepped = world.now();
-  while (m_path.points.size() > 2 && distance(m_path.next(), pose.position) < 0.08) {
-    m_path.points.erase(m_path.points.begin());
-  }
-  const Point next = world.toLocal(m_path.next());
-  const double bearing = direction({}, next);
-  const double way = std::max(m_path.length, left);
-
-  // The time each gait needs: turning into it, walking, turning to face what the goal asks.
-  constexpr double keepGait = 0.8;  // s that another gait must be better by
-  const double turnSpeed = sim::gaitSpeed(world.body(), acts::turnLeft.action, 0).turn;
-  int best = 0;
-  double least = 1e9;
-  for (std::size_t i = 0; i < gaits.size(); ++i) {
-    const double before = wrapToPi(bearing - gaits[i].direction);
-    const double after = wrapToPi(facing - before);
-    double time =
-        (std::abs(before) + std::abs(after)) / turnSpeed + way / speedOf(world, gaits[i].act);
-    if (static_cast<int>(i) == m_gait) time -= keepGait;
-    if (time < least) {
-      least = time;
-      best = static_cast<int>(i);
-    }
-  }
-  if (best != m_gait) m_turning = true;
-  m_gait = best;
-  const Gait& gait = gaits[static_cast<std::size_t>(best)];
-  const double off = wrapToPi(bearing - gait.direction);
-  // Near the goal an angle matters less than it seems; far away it costs much.
-  const double begin = left < 0.3 ? 0.6 : 0.35, end = 0.12;
-  if (std::abs(off) > begin) m_turning = true;
-  if (std::abs(off) < end) m_turning = false;
-  return m_turning ? turn(off) : gait.act;
-}
-
-Act Search::step(const WorldModel& world, Walk& walk) {
+Move Search::step(const WorldModel& world) {
   constexpr double headTime = 4.5;  // s: one sweep of the head
   constexpr double turnTime = 6.0;
   constexpr double placeTime = 22.0;
@@ -132,11 +50,12 @@ Act Search::step(const WorldModel& world, Walk& walk) {
   const std::array<Point, 5> places{{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
   const auto i = static_cast<std::size_t>(std::max(0.0, time - headTime - turnTime) / placeTime) %
                  places.size();
-  const auto act = walk.step(world, {{places[i], world.pose().yaw}, 0.4, pi, false});
-  return act.value_or(acts::turnRight);
+  const Pose place{places[i], world.pose().yaw};
+  if (const auto target = walkTo(world, place, 0.4, pi, Ball::Ignore)) return *target;
+  return acts::turnRight;
 }
 
-Act Attack::step(const WorldModel& world, Walk& walk, const Point& aim) {
+Move Attack::step(const WorldModel& world, const Point& aim) {
   const Point local = world.ballInFront();
   const Point ball = world.toField(local);
   const double yaw = world.pose().yaw;
@@ -163,8 +82,9 @@ Act Attack::step(const WorldModel& world, Walk& walk, const Point& aim) {
   const double back = touch + behindBall;
   const Point behind{ball.x - back * repeatable::cos(kickYaw),
                      ball.y - back * repeatable::sin(kickYaw)};
-  const auto act = walk.step(world, {{behind, kickYaw}, 0.08, 0.5, true});
-  return act.value_or(atBall(world, error, tolerance));
+  const auto target = walkTo(world, {behind, kickYaw}, 0.08, 0.5, Ball::KeepClear);
+  if (target) return *target;
+  return atBall(world, error, tolerance);
 }
 
 Act Attack::atBall(const WorldModel& world, double error, double tolerance) {

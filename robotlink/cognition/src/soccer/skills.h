@@ -2,69 +2,32 @@
 #pragma once
 
 // What a robot can do, as small pieces that behaviours put together. A skill looks at the world
-// model and answers with one action; none of them touches the blackboard. Metres, radians.
+// model and answers with one action, or with a target for planning; none of them touches the
+// blackboard. Metres, radians. Use from one thread.
 
 #include <optional>
-#include <vector>
+#include <variant>
 
-#include <robotlink/cognition/path_planner.h>
-
+#include "planning/act.h"
+#include "planning/target.h"
 #include "soccer/world_model.h"
 
 namespace pitchboard::link {
 
-/// DECISION_ACTION_A and _B.
-struct Act {
-  int action = 0;
-  int b = 0;
-  bool operator==(const Act&) const = default;
-};
+/// One thing to do: an action, or a target that planning walks to, turned like the world model.
+using Move = std::variant<Act, Target>;
 
-namespace acts {
-inline constexpr Act stop{0, 0}, forward{1, 0}, turnLeft{2, 0}, turnRight{3, 0}, kickRight{4, 0},
-    kickLeft{5, 0}, sidleLeft{6, 0}, sidleRight{7, 0}, forwardSlow{8, 10}, aroundLeft{9, 0},
-    gait{11, 0}, aroundRight{14, 0}, backward{17, 0}, backwardSlow{18, 0};
-}
+enum class Ball { Ignore, KeepClear };
 
-/// Walks to a pose round everything that is known to stand in the way; plans five times a second.
-/// Chooses among walking forward, sideways and backward the gait that gets it there first, turns
-/// included: this body turns slowly (18 degrees a second).
-class Walk {
- public:
-  explicit Walk(const sim::FieldSpec& field)
-      : m_planner(field.halfLength() + field.border - field.robotRadius,
-                  field.halfWidth() + field.border - field.robotRadius) {}
-
-  struct Goal {
-    Pose pose;
-    double near = 0.10;     ///< m, close enough
-    double facing = 0.20;   ///< rad, turned well enough
-    bool roundBall = true;  ///< keeps clear of the ball
-  };
-  /// Nothing when the robot is there.
-  std::optional<Act> step(const WorldModel& world, const Goal& goal);
-  /// The path in use, from the next bend on; turned like the world model. Old when nobody walked
-  /// since `lastStep()`.
-  const Path& path() const { return m_path; }
-  /// When step() led somewhere last, s.
-  double lastStep() const { return m_stepped; }
-
- private:
-  void plan(const WorldModel& world, const Goal& goal);
-  PathPlanner m_planner;
-  std::vector<Obstacle> m_obstacles;
-  Path m_path;
-  double m_planned = -1e9, m_stepped = -1e9;
-  Point m_plannedFor;
-  int m_gait = -1;
-  bool m_turning = false;
-};
+/// Nothing when the robot is there.
+std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double near, double facing,
+                             Ball ball);
 
 /// Looks for the ball: with the head (which vision turns), then turning, then walking to places
 /// where it may lie.
 class Search {
  public:
-  Act step(const WorldModel& world, Walk& walk);
+  Move step(const WorldModel& world);
   void restart() { m_since.reset(); }
 
  private:
@@ -76,7 +39,7 @@ class Search {
 /// ball's side. Never kicks towards its own goal.
 class Attack {
  public:
-  Act step(const WorldModel& world, Walk& walk, const Point& aim);
+  Move step(const WorldModel& world, const Point& aim);
 
  private:
   Act atBall(const WorldModel& world, double error, double tolerance);

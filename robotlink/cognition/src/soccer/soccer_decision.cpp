@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The decision process of the soccer behaviours: world model, behaviour, blackboard, ten times a
-// second.
+// second. Where to walk it leaves to planning.
 #include "soccer/behaviour.h"
 
 namespace pitchboard::link {
@@ -15,9 +15,16 @@ class SoccerDecision final : public CognitiveProcess {
   void step(Blackboard& board, const Clock& clock) override {
     m_world.update(board, clock);
     const Choice choice = m_behaviour->choose(m_world);
-    // B before A, because control reads B in the moment it sees a new A.
-    board.write(m_variables.decisionActionB, choice.act.b);
-    board.write(m_variables.decisionActionA, choice.act.action);
+    if (const Target* target = std::get_if<Target>(&choice.move)) {
+      m_target.write(board, m_world.field(), turned(*target));
+    } else {
+      // Planning lets go first; what it writes is no longer wanted.
+      m_target.clear(board);
+      const Act& act = std::get<Act>(choice.move);
+      // B before A, because control reads B in the moment it sees a new A.
+      board.write(m_variables.decisionActionB, act.b);
+      board.write(m_variables.decisionActionA, act.action);
+    }
     constexpr double lost = 0.4;  // s: a frame that missed the ball is no reason to search
     if (choice.search && m_world.ballAge() > lost) board.write(m_variables.decisionSearchOn, 1);
     m_world.tell(board, choice.intention, choice.target);
@@ -26,23 +33,17 @@ class SoccerDecision final : public CognitiveProcess {
 
   double period() const override { return 0.1; }
 
-  void tellThoughts(RobotThoughts& thoughts) const override {
-    auto path = std::make_shared<PlannedPath>();
-    const Walk& walk = m_behaviour->walk();
-    if (walk.lastStep() == m_world.now() && walk.path().points.size() > 1) {
-      path->complete = walk.path().complete;
-      path->points.push_back(m_world.toStudio(m_world.pose().position));
-      for (std::size_t i = 1; i < walk.path().points.size() && i < PlannedPath::most; ++i) {
-        path->points.push_back(m_world.toStudio(walk.path().points[i]));
-      }
-    }
-    thoughts.path = std::move(path);
+ private:
+  Target turned(Target target) const {
+    target.pose = m_world.toStudio(target.pose);
+    if (target.ball) target.ball = m_world.toStudio(*target.ball);
+    return target;
   }
 
- private:
   WorldModel m_world;
   std::unique_ptr<Behaviour> m_behaviour;
   RobotVariables m_variables;
+  TargetVariables m_target;
 };
 
 }  // namespace
@@ -57,7 +58,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOption
   }
   sim::FieldSpec field = options.field;
   if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
-  return std::make_unique<SoccerDecision>(options, field, std::make_unique<B>(field));
+  return std::make_unique<SoccerDecision>(options, field, std::make_unique<B>());
 }
 
 template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(

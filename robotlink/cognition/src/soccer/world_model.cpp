@@ -127,18 +127,6 @@ void WorldModel::readMates(const Blackboard& board) {
     }
     m_mates[i] = mate;
   }
-  m_matePlaces.clear();
-  for (std::size_t i = 0; i < m_team.mateX.size(); ++i) {
-    const double x = static_cast<double>(readOr(board, m_team.mateX[i], -1.0F));
-    const double y = static_cast<double>(readOr(board, m_team.mateY[i], -1.0F));
-    // Zeros are fresh memory: nobody stands on the corner.
-    if (x >= 0.0 && y >= 0.0 && x + y > 0.0 && x < 1e5 && y < 1e5)
-      m_matePlaces.push_back(fromCm(x, y));
-  }
-  if (!m_matePlaces.empty()) return;
-  for (const auto& mate : m_mates) {  // another team's process writes these only
-    if (mate) m_matePlaces.push_back(mate->position);
-  }
 }
 
 double WorldModel::ballDistance() const {
@@ -174,6 +162,11 @@ std::vector<Point> WorldModel::opponents() const {
   return seen;
 }
 
+Pose WorldModel::toStudio(const Pose& turned) const {
+  return {toStudio(turned.position),
+          m_attacksLeft ? wrapToPi(turned.yaw + std::numbers::pi) : turned.yaw};
+}
+
 Point WorldModel::toLocal(const Point& p) const {
   const double dx = p.x - m_pose.position.x, dy = p.y - m_pose.position.y;
   const double c = repeatable::cos(m_pose.yaw), s = repeatable::sin(m_pose.yaw);
@@ -188,13 +181,20 @@ Point WorldModel::toField(const Point& p) const {
 void WorldModel::tell(Blackboard& board, Intention intention,
                       const std::optional<Point>& target) const {
   const auto toCm = [this](const Point& p) {
-    return frame::localizationFromStudio(m_field, {m_attacksLeft ? Point{-p.x, -p.y} : p, 0.0});
+    return frame::localizationFromStudio(m_field, {toStudio(p), 0.0});
   };
   writeIfPresent(board, m_team.intention, static_cast<int>(intention));
   const bool known = seesBall() && localized();
   const frame::CmPose ball = known ? toCm(toField(m_ballLocal)) : frame::CmPose{-1.0, -1.0, 0.0};
   writeIfPresent(board, m_team.ballX, static_cast<float>(ball.x));
   writeIfPresent(board, m_team.ballY, static_cast<float>(ball.y));
+  const std::vector<Point> seen = localized() ? opponents() : std::vector<Point>();
+  for (std::size_t i = 0; i < m_team.opponentX.size(); ++i) {
+    const bool there = i < seen.size();
+    const frame::CmPose at = there ? toCm(seen[i]) : frame::CmPose{-1.0, -1.0, 0.0};
+    writeIfPresent(board, m_team.opponentX[i], static_cast<float>(at.x));
+    writeIfPresent(board, m_team.opponentY[i], static_cast<float>(at.y));
+  }
   if (!target) return;
   const frame::CmPose place = toCm(*target);
   writeIfPresent(board, m_team.targetX, static_cast<int>(std::lround(place.x)));

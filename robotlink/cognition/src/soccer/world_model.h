@@ -16,6 +16,7 @@
 #include <base/geometry.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/cognitive_process.h>
+#include <simcore/world/robot_io.h>
 
 #include "team/team_variables.h"
 
@@ -69,20 +70,20 @@ class WorldModel {
   std::optional<Point> ball() const;
 
   const std::array<std::optional<TeamMate>, mostTeamMates>& mates() const { return m_mates; }
-  /// Where all team-mates stand that were heard of lately, also those that mates() has no room for.
-  const std::vector<Point>& matePlaces() const { return m_matePlaces; }
   /// Opponents seen within the last seconds.
   std::vector<Point> opponents() const;
 
-  /// To the studio's frame, whichever side this team attacks, and back.
+  /// To the studio's frame, whichever side this team attacks.
   Point toStudio(const Point& turned) const {
     return m_attacksLeft ? Point{-turned.x, -turned.y} : turned;
   }
+  Pose toStudio(const Pose& turned) const;
 
   Point toLocal(const Point& onField) const;
   Point toField(const Point& local) const;
 
-  /// What the team shall hear, in DECISION_STATE, LOCALIZATION_BALL_* and DECISION_POSITION_*.
+  /// What team and planning shall know, in DECISION_STATE, LOCALIZATION_BALL_*, LOCALIZATION_OPP*
+  /// and DECISION_POSITION_*.
   void tell(Blackboard& board, Intention intention, const std::optional<Point>& target) const;
 
  private:
@@ -100,7 +101,7 @@ class WorldModel {
   sim::FieldSpec m_field;
   sim::RobotModel m_body;
   std::optional<bool> m_facesLeft;
-  RobotVariables m_variables;
+  RobotVariables m_variables{VariableCatalog::extended()};
   TeamVariables m_team;
   double m_now = 0.0;
   bool m_first = true;
@@ -115,9 +116,8 @@ class WorldModel {
   Point m_ballLocal;
   Point m_ballField;
   double m_ballSeen = -1e9;
-  std::array<Sighting, 11> m_opponents;
+  std::array<Sighting, sim::Percepts::maxSeenRobots> m_opponents;
   std::array<std::optional<TeamMate>, mostTeamMates> m_mates;
-  std::vector<Point> m_matePlaces;
 };
 
 }  // namespace pitchboard::link

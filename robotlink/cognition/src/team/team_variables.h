@@ -8,7 +8,7 @@
 //
 // The published map has room for three team-mates with all that they tell (COM_*_ROBOT1..3), and
 // for the places of ten, a team of eleven (LOCALIZATION_RBT02_X to _RBT11_Y; _RBT01_X is the
-// belief).
+// belief), and of eleven opponents (LOCALIZATION_OPP01_X to _OPP11_Y), which decision remembers.
 
 #include <algorithm>
 #include <array>
@@ -21,6 +21,7 @@ namespace pitchboard::link {
 
 constexpr int mostTeamMates = 3;    // COM_*_ROBOT1..3
 constexpr int mostMatePlaces = 10;  // LOCALIZATION_RBT02_X .. _RBT11_Y
+constexpr int mostOpponents = 11;   // LOCALIZATION_OPP01_X .. _OPP11_Y
 
 /// DECISION_STATE and COM_ACTION_ROBOTn; their words are in resources/variables.json.
 enum class Intention : int {
@@ -56,11 +57,17 @@ struct TeamVariables {
       place[i] = intVar("COM_POS_ROBOT" + n);
       ball[i] = intVar("COM_POS_BALL_ROBOT" + n);
     }
+    const auto nameOf = [](const char* kind, std::size_t number) {
+      const std::string n = std::to_string(number);
+      return "LOCALIZATION_" + std::string(kind) + (n.size() < 2 ? "0" : "") + n;
+    };
     for (std::size_t i = 0; i < mostMatePlaces; ++i) {
-      const std::string n = std::to_string(i + 2);
-      const std::string name = "LOCALIZATION_RBT" + std::string(n.size() < 2 ? "0" : "") + n;
-      mateX[i] = floatVar(name + "_X");
-      mateY[i] = floatVar(name + "_Y");
+      mateX[i] = floatVar(nameOf("RBT", i + 2) + "_X");
+      mateY[i] = floatVar(nameOf("RBT", i + 2) + "_Y");
+    }
+    for (std::size_t i = 0; i < mostOpponents; ++i) {
+      opponentX[i] = floatVar(nameOf("OPP", i + 1) + "_X");
+      opponentY[i] = floatVar(nameOf("OPP", i + 1) + "_Y");
     }
   }
 
@@ -69,6 +76,8 @@ struct TeamVariables {
   FloatVar ballX, ballY;    ///< cm, the ball as this robot saw it itself; -1 = not lately
   std::array<IntVar, mostTeamMates> state, action, place, ball;
   std::array<FloatVar, mostMatePlaces> mateX, mateY;  ///< cm, every team-mate; -1 = none
+  /// cm, opponents as this robot saw them itself; -1 = none
+  std::array<FloatVar, mostOpponents> opponentX, opponentY;
 };
 
 constexpr int packPlace(int x_cm, int y_cm) {

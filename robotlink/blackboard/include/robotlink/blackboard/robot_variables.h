@@ -24,7 +24,8 @@ struct RobotVariables {
   FloatVar imuEulerX, imuEulerY, imuEulerZ, imuGyroX, imuGyroY, imuGyroZ, imuAccelX, imuAccelY,
       imuAccelZ, visionBallDist, visionBallAngle, visionPanDeg, visionTiltDeg, localizationBelief;
   std::array<FloatVar, 4> landmarkDeg;             ///< blue, red, yellow, purple
-  std::array<FloatVar, 11> robotDist, robotAngle;  ///< VISION_RBT01.. _DIST / _ANGLE
+  /// VISION_RBT01.. _DIST / _ANGLE; the published map ends at 11, which is nothing missing.
+  std::array<FloatVar, 22> robotDist, robotAngle;
   std::vector<std::string> missing;                ///< names that the catalog does not have
 };
 

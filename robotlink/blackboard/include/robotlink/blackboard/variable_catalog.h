@@ -40,6 +40,8 @@ class VariableCatalog {
  public:
   /// The published map of 83 int and 122 float variables.
   static const VariableCatalog& published();
+  /// The published map and its extension (docs/BLACKBOARD.md).
+  static const VariableCatalog& extended();
 
   // Each fails with file, line (or JSON path) and what is wrong; `source` names the file.
   static Result<VariableCatalog> fromJson(std::string_view text, std::string_view source);
@@ -51,6 +53,8 @@ class VariableCatalog {
   /// in `layout`, or as the file's "segment" says, which is then put there.
   static Result<VariableCatalog> fromFile(const std::string& path, SegmentLayout& layout);
 
+  /// With those variables of the extension whose name and word are free here.
+  VariableCatalog withExtension() const;
   /// In the form of blackboard.json.
   std::string toJson() const;
 
@@ -67,6 +71,8 @@ class VariableCatalog {
                                           SegmentLayout& layout, bool anyLayout);
   static Result<VariableCatalog> make(const std::vector<CatalogEntry>& entries,
                                       std::string_view source, const SegmentLayout& layout = {});
+  static VariableCatalog builtIn(const char* resource);
+  void sort();
   std::vector<Variable> m_variables;
 };
 

@@ -185,6 +185,11 @@ class SimulatedMatch {
 
  private:
   struct Seat;  // one robot's blackboard, claim and inline processes
+  struct Wish {  // who is to run for a robot
+    RobotId id;
+    std::string behaviour;
+    RuntimeChoice choice;
+  };
   struct ResolvedWrite {
     std::uint64_t tick = 0;
     RobotId robot;
@@ -205,12 +210,13 @@ class SimulatedMatch {
   bool hearsThroughMatch(const Seat& seat) const;
   void followSides();
   Seat* seat(RobotId id) const;
-  Result<RuntimeProfile> runtimeFor(const ScenarioRobot& robot) const;
+  Result<RuntimeProfile> runtimeFor(const Wish& wish) const;
   bool sharesBoard(const Seat& seat, const RuntimeProfile& runtime) const;
   Result<void> identify();
   int keyOf(RobotId id) const;
   Result<void> checkShirt(const sim::RobotIdentity& identity) const;
-  Result<std::unique_ptr<Seat>> makeSeat(const ScenarioRobot& robot);
+  Result<std::unique_ptr<Seat>> makeSeat(const Wish& wish);
+  const BlackboardBridge& bridgeOf(const Seat& seat) const;
   bool wants(const Seat& seat, const ProfileProcess& process) const;
   Result<void> startProcesses(Seat& seat);
   Result<void> restartProcesses(Seat& seat);
@@ -236,6 +242,7 @@ class SimulatedMatch {
   const VariableCatalog* m_catalog;
   RobotVariables m_variables;
   BlackboardBridge m_bridge;
+  BlackboardBridge m_extendedBridge;  // of robots whose decision knows the extension of the map
   std::vector<ResolvedWrite> m_writes;         // in order of tick
   std::vector<std::unique_ptr<Seat>> m_seats;  // same order as the simulation's robots
   std::vector<sim::RobotCommand> m_commands;

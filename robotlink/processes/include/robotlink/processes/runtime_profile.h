@@ -35,7 +35,8 @@ struct ProfileProcess {
     Everyone,
     Behaviour,  ///< not for a robot without a behaviour of ours
     Pose,       ///< only for behaviours that use the pose
-    Separate    ///< not where processes run inside the program
+    Separate,   ///< not where processes run inside the program
+    Target      ///< only for behaviours of ours, whose decision says where to walk
   };
 
   std::string name;
@@ -60,6 +61,8 @@ struct RuntimeProfile {
   std::vector<ProfileProcess> processes;      ///< in the order of starting
   /// It has programs that are not ours, or leaves the robot to somebody else's.
   bool hasOwn() const;
+  /// Its decision is ours, which knows the extension of the map.
+  bool usesExtension() const;
   bool operator==(const RuntimeProfile&) const = default;
 };
 

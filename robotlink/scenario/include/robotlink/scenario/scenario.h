@@ -65,6 +65,8 @@ struct Scenario {
   std::map<TeamColor, RuntimeChoice> runtimes;  ///< of teams; left out: as the match is played
   /// What is said of this robot, or of its team; not chosen: nothing.
   RuntimeChoice runtimeOf(const ScenarioRobot& robot) const;
+  /// The same for a robot of a team of which `own` is said.
+  RuntimeChoice runtimeOf(TeamColor team, const RuntimeChoice& own) const;
   bool operator==(const Scenario&) const = default;
 };
 

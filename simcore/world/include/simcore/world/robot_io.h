@@ -53,14 +53,14 @@ struct BallPercept {
   std::optional<double> panDeg;      ///< VISION_PAN_DEG
 };
 
-/// VISION_RBTnn_*: robot nn is the nn-th robot of the field, as published.
+/// VISION_RBTnn_*: robot nn is the nn-th robot of the field, as published (whose map ends at 11).
 struct SeenRobot {
   double distanceCm = 0.0;
   double angleDeg = 0.0;  ///< right positive: the published sign of this variable
 };
 
 struct Percepts {
-  static constexpr int maxSeenRobots = 11;
+  static constexpr int maxSeenRobots = 22;  ///< eleven against eleven
 
   ControlPercept control;
   ImuPercept imu;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planning/planning.h"
+
+#include <simcore/world/published_frame.h>
+
+#include "planning/known_robots.h"
+#include "planning/walk.h"
+
+namespace pitchboard::link {
+namespace {
+
+namespace frame = sim::published_frame;
+
+class Planning final : public CognitiveProcess {
+ public:
+  Planning(const sim::FieldSpec& field, double othersRadius, const sim::RobotModel& body)
+      : m_field(field), m_walk(field, othersRadius, body) {}
+
+  void step(Blackboard& board, const Clock& clock) override {
+    const auto target = m_target.read(board, m_field);
+    if (!target) {
+      if (!m_walk.path().points.empty()) m_target.writePath(board, m_field, {});
+      m_walk.rest();
+      return;
+    }
+    m_now.now = clock.seconds;
+    m_now.pose = frame::studioFromLocalization(
+        m_field, {static_cast<double>(board.read(m_variables.localizationX)),
+                  static_cast<double>(board.read(m_variables.localizationY)),
+                  static_cast<double>(board.read(m_variables.localizationTheta))});
+    m_robots.read(board, m_field, m_now.robots);
+    const Act act = m_walk.step(m_now, *target).value_or(acts::stop);
+    const std::span<const Point> path = m_walk.path().points;
+    m_target.writePath(board, m_field, path.empty() ? path : path.subspan(1));
+    // Decision may have thought of something else meanwhile: then the action is its own again.
+    if (!m_target.read(board, m_field)) return;
+    // B before A, because control reads B in the moment it sees a new A.
+    board.write(m_variables.decisionActionB, act.b);
+    board.write(m_variables.decisionActionA, act.action);
+  }
+
+  double period() const override { return 0.1; }
+
+  void tellThoughts(RobotThoughts& thoughts) const override {
+    auto path = std::make_shared<PlannedPath>();
+    const Path& walked = m_walk.path();
+    if (walked.points.size() > 1) {
+      path->complete = walked.complete;
+      path->points.push_back(m_now.pose.position);
+      for (std::size_t i = 1; i < walked.points.size() && i < PlannedPath::most; ++i) {
+        path->points.push_back(walked.points[i]);
+      }
+    }
+    thoughts.path = std::move(path);
+  }
+
+ private:
+  sim::FieldSpec m_field;
+  Walk m_walk;
+  RobotVariables m_variables;
+  TargetVariables m_target;
+  KnownRobots m_robots;
+  Surroundings m_now;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<CognitiveProcess>> makePlanning(const ProcessOptions& options) {
+  if (const Result<void> valid = sim::validate(options.field); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  if (const Result<void> valid = sim::validate(options.model); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
+  sim::FieldSpec field = options.field;
+  if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
+  return std::make_unique<Planning>(field, options.field.robotRadius, options.model);
+}
+
+}  // namespace pitchboard::link
