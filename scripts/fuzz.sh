@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs the fuzz targets for a bounded time: scripts/fuzz.sh [SECONDS each] [text|referee|profile|session|formats ...]
+# Runs the fuzz targets for a bounded time: scripts/fuzz.sh [SECONDS each] [text|referee|profile|session|formats|lines ...]
 # New inputs stay in build/fuzz/corpus; an input that breaks something ends the run with an error and
 # stands in build/fuzz/findings. Turn it into a test.
 set -euo pipefail
@@ -9,7 +9,7 @@ seconds=${1:-60}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "error: SECONDS must be a whole number" >&2; exit 2; }
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(text referee profile session formats)
+[ ${#targets[@]} -gt 0 ] || targets=(text referee profile session formats lines)
 
 cmake --preset fuzz >/dev/null
 build=build/fuzz
@@ -17,11 +17,12 @@ ninja -C "$build" -j2 "${targets[@]/#/fuzz_}"
 
 seeds=$build/seeds
 rm -rf "$seeds"
-mkdir -p "$seeds/text" "$seeds/referee" "$seeds/profile" "$seeds/session" "$seeds/formats" "$build/findings"
+mkdir -p "$seeds/text" "$seeds/referee" "$seeds/profile" "$seeds/session" "$seeds/formats" "$seeds/lines" "$build/findings"
 cp tests/data/gamecontroller/*.bin "$seeds/referee/"
 cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
 cp tests/data/sessions/*.mcap "$seeds/session/"
+grep '^→ ' docs/LEARNING.md | sed 's/^→ //' > "$seeds/lines/conversation.txt"
 number=0
 while IFS=$'\t' read -r _ _ datagram; do
   printf '%s' "$datagram" > "$seeds/text/$((number += 1)).txt"
