@@ -30,6 +30,7 @@ printf 'PBD1 3 12\nlayer a/b robot 0.5\ncolour #11223344\nwidth 3\narrow 0 0 1.5
   > "$seeds/drawings/shapes.txt"
 printf '1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT\nPBD1 1\nlayer b belief 2\npolygon 0 0 1 0 1 1\n' \
   > "$seeds/drawings/message.txt"
+grep '^→ ' docs/LEARNING.md | sed 's/^→ //' > "$seeds/lines/conversation.txt"
 number=0
 while IFS=$'\t' read -r _ _ datagram; do
   printf '%s' "$datagram" > "$seeds/text/$((number += 1)).txt"

@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "simulate_report.h"
+#include "simulate_stdio.h"
 #include "trace_writer.h"
 
 namespace pitchboard::cli {
@@ -45,6 +46,7 @@ struct Arguments {
   bool force = false;
   bool json = false;
   bool list = false;
+  bool stdio = false;
   std::string rules;
   std::optional<int> obeyReferee;
 };
@@ -307,7 +309,8 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       "simulate",
       "plays a match and prints how it ended\n"
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
-      "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1");
+      "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1\n"
+      "          echo '{\"do\": \"create\", \"worlds\": 2}' | pitchboard-cli simulate --stdio");
   shared::addScenarioOptions(*command, a.match);
   CLI::Option* from =
       command
@@ -357,11 +360,27 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                    "Program of the external processes; default: pitchboard-robot beside this one")
       ->type_name("FILE");
   command->add_flag("--list", a.list, "Print the built-in scenarios");
+  CLI::Option* stdio =
+      command->add_flag("--stdio", a.stdio,
+                        "Serve lines of JSON on standard input: worlds that another program steps, "
+                        "reads and commands (docs/LEARNING.md)");
   for (const char* other : {"--scenario", "--seed", "--noise", "--physics"}) {
     from->excludes(command->get_option(other));
   }
+  for (const char* other : {"--from", "--trace", "--save-moment", "--json", "--speed",
+                            "--cognition", "--obey-referee", "--match", "--runtime"}) {
+    stdio->excludes(command->get_option(other));
+  }
   command->callback([arguments, &exitCode] {
     if (arguments->list) return listScenarios();
+    if (arguments->stdio) {
+      // As with processes of others, only the scenario's own conditions end a world.
+      auto scenario = scenarioFrom(*arguments, link::Cognition::None, {});
+      const auto served = scenario ? serveWorldLines(std::move(*scenario))
+                                   : Result<void>(tl::unexpected(scenario.error()));
+      if (!served) exitCode = reportError(served.error());
+      return;
+    }
     if (const auto done = simulate(*arguments); !done) exitCode = reportError(done.error());
   });
 }

@@ -39,6 +39,13 @@ function(pitchboard_warnings target)
                          $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror>)
 endfunction()
 
+# Everything without Qt can go into a shared library (robotlink/capi), and is as quick as if it could not:
+# no function of ours is ever replaced by another of its name. Programs have the same options, so that
+# the precompiled header serves them, too. (What uses Qt has -fPIC from Qt.)
+function(pitchboard_position_independent target)
+  target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
+endfunction()
+
 # For what only reads a command line or tests: at -O3 it compiles half as long again, for nothing. What
 # it calls is in the libraries.
 function(pitchboard_compile_quickly target)
@@ -64,7 +71,10 @@ function(pitchboard_room library room)
   # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
   if(library STREQUAL ui)
     target_precompile_headers(${target} REUSE_FROM ui_precompiled)
-  elseif(NOT target STREQUAL simcore_base)
+    return()
+  endif()
+  pitchboard_position_independent(${target})
+  if(NOT target STREQUAL simcore_base)
     target_precompile_headers(${target} REUSE_FROM simcore_base)
   endif()
 endfunction()
@@ -85,6 +95,7 @@ function(pitchboard_program name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS})
   if(NOT ui::window IN_LIST ARG_LIBS)
+    pitchboard_position_independent(${name})
     target_precompile_headers(${name} REUSE_FROM app_command_line)
   endif()
   target_compile_definitions(${name} PRIVATE PITCHBOARD_VERSION="${PROJECT_VERSION}")

@@ -33,7 +33,7 @@ inline QStringList all(const QString& library) {
       {"telemetry", {"wire", "series", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "scenario", "frame", "match", "live",
-        "session", "report", "conformance"}},
+        "session", "report", "conformance", "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "window"}}};
@@ -84,6 +84,9 @@ inline const QList<Room>& table() {
         {"robotlink/conformance",
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
+        {"robotlink/capi",
+         {base, world, simulation, board, processes, models, scenario, match},
+         {"nlohmann/"}},
         // What more than one program needs of its command line.
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},
         // A robot's processes know nothing of matches, scenarios, sessions and windows.

@@ -75,6 +75,18 @@ played=$(cd / && env -i PATH=/usr/bin:/bin "$bin/pitchboard-cli" simulate --cogn
   --scenario one-robot --duration 8 --key-base $((800000000 + $$ * 100)) 2>&1) || fail "the match:"$'\n'"$played"
 [[ $played == *'"ticks":480'* ]] || fail "the match was not played to its end:"$'\n'"$played"
 [[ $played =~ \"distance_m\":[0-9]*\.[0-9]*[1-9] ]] || fail "no robot walked, so none decided:"$'\n'"$played"
+# The library is found by what it installs, and does what the program does.
+pc=$(dirname "$(find "$root/usr" -name pitchboard_sim.pc)")
+[ "$(PKG_CONFIG_PATH=$pc pkg-config --modversion pitchboard_sim)" = "$version" ] || fail "pkg-config does not know the library"
+read -ra flags <<<"$(PKG_CONFIG_PATH=$pc pkg-config --cflags --libs pitchboard_sim)"
+must "a program in C" cc -std=c99 -o "$folder/user" "$source/tests/robotlink/capi_user.c" "${flags[@]}"
+of_library=$(LD_LIBRARY_PATH=$(dirname "$pc") "$folder/user" one-robot 4 5) || fail "the program in C: $of_library"
+of_program=$("$bin/pitchboard-cli" simulate --scenario one-robot --seed 4 --duration 5 --json)
+[[ $of_program == *"\"$of_library\""* ]] || fail "the library played to $of_library, the program to $of_program"
+shown=$(nm -D --defined-only "$(dirname "$pc")/libpitchboard_sim.so" | grep -v ' pb_\| A PITCHBOARD_SIM_')
+[ -z "$shown" ] || fail "the library shows more than pb_*:"$'\n'"$shown"
+must "the example for learning" env PITCHBOARD_SIM_LIBRARY="$(dirname "$pc")/libpitchboard_sim.so.1" \
+  /usr/bin/python3 "$share/doc/pitchboard/docs/examples/pitchboard_env.py" --episodes 10
 must "the studio" env -i PATH=/usr/bin:/bin QT_QPA_PLATFORM=offscreen HOME="$folder" "$bin/pitchboard" \
   --settings "$folder/settings.ini" --cognition inline --after 1 --screenshot-to "$folder/studio.png"
 [ -s "$folder/studio.png" ] || fail "the studio made no picture"

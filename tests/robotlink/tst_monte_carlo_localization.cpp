@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The filter alone, on perfect and on noisy walks made here; no simulator.
+#include "localization/fast_noise.h"
 #include "localization/monte_carlo_localization.h"
 
 #include <QtTest>
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -53,6 +55,78 @@ struct Walker {
     return input;
   }
 };
+
+/// Particles here and there with uneven weights, and all that kernels write.
+struct Crowd {
+  explicit Crowd(int count) : n(count) {
+    CounterRandom random(7, 1, NoiseStream::Behaviour, 0);
+    const auto room = static_cast<std::size_t>(particles::roomFor(n));
+    for (auto* array : {&x, &y, &c, &s, &weight, &turn, &along, &across, &scratch}) {
+      array->resize(room);
+    }
+    cells.resize(room);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+      const double yaw = 2 * pi * random.uniform();
+      x[i] = static_cast<float>(8 * random.uniform() - 4);
+      y[i] = static_cast<float>(5 * random.uniform() - 2.5);
+      c[i] = static_cast<float>(std::cos(yaw));
+      s[i] = static_cast<float>(std::sin(yaw));
+      weight[i] = static_cast<float>(random.uniform());
+    }
+    FastNoise noise(3, 1, 9);
+    for (auto* array : {&turn, &along, &across}) noise.fillNormal(array->data(), n);
+  }
+  particles::Poses poses() { return {x.data(), y.data(), c.data(), s.data(), n}; }
+  double weightOf(int i) const { return static_cast<double>(weight[static_cast<std::size_t>(i)]); }
+
+  int n;
+  std::vector<float> x, y, c, s, weight, turn, along, across, scratch;
+  std::vector<std::int32_t> cells;
+};
+
+constexpr particles::Motion someWay{0.02F, -0.01F, 0.03F, 0.01F, 0.02F, 5.2F, 3.7F};
+constexpr particles::Likelihood someTrust{90.0F, 0.02F};
+
+/// Everything that kernels compute, as bits.
+std::vector<std::uint64_t> all(const particles::Kernels& k, int n) {
+  Crowd crowd(n);
+  std::vector<std::uint64_t> out;
+  const auto add = [&out](double value) { out.push_back(std::bit_cast<std::uint64_t>(value)); };
+  particles::NoiseLanes lanes;
+  for (std::size_t i = 0; i < lanes.x.size(); ++i) {
+    const auto seed = static_cast<std::uint32_t>(i);
+    lanes.x[i] = 1 + seed;
+    lanes.y[i] = 1000003 * (seed + 1);
+    lanes.z[i] = 77 + seed;
+    lanes.w[i] = 0x9E3779B9U * (seed + 3);
+  }
+  k.fillNormal(lanes, crowd.along.data(), n);
+  k.move(crowd.poses(), someWay, crowd.turn.data(), crowd.along.data(), crowd.across.data());
+  k.weighBearing(crowd.poses(), crowd.weight.data(), 4.5F, 3.0F, 0.8F, 0.6F, someTrust);
+  k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
+                 {{0.6F, -0.8F}, {0.8F, 0.6F}, 2, true}, {8.0F, 0.05F});
+  add(k.sum(crowd.weight.data(), n));
+  add(k.sumOfSquares(crowd.weight.data(), n));
+  const particles::Mean mean = k.meanOf(crowd.poses(), crowd.weight.data());
+  const particles::Mean near =
+      k.meanNear(crowd.poses(), crowd.weight.data(), crowd.scratch.data(), 0.0F, 0.0F, 2.0F);
+  for (const auto& one : {mean, near}) {
+    for (const double value : {one.weight, one.x, one.y, one.cosine, one.sine}) add(value);
+  }
+  const particles::Spread spread =
+      k.spreadAbout(crowd.poses(), crowd.weight.data(), crowd.scratch.data(), 0.1F, 0.2F);
+  add(spread.variance);
+  add(spread.farthest);
+  k.cellsOf(crowd.poses(), {5.2F, 3.7F, 3.3F, 36, 26}, crowd.cells.data());
+  k.scale(crowd.weight.data(), n, 1.25F);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    for (const auto* array : {&crowd.x, &crowd.y, &crowd.c, &crowd.s, &crowd.weight}) {
+      add(static_cast<double>((*array)[i]));
+    }
+    add(crowd.cells[i]);
+  }
+  return out;
+}
 
 double error(const MonteCarloLocalization& filter, const Walker& walker) {
   const Pose& p = filter.belief().pose;
@@ -174,6 +248,65 @@ class TestMonteCarloLocalization : public QObject {
     QVERIFY(std::hypot(filter.belief().pose.position.x - 1, filter.belief().pose.position.y - 2) <
             0.02);
     QVERIFY(std::abs(filter.belief().sigma - 0.1 * std::sqrt(2.0)) < 0.01);
+  }
+
+  void widerRegistersGiveTheSameBits() {
+    const particles::Kernels* wide = particles::kernelsOf(particles::Width::Wide);
+    if (!wide) QSKIP("this processor or compiler has no wider registers");
+    for (const int n : {1, 7, 8, 16, 203, 500}) {
+      QCOMPARE(all(*wide, n), all(*particles::kernelsOf(particles::Width::Narrow), n));
+    }
+  }
+
+  void kernelsFollowTheirFormulas() {
+    const particles::Kernels& k = particles::kernels();
+    constexpr int n = 101;
+    Crowd before(n), crowd(n);
+    k.move(crowd.poses(), someWay, crowd.turn.data(), crowd.along.data(), crowd.across.data());
+    k.weighBearing(crowd.poses(), crowd.weight.data(), 4.5F, 3.0F, 0.8F, 0.6F, someTrust);
+    double sum = 0.0, x = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double yaw = std::atan2(before.s[i], before.c[i]) + 0.03 + 0.02 * before.turn[i];
+      const double along = 0.02 + 0.01 * before.along[i], across = -0.01 + 0.01 * before.across[i];
+      const double px = before.x[i] + std::cos(yaw) * along - std::sin(yaw) * across;
+      const double py = before.y[i] + std::sin(yaw) * along + std::cos(yaw) * across;
+      QVERIFY(std::abs(crowd.x[i] - px) < 1e-5 && std::abs(crowd.y[i] - py) < 1e-5);
+      QVERIFY(std::abs(wrapToPi(std::atan2(crowd.s[i], crowd.c[i]) - yaw)) < 1e-5);
+      const double off = direction({px, py}, {4.5, 3.0}) - yaw - std::atan2(0.6, 0.8);
+      const double likelihood = 0.02 + 0.98 * std::exp(90.0 * (std::cos(off) - 1.0));
+      QVERIFY(std::abs(crowd.weight[i] - before.weight[i] * likelihood) < 2e-4);
+      sum += crowd.weightOf(static_cast<int>(i));
+      x += crowd.weightOf(static_cast<int>(i)) * static_cast<double>(crowd.x[i]);
+    }
+    const particles::Mean mean = k.meanOf(crowd.poses(), crowd.weight.data());
+    QVERIFY(std::abs(mean.weight - sum) < 1e-4 && std::abs(mean.x - x / sum) < 1e-4);
+    // The yaw weighs each against the others: the mean weight stays.
+    k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
+                   {{1.0F, 0.0F}, {0.0F, 0.0F}, 1, false}, {8.0F, 0.05F});
+    QVERIFY(std::abs(k.sum(crowd.weight.data(), n) - sum) < 1e-4 * sum);
+  }
+
+  void theNoiseIsNearlyNormal() {
+    constexpr int n = 200'000;
+    std::vector<float> values(static_cast<std::size_t>(particles::roomFor(n)));
+    FastNoise(1, 1, 1).fillNormal(values.data(), n);
+    double sum = 0.0, squares = 0.0, fourth = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto v = static_cast<double>(values[i]);
+      sum += v;
+      squares += v * v;
+      fourth += v * v * v * v;
+      QVERIFY(std::abs(v) < 3.47);
+    }
+    // Four standard errors; a sum of four uniform numbers has the kurtosis 3 - 6 / (5 * 4).
+    QVERIFY(std::abs(sum / n) < 4.0 / std::sqrt(n));
+    QVERIFY(std::abs(squares / n - 1.0) < 4.0 * std::sqrt(1.7 / n));
+    QVERIFY(std::abs(fourth / n - 2.7) < 0.06);
+    std::vector<float> other(values.size());
+    FastNoise(1, 2, 1).fillNormal(other.data(), n);
+    double together = 0.0;
+    for (std::size_t i = 0; i < n; ++i) together += static_cast<double>(values[i] * other[i]);
+    QVERIFY(std::abs(together / n) < 4.0 / std::sqrt(n));
   }
 
   void nonsenseIsIgnored() {

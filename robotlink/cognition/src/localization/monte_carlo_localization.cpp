@@ -114,12 +114,23 @@ MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
   const auto cells = static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows);
   m_cellStamp.resize(cells * headingCells, 0);
   m_cellWeight.resize(cells, 0.0F);
-  for (Particles* particles : {&m_now, &m_next}) {
-    for (Array* a : {&particles->x, &particles->y, &particles->c, &particles->s}) {
-      a->setZero(parameters.mostParticles);
+  const int room = particles::roomFor(parameters.mostParticles);
+  for (Particles* set : {&m_now, &m_next}) {
+    for (Array* a : {&set->x, &set->y, &set->c, &set->s}) {
+      a->setZero(room);
     }
   }
-  for (Array* a : {&m_weight, &m_noise, &m_a, &m_b, &m_d}) a->setZero(parameters.mostParticles);
+  for (Array* a : {&m_weight, &m_a, &m_b, &m_d}) a->setZero(room);
+  m_cells.resize(static_cast<std::size_t>(room));
+}
+
+particles::Grid MonteCarloLocalization::grid() const {
+  return {static_cast<float>(m_halfLength + m_border), static_cast<float>(m_halfWidth + m_border),
+          static_cast<float>(1.0 / m_parameters.kldCell), m_columns, m_rows};
+}
+
+void MonteCarloLocalization::makeAllAlike() {
+  m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
 }
 
 void MonteCarloLocalization::reset() {
@@ -139,16 +150,17 @@ void MonteCarloLocalization::reset(const Pose& pose, double sigma) {
     const double y = random.normal(pose.position.y, sigma);
     put(i, {{x, y}, random.normal(pose.yaw, sigma * 0.1)});
   }
-  m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
+  makeAllAlike();
   m_spread = true;
   estimate();
 }
 
 void MonteCarloLocalization::put(int i, const Pose& pose) {
+  const repeatable::SinCos heading = repeatable::sinCos(pose.yaw);
   m_now.x[i] = static_cast<float>(pose.position.x);
   m_now.y[i] = static_cast<float>(pose.position.y);
-  m_now.c[i] = static_cast<float>(repeatable::cos(pose.yaw));
-  m_now.s[i] = static_cast<float>(repeatable::sin(pose.yaw));
+  m_now.c[i] = static_cast<float>(heading.cos);
+  m_now.s[i] = static_cast<float>(heading.sin);
 }
 
 Pose MonteCarloLocalization::particle(int i) const {
@@ -164,7 +176,7 @@ void MonteCarloLocalization::spread(const LocalizationInput& input) {
     const double y = (2 * random.uniform() - 1) * m_halfWidth;
     put(i, {{x, y}, drawYaw(random)});
   }
-  m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
+  makeAllAlike();
   m_spread = true;
 }
 
@@ -178,12 +190,11 @@ void MonteCarloLocalization::update(const LocalizationInput& input) {
   }
   const int seen = weigh(input);
 
-  const double sum = m_weight.head(m_count).sum();
+  const double sum = particles::kernels().sum(m_weight.data(), m_count);
   if (!(sum > std::numeric_limits<float>::min())) {
-    // No particle explains what is seen: nothing is known any more.
-    m_weight.head(m_count).setConstant(1.0F / static_cast<float>(m_count));
+    makeAllAlike();  // no particle explains what is seen: nothing is known any more
   } else {
-    m_weight.head(m_count) *= static_cast<float>(1.0 / sum);
+    particles::kernels().scale(m_weight.data(), m_count, static_cast<float>(1.0 / sum));
   }
 
   m_resetShare = 0.0;
@@ -198,7 +209,7 @@ void MonteCarloLocalization::update(const LocalizationInput& input) {
       m_resetShare = std::clamp(1.0 - m_fast / (0.85 * m_slow), 0.0, mostResetShare);
     }
   }
-  const double effective = 1.0 / m_weight.head(m_count).square().sum();
+  const double effective = 1.0 / particles::kernels().sumOfSquares(m_weight.data(), m_count);
   if (m_parameters.resampleAlways || effective < 0.5 * m_count || m_resetShare > 0.0) {
     resample(m_resetShare);
   }
@@ -237,83 +248,52 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
   const auto rotation = static_cast<float>(
       input.inMotion ? p.turnSigma * time + p.walkShare * std::abs(turn) : p.restSigma * time);
 
-  const int n = m_count;
   FastNoise noise(m_seed, m_robot, m_updates++);
-  auto x = m_now.x.head(n), y = m_now.y.head(n), c = m_now.c.head(n), s = m_now.s.head(n);
-  auto a = m_a.head(n), b = m_b.head(n), d = m_d.head(n);
-
-  // Turn. Sine and cosine of the small angle by their series; the lengths are made 1 again.
-  noise.fillNormal(m_d, n);
-  d = static_cast<float>(turn) + rotation * d;
-  a = 1.0F - d.square() * (0.5F - d.square() * (1.0F / 24.0F));
-  b = d * (1.0F - d.square() * (1.0F / 6.0F - d.square() * (1.0F / 120.0F)));
-  d = c * a - s * b;
-  b = s * a + c * b;
-  a = (d.square() + b.square()).rsqrt();
-  c = d * a;
-  s = b * a;
-
-  noise.fillNormal(m_a, n);
-  noise.fillNormal(m_b, n);
-  a = static_cast<float>(forward) + walk * a;
-  b = static_cast<float>(left) + walk * b;
-  const auto limitX = static_cast<float>(m_halfLength + m_border);
-  const auto limitY = static_cast<float>(m_halfWidth + m_border);
-  x = (x + c * a - s * b).max(-limitX).min(limitX);
-  y = (y + s * a + c * b).max(-limitY).min(limitY);
+  for (Array* one : {&m_d, &m_a, &m_b}) noise.fillNormal(one->data(), m_count);
+  particles::kernels().move(
+      poses(),
+      {static_cast<float>(forward), static_cast<float>(left), static_cast<float>(turn), walk,
+       rotation, static_cast<float>(m_halfLength + m_border),
+       static_cast<float>(m_halfWidth + m_border)},
+      m_d.data(), m_a.data(), m_b.data());
 }
 
 int MonteCarloLocalization::weigh(const LocalizationInput& input) {
-  const int n = m_count;
-  auto weight = m_weight.head(n);
-  const auto x = m_now.x.head(n), y = m_now.y.head(n), c = m_now.c.head(n), s = m_now.s.head(n);
-  auto a = m_a.head(n), b = m_b.head(n);
-  const auto kappa =
-      static_cast<float>(1.0 / (m_parameters.bearingSigma * m_parameters.bearingSigma));
-  const auto floor = static_cast<float>(m_parameters.outlierShare);
+  const double sigma = m_parameters.bearingSigma;
+  const particles::Likelihood likelihood{static_cast<float>(1.0 / (sigma * sigma)),
+                                         static_cast<float>(m_parameters.outlierShare)};
   int seen = 0;
   for (std::size_t i = 0; i < m_corners.size(); ++i) {
     if (!usable(input.corners[i])) continue;
     ++seen;
-    const auto cosine = static_cast<float>(repeatable::cos(*input.corners[i]));
-    const auto sine = static_cast<float>(repeatable::sin(*input.corners[i]));
-    a = static_cast<float>(m_corners[i].x) - x;
-    b = static_cast<float>(m_corners[i].y) - y;
-    // (u, v) = direction in which this particle saw the corner; its dot product with the direction
-    // to the corner is the cosine of the error.
-    weight *= floor + (1.0F - floor) *
-                          (kappa * (((c * cosine - s * sine) * a + (s * cosine + c * sine) * b) *
-                                        (a.square() + b.square() + 1e-6F).rsqrt() -
-                                    1.0F))
-                              .exp();
+    const repeatable::SinCos bearing = repeatable::sinCos(*input.corners[i]);
+    particles::kernels().weighBearing(poses(), m_weight.data(), static_cast<float>(m_corners[i].x),
+                                      static_cast<float>(m_corners[i].y),
+                                      static_cast<float>(bearing.cos),
+                                      static_cast<float>(bearing.sin), likelihood);
   }
   if (usable(input.imuYaw)) weighImu(*input.imuYaw);
   return seen;
 }
 
 void MonteCarloLocalization::weighImu(double yaw) {
-  const int n = m_count;
-  const auto c = m_now.c.head(n), s = m_now.s.head(n);
-  auto a = m_a.head(n);
   const double offset = m_imuZero == ImuZero::Left ? pi : 0.0;
-  a = c * static_cast<float>(repeatable::cos(yaw + offset)) +
-      s * static_cast<float>(repeatable::sin(yaw + offset));
-  // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
-  if (m_imuZero == ImuZero::Unknown) a = a.abs();
+  particles::Headings headings{};
+  const auto add = [&headings](double heading) {
+    const repeatable::SinCos both = repeatable::sinCos(heading);
+    headings.cosine[headings.count] = static_cast<float>(both.cos);
+    headings.sine[headings.count++] = static_cast<float>(both.sin);
+  };
+  add(yaw + offset);
   // After a jump nothing but bearings can tell a robot that was turned from an IMU that was reset.
-  if (m_imuShift != 0.0) {
-    auto b = m_b.head(n);
-    b = c * static_cast<float>(repeatable::cos(yaw + offset + m_imuShift)) +
-        s * static_cast<float>(repeatable::sin(yaw + offset + m_imuShift));
-    if (m_imuZero == ImuZero::Unknown) b = b.abs();
-    a = a.max(b);
-  }
-  const auto kappa = static_cast<float>(1.0 / (m_parameters.imuSigma * m_parameters.imuSigma));
-  const auto floor = static_cast<float>(imuOutliers);
-  a = floor + (1.0F - floor) * (kappa * (a - 1.0F)).exp();
-  // Normalised to mean 1, so that it does not enter the mean weight of the bearings.
-  const float mean = (m_weight.head(n) * a).sum() / std::max(m_weight.head(n).sum(), 1e-30F);
-  if (mean > 0.0F) m_weight.head(n) *= a * (1.0F / mean);
+  if (m_imuShift != 0.0) add(yaw + offset + m_imuShift);
+  // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
+  headings.bothWays = m_imuZero == ImuZero::Unknown;
+  const double sigma = m_parameters.imuSigma;
+  // A mean weight of 1, so that the yaw does not enter that of the bearings.
+  particles::kernels().weighHeading(
+      poses(), m_weight.data(), m_a.data(), headings,
+      {static_cast<float>(1.0 / (sigma * sigma)), static_cast<float>(imuOutliers)});
 }
 
 int MonteCarloLocalization::wantedParticles() {
@@ -324,9 +304,10 @@ int MonteCarloLocalization::wantedParticles() {
   ++m_stamp;
   int occupied = 0;
   const float least = 0.5F / static_cast<float>(m_count);
+  particles::kernels().cellsOf(poses(), grid(), m_cells.data());
   for (int i = 0; i < m_count; ++i) {
     if (m_weight[i] < least) continue;
-    const auto cell = static_cast<std::size_t>(cellOf(m_now.x[i], m_now.y[i]) * headingCells +
+    const auto cell = static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)] * headingCells +
                                                headingCell(m_now.c[i], m_now.s[i]));
     occupied += m_cellStamp[cell] != m_stamp;
     m_cellStamp[cell] = m_stamp;
@@ -358,59 +339,46 @@ void MonteCarloLocalization::resample(double resetShare) {
   if (m_parameters.kernel > 0.0) regularize(kept);
   for (int i = kept; i < n; ++i) put(i, drawFromSensors(random));
   m_count = n;
-  m_weight.head(n).setConstant(1.0F / static_cast<float>(n));
+  makeAllAlike();
 }
 
 // Copies of one particle would say the same for ever: each moves a little, in proportion to what is
 // uncertain.
 void MonteCarloLocalization::regularize(int count) {
-  const double width = m_parameters.kernel * std::min(m_belief.sigma, widestKernel);
+  const auto width =
+      static_cast<float>(m_parameters.kernel * std::min(m_belief.sigma, widestKernel));
   FastNoise noise(m_seed, m_robot, m_updates++);
-  noise.fillNormal(m_a, count);
-  noise.fillNormal(m_b, count);
-  m_now.x.head(count) += static_cast<float>(width) * m_a.head(count);
-  m_now.y.head(count) += static_cast<float>(width) * m_b.head(count);
+  for (Array* one : {&m_a, &m_b}) noise.fillNormal(one->data(), count);
+  m_now.x.head(count) += width * m_a.head(count);
+  m_now.y.head(count) += width * m_b.head(count);
 }
 
-int MonteCarloLocalization::cellOf(float x, float y) const {
-  const auto column = static_cast<int>((x + m_halfLength + m_border) / m_parameters.kldCell);
-  const auto row = static_cast<int>((y + m_halfWidth + m_border) / m_parameters.kldCell);
-  return std::clamp(row, 0, m_rows - 1) * m_columns + std::clamp(column, 0, m_columns - 1);
-}
-
-// Mean of the particles within a metre of the cell with most weight: the mean of all would stand
-// between two hypotheses, where the robot surely is not.
+// The mean of all particles where they are one cluster. Else that of those within a metre of the
+// cell with most weight: the mean of all would stand between two hypotheses, where the robot surely
+// is not.
 void MonteCarloLocalization::estimate() {
-  const int n = m_count;
-  const auto x = m_now.x.head(n), y = m_now.y.head(n);
-  const auto weight = m_weight.head(n);
+  particles::Mean mean = particles::kernels().meanOf(poses(), m_weight.data());
+  const particles::Spread spread = particles::kernels().spreadAbout(
+      poses(), m_weight.data(), m_a.data(), static_cast<float>(mean.x), static_cast<float>(mean.y));
+  if (spread.farthest > clusterRadius * clusterRadius) strongestCluster(mean);
+  m_belief = {{{mean.x, mean.y}, repeatable::atan2(mean.sine, mean.cosine)},
+              std::sqrt(spread.variance),
+              m_count};
+}
+
+void MonteCarloLocalization::strongestCluster(particles::Mean& mean) {
+  particles::kernels().cellsOf(poses(), grid(), m_cells.data());
   std::fill(m_cellWeight.begin(), m_cellWeight.end(), 0.0F);
-  int best = 0;
-  for (int i = 0; i < n; ++i) {
-    const int cell = cellOf(x[i], y[i]);
-    float& sum = m_cellWeight[static_cast<std::size_t>(cell)];
-    sum += weight[i];
-    if (sum > m_cellWeight[static_cast<std::size_t>(best)]) best = cell;
+  for (int i = 0; i < m_count; ++i) {
+    m_cellWeight[static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)])] += m_weight[i];
   }
+  const auto best = static_cast<int>(std::max_element(m_cellWeight.begin(), m_cellWeight.end()) -
+                                     m_cellWeight.begin());
   const double cell_m = m_parameters.kldCell;
-  const auto centreX =
-      static_cast<float>((best % m_columns + 0.5) * cell_m - m_halfLength - m_border);
-  const auto centreY =
-      static_cast<float>((best / m_columns + 0.5) * cell_m - m_halfWidth - m_border);
-
-  auto inside = m_a.head(n);
-  constexpr auto reach = static_cast<float>(clusterRadius * clusterRadius);
-  inside = ((x - centreX).square() + (y - centreY).square() < reach).select(weight, 0.0F);
-  const double sum = std::max(static_cast<double>(inside.sum()), 1e-20);
-  const double meanX = (inside * x).sum() / sum, meanY = (inside * y).sum() / sum;
-  const double cosine = (inside * m_now.c.head(n)).sum(), sine = (inside * m_now.s.head(n)).sum();
-
-  const double total = std::max(static_cast<double>(weight.sum()), 1e-20);
-  const auto allX = static_cast<float>((weight * x).sum() / total);
-  const auto allY = static_cast<float>((weight * y).sum() / total);
-  const double variance = (weight * ((x - allX).square() + (y - allY).square())).sum() / total;
-  m_belief = {
-      {{meanX, meanY}, repeatable::atan2(sine, cosine)}, std::sqrt(std::max(variance, 0.0)), n};
+  const double x = (best % m_columns + 0.5) * cell_m - m_halfLength - m_border;
+  const double y = (best / m_columns + 0.5) * cell_m - m_halfWidth - m_border;
+  mean = particles::kernels().meanNear(poses(), m_weight.data(), m_a.data(), static_cast<float>(x),
+                                       static_cast<float>(y), static_cast<float>(clusterRadius));
 }
 
 }  // namespace pitchboard::link

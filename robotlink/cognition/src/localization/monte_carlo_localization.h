@@ -31,6 +31,8 @@
 #include <base/result.h>
 #include <simcore/world/field.h>
 
+#include "localization/particle_kernels.h"
+
 namespace pitchboard {
 class CounterRandom;
 }
@@ -121,6 +123,10 @@ class MonteCarloLocalization {
   struct Particles {
     Array x, y, c, s;
   };
+  particles::Poses poses() {
+    return {m_now.x.data(), m_now.y.data(), m_now.c.data(), m_now.s.data(), m_count};
+  }
+  particles::Grid grid() const;
   struct Remembered {
     double bearing = 0.0;
     double age = 1e9;  // s
@@ -139,7 +145,8 @@ class MonteCarloLocalization {
   double drawYaw(CounterRandom& random) const;
   void remember(const LocalizationInput& input);
   void estimate();
-  int cellOf(float x, float y) const;
+  void strongestCluster(particles::Mean& mean);
+  void makeAllAlike();
   bool onField(const Point& p) const;
   void put(int i, const Pose& pose);
 
@@ -154,7 +161,8 @@ class MonteCarloLocalization {
   int m_count = 0;
   bool m_spread = false;  // particles have been placed
   Particles m_now, m_next;
-  Array m_weight, m_noise, m_a, m_b, m_d;
+  Array m_weight, m_a, m_b, m_d;  // the last three: scratch
+  std::vector<std::int32_t> m_cells;
   std::array<Remembered, 4> m_remembered;
   std::optional<double> m_lastImu;
   double m_imuShift = 0.0;  // to be added to its yaw if its jumps were resets; 0: none was seen

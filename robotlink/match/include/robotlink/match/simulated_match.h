@@ -120,6 +120,8 @@ class SimulatedMatch {
   /// What the bridge read before the last tick, in the order of the simulation's robots (a robot
   /// that came since has the default). With it and the state before, that tick can be repeated.
   std::span<const sim::RobotCommand> commands() const { return m_commands; }
+  /// What the last tick let the robots sense, in the same order.
+  std::span<const sim::Percepts> percepts() const { return m_percepts; }
   /// The separate processes.
   ProcessManager& processes() { return *m_processes; }
   const ProcessManager& processes() const { return *m_processes; }

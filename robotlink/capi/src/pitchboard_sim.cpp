@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The C interface: finds what a handle stands for, calls Worlds, and turns errors into codes and a
+// sentence. No exception passes.
+#include <pitchboard_sim.h>
+
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <unordered_map>
+
+#include <robotlink/capi/worlds.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+static_assert(PB_KEEP == Worlds::keep && PB_ALL == Worlds::all);
+static_assert(PB_BOARD_WORDS == Blackboard::words);
+
+struct LockedWorlds {
+  explicit LockedWorlds(Worlds made) : worlds(std::move(made)) {}
+  std::mutex mutex;
+  Worlds worlds;
+};
+
+/// Handles are numbers that are never used twice, so that one that was destroyed is known as such
+/// whatever memory holds now.
+template <class Thing, class Handle>
+class Handles {
+ public:
+  Handle* add(std::shared_ptr<Thing> thing) {
+    const std::lock_guard lock(m_mutex);
+    m_last += sizeof(std::max_align_t);
+    m_things.emplace(m_last, std::move(thing));
+    return reinterpret_cast<Handle*>(m_last);
+  }
+  std::shared_ptr<Thing> find(const Handle* handle) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
+    return found == m_things.end() ? nullptr : found->second;
+  }
+  /// The thing goes when nobody uses it any more.
+  std::shared_ptr<Thing> remove(const Handle* handle) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
+    if (found == m_things.end()) return nullptr;
+    auto thing = std::move(found->second);
+    m_things.erase(found);
+    return thing;
+  }
+
+ private:
+  std::mutex m_mutex;
+  std::uintptr_t m_last = 0x1000;
+  std::unordered_map<std::uintptr_t, std::shared_ptr<Thing>> m_things;
+};
+
+// Never destroyed: a program may call from an atexit handler.
+auto& worldHandles() {
+  static auto* handles = new Handles<LockedWorlds, pb_worlds>;
+  return *handles;
+}
+auto& snapshotHandles() {
+  static auto* handles = new Handles<const WorldSnapshot, pb_snapshot>;
+  return *handles;
+}
+
+// In fixed memory, so that "out of memory" can be told, too.
+constexpr std::size_t longestError = 2000;
+thread_local char lastError[longestError] = "";
+
+pb_status told(pb_status status, std::string_view sentence) {
+  const std::size_t length = std::min(sentence.size(), longestError - 1);
+  std::memcpy(lastError, sentence.data(), length);
+  lastError[length] = '\0';
+  return status;
+}
+
+pb_status told(const Result<void>& result) {
+  if (result) return told(PB_OK, "");
+  const auto code = [&] {
+    switch (result.error().code) {
+      case ErrorCode::InvalidArgument:
+        return PB_INVALID_ARGUMENT;
+      case ErrorCode::NotFound:
+        return PB_NOT_FOUND;
+      case ErrorCode::ParseError:
+        return PB_PARSE_ERROR;
+      case ErrorCode::SystemError:
+        return PB_SYSTEM_ERROR;
+      case ErrorCode::Conflict:
+        return PB_CONFLICT;
+      case ErrorCode::Unsupported:
+        return PB_UNSUPPORTED;
+    }
+    return PB_INVALID_ARGUMENT;
+  }();
+  return told(code, result.error().text());
+}
+
+pb_status missing(const char* what) {
+  return told(PB_INVALID_ARGUMENT, std::string(what) + " must not be null");
+}
+
+/// Runs `call`, which gives a status, and lets no exception out.
+template <class Call>
+pb_status guarded(const Call& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    return told(PB_SYSTEM_ERROR, "there is not enough memory; ask for fewer worlds");
+  } catch (const std::exception& error) {
+    return told(PB_SYSTEM_ERROR, error.what());
+  }
+}
+
+/// Calls use(Worlds&) on what the handle stands for.
+template <class Use>
+pb_status withWorlds(const pb_worlds* handle, const Use& use) {
+  return guarded([&] {
+    if (handle == nullptr) return missing("worlds");
+    const auto found = worldHandles().find(handle);
+    if (!found) {
+      return told(PB_STALE_HANDLE,
+                  "these worlds are not there: they were destroyed, or never created");
+    }
+    const std::lock_guard lock(found->mutex);
+    return told(use(found->worlds));
+  });
+}
+
+/// The caller's array; a null is an empty one, whose size is then refused.
+template <class Value>
+std::span<Value> spanOf(Value* values, std::size_t count) {
+  return values == nullptr ? std::span<Value>() : std::span<Value>(values, count);
+}
+
+Result<void> refusal(std::string sentence) {
+  return failure(ErrorCode::InvalidArgument, std::move(sentence));
+}
+
+std::optional<WorldArray> arrayOf(std::int32_t array) {
+  if (array < 0 || static_cast<std::size_t>(array) >= worldArrays) return {};
+  return static_cast<WorldArray>(array);
+}
+
+std::span<const WorldColumn> columns(std::int32_t array) {
+  if (array == PB_COMMANDS) return commandColumns();
+  const auto known = arrayOf(array);
+  return known ? columnsOf(*known) : std::span<const WorldColumn>();
+}
+
+Result<Scenario> scenarioOf(const pb_options& options) {
+  if (options.scenario && options.text) {
+    return failure(ErrorCode::InvalidArgument,
+                   "a scenario has a name or a text; set the other of the two to null");
+  }
+  auto scenario = options.text ? scenarioFromJson(options.text, "scenario")
+                               : loadScenario(options.scenario ? options.scenario : "one-robot");
+  if (!scenario) return scenario;
+  if (options.noise) {
+    const auto noise = noisePreset(options.noise);
+    if (!noise) return tl::unexpected<Error>(noise.error());
+    scenario->settings.noise = *noise;
+  }
+  if (options.physics) scenario->settings.physics = options.physics;
+  if (options.duration != 0.0) {
+    if (!(options.duration > 0.0 && options.duration <= 1e9)) {
+      return failure(ErrorCode::InvalidArgument,
+                     "duration must be above 0 and at most 1e9 seconds, or 0 for the scenario's");
+    }
+    scenario->stop.duration = options.duration;
+  }
+  return scenario;
+}
+
+// Variables as numbers: ints by their index, floats behind them.
+constexpr std::int32_t firstFloat = Blackboard::intVariables;
+
+Result<std::vector<Variable>> variablesOf(const std::int32_t* numbers, std::size_t count) {
+  if (numbers == nullptr || count == 0 || count > 2 * Blackboard::words) {
+    return failure(ErrorCode::InvalidArgument,
+                   "variables must be 1 to 1024 numbers that pb_find_variable() gave");
+  }
+  std::vector<Variable> variables(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t number = numbers[i];
+    const bool isFloat = number >= firstFloat;
+    const std::int32_t index = isFloat ? number - firstFloat : number;
+    if (index < 0 || index >= (isFloat ? Blackboard::floatVariables : Blackboard::intVariables)) {
+      return failure(ErrorCode::InvalidArgument,
+                     std::to_string(number) + " is no variable; ask pb_find_variable()");
+    }
+    variables[i].type = isFloat ? VariableType::Float : VariableType::Int;
+    variables[i].index = index;
+  }
+  return variables;
+}
+
+}  // namespace
+
+std::int32_t pb_api_version(void) {
+  return PB_API_VERSION;
+}
+const char* pb_version(void) {
+  return PITCHBOARD_VERSION;
+}
+const char* pb_last_error(void) {
+  return lastError;
+}
+
+size_t pb_column_count(std::int32_t array) {
+  return columns(array).size();
+}
+// The names are literals, which end with a zero.
+const char* pb_column_name(std::int32_t array, size_t column) {
+  const auto all = columns(array);
+  return column < all.size() ? all[column].name.data() : nullptr;
+}
+const char* pb_column_words(std::int32_t array, size_t column) {
+  const auto all = columns(array);
+  return column < all.size() ? all[column].words.data() : nullptr;
+}
+
+pb_status pb_options_init(pb_options* options, size_t size) {
+  if (options == nullptr) return missing("options");
+  if (size != sizeof(pb_options)) {
+    return told(PB_INVALID_ARGUMENT, "size must be sizeof(pb_options) of this version's header");
+  }
+  *options = {};
+  options->size = size;
+  options->worlds = 1;
+  options->threads = 1;
+  return told(PB_OK, "");
+}
+
+pb_status pb_create(const pb_options* options, pb_worlds** worlds) {
+  return guarded([&] {
+    if (worlds == nullptr) return missing("worlds");
+    *worlds = nullptr;
+    if (options == nullptr) return missing("options");
+    if (options->size != sizeof(pb_options)) {
+      return told(PB_INVALID_ARGUMENT, "these options were not filled by pb_options_init()");
+    }
+    const auto scenario = scenarioOf(*options);
+    if (!scenario) return told(tl::unexpected(scenario.error()));
+    WorldsOptions wanted;
+    wanted.count = options->worlds;
+    wanted.threads = options->threads;
+    if (options->has_seed != 0) wanted.seed = options->seed;
+    if (options->particles != 0) wanted.particles = options->particles;
+    auto made = Worlds::create(*scenario, wanted);
+    if (!made) return told(tl::unexpected(made.error()));
+    *worlds = worldHandles().add(std::make_shared<LockedWorlds>(std::move(*made)));
+    return told(PB_OK, "");
+  });
+}
+
+pb_status pb_destroy(pb_worlds* worlds) {
+  return guarded([&] {
+    if (worlds == nullptr) return told(PB_OK, "");
+    const auto removed = worldHandles().remove(worlds);
+    if (!removed) return told(PB_STALE_HANDLE, "these worlds were destroyed before");
+    const std::lock_guard waited(removed->mutex);
+    return told(PB_OK, "");
+  });
+}
+
+pb_status pb_get_shape(pb_worlds* worlds, pb_shape* shape) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    if (shape == nullptr) return refusal("shape must not be null");
+    if (shape->size != sizeof(pb_shape)) {
+      return refusal("set size to sizeof(pb_shape) of this version's header before");
+    }
+    shape->worlds = static_cast<std::int32_t>(w.count());
+    shape->robots = static_cast<std::int32_t>(w.robots());
+    shape->tick_rate = w.tickRate();
+    return {};
+  });
+}
+
+pb_status pb_robot_ids(pb_worlds* worlds, std::int32_t* ids, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    if (spanOf(ids, count).size() != w.robots()) {
+      return refusal("the array of robots needs " + std::to_string(w.robots()) + " values");
+    }
+    std::transform(w.robotIds().begin(), w.robotIds().end(), ids,
+                   [](RobotId id) { return id.value; });
+    return {};
+  });
+}
+
+pb_status pb_set_behaviour(pb_worlds* worlds, std::int32_t robot, const char* behaviour) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    if (behaviour == nullptr) return refusal("behaviour must not be null");
+    return w.setBehaviour(RobotId{robot}, behaviour);
+  });
+}
+
+pb_status pb_reset(pb_worlds* worlds, std::int32_t world, std::uint64_t seed) {
+  return withWorlds(worlds, [&](Worlds& w) { return w.reset(world, seed); });
+}
+
+pb_status pb_step(pb_worlds* worlds, std::int32_t ticks) {
+  return withWorlds(worlds, [&](Worlds& w) { return w.step(ticks); });
+}
+
+pb_status pb_read(pb_worlds* worlds, std::int32_t array, double* out, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    const auto known = arrayOf(array);
+    if (!known) return refusal("an array is PB_PERCEPTS, PB_ROBOTS or PB_GAME");
+    return w.read(*known, spanOf(out, count));
+  });
+}
+
+pb_status pb_read_boards(pb_worlds* worlds, std::uint32_t* out, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) { return w.readBoards(spanOf(out, count)); });
+}
+
+pb_status pb_read_hashes(pb_worlds* worlds, std::uint64_t* out, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) { return w.readHashes(spanOf(out, count)); });
+}
+
+pb_status pb_find_variable(const char* name, std::int32_t* variable) {
+  return guarded([&] {
+    if (name == nullptr || variable == nullptr) return missing("name and variable");
+    const auto found = worldVariable(name);
+    if (!found) return told(tl::unexpected(found.error()));
+    *variable = found->index + (found->type == VariableType::Float ? firstFloat : 0);
+    return told(PB_OK, "");
+  });
+}
+
+pb_status pb_read_variables(pb_worlds* worlds, const std::int32_t* variables, size_t variable_count,
+                            double* out, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    const auto known = variablesOf(variables, variable_count);
+    if (!known) return tl::unexpected(known.error());
+    return w.readVariables(*known, spanOf(out, count));
+  });
+}
+
+pb_status pb_write_variables(pb_worlds* worlds, const std::int32_t* variables,
+                             size_t variable_count, const double* values, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    const auto known = variablesOf(variables, variable_count);
+    if (!known) return tl::unexpected(known.error());
+    return w.writeVariables(*known, spanOf(values, count));
+  });
+}
+
+pb_status pb_write_commands(pb_worlds* worlds, const std::int32_t* commands, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) { return w.writeCommands(spanOf(commands, count)); });
+}
+
+pb_status pb_write_actions(pb_worlds* worlds, const std::int32_t* actions, size_t count) {
+  return withWorlds(worlds, [&](Worlds& w) { return w.writeActions(spanOf(actions, count)); });
+}
+
+pb_status pb_place_robot(pb_worlds* worlds, std::int32_t world, std::int32_t robot, double x,
+                         double y, double yaw) {
+  return withWorlds(worlds, [&](Worlds& w) {
+    return w.placeRobot(world, RobotId{robot}, {{x, y}, yaw});
+  });
+}
+
+pb_status pb_place_ball(pb_worlds* worlds, std::int32_t world, double x, double y,
+                        double velocity_x, double velocity_y) {
+  return withWorlds(worlds, [&](Worlds& w) {
+    return w.placeBall(world, {x, y}, {velocity_x, velocity_y});
+  });
+}
+
+pb_status pb_take_snapshot(pb_worlds* worlds, std::int32_t world, pb_snapshot** snapshot) {
+  if (snapshot == nullptr) return missing("snapshot");
+  *snapshot = nullptr;
+  return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
+    auto taken = w.snapshot(world);
+    if (!taken) return tl::unexpected(taken.error());
+    *snapshot = snapshotHandles().add(std::make_shared<const WorldSnapshot>(std::move(*taken)));
+    return {};
+  });
+}
+
+pb_status pb_restore(pb_worlds* worlds, std::int32_t world, const pb_snapshot* snapshot) {
+  return guarded([&] {
+    if (snapshot == nullptr) return missing("snapshot");
+    const auto found = snapshotHandles().find(snapshot);
+    if (!found) return told(PB_STALE_HANDLE, "this snapshot was destroyed, or never taken");
+    return withWorlds(worlds, [&](Worlds& w) { return w.restore(world, *found); });
+  });
+}
+
+pb_status pb_destroy_snapshot(pb_snapshot* snapshot) {
+  return guarded([&] {
+    if (snapshot == nullptr || snapshotHandles().remove(snapshot)) return told(PB_OK, "");
+    return told(PB_STALE_HANDLE, "this snapshot was destroyed before");
+  });
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "step_team.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::size_t atOnce = 4;  // pieces; small enough that nobody waits long at the end
+
+}  // namespace
+
+Result<void> StepTeam::start(int threads) {
+  try {
+    for (int i = 1; i < threads; ++i) m_threads.emplace_back([this] { serve(); });
+  } catch (const std::system_error& error) {
+    return failure(ErrorCode::SystemError, "the system gives no more than " +
+                                               std::to_string(m_threads.size() + 1) +
+                                               " threads; ask for fewer (" + error.what() + ")");
+  }
+  return {};
+}
+
+StepTeam::~StepTeam() {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_ends = true;
+  }
+  m_begun.notify_all();
+  for (std::thread& thread : m_threads) thread.join();
+}
+
+void StepTeam::run(std::size_t pieces, const Work& work) {
+  if (m_threads.empty() || pieces <= 1) {
+    for (std::size_t i = 0; i < pieces; ++i) work(i);
+    return;
+  }
+  {
+    const std::lock_guard lock(m_mutex);
+    m_work = &work;
+    m_pieces = pieces;
+    m_next = 0;
+    m_busy = m_threads.size();
+    ++m_round;
+  }
+  m_begun.notify_all();
+  takePieces();
+  std::unique_lock lock(m_mutex);
+  m_done.wait(lock, [this] { return m_busy == 0; });
+}
+
+void StepTeam::serve() {
+  std::size_t round = 0;
+  while (true) {
+    {
+      std::unique_lock lock(m_mutex);
+      m_begun.wait(lock, [&] { return m_ends || m_round != round; });
+      if (m_ends) return;
+      round = m_round;
+    }
+    takePieces();
+    const std::lock_guard lock(m_mutex);
+    if (--m_busy == 0) m_done.notify_one();
+  }
+}
+
+void StepTeam::takePieces() {
+  while (true) {
+    const std::size_t first = m_next.fetch_add(atOnce);
+    if (first >= m_pieces) return;
+    const std::size_t last = std::min(first + atOnce, m_pieces);
+    for (std::size_t i = first; i < last; ++i) (*m_work)(i);
+  }
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Threads that share work on numbered pieces: run() gives every piece to one of them, the caller's
+// included, and returns when all are done. Which thread takes which piece is nobody's business, so
+// pieces must not know each other. Owned and used by one thread.
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <base/result.h>
+
+namespace pitchboard::link {
+
+class StepTeam {
+ public:
+  using Work = std::function<void(std::size_t piece)>;
+
+  StepTeam() = default;
+  ~StepTeam();
+  StepTeam(const StepTeam&) = delete;
+  StepTeam& operator=(const StepTeam&) = delete;
+
+  /// `threads` in all, the caller's included. Fails when the system gives no more; once only.
+  Result<void> start(int threads);
+  void run(std::size_t pieces, const Work& work);
+
+ private:
+  void serve();
+  void takePieces();
+
+  std::mutex m_mutex;
+  std::condition_variable m_begun, m_done;
+  const Work* m_work = nullptr;
+  std::size_t m_pieces = 0;
+  std::atomic<std::size_t> m_next = 0;
+  std::size_t m_round = 0;
+  std::size_t m_busy = 0;
+  bool m_ends = false;
+  std::vector<std::thread> m_threads;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "world.h"
+
+#include <algorithm>
+#include <array>
+
+#include "world_columns.h"
+
+namespace pitchboard::link {
+namespace {
+
+// Nobody reads the events of these matches; they are thrown away before their list is full.
+constexpr int ticksBetweenForgetting = 200;
+
+}  // namespace
+
+World::World(SimulatedMatch match) : m_match(std::move(match)) {
+  findBoards();
+}
+
+void World::findBoards() {
+  m_boards.clear();
+  for (const sim::RobotIdentity& robot : m_match.simulation().state().robots) {
+    m_boards.push_back(m_match.blackboard(robot.id));
+  }
+}
+
+Result<World> World::create(const Scenario& scenario, const MatchOptions& options,
+                            std::uint64_t seed) {
+  Scenario seeded = scenario;
+  seeded.settings.seed = seed;
+  auto match = SimulatedMatch::create(seeded, options);
+  if (!match) return tl::unexpected(match.error());
+  World world(std::move(*match));
+  world.m_finishedBy = world.m_match.finishedBy();
+  return world;
+}
+
+int World::finishedNumber() const {
+  const auto& reasons = columns::finishReasons;
+  const auto found = std::find(reasons.begin(), reasons.end(), m_finishedBy);
+  return found == reasons.end() ? 0 : static_cast<int>(found - reasons.begin()) + 1;
+}
+
+void World::play(int ticks) {
+  for (int i = 0; i < ticks && m_finishedBy.empty(); ++i) {
+    m_match.tick();
+    m_sensed = true;
+    m_finishedBy = m_match.finishedBy();
+    if (++m_sinceForgot >= ticksBetweenForgetting) forgetEvents();
+  }
+}
+
+void World::forgetEvents() {
+  m_sinceForgot = 0;
+  m_match.takeEvents(m_news);
+  m_news.clear();
+}
+
+WorldSnapshot World::snapshot() const {
+  WorldSnapshot out;
+  out.moment.state = m_match.simulation().state();
+  out.finishedBy = m_finishedBy;
+  for (std::size_t i = 0; i < m_boards.size(); ++i) {
+    MomentRobot robot;
+    robot.id = out.moment.state.robots[i].id;
+    robot.behaviour = m_match.behaviour(robot.id);
+    std::array<std::uint32_t, Blackboard::words> words;
+    m_boards[i]->copyWords(words);
+    robot.words.reserve(words.size());
+    for (int word = 0; word < Blackboard::words; ++word) {
+      robot.words.push_back({word, words[static_cast<std::size_t>(word)]});
+    }
+    out.moment.robots.push_back(std::move(robot));
+  }
+  return out;
+}
+
+Result<void> World::restore(const WorldSnapshot& snapshot) {
+  const auto& mine = m_match.simulation().state();
+  const auto& theirs = snapshot.moment.state;
+  sim::SimulationSettings settings = theirs.settings;
+  settings.seed = mine.settings.seed;
+  if (!(settings == mine.settings) || theirs.models != mine.models ||
+      !std::equal(theirs.robots.begin(), theirs.robots.end(), mine.robots.begin(),
+                  mine.robots.end(), [](const auto& a, const auto& b) { return a.id == b.id; })) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this snapshot is of a world of another scenario; restore it into worlds of its "
+                   "own");
+  }
+  if (auto entered = m_match.reenter(snapshot.moment); !entered) return entered;
+  findBoards();
+  const auto& reasons = columns::finishReasons;
+  const auto found = std::find(reasons.begin(), reasons.end(), snapshot.finishedBy);
+  m_finishedBy = found == reasons.end() ? std::string_view() : *found;
+  m_sensed = false;
+  forgetEvents();
+  return {};
+}
+
+bool World::beginAgain(const Moment& beginning, std::uint64_t seed) {
+  Moment seeded = beginning;
+  seeded.state.settings.seed = seed;
+  if (!m_match.reenter(seeded)) return false;
+  m_finishedBy = m_match.finishedBy();
+  m_sensed = false;
+  m_beginsQuickly = true;
+  forgetEvents();
+  return true;
+}
+
+}  // namespace pitchboard::link

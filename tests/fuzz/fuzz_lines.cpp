@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any bytes as lines for `simulate --stdio`: every line gets one line of JSON, and memory and time
+// stay within the limits.
+#include <robotlink/capi/world_lines.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+using namespace pitchboard::link;
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  static const Scenario usual = loadScenario("one-robot").value();
+  WorldLines::Limits limits;
+  limits.worlds = 3;
+  limits.ticks = 60;
+  limits.files = false;
+  limits.snapshots = 3;
+  WorldLines lines(usual, limits);
+  (void)lines.answer(R"({"do": "create", "worlds": 2})");
+  std::string_view rest(reinterpret_cast<const char*>(data), size);
+  for (int i = 0; i < 20 && !rest.empty(); ++i) {
+    const std::size_t end = rest.find('\n');
+    const std::string answer = lines.answer(rest.substr(0, end));
+    if (answer.find('\n') != std::string::npos) std::abort();
+    const auto json = nlohmann::json::parse(answer, nullptr, false);
+    if (!json.is_object() || !json.contains("ok")) std::abort();
+    if (json["ok"] == false && !json.contains("error")) std::abort();
+    if (end == std::string_view::npos) break;
+    rest.remove_prefix(end + 1);
+  }
+  return 0;
+}

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Worlds for learning programs: as C++, through the C interface, and by a program in C.
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QtTest>
+
+#include <pitchboard_sim.h>
+#include <robotlink/capi/worlds.h>
+
+#include <cmath>
+#include <thread>
+
+#include "../support/program_run.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+Worlds make(const Scenario& scenario, const WorldsOptions& options = {}) {
+  auto worlds = Worlds::create(scenario, options);
+  if (!worlds) qFatal("%s", worlds.error().text().c_str());
+  return std::move(*worlds);
+}
+
+/// A robot that is ours to steer, with every noise, a scripted write at once and one later.
+Scenario steered() {
+  Scenario scenario = loadScenario("one-robot").value();
+  scenario.settings.noise = noisePreset("realistic").value();
+  scenario.robots[0].behaviour = noBehaviour;
+  scenario.writes = {{RobotId{1}, "DECISION_ACTION_A", 1, 0.0},
+                     {RobotId{1}, "DECISION_ACTION_A", 2, 1.0}};
+  return scenario;
+}
+
+std::vector<std::uint64_t> hashes(const Worlds& worlds) {
+  std::vector<std::uint64_t> out(worlds.count());
+  if (!worlds.readHashes(out)) qFatal("no hashes");
+  return out;
+}
+
+std::size_t columnOf(WorldArray array, std::string_view name) {
+  const auto all = columnsOf(array);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].name == name) return i;
+  }
+  qFatal("no such column");
+  return 0;
+}
+
+std::vector<double> values(const Worlds& worlds, WorldArray array) {
+  std::vector<double> out(worlds.sizeOf(array));
+  if (!worlds.read(array, out)) qFatal("not read");
+  return out;
+}
+
+double first(const Worlds& worlds, WorldArray array, std::string_view column) {
+  return values(worlds, array)[columnOf(array, column)];
+}
+
+/// The same actions whenever it is called.
+void playByRule(Worlds& worlds, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    std::vector<std::int32_t> actions(worlds.count() * worlds.robots());
+    for (std::size_t k = 0; k < actions.size(); ++k) {
+      actions[k] = static_cast<std::int32_t>((static_cast<std::size_t>(i) / 20 + k) % 9);
+    }
+    if (!worlds.writeActions(actions) || !worlds.step(3)) qFatal("not played");
+  }
+}
+
+}  // namespace
+
+class TestCapi : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aProgramInCGetsTheHashOfTheCommandLine_data() {
+    QTest::addColumn<QString>("scenario");
+    QTest::addColumn<QString>("seconds");
+    QTest::newRow("one robot with localization") << "one-robot"
+                                                 << "20";
+    QTest::newRow("two teams") << "match-3v3"
+                               << "10";
+    QTest::newRow("with a referee") << "match"
+                                    << "15";
+    QTest::newRow("published physics") << "published-match-3v3"
+                                       << "10";
+  }
+  void aProgramInCGetsTheHashOfTheCommandLine() {
+    QFETCH(QString, scenario);
+    QFETCH(QString, seconds);
+    const ProgramRun cli = runProgram(
+        "pitchboard-cli",
+        {"simulate", "--json", "--scenario", scenario, "--seed", "11", "--duration", seconds});
+    QCOMPARE(cli.exitCode, 0);
+    const ProgramRun c = runProgram("../tests/capi_user", {scenario, "11", seconds});
+    QVERIFY2(c.exitCode == 0, c.err.constData());
+    const auto hash = QJsonDocument::fromJson(cli.out).object()["state_hash"].toString();
+    QVERIFY(hash.startsWith("0x"));
+    QCOMPARE(QString::fromLatin1(c.out).trimmed(), hash);
+  }
+
+  void worldsHaveSeedsOfTheirOwn() {
+    const Scenario scenario = loadScenario("match-3v3").value();
+    WorldsOptions options;
+    options.count = 3;
+    options.seed = 40;
+    Worlds worlds = make(scenario, options);
+    QVERIFY(worlds.step(200).has_value());
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      Scenario alone = scenario;
+      alone.settings.seed = 40 + i;
+      auto match = SimulatedMatch::create(alone, {}).value();
+      for (int tick = 0; tick < 200; ++tick) match.tick();
+      QCOMPARE(hashes(worlds)[i], match.simulation().hash());
+    }
+    // One world again, as another one was.
+    QVERIFY(worlds.reset(0, 42).has_value());
+    const auto before = hashes(worlds);
+    QVERIFY(before[0] != before[2]);
+    Worlds other = make(scenario, options);
+    QVERIFY(other.reset(Worlds::all, 42).has_value() && other.step(200).has_value());
+    QVERIFY(worlds.reset(Worlds::all, 42).has_value() && worlds.step(200).has_value());
+    QCOMPARE(hashes(worlds), hashes(other));
+    QCOMPARE(hashes(worlds)[0], before[2]);
+  }
+
+  void threadsDoNotChangeAnything() {
+    WorldsOptions options;
+    options.count = 23;
+    Worlds one = make(steered(), options);
+    options.threads = 3;
+    Worlds three = make(steered(), options);
+    for (int i = 0; i < 30; ++i) {
+      playByRule(one, 5);
+      playByRule(three, 5);
+    }
+    QCOMPARE(hashes(three), hashes(one));
+    QCOMPARE(values(three, WorldArray::Robots), values(one, WorldArray::Robots));
+  }
+
+  void callsFromManyThreadsWaitForOneAnother() {
+    pb_options options;
+    QCOMPARE(pb_options_init(&options, sizeof options), PB_OK);
+    options.worlds = 4;
+    options.threads = 2;
+    pb_worlds* worlds = nullptr;
+    QCOMPARE(pb_create(&options, &worlds), PB_OK);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 3; ++i) {
+      threads.emplace_back([worlds] {
+        std::vector<double> game(4 * pb_column_count(PB_GAME));
+        for (int k = 0; k < 50; ++k) {
+          (void)pb_step(worlds, 1);
+          (void)pb_read(worlds, PB_GAME, game.data(), game.size());
+          (void)pb_step(nullptr, 1);
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    std::vector<double> game(4 * pb_column_count(PB_GAME));
+    QCOMPARE(pb_read(worlds, PB_GAME, game.data(), game.size()), PB_OK);
+    QCOMPARE(game[0], 150.0);
+    QCOMPARE(pb_destroy(worlds), PB_OK);
+  }
+
+  void aNewBeginningIsLikeANewMatch() {
+    WorldsOptions options;
+    options.seed = 5;
+    Worlds fresh = make(steered(), options);
+    Worlds again = make(steered(), options);
+    playByRule(again, 100);
+    QVERIFY(again.placeBall(0, {1, 1}, {2, 0}).has_value());
+    playByRule(again, 50);
+    QVERIFY(again.reset(0, 5).has_value());
+    QCOMPARE(hashes(again), hashes(fresh));
+    std::vector<std::uint32_t> boards(512), boardsAgain(512);
+    QVERIFY(fresh.readBoards(boards).has_value() && again.readBoards(boardsAgain).has_value());
+    QCOMPARE(boardsAgain, boards);
+    // What the caller writes before the first tick is not overwritten by the scenario's beginning,
+    // and what it writes later comes.
+    const std::vector<std::int32_t> stop{0};
+    for (Worlds* worlds : {&fresh, &again}) {
+      QVERIFY(worlds->writeActions(stop).has_value() && worlds->step(30).has_value());
+      QCOMPARE(first(*worlds, WorldArray::Robots, "walked_m"), 0.0);
+      QVERIFY(worlds->step(60).has_value());
+      QCOMPARE(first(*worlds, WorldArray::Robots, "action"), 2.0);
+    }
+    QCOMPARE(hashes(again), hashes(fresh));
+  }
+
+  void whatFollowsASnapshotFollowsAgain() {
+    WorldsOptions options;
+    options.count = 2;
+    Worlds worlds = make(steered(), options);
+    playByRule(worlds, 40);
+    const WorldSnapshot snapshot = worlds.snapshot(1).value();
+    playByRule(worlds, 70);
+    const auto after = hashes(worlds);
+    QVERIFY(worlds.restore(1, snapshot).has_value());
+    QVERIFY(hashes(worlds)[1] != after[1]);
+    QVERIFY(
+        std::isnan(values(worlds, WorldArray::Percepts)[columnsOf(WorldArray::Percepts).size()]));
+    playByRule(worlds, 70);
+    QCOMPARE(hashes(worlds)[1], after[1]);
+    // Into another world: it goes on as that one, with its seed.
+    QVERIFY(worlds.restore(Worlds::all, snapshot).has_value());
+    QCOMPARE(hashes(worlds)[0], hashes(worlds)[1]);
+    Worlds others = make(loadScenario("match-3v3").value());
+    const auto refused = others.restore(0, snapshot);
+    QVERIFY(!refused && refused.error().message.find("another scenario") != std::string::npos);
+  }
+
+  void theTruthIsTheScenarios() {
+    Worlds worlds = make(loadScenario("one-robot").value());
+    QCOMPARE(first(worlds, WorldArray::Robots, "x"), -1.5);
+    QCOMPARE(first(worlds, WorldArray::Robots, "yaw"), 0.0);
+    QVERIFY(std::isnan(first(worlds, WorldArray::Percepts, "imu_yaw")));
+    QVERIFY(std::isnan(first(worlds, WorldArray::Game, "play_state")));
+    QVERIFY(worlds.setBehaviour(RobotId{1}, std::string(noBehaviour)).has_value());
+    QVERIFY(worlds.reset(0, 1).has_value());
+    const std::vector<std::int32_t> walk{1};
+    QVERIFY(worlds.writeActions(walk).has_value() && worlds.step(60).has_value());
+    const double x = first(worlds, WorldArray::Robots, "x");
+    QVERIFY(std::abs(x + 1.5 - first(worlds, WorldArray::Robots, "walked_m")) < 1e-9);
+    QVERIFY(x > -1.5);
+    // The ball lies straight ahead, at the centre; vision tells the distance from the body, in cm.
+    QCOMPARE(first(worlds, WorldArray::Percepts, "ball_lost"), 0.0);
+    const double distance_cm = first(worlds, WorldArray::Percepts, "ball_distance_cm");
+    QVERIFY(std::abs(distance_cm + 100.0 * x) < 1e-9);
+    QCOMPARE(first(worlds, WorldArray::Percepts, "ball_angle_deg"), 0.0);
+    const std::vector<Variable> distance{worldVariable("VISION_BALL_DIST").value()};
+    std::vector<double> told(1);
+    QVERIFY(worlds.readVariables(distance, told).has_value());
+    QCOMPARE(told[0], static_cast<double>(static_cast<float>(distance_cm)));
+    std::vector<std::uint32_t> board(512);
+    QVERIFY(worlds.readBoards(board).has_value());
+    const auto word = static_cast<std::size_t>(Blackboard::floatOffset + distance[0].index);
+    QCOMPARE(std::bit_cast<float>(board[word]), static_cast<float>(told[0]));
+  }
+
+  void aWorldThatIsOverStandsStill() {
+    Scenario scenario = steered();
+    scenario.stop.goal = true;
+    WorldsOptions options;
+    options.count = 2;
+    Worlds worlds = make(scenario, options);
+    QVERIFY(worlds.placeBall(1, {4.0, 0.0}, {6.0, 0.0}).has_value());
+    QVERIFY(worlds.step(300).has_value());
+    const auto game = values(worlds, WorldArray::Game);
+    const std::size_t row = columnsOf(WorldArray::Game).size();
+    QCOMPARE(game[0], 300.0);
+    QVERIFY(game[row] < 300.0);
+    QCOMPARE(game[columnOf(WorldArray::Game, "finished")], 0.0);
+    QCOMPARE(game[row + columnOf(WorldArray::Game, "finished")], 1.0);
+    QCOMPARE(game[row + columnOf(WorldArray::Game, "score_left")] +
+                 game[row + columnOf(WorldArray::Game, "score_right")],
+             1.0);
+    QCOMPARE(worlds.finishedBy(1), std::string_view("goal"));
+    const WorldSnapshot over = worlds.snapshot(1).value();
+    QVERIFY(worlds.reset(1, 9).has_value() && worlds.step(1).has_value());
+    QCOMPARE(worlds.finishedBy(1), std::string_view());
+    QVERIFY(worlds.restore(1, over).has_value() && worlds.step(5).has_value());
+    QCOMPARE(worlds.finishedBy(1), std::string_view("goal"));
+    QCOMPARE(values(worlds, WorldArray::Game)[row], game[row]);
+  }
+
+  void commandsReachTheRobot() {
+    Worlds worlds = make(steered());
+    std::vector<std::int32_t> commands(commandColumns().size(), Worlds::keep);
+    QVERIFY(worlds.writeCommands(commands).has_value());
+    const std::vector<Variable> action{worldVariable("DECISION_ACTION_A").value(),
+                                       worldVariable("DECISION_SEARCH_ON").value()};
+    std::vector<double> told(2);
+    QVERIFY(worlds.readVariables(action, told).has_value());
+    QCOMPARE(told, (std::vector<double>{1, 1}));
+    commands[0] = 7;
+    commands[2] = 0;
+    QVERIFY(worlds.writeCommands(commands).has_value() &&
+            worlds.readVariables(action, told).has_value());
+    QCOMPARE(told, (std::vector<double>{7, 0}));
+    told = {std::nan(""), 1};
+    QVERIFY(worlds.writeVariables(action, told).has_value() &&
+            worlds.readVariables(action, told).has_value());
+    QCOMPARE(told, (std::vector<double>{7, 1}));
+    told = {1.5, 1};
+    QVERIFY(!worlds.writeVariables(action, told));
+  }
+
+  void programsOfATeamAreRefused() {
+    Scenario scenario = steered();
+    scenario.robots[0].runtime.decision = "/bin/true";
+    const auto refused = Worlds::create(scenario, {});
+    QVERIFY(!refused);
+    QCOMPARE(refused.error().code, ErrorCode::Unsupported);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestCapi)
+#include "tst_capi.moc"
