@@ -23,6 +23,8 @@ void addInspectCommand(CLI::App& parent, int& exitCode);
 void addRepairCommand(CLI::App& parent, int& exitCode);
 void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
+void addExperimentCommand(CLI::App& parent, int& exitCode);
+void addTestCommand(CLI::App& parent, int& exitCode);
 
 using shared::reportError;
 

@@ -30,13 +30,13 @@ struct SourceFile {
 inline QStringList all(const QString& library) {
   static const QHash<QString, QStringList> rooms{
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
-      {"telemetry", {"wire", "series", "mcap", "session"}},
+      {"telemetry", {"wire", "series", "expression", "mcap", "session"}},
       {"robotlink",
        {"blackboard", "processes", "models", "cognition", "scenario", "frame", "match", "live",
-        "session", "report", "conformance", "capi"}},
+        "session", "report", "experiment", "conformance", "capi"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "window"}}};
+        "noise", "processes", "log", "referee", "experiments", "window"}}};
   QStringList folders;
   for (const QString& room : rooms.value(library)) folders << library + '/' + room;
   return folders;
@@ -63,6 +63,7 @@ inline const QList<Room>& table() {
         {"resources", {}, {}},
         {wire, {base, "resources"}, {"google/protobuf/", "messages/", "nlohmann/"}},
         {series, {base}, {}},
+        {"telemetry/expression", {base}, {"muParser.h"}},
         {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
         {board, {base, series, wire, "resources"}, {"nlohmann/"}},
@@ -81,6 +82,10 @@ inline const QList<Room>& table() {
          below + QStringList{board, processes, cognition, scenario, frame, match, live},
          {"nlohmann/"}},
         {"robotlink/report", below + QStringList{frame, session}, {}},
+        {"robotlink/experiment",
+         below + QStringList{board, processes, models, scenario, frame, match, session,
+                             "robotlink/report", "resources"},
+         {"boost/", "nlohmann/"}},
         {"robotlink/conformance",
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
@@ -106,9 +111,6 @@ inline const QList<Room>& table() {
       const bool listed = std::any_of(made.begin(), made.end(),
                                       [&room](const Room& one) { return one.folder == room; });
       if (!listed) made.append({room, belowUi + QStringList{"ui/base", "ui/sources"}, qt});
-    }
-    for (Room& room : made) {
-      if (room.folder == "ui/plots") room.headers << "muParser.h";
     }
     return made;
   }();
@@ -237,6 +239,7 @@ inline QString headerOfPackage(const QString& target) {
                                                {"PkgConfig::SLEEF", "sleef.h"},
                                                {"PkgConfig::ZSTD", "zstd.h"},
                                                {"PkgConfig::muparser", "muParser.h"},
+                                               {"Boost::headers", "boost/"},
                                                {"CLI11::CLI11", "CLI/"},
                                                {"Threads::Threads", {}}};
   if (target.startsWith("Qt6::")) return "Q";

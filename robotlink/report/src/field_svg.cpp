@@ -41,6 +41,11 @@ class Drawing {
               "font-size=\"17\" font-weight=\"700\" fill=\"#ffffff\">" +
               words + "</text>";
   }
+  void way(std::span<const Point> points, const std::string& style) {
+    m_body += "<polyline points=\"";
+    for (const Point& point : points) m_body += n(100 * point.x) + ',' + n(-100 * point.y) + ' ';
+    m_body += "\" fill=\"none\" stroke-linejoin=\"round\" " + style + "/>";
+  }
   std::string document() const {
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + n(-m_halfWidth) + ' ' +
            n(-m_halfHeight) + ' ' + n(2 * m_halfWidth) + ' ' + n(2 * m_halfHeight) + "\">" +
@@ -106,6 +111,20 @@ std::string fieldSvg(const MatchFrame& frame) {
   if (frame.ballKnown) {
     d.circle(frame.snapshot.ball, 100 * frame.field.ballRadius,
              std::string("fill=\"") + ballColour + "\" stroke=\"#1b1d20\" stroke-width=\"1.5\"");
+  }
+  return d.document();
+}
+
+std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldWay> ways) {
+  Drawing d(field);
+  drawField(d, field);
+  for (const FieldWay& way : ways) {
+    const std::string opacity = fixed(way.opacity, 2);
+    d.way(way.points, "stroke=\"" + way.colour + "\" stroke-opacity=\"" + opacity +
+                          "\" stroke-width=\"" + fixed(way.width, 1) + '"');
+    if (way.marksEnd && !way.points.empty()) {
+      d.circle(way.points.back(), 5, "fill=\"" + way.colour + "\" fill-opacity=\"" + opacity + '"');
+    }
   }
   return d.document();
 }

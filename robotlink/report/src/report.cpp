@@ -7,42 +7,16 @@
 #include <cstdio>
 #include <ctime>
 
+#include <robotlink/report/report_page.h>
 #include <telemetry/wire/base64.h>
 
 #include "report_charts.h"
-#include "report_style.h"
 
 namespace pitchboard::link {
 namespace {
 
 constexpr std::size_t mostEvents = 5000;
 constexpr double lowUptime = 0.9;
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string capital(std::string_view word) {
   std::string out(word);

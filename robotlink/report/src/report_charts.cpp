@@ -2,7 +2,6 @@
 #include "report_charts.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace pitchboard::link {
@@ -35,17 +34,6 @@ std::string frame(const std::string& highest, telemetry::TimeRange range,
 }
 
 }  // namespace
-
-std::string fixed(double value, int decimals) {
-  if (!std::isfinite(value)) return "—";
-  char text[48];
-  // Not printf: its decimal point follows the locale.
-  const auto end = std::to_chars(text, text + sizeof text, std::clamp(value, -1e15, 1e15),
-                                 std::chars_format::fixed, decimals);
-  std::string out(text, end.ptr);
-  if (out.starts_with('-') && out.find_first_not_of("-0.") == std::string::npos) out.erase(0, 1);
-  return out;
-}
 
 std::string clockText(double seconds) {
   const auto total = static_cast<long long>(std::clamp(std::floor(seconds), -1e9, 1e9));

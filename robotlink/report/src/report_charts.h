@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <robotlink/report/report_page.h>
 #include <robotlink/report/session_statistics.h>
 
 namespace pitchboard::link {
 
-/// "61.5", "0", "—" for nothing.
-std::string fixed(double value, int decimals);
 /// "1:02:05", "12:05", "0:07".
 std::string clockText(double seconds);
 

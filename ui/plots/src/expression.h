@@ -1,38 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// An arithmetic expression over variables, such as `hypot(B1.TRUE_X - 2, B1.TRUE_Y) * 100`. The
-// package muParser reads and evaluates it: operators + - * / ^, comparisons, && || ?:, its
-// functions (sin, cos, atan2, sqrt, abs, min, max, ...) and ours: hypot, deg, rad, wrap(angle,
-// turn); pi; t is the time in s. Variables are `GROUP.NAME`, or `{GROUP/NAME}` for names with other
-// characters. One object for one thread at a time.
+// telemetry::Expression as the plots use it, with the window's texts. One object for one thread at
+// a time.
 
 #include <QString>
 #include <QStringList>
-#include <memory>
-#include <span>
 
-#include <base/result.h>
+#include <telemetry/expression/expression.h>
 
 namespace pitchboard::ui {
 
 class Expression {
  public:
   /// Fails with a sentence that names the place.
-  static Result<Expression> parse(const QString& text);
-  Expression(Expression&&) noexcept;
-  Expression& operator=(Expression&&) noexcept;
-  ~Expression();
+  static Result<Expression> parse(const QString& text) {
+    auto parsed = telemetry::Expression::parse(text.toStdString());
+    if (!parsed) return tl::unexpected(parsed.error());
+    return Expression(std::move(*parsed));
+  }
 
   /// `GROUP/NAME` of each, in the order in which they appear first.
-  const QStringList& variables() const;
+  const QStringList& variables() const { return m_variables; }
   /// Values in the order of variables(). What cannot be computed is NaN.
-  double evaluate(double time, std::span<const double> values);
+  double evaluate(double time, std::span<const double> values) {
+    return m_expression.evaluate(time, values);
+  }
 
  private:
-  struct Private;
-  explicit Expression(std::unique_ptr<Private> made);
-  std::unique_ptr<Private> d;
+  explicit Expression(telemetry::Expression expression) : m_expression(std::move(expression)) {
+    for (const std::string& name : m_expression.variables()) {
+      m_variables << QString::fromStdString(name);
+    }
+  }
+
+  telemetry::Expression m_expression;
+  QStringList m_variables;
 };
 
 }  // namespace pitchboard::ui

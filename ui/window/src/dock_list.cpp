@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dock_list.h"
 
+#include <ui/experiments/experiments_dock.h>
 #include <ui/live/bad_messages_dock.h>
 #include <ui/live/referee_dock.h>
 #include <ui/log/log_dock.h>
@@ -44,6 +45,9 @@ QWidget* referee(const StudioParts& s, QWidget* parent) {
 QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
 }
+QWidget* experiments(const StudioParts& s, QWidget* parent) {
+  return makeExperimentsDock(s.replay, parent);
+}
 QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.source, s.timeline, parent);
 }
@@ -64,6 +68,7 @@ std::span<const DockInfo> studioDocks() {
       {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
+      {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, 280, experiments},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, 56, timeline, true},
   };
   return docks;

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The style sheet of the report; colours as in docs/DESIGN_LANGUAGE.md. Private to robotlink.
+// What every page of ours has: its style sheet (colours as in docs/DESIGN_LANGUAGE.md), text that
+// cannot become markup, numbers that do not follow the locale. Pure; any thread.
 
+#include <string>
 #include <string_view>
 
 namespace pitchboard::link {
+
+/// "61.5", "0", "—" for nothing.
+std::string fixed(double value, int decimals);
+/// For text and attributes of HTML, XML and SVG.
+std::string escaped(std::string_view text);
 
 inline constexpr std::string_view reportStyle = R"css(
 :root { color-scheme: light dark;

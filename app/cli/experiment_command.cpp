@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+#include <algorithm>
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <robotlink/experiment/experiment_folder.h>
+#include <robotlink/experiment/run_player.h>
+#include <robotlink/processes/own_program.h>
+
+#include "commands.h"
+#include "experiment_session.h"
+#include "interrupt.h"
+#include "progress.h"
+
+namespace pitchboard::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int exitAssertionFailed = 1;
+constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
+
+struct Options {
+  std::string experiment, out, shard, robotProgram;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> runs;
+  std::size_t jobs = 0;
+  bool resume = false, list = false, progress = false;
+};
+
+struct Shard {
+  std::size_t index = 1, count = 1;
+};
+
+Result<Shard> shardFrom(const std::string& text) {
+  if (text.empty()) return Shard{};
+  const std::size_t slash = text.find('/');
+  const auto index = shared::numberFrom(text.substr(0, slash));
+  const auto count =
+      slash == std::string::npos ? std::nullopt : shared::numberFrom(text.substr(slash + 1));
+  if (!index || !count || *index < 1 || *count < 1 || *index > *count || *count > 1e6 ||
+      *index != static_cast<double>(static_cast<std::size_t>(*index)) ||
+      *count != static_cast<double>(static_cast<std::size_t>(*count))) {
+    return failure(ErrorCode::InvalidArgument, "--shard must be i/n, such as 2/8: the second of 8");
+  }
+  return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
+}
+
+/// Runs that are this shard's and have not been played.
+std::vector<std::size_t> numbersOf(const link::ExperimentFolder& folder, const Shard& shard) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < folder.finished().size(); ++i) {
+    if (i % shard.count == shard.index - 1 && !folder.finished()[i]) numbers.push_back(i + 1);
+  }
+  return numbers;
+}
+
+/// "417 of 2000 runs, 118 runs/s, 0:13 left".
+std::string progressText(std::size_t done, std::size_t all, double seconds) {
+  const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
+  const auto left =
+      static_cast<long long>(rate > 0.0 ? static_cast<double>(all - done) / rate + 0.5 : 0.0);
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu of %zu runs, %.*f runs/s, %lld:%02lld left", done, all,
+                rate < 10.0 ? 2 : 0, rate, left / 60, left % 60);
+  return text;
+}
+
+/// Sessions of the runs that the experiment wants recorded, and that are not there yet.
+Result<void> recordRuns(const link::Experiment& experiment, const link::ExperimentFolder& folder,
+                        const Shard& shard, const link::PlaySettings& settings) {
+  if (experiment.record == link::Record::Nothing) return {};
+  const auto table = link::resultsOf(folder.path(), experiment);
+  if (!table) return tl::unexpected(table.error());
+  for (std::size_t number = 1; number <= experiment.allRuns() && !interrupted; ++number) {
+    if ((number - 1) % shard.count != shard.index - 1) continue;
+    const link::RunPlace place = link::placeOf(experiment, number);
+    const bool failed = table->conditions[place.condition].columns[0][place.index] == 0.0;
+    const auto& chosen = experiment.recorded;
+    const bool wanted = experiment.record == link::Record::All ||
+                        (experiment.record == link::Record::Failed && failed) ||
+                        (experiment.record == link::Record::Chosen &&
+                         std::find(chosen.begin(), chosen.end(), number) != chosen.end());
+    if (!wanted) continue;
+    const std::string path = sessionPath(folder.path(), number);
+    if (std::filesystem::exists(path)) continue;
+    if (auto done = recordRun(folder.path(), experiment, number, path, settings); !done) {
+      return tl::unexpected(done.error());
+    }
+  }
+  return {};
+}
+
+int told(const link::Experiment& experiment, const link::ExperimentFolder& folder) {
+  const auto table = link::resultsOf(folder.path(), experiment);
+  if (!table) return reportError(table.error());
+  const link::ExperimentSummary summary = link::summarize(experiment, *table);
+  for (const link::ConditionSummary& condition : summary.conditions) {
+    std::printf("%s: %zu runs", condition.name.c_str(), condition.runs);
+    for (const auto& [end, count] : condition.ends) {
+      std::printf(", %s %.1f %%", link::endWords(end).c_str(),
+                  100.0 * static_cast<double>(count) / static_cast<double>(condition.runs));
+    }
+    std::printf("\n");
+  }
+  for (const link::CheckedAssertion& one : summary.assertions) {
+    std::printf("%s  %s: %s (%s)\n", one.holds ? "holds " : "FAILED", one.condition.c_str(),
+                one.text.c_str(), one.values.c_str());
+  }
+  std::printf("%s\n", (std::filesystem::path(folder.path()) / "report.html").c_str());
+  return summary.holds() ? 0 : exitAssertionFailed;
+}
+
+int run(const Options& options) {
+  if (options.experiment.empty() || options.out.empty()) {
+    return reportError({ErrorCode::InvalidArgument,
+                        "say which experiment and where to: pitchboard-cli experiment "
+                        "paper-scenario-1 --out results",
+                        {}});
+  }
+  const auto shard = shardFrom(options.shard);
+  if (!shard) return reportError(shard.error());
+  const auto experiment = link::loadExperiment(options.experiment, {options.seed, options.runs});
+  if (!experiment) return reportError(experiment.error());
+  auto folder = link::ExperimentFolder::begin(options.out, *experiment, options.resume);
+  if (!folder) return reportError(folder.error());
+
+  const InterruptGuard signals;
+  link::PlaySettings settings;
+  settings.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
+                                                       : options.robotProgram;
+  settings.cancelled = &interrupted;
+  const std::vector<std::size_t> numbers = numbersOf(*folder, *shard);
+  const std::size_t jobs =
+      options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+  const auto begin = Clock::now();
+  std::size_t done = 0;
+  double busy = 0.0, simulated = 0.0;
+  Result<void> played;
+  {
+    Progress progress(experiment->name, options.progress);
+    played = link::playRuns(
+        *experiment, numbers, jobs, settings, [&](link::PlayedRun one) -> Result<void> {
+          ++done;
+          busy += one.wallSeconds;
+          simulated += one.simulatedSeconds;
+          const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+          progress.say(progressText(done, numbers.size(), seconds));
+          return folder->add(one.result);
+        });
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  const auto finished = folder->finish();
+  if (!played) return reportError(played.error());
+  if (!finished) return reportError(finished.error());
+  if (done > 0) {
+    std::fprintf(stderr,
+                 "%zu runs in %.1f s, %.1f runs/s; a run was played %.1f times as fast as real "
+                 "time\n",
+                 done, seconds, static_cast<double>(done) / std::max(seconds, 1e-9),
+                 simulated / std::max(busy, 1e-9));
+  }
+  if (interrupted) {
+    return reportError({ErrorCode::Conflict,
+                        "interrupted with " + std::to_string(folder->finishedCount()) + " of " +
+                            std::to_string(experiment->allRuns()) +
+                            " runs; --resume goes on with them",
+                        options.out});
+  }
+  if (auto recorded = recordRuns(*experiment, *folder, *shard, settings); !recorded) {
+    return reportError(recorded.error());
+  }
+  if (!folder->complete()) {
+    std::printf("%zu of %zu runs are in %s; \"experiment merge\" joins the shards\n",
+                folder->finishedCount(), experiment->allRuns(), options.out.c_str());
+    return 0;
+  }
+  return told(*experiment, *folder);
+}
+
+void addMerge(CLI::App& parent, int& exitCode) {
+  struct Merge {
+    std::vector<std::string> parts;
+    std::string out;
+  };
+  auto options = std::make_shared<Merge>();
+  CLI::App* command =
+      parent.add_subcommand("merge",
+                            "Join the results of shards: the same files as played in one piece\n"
+                            "Example: pitchboard-cli experiment merge part1 part2 --out all");
+  command->add_option("parts", options->parts, "Folders of the shards")
+      ->required()
+      ->type_name("DIR...");
+  command->add_option("--out", options->out, "A new folder")->required()->type_name("DIR");
+  command->callback([options, &exitCode] {
+    const auto experiment = link::experimentOf(options->parts.front());
+    if (!experiment) {
+      exitCode = reportError(experiment.error());
+      return;
+    }
+    const auto merged = link::mergeFolders(options->parts, options->out, *experiment);
+    if (!merged) {
+      exitCode = reportError(merged.error());
+    } else if (!merged->complete()) {
+      exitCode = reportError({ErrorCode::NotFound,
+                              std::to_string(merged->finishedCount()) + " of " +
+                                  std::to_string(experiment->allRuns()) +
+                                  " runs are here; a shard is missing",
+                              options->out});
+    } else {
+      exitCode = told(*experiment, *merged);
+    }
+  });
+}
+
+void addReplay(CLI::App& parent, int& exitCode) {
+  struct Replay {
+    std::string folder, output, robotProgram;
+    std::size_t run = 1;
+    bool open = false;
+  };
+  auto options = std::make_shared<Replay>();
+  CLI::App* command = parent.add_subcommand(
+      "replay",
+      "Play a run of the results again, into a session file; it must end in the same state\n"
+      "Example: pitchboard-cli experiment replay results --run 417 --open");
+  command->add_option("folder", options->folder, "The results")->required()->type_name("DIR");
+  command->add_option("--run", options->run, "Its number in runs.csv")->required()->type_name("N");
+  command
+      ->add_option("-o,--output", options->output,
+                   "A new session; default: sessions/run-N.mcap in the folder")
+      ->type_name("FILE.mcap");
+  command->add_flag("--open", options->open, "Open it in the studio");
+  command
+      ->add_option("--robot-program", options->robotProgram,
+                   "Program of separate processes; default: pitchboard-robot beside this one")
+      ->type_name("FILE");
+  command->callback([options, &exitCode] {
+    const auto experiment = link::experimentOf(options->folder);
+    if (!experiment) {
+      exitCode = reportError(experiment.error());
+      return;
+    }
+    const InterruptGuard signals;
+    link::PlaySettings settings;
+    settings.cancelled = &interrupted;
+    settings.robotProgram = options->robotProgram.empty()
+                                ? link::besideOwnProgram("pitchboard-robot")
+                                : options->robotProgram;
+    const std::string path =
+        options->output.empty() ? sessionPath(options->folder, options->run) : options->output;
+    if (!std::filesystem::exists(path) || !options->output.empty()) {
+      const auto result = recordRun(options->folder, *experiment, options->run, path, settings);
+      if (!result) {
+        exitCode = reportError(result.error());
+        return;
+      }
+      std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64
+                  ", as in the results\n",
+                  path.c_str(), result->number, result->seed,
+                  link::endWords(result->endedBy).c_str(), result->hash);
+    } else {
+      std::printf("%s: it is there\n", path.c_str());
+    }
+    if (!options->open) return;
+    const std::string studio = link::besideOwnProgram("pitchboard");
+    std::fflush(stdout);
+    ::execlp(studio.c_str(), studio.c_str(), path.c_str(), static_cast<char*>(nullptr));
+    exitCode = reportError({ErrorCode::SystemError, "the studio cannot be started", studio});
+  });
+}
+
+}  // namespace
+
+std::string sessionPath(const std::string& folder, std::size_t number) {
+  char name[40];
+  std::snprintf(name, sizeof name, "run-%06zu.mcap", number);
+  return (std::filesystem::path(folder) / link::sessionsFolder / name).string();
+}
+
+Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
+                                  std::size_t number, const std::string& path,
+                                  const link::PlaySettings& settings) {
+  const auto before = link::resultOf(folder, experiment, number);
+  if (!before) return before;
+  std::error_code code;
+  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
+    std::filesystem::create_directories(parent, code);
+  }
+  auto player = link::RunPlayer::create(experiment, settings);
+  if (!player) return tl::unexpected(player.error());
+  auto result = player->record(number, path, program);
+  if (!result) return result;
+  if (result->hash != before->hash) {
+    return failure(ErrorCode::Conflict,
+                   "run " + std::to_string(number) +
+                       " ended in another state than in the results; were they played by another "
+                       "version?",
+                   path);
+  }
+  return result;
+}
+
+void addExperimentCommand(CLI::App& parent, int& exitCode) {
+  auto options = std::make_shared<Options>();
+  Options& o = *options;
+  CLI::App* command = parent.add_subcommand(
+      "experiment",
+      "Plays an experiment: many runs under several conditions, with tables and a report. Exit 1 "
+      "when an assertion does not hold\n"
+      "Examples: pitchboard-cli experiment paper-scenario-1 --out results --jobs 2\n"
+      "          pitchboard-cli experiment mine.json --out part2 --shard 2/8");
+  command->add_option("experiment", o.experiment, "Built-in name or a JSON file")
+      ->type_name("NAME|FILE");
+  command->add_option("--out", o.out, "The folder for the results")->type_name("DIR");
+  command->add_option("--jobs", o.jobs, "Runs at a time; default: one for each processor")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--seed", o.seed, "Of the first run; default: the experiment's")
+      ->type_name("N");
+  command->add_option("--runs", o.runs, "Of each condition; default: the experiment's")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--shard", o.shard, "Only each n-th run, from the i-th")->type_name("i/n");
+  command->add_flag("--resume", o.resume, "Go on with the results that are in the folder");
+  command->add_flag("--list", o.list, "Print the built-in experiments");
+  command->add_flag("--progress", o.progress,
+                    "Say on stderr how far it is, also without a terminal");
+  command
+      ->add_option("--robot-program", o.robotProgram,
+                   "Program of separate processes; default: pitchboard-robot beside this one")
+      ->type_name("FILE");
+  command->require_subcommand(0, 1);
+  addMerge(*command, exitCode);
+  addReplay(*command, exitCode);
+  command->callback([command, options, &exitCode] {
+    if (!command->get_subcommands().empty()) return;
+    if (options->list) {
+      for (const link::ExperimentName& one : link::builtInExperiments()) {
+        std::printf("%-24s %s\n", one.name.c_str(), one.title.c_str());
+      }
+      return;
+    }
+    exitCode = run(*options);
+  });
+}
+
+}  // namespace pitchboard::cli

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// An experiment: a scenario, what is varied in it, how often it is played, what is measured and
+// what must hold. A JSON file (docs/EXPERIMENTS.md); a situation test is a small one with
+// assertions. Here it is expanded: conditions and grids are a list of scenarios, runs have numbers.
+// Plain values; any thread. Metres, seconds, degrees in settings as in the file.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <base/result.h>
+#include <robotlink/scenario/scenario.h>
+
+namespace pitchboard::link {
+
+/// A value for a key of the scenario: "noise.forward", "robots[B1].behaviour", "robots[*].model".
+struct ScenarioSetting {
+  std::string key;
+  std::string value;  ///< JSON
+  int line = 1;
+  bool operator==(const ScenarioSetting&) const = default;
+};
+
+/// A number drawn anew for every run, uniform in [from, to].
+struct RandomSetting {
+  std::string key;
+  double from = 0.0, to = 0.0;
+  int line = 1;
+  bool operator==(const RandomSetting&) const = default;
+};
+
+struct Condition {
+  std::string name;
+  std::vector<ScenarioSetting> settings;
+  Scenario scenario;  ///< with the settings; without stop conditions
+  std::string json;   ///< the same as text, for what is drawn for each run
+};
+
+/// How far a run's start is from the scenario's: uniform within ± these.
+struct StartSpread {
+  std::string who;  ///< "ball", "robots" (all of them), or a name: "B1"
+  double x = 0.0, y = 0.0;
+  double heading = 0.0;  ///< degrees
+  bool operator==(const StartSpread&) const = default;
+};
+
+/// Somebody puts the ball or a robot somewhere else during the run.
+struct PlacedByHand {
+  double time = 0.0;
+  std::string who;  ///< "ball" or a robot's name
+  Pose pose;
+  Velocity velocity;  ///< of the ball
+  bool operator==(const PlacedByHand&) const = default;
+};
+
+/// The first that is met ends a run.
+struct RunStop {
+  double duration = 600.0;
+  bool goal = false;         ///< of the team
+  bool goalAgainst = false;  ///< of its opponents
+  bool ballOut = false;
+  bool fell = false;            ///< a robot of the team
+  std::optional<double> stuck;  ///< for so long neither the ball nor a robot of the team moved
+  bool operator==(const RunStop&) const = default;
+};
+
+/// How the values of an expression over a run become one.
+enum class Reduction : std::uint8_t {
+  Mean,
+  Least,
+  Most,
+  First,
+  Last,
+  Sum,      ///< over time: the integral, unit x s
+  Changes,  ///< how often it became true
+  P95
+};
+
+struct ExpressionMetric {
+  std::string name, unit, expression;
+  Reduction reduction = Reduction::Mean;
+  bool operator==(const ExpressionMetric&) const = default;
+};
+
+/// A given figure, of a robot or a paper, to compare with.
+struct GivenFigure {
+  std::string name, metric;
+  double mean = 0.0;
+  std::optional<double> deviation;  ///< left out: a rate
+  std::size_t count = 0;
+  std::vector<std::string> conditions;  ///< compared with these; empty: all
+};
+
+struct Assertion {
+  std::string text;       ///< "goal_rate >= 0.5"
+  std::string condition;  ///< empty: it must hold in every condition
+  int line = 1;
+  bool operator==(const Assertion&) const = default;
+};
+
+enum class Record : std::uint8_t { Nothing, Failed, All, Chosen };
+
+struct Experiment {
+  std::string name = "untitled", title, description;
+  std::uint64_t seed = 1;
+  std::size_t runs = 1;              ///< of each condition
+  bool commonSeeds = true;           ///< run i has the same seed in every condition
+  TeamColor team = TeamColor::Blue;  ///< whose experiment it is
+  std::vector<Condition> conditions;
+  std::vector<RandomSetting> random;
+  std::vector<StartSpread> starts;
+  std::vector<PlacedByHand> placed;  ///< in order of time
+  RunStop stop;
+  std::vector<ExpressionMetric> metrics;
+  double sampleEvery = 0.1;      ///< s, for expressions, beliefs and possession
+  std::string success = "goal";  ///< over a run's metrics: what is a good run
+  std::vector<GivenFigure> given;
+  std::vector<Assertion> assertions;
+  Record record = Record::Nothing;
+  std::vector<std::size_t> recorded;  ///< numbers of runs, with Record::Chosen
+  bool separateProcesses = false;     ///< reference processes as programs, in lock-step
+  std::size_t pathsShown = 30;        ///< runs of a condition that the report draws
+  std::string text;  ///< the file with its scenario inside: what a results folder keeps
+
+  std::size_t allRuns() const { return runs * conditions.size(); }
+};
+
+/// Which run a number is; numbers go from 1 to allRuns().
+struct RunPlace {
+  std::size_t number = 1, condition = 0, index = 0;
+};
+RunPlace placeOf(const Experiment& experiment, std::size_t number);
+std::uint64_t seedOf(const Experiment& experiment, const RunPlace& run);
+
+/// What is different from the file, as a command line says it.
+struct ExperimentChanges {
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> runs;
+};
+
+struct ExperimentName {
+  std::string name, title;
+};
+/// resources/experiments and resources/situations.
+std::vector<ExperimentName> builtInExperiments();
+std::vector<ExperimentName> builtInSituations();
+
+/// A built-in name, or else a path. Errors give file, line and key: "my.json:14:
+/// conditions[1].set.noise: there is no noise preset ...".
+Result<Experiment> loadExperiment(const std::string& nameOrPath,
+                                  const ExperimentChanges& changes = {});
+/// `folder`: where the file's scenario is looked for.
+Result<Experiment> experimentFromJson(std::string_view text, std::string_view source,
+                                      const std::string& folder = {},
+                                      const ExperimentChanges& changes = {});
+
+/// The scenario of one run: its seed, what is drawn for it, its start. Fails where a drawn value
+/// cannot be used.
+Result<Scenario> scenarioOf(const Experiment& experiment, const RunPlace& run);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The folder of an experiment's results. While it is played it holds experiment.json (the file with
+// its scenario inside) and runs.jsonl, a line for each run that has ended; when all are there, also
+// runs.csv, summary.json, report.md, report.html and junit.xml. Those files depend on the
+// experiment only: not on the order of runs, threads, interruptions, shards, clock or folder. One
+// thread at a time; a second program that opens the folder is refused.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <base/result.h>
+#include <robotlink/experiment/experiment_summary.h>
+
+namespace pitchboard::link {
+
+inline constexpr const char* experimentFile = "experiment.json";
+inline constexpr const char* runsFile = "runs.jsonl";
+inline constexpr const char* sessionsFolder = "sessions";
+
+class ExperimentFolder {
+ public:
+  /// Makes the folder, or with `resume` goes on in it. Error Conflict when it holds results and is
+  /// not resumed, or those of another experiment.
+  static Result<ExperimentFolder> begin(const std::string& path, const Experiment& experiment,
+                                        bool resume);
+  ExperimentFolder(ExperimentFolder&&) noexcept;
+  ~ExperimentFolder();
+
+  const std::string& path() const;
+  /// By number of run - 1.
+  const std::vector<char>& finished() const;
+  std::size_t finishedCount() const;
+  bool complete() const;
+  /// Written and given to the system at once, so that a killed program loses nothing that is here.
+  Result<void> add(const RunResult& result);
+  /// Puts the lines in order; when all runs are there, writes the tables and reports.
+  Result<void> finish();
+
+ private:
+  struct Impl;
+  explicit ExperimentFolder(std::unique_ptr<Impl> made);
+  std::unique_ptr<Impl> m_impl;
+};
+
+/// The experiment whose results these are.
+Result<Experiment> experimentOf(const std::string& folder);
+/// All runs that are there. Paths only of those that are drawn.
+Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment);
+/// One run; NotFound when it has not been played.
+Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
+                           std::size_t number);
+/// Joins the folders of shards into a new one. Error Conflict for folders of different experiments,
+/// and where one run has two results.
+Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
+                                      const std::string& into, const Experiment& experiment);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The statistics of experiments: summaries with 95 % intervals, Welch's t-test, effect sizes.
+// Distributions are Boost.Math's. Values that are not finite are left out. Pure functions; the
+// bootstrap draws from a generator of its own, so that the same values give the same bits.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pitchboard::link {
+
+struct Interval {
+  double low = 0.0, high = 0.0;
+  bool operator==(const Interval&) const = default;
+};
+
+/// What is known of a sample, ours or a published one.
+struct SampleMoments {
+  double mean = 0.0;
+  double deviation = 0.0;  ///< with n - 1; 0 for one value
+  std::size_t count = 0;
+  bool operator==(const SampleMoments&) const = default;
+};
+SampleMoments momentsOf(std::span<const double> values);
+
+/// Of `sorted` values, linear between neighbours (numpy's default, R's type 7); NaN without any.
+double quantile(std::span<const double> sorted, double share);
+
+/// 95 % of the mean: percentile bootstrap. Where all values are equal it says nothing, and for
+/// values that are all 0 or all 1 the exact interval of a rate (Clopper and Pearson, 1934) is given
+/// instead. Nothing for fewer than two values.
+std::optional<Interval> intervalOfMean(std::span<const double> values);
+
+struct Summary {
+  SampleMoments moments;
+  double least = 0.0, lowerQuartile = 0.0, median = 0.0, upperQuartile = 0.0, p95 = 0.0, most = 0.0;
+  std::optional<Interval> mean95;
+};
+/// Everything is NaN, and the count 0, without a value.
+Summary summaryOf(std::span<const double> values);
+
+/// Welch, The generalization of Student's problem (1947): means of two samples whose variances may
+/// differ. The difference is a - b.
+struct WelchTest {
+  double difference = 0.0;
+  Interval difference95;
+  double t = 0.0, freedom = 0.0;
+  double p = 1.0;            ///< two-tailed
+  double criticalOne = 0.0;  ///< |t| of p = 5 %, one-tailed
+  double criticalTwo = 0.0;  ///< two-tailed
+  double hedgesG = 0.0;      ///< difference in pooled deviations, corrected for small samples
+};
+/// Nothing where a sample has fewer than two values or neither varies.
+std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& b);
+
+/// The mean of the differences of pairs (the same seed in two conditions), with its interval.
+struct PairedDifference {
+  std::size_t pairs = 0;
+  double mean = 0.0;
+  std::optional<Interval> mean95;
+};
+/// `a` and `b` have the same size; pairs of which one is not finite are left out.
+PairedDifference pairedDifference(std::span<const double> a, std::span<const double> b);
+
+/// Counts of equal bins from `low` to `high`, both included.
+std::vector<std::size_t> histogram(std::span<const double> values, double low, double high,
+                                   std::size_t bins);
+
+}  // namespace pitchboard::link

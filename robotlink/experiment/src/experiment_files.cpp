@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment_files.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include <base/lined_json.h>
+
+namespace pitchboard::link {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    out += c;
+    if (c == '"') out += c;
+  }
+  return out + '"';
+}
+
+Json known(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json intervalJson(const std::optional<Interval>& interval) {
+  if (!interval) return nullptr;
+  return Json::array({known(interval->low), known(interval->high)});
+}
+
+Json summaryOfMetric(const Summary& s) {
+  return {{"n", s.moments.count},
+          {"mean", known(s.moments.mean)},
+          {"mean_95", intervalJson(s.mean95)},
+          {"sd", known(s.moments.deviation)},
+          {"min", known(s.least)},
+          {"p25", known(s.lowerQuartile)},
+          {"median", known(s.median)},
+          {"p75", known(s.upperQuartile)},
+          {"p95", known(s.p95)},
+          {"max", known(s.most)}};
+}
+
+Json welchJson(const std::optional<WelchTest>& test) {
+  if (!test) return nullptr;
+  return {{"difference", test->difference},
+          {"difference_95", intervalJson(test->difference95)},
+          {"t", test->t},
+          {"df", test->freedom},
+          {"p", test->p},
+          {"t_critical_one_tailed", test->criticalOne},
+          {"t_critical_two_tailed", test->criticalTwo},
+          {"hedges_g", test->hedgesG}};
+}
+
+}  // namespace
+
+std::string csvHead(const std::vector<MetricInfo>& metrics) {
+  std::string out = "run,condition,index,seed,ended_by,ticks,state_hash";
+  for (const MetricInfo& metric : metrics) out += ',' + metric.name;
+  return out + '\n';
+}
+
+std::string csvLine(const Experiment& experiment, const RunResult& result) {
+  const RunPlace place = placeOf(experiment, result.number);
+  char hash[24];
+  std::snprintf(hash, sizeof hash, "0x%016" PRIx64, result.hash);
+  std::string out = std::to_string(result.number) + ',' +
+                    quoted(experiment.conditions[place.condition].name) + ',' +
+                    std::to_string(place.index + 1) + ',' + std::to_string(result.seed) + ',' +
+                    result.endedBy + ',' + std::to_string(result.ticks) + ',' + hash;
+  for (const double value : result.values) {
+    out += ',';
+    if (std::isfinite(value)) out += shortest(value);
+  }
+  return out + '\n';
+}
+
+std::string summaryJson(const Experiment& experiment, const ExperimentSummary& summary) {
+  Json conditions = Json::array();
+  for (const ConditionSummary& condition : summary.conditions) {
+    Json metrics = Json::object();
+    for (std::size_t m = 0; m < summary.metrics.size(); ++m) {
+      if (condition.metrics[m].moments.count == 0) continue;
+      metrics[summary.metrics[m].name] = summaryOfMetric(condition.metrics[m]);
+    }
+    Json ends = Json::object();
+    for (const auto& [end, count] : condition.ends) ends[end] = count;
+    conditions.push_back({{"name", condition.name},
+                          {"runs", condition.runs},
+                          {"ended_by", std::move(ends)},
+                          {"metrics", std::move(metrics)}});
+  }
+  Json differences = Json::array();
+  for (const ConditionDifference& one : summary.differences) {
+    if (!one.welch && !one.paired.mean95) continue;
+    differences.push_back({{"metric", summary.metrics[one.metric].name},
+                           {"of", summary.conditions[one.second].name},
+                           {"minus", summary.conditions[one.first].name},
+                           {"welch", welchJson(one.welch)},
+                           {"paired_mean", known(one.paired.mean)},
+                           {"paired_mean_95", intervalJson(one.paired.mean95)},
+                           {"pairs", one.paired.pairs}});
+  }
+  Json comparisons = Json::array();
+  for (const GivenComparison& one : summary.comparisons) {
+    comparisons.push_back({{"metric", summary.metrics[one.metric].name},
+                           {"of", summary.conditions[one.condition].name},
+                           {"minus", experiment.given[one.figure].name},
+                           {"mean", known(one.ours.mean)},
+                           {"sd", one.ours.deviation},
+                           {"n", one.ours.count},
+                           {"given_mean", one.theirs.mean},
+                           {"given_sd", one.theirs.deviation},
+                           {"given_n", one.theirs.count},
+                           {"welch", welchJson(one.welch)}});
+  }
+  Json assertions = Json::array();
+  for (const CheckedAssertion& one : summary.assertions) {
+    assertions.push_back({{"condition", one.condition},
+                          {"check", one.text},
+                          {"holds", one.holds},
+                          {"values", one.values}});
+  }
+  const Json out{{"experiment", experiment.name},
+                 {"title", experiment.title},
+                 {"runs_per_condition", experiment.runs},
+                 {"seed", experiment.seed},
+                 {"holds", summary.holds()},
+                 {"conditions", std::move(conditions)},
+                 {"differences", std::move(differences)},
+                 {"comparisons", std::move(comparisons)},
+                 {"assertions", std::move(assertions)}};
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/experiment/experiment_folder.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include <base/descriptor.h>
+#include <base/file_target.h>
+#include <base/read_file.h>
+#include <base/system_reason.h>
+#include <robotlink/experiment/junit_report.h>
+
+#include "experiment_files.h"
+#include "result_line.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr std::size_t mostExperimentBytes = 4 * 1024 * 1024;
+
+std::string inFolder(const std::string& folder, const char* file) {
+  return (std::filesystem::path(folder) / file).string();
+}
+
+/// A line of runs.jsonl: the run, and where its bytes are.
+struct LinePlace {
+  std::size_t number = 0;
+  std::uint64_t offset = 0, size = 0;  ///< with the line's end
+};
+
+/// Every whole line in turn. A last line without an end, of a program that was killed, is left
+/// out. Returns where the whole lines end.
+Result<std::uint64_t> eachResult(
+    const std::string& path, const Experiment& experiment,
+    const std::function<Result<void>(const RunResult&, const LinePlace&)>& take) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return failure(ErrorCode::NotFound, "there are no results; is this a folder of an experiment?",
+                   path);
+  }
+  const std::size_t metrics = metricsOf(experiment).size();
+  std::string line;
+  std::uint64_t offset = 0;
+  for (std::size_t lineNumber = 1; std::getline(file, line) && !file.eof(); ++lineNumber) {
+    const auto result = resultFromLine(line, experiment, metrics);
+    if (!result) {
+      return failure(result.error().code, "this line " + result.error().message,
+                     path + ':' + std::to_string(lineNumber));
+    }
+    const LinePlace place{result->number, offset, line.size() + 1};
+    if (auto taken = take(*result, place); !taken) return tl::unexpected(taken.error());
+    offset += place.size;
+  }
+  return offset;
+}
+
+/// Both texts are the same experiment; where they differ is for the user to see.
+Result<void> sameExperiment(const std::string& folder, const Experiment& experiment) {
+  const auto text =
+      readFile(inFolder(folder, experimentFile), mostExperimentBytes, "the experiment");
+  if (!text) return tl::unexpected(text.error());
+  if (*text == experiment.text) return {};
+  return failure(ErrorCode::Conflict,
+                 "this folder holds results of another experiment (its experiment.json differs); "
+                 "choose another folder",
+                 folder);
+}
+
+}  // namespace
+
+struct ExperimentFolder::Impl {
+  std::string path;
+  const Experiment* experiment = nullptr;
+  std::vector<char> finished;
+  std::size_t count = 0;
+  Descriptor lines;
+
+  std::string file(const char* name) const { return inFolder(path, name); }
+  tl::unexpected<Error> failed() const {
+    return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno),
+                   file(runsFile));
+  }
+  Result<void> put(std::string_view text) const {
+    while (!text.empty()) {
+      const ssize_t written = ::write(lines.get(), text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) return failed();
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return {};
+  }
+  Result<void> sortLines();
+  Result<void> writeReports() const;
+};
+
+ExperimentFolder::ExperimentFolder(std::unique_ptr<Impl> made) : m_impl(std::move(made)) {}
+ExperimentFolder::ExperimentFolder(ExperimentFolder&&) noexcept = default;
+ExperimentFolder::~ExperimentFolder() = default;
+
+Result<ExperimentFolder> ExperimentFolder::begin(const std::string& path,
+                                                 const Experiment& experiment, bool resume) {
+  std::error_code code;
+  std::filesystem::create_directories(path, code);
+  if (code) {
+    return failure(ErrorCode::SystemError, "the folder cannot be made: " + code.message(), path);
+  }
+  auto made = std::make_unique<Impl>();
+  made->path = path;
+  made->experiment = &experiment;
+  made->finished.assign(experiment.allRuns(), 0);
+  const std::string lines = made->file(runsFile);
+  const bool exists = std::filesystem::exists(lines, code);
+  if (exists && !resume) {
+    return failure(ErrorCode::Conflict,
+                   "this folder holds results; add --resume to go on with them, or choose another",
+                   path);
+  }
+  if (exists) {
+    if (auto same = sameExperiment(path, experiment); !same) return tl::unexpected(same.error());
+  } else if (auto wrote = writeFile(made->file(experimentFile), experiment.text, IfExists::Replace);
+             !wrote) {
+    return tl::unexpected(wrote.error());
+  }
+  made->lines = Descriptor(::open(lines.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  if (made->lines.get() < 0) return made->failed();
+  if (::flock(made->lines.get(), LOCK_EX | LOCK_NB) != 0) {
+    return failure(ErrorCode::Conflict, "another program is playing this experiment", path);
+  }
+  const auto whole =
+      eachResult(lines, experiment, [&](const RunResult& result, const LinePlace&) -> Result<void> {
+        char& done = made->finished[result.number - 1];
+        made->count += done == 0;
+        done = 1;
+        return {};
+      });
+  if (!whole) return tl::unexpected(whole.error());
+  if (::ftruncate(made->lines.get(), static_cast<off_t>(*whole)) != 0) return made->failed();
+  return ExperimentFolder(std::move(made));
+}
+
+const std::string& ExperimentFolder::path() const {
+  return m_impl->path;
+}
+const std::vector<char>& ExperimentFolder::finished() const {
+  return m_impl->finished;
+}
+std::size_t ExperimentFolder::finishedCount() const {
+  return m_impl->count;
+}
+bool ExperimentFolder::complete() const {
+  return m_impl->count == m_impl->finished.size();
+}
+
+Result<void> ExperimentFolder::add(const RunResult& result) {
+  char& done = m_impl->finished[result.number - 1];
+  if (done) return {};
+  if (auto written = m_impl->put(lineOf(result)); !written) return written;
+  done = 1;
+  ++m_impl->count;
+  return {};
+}
+
+Result<void> ExperimentFolder::Impl::sortLines() {
+  std::vector<LinePlace> places;
+  const std::string name = file(runsFile);
+  const auto read =
+      eachResult(name, *experiment, [&](const RunResult&, const LinePlace& place) -> Result<void> {
+        places.push_back(place);
+        return {};
+      });
+  if (!read) return tl::unexpected(read.error());
+  const auto before = [](const LinePlace& a, const LinePlace& b) { return a.number < b.number; };
+  if (std::is_sorted(places.begin(), places.end(), before)) return {};
+  std::sort(places.begin(), places.end(), before);
+  std::ifstream source(name, std::ios::binary);
+  auto target = FileTarget::at(name, IfExists::Replace);
+  if (!target) return tl::unexpected(target.error());
+  auto sorted = target->open();
+  if (!sorted) return tl::unexpected(sorted.error());
+  std::string line;
+  for (const LinePlace& place : places) {
+    line.resize(place.size);
+    source.seekg(static_cast<std::streamoff>(place.offset));
+    if (!source.read(line.data(), static_cast<std::streamsize>(line.size()))) return failed();
+    if (auto written = sorted->write(line); !written) return written;
+  }
+  if (auto closed = sorted->close(); !closed) return closed;
+  return target->commit();
+}
+
+Result<void> ExperimentFolder::Impl::writeReports() const {
+  const auto table = resultsOf(path, *experiment);
+  if (!table) return tl::unexpected(table.error());
+  {
+    auto target = FileTarget::at(file("runs.csv"), IfExists::Replace);
+    if (!target) return tl::unexpected(target.error());
+    auto csv = target->open();
+    if (!csv) return tl::unexpected(csv.error());
+    if (auto written = csv->write(csvHead(table->metrics)); !written) return written;
+    const auto lineByLine =
+        eachResult(file(runsFile), *experiment,
+                   [&](const RunResult& result, const LinePlace&) -> Result<void> {
+                     return csv->write(csvLine(*experiment, result));
+                   });
+    if (!lineByLine) return tl::unexpected(lineByLine.error());
+    if (auto closed = csv->close(); !closed) return closed;
+    if (auto done = target->commit(); !done) return done;
+  }
+  const ExperimentSummary summary = summarize(*experiment, *table);
+  const std::pair<const char*, std::string> texts[] = {
+      {"summary.json", summaryJson(*experiment, summary)},
+      {"junit.xml", junitReport(*experiment, summary)},
+      {"report.md", reportMarkdown(*experiment, summary)},
+      {"report.html", experimentReportHtml(*experiment, *table, summary)}};
+  for (const auto& [name, text] : texts) {
+    if (auto written = writeFile(file(name), text, IfExists::Replace); !written) return written;
+  }
+  return {};
+}
+
+Result<void> ExperimentFolder::finish() {
+  if (auto sorted = m_impl->sortLines(); !sorted) return sorted;
+  if (!complete()) return {};
+  return m_impl->writeReports();
+}
+
+Result<Experiment> experimentOf(const std::string& folder) {
+  const std::string path = inFolder(folder, experimentFile);
+  const auto text = readFile(path, mostExperimentBytes, "the experiment");
+  if (!text) return tl::unexpected(text.error());
+  return experimentFromJson(*text, path);
+}
+
+Result<ResultTable> resultsOf(const std::string& folder, const Experiment& experiment) {
+  ResultTable table(experiment);
+  const auto read = eachResult(inFolder(folder, runsFile), experiment,
+                               [&](const RunResult& result, const LinePlace&) -> Result<void> {
+                                 table.add(experiment, result);
+                                 return {};
+                               });
+  if (!read) return tl::unexpected(read.error());
+  return table;
+}
+
+Result<RunResult> resultOf(const std::string& folder, const Experiment& experiment,
+                           std::size_t number) {
+  std::optional<RunResult> found;
+  const auto read = eachResult(inFolder(folder, runsFile), experiment,
+                               [&](const RunResult& result, const LinePlace&) -> Result<void> {
+                                 if (result.number == number) found = result;
+                                 return {};
+                               });
+  if (!read) return tl::unexpected(read.error());
+  if (!found) {
+    return failure(ErrorCode::NotFound,
+                   "there is no run " + std::to_string(number) + "; they go from 1 to " +
+                       std::to_string(experiment.allRuns()),
+                   folder);
+  }
+  return *found;
+}
+
+Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
+                                      const std::string& into, const Experiment& experiment) {
+  for (const std::string& part : parts) {
+    if (auto same = sameExperiment(part, experiment); !same) return tl::unexpected(same.error());
+  }
+  auto folder = ExperimentFolder::begin(into, experiment, false);
+  if (!folder) return folder;
+  std::vector<std::uint64_t> hashes(experiment.allRuns(), 0);
+  for (const std::string& part : parts) {
+    const auto read = eachResult(
+        inFolder(part, runsFile), experiment,
+        [&](const RunResult& result, const LinePlace&) -> Result<void> {
+          std::uint64_t& hash = hashes[result.number - 1];
+          if (folder->finished()[result.number - 1] && hash != result.hash) {
+            return failure(ErrorCode::Conflict,
+                           "run " + std::to_string(result.number) +
+                               " ended differently here than in another folder; were both played "
+                               "by the same version?",
+                           part);
+          }
+          hash = result.hash;
+          return folder->add(result);
+        });
+    if (!read) return tl::unexpected(read.error());
+  }
+  if (auto finished = folder->finish(); !finished) return tl::unexpected(finished.error());
+  return folder;
+}
+
+}  // namespace pitchboard::link

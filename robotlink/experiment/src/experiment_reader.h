@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Reads the file of an experiment: what stands in it goes into an Experiment, whose conditions are
+// then made by expanding (experiment.cpp). One use.
+
+#include <robotlink/experiment/experiment.h>
+
+#include "scenario_patch.h"
+
+namespace pitchboard::link {
+
+/// What conditions are made of.
+struct ConditionParts {
+  Json scenario;
+  StopConditions stop;  ///< of the scenario
+  std::vector<ScenarioSetting> common;
+  struct Named {
+    std::string name;
+    std::vector<ScenarioSetting> settings;
+    int line = 1;
+  };
+  std::vector<Named> named;
+  struct Axis {
+    std::string key;
+    std::vector<std::string> values;  ///< JSON
+    int line = 1;
+  };
+  std::vector<Axis> grid;
+};
+
+class ExperimentReader {
+ public:
+  ExperimentReader(const JsonNode& root, JsonReport& report, std::string folder);
+  /// Everything but conditions. The first error is in the report.
+  void read(Experiment& experiment, ConditionParts& parts);
+
+ private:
+  void readScenario(ConditionParts& parts);
+  void readConditions(ConditionParts& parts);
+  void readRandom(Experiment& experiment);
+  void readStarts(Experiment& experiment);
+  void readPlaced(Experiment& experiment);
+  void readStop(Experiment& experiment, const StopConditions& usual);
+  void readMetrics(Experiment& experiment);
+  void readGiven(Experiment& experiment);
+  void readAssertions(Experiment& experiment);
+  void readRecord(Experiment& experiment);
+  std::vector<ScenarioSetting> settingsOf(const JsonNode& node, const std::string& path);
+
+  JsonReport& m_report;
+  JsonObject m_root;
+  std::string m_folder;
+};
+
+}  // namespace pitchboard::link

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/experiment/experiment_summary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "checks.h"
+#include "numbers.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t metricIndex(const std::vector<MetricInfo>& metrics, const std::string& name) {
+  const auto found = std::find_if(metrics.begin(), metrics.end(),
+                                  [&](const MetricInfo& metric) { return metric.name == name; });
+  return static_cast<std::size_t>(found - metrics.begin());
+}
+
+SampleMoments momentsOf(const GivenFigure& figure) {
+  SampleMoments out{figure.mean, figure.deviation.value_or(0.0), figure.count};
+  if (!figure.deviation) {
+    const double n = static_cast<double>(figure.count);
+    out.deviation = std::sqrt(std::max(0.0, figure.mean * (1.0 - figure.mean)) * n / (n - 1.0));
+  }
+  return out;
+}
+
+CheckedAssertion checked(const Assertion& assertion, const ResultTable& table,
+                         std::size_t condition, const std::string& name) {
+  CheckedAssertion out{name, assertion.text, false, {}};
+  auto check = Check::parse(assertion.text, Check::Over::Condition, table.metrics);
+  if (!check) {
+    out.values = check.error().message;
+    return out;
+  }
+  std::vector<double> values;
+  for (const Check::Name& one : check->names()) {
+    std::vector<double> sorted;
+    for (const double value : table.conditions[condition].columns[one.metric]) {
+      if (std::isfinite(value)) sorted.push_back(value);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    values.push_back(statisticOf(one.statistic, sorted));
+    out.values += (out.values.empty() ? "" : ", ") + one.written + " = " + number(values.back());
+  }
+  out.holds = check->holds(values);
+  return out;
+}
+
+}  // namespace
+
+ResultTable::ResultTable(const Experiment& experiment)
+    : metrics(metricsOf(experiment)), conditions(experiment.conditions.size()) {
+  for (OfCondition& condition : conditions) {
+    condition.columns.assign(metrics.size(), std::vector<double>(experiment.runs, nan));
+    condition.played.assign(experiment.runs, 0);
+  }
+}
+
+std::size_t ResultTable::OfCondition::count() const {
+  return static_cast<std::size_t>(std::count(played.begin(), played.end(), 1));
+}
+
+void ResultTable::add(const Experiment& experiment, const RunResult& result) {
+  const RunPlace place = placeOf(experiment, result.number);
+  OfCondition& condition = conditions[place.condition];
+  if (condition.played[place.index]) return;
+  condition.played[place.index] = 1;
+  ++condition.ends[result.endedBy];
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    condition.columns[i][place.index] = result.values[i];
+  }
+  if (result.paths.empty()) return;
+  const auto after = std::find_if(condition.drawn.begin(), condition.drawn.end(),
+                                  [&](const OfCondition::Drawn& one) { return one.number > result.number; });
+  condition.drawn.insert(after, {result.number, result.endedBy, result.paths});
+}
+
+bool ExperimentSummary::holds() const {
+  return std::all_of(assertions.begin(), assertions.end(),
+                     [](const CheckedAssertion& one) { return one.holds; });
+}
+
+ExperimentSummary summarize(const Experiment& experiment, const ResultTable& table) {
+  ExperimentSummary out;
+  out.metrics = table.metrics;
+  for (std::size_t c = 0; c < experiment.conditions.size(); ++c) {
+    const ResultTable::OfCondition& rows = table.conditions[c];
+    ConditionSummary condition{experiment.conditions[c].name, rows.count(), rows.ends, {}};
+    for (const std::vector<double>& column : rows.columns) {
+      condition.metrics.push_back(summaryOf(column));
+    }
+    out.conditions.push_back(std::move(condition));
+  }
+  for (std::size_t c = 1; c < out.conditions.size(); ++c) {
+    for (std::size_t m = 0; m < out.metrics.size(); ++m) {
+      const Summary &first = out.conditions[0].metrics[m], &second = out.conditions[c].metrics[m];
+      if (first.moments.count == 0 || second.moments.count == 0) continue;
+      ConditionDifference difference{0, c, m, welchTest(second.moments, first.moments), {}};
+      if (experiment.commonSeeds) {
+        difference.paired =
+            pairedDifference(table.conditions[c].columns[m], table.conditions[0].columns[m]);
+      }
+      out.differences.push_back(std::move(difference));
+    }
+  }
+  for (std::size_t f = 0; f < experiment.given.size(); ++f) {
+    const GivenFigure& figure = experiment.given[f];
+    const std::size_t metric = metricIndex(out.metrics, figure.metric);
+    for (std::size_t c = 0; c < out.conditions.size(); ++c) {
+      const auto& only = figure.conditions;
+      if (!only.empty() &&
+          std::find(only.begin(), only.end(), out.conditions[c].name) == only.end())
+        continue;
+      const SampleMoments ours = out.conditions[c].metrics[metric].moments;
+      const SampleMoments theirs = momentsOf(figure);
+      out.comparisons.push_back({c, metric, f, ours, theirs, welchTest(ours, theirs)});
+    }
+  }
+  for (const Assertion& assertion : experiment.assertions) {
+    for (std::size_t c = 0; c < out.conditions.size(); ++c) {
+      const std::string& name = out.conditions[c].name;
+      if (!assertion.condition.empty() && assertion.condition != name) continue;
+      out.assertions.push_back(checked(assertion, table, c, name));
+    }
+  }
+  return out;
+}
+
+std::vector<std::size_t> tellingMetrics(const ExperimentSummary& summary) {
+  std::vector<std::size_t> out;
+  for (std::size_t m = 0; m < summary.metrics.size(); ++m) {
+    const bool tells = std::any_of(
+        summary.conditions.begin(), summary.conditions.end(), [m](const ConditionSummary& one) {
+          const Summary& s = one.metrics[m];
+          return s.moments.count > 0 && (s.least != 0.0 || s.most != 0.0);
+        });
+    if (tells) out.push_back(m);
+  }
+  return out;
+}
+
+}  // namespace pitchboard::link

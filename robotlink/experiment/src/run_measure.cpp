@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <robotlink/report/session_statistics.h>
+
+#include "checks.h"
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double still = 0.05;            // m; who moves less than this does not move
+constexpr double touchTolerance = 0.005;  // m between two bodies that touch
+constexpr double centimetre = 0.01;       // m
+
+}  // namespace
+
+RunMeasure::RunMeasure(const Experiment& experiment, const RunPlace& run,
+                       std::shared_ptr<LatestRows> rows)
+    : m_experiment(experiment), m_run(run), m_rows(std::move(rows)) {}
+
+void RunMeasure::begin(const SimulatedMatch& match) {
+  m_rate = match.simulation().state().settings.tickRate;
+  match.simulation().snapshot(m_now);
+  if (m_run.index < m_experiment.pathsShown) m_paths.emplace_back("ball");
+  for (const sim::RobotSnapshot& robot : m_now.robots) {
+    const std::string name = robot.identity.name();
+    const auto column = m_rows->find(name, "BELIEF_ERROR");
+    m_robots.push_back({name,
+                        robot.identity.team == m_experiment.team,
+                        column.value_or(LatestRows::Place{}),
+                        {},
+                        robot.pose.position});
+    if (!m_paths.empty()) m_paths.emplace_back(name);
+  }
+  m_touching.assign(m_robots.size() * m_robots.size(), 0);
+  for (const ExpressionMetric& metric : m_experiment.metrics) {
+    auto made = ReducedExpression::make(metric, *m_rows);
+    if (!made) {
+      m_problem = made.error();
+      return;
+    }
+    m_expressions.push_back(std::move(*made));
+  }
+}
+
+void RunMeasure::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*tickTime*/) {
+  if (m_robots.empty() && m_samples == 0) begin(match);
+  if (m_rows->samples() != m_samples) {
+    m_samples = m_rows->samples();
+    sample(match);
+  }
+  const double time = static_cast<double>(match.simulation().state().tick) / m_rate;
+  // As the match counts its own duration: a time that is a whole number of ticks but for rounding.
+  if (time >= m_experiment.stop.duration - 1e-9) end("time");
+}
+
+void RunMeasure::happened(std::span<const MatchEvent> events) {
+  using Kind = MatchEventKind;
+  const RunStop& stop = m_experiment.stop;
+  const std::string_view team = info(m_experiment.team).name;
+  const auto ofTeam = [&](const MatchEvent& event) {
+    return std::any_of(m_robots.begin(), m_robots.end(),
+                       [&](const Robot& robot) { return robot.ours && robot.name == event.name; });
+  };
+  for (const MatchEvent& event : events) {
+    if (event.kind == Kind::Goal && event.colour == team) {
+      ++m_goals;
+      if (!m_firstGoal) m_firstGoal = event.time;
+      if (stop.goal) end("goal");
+    } else if (event.kind == Kind::Goal) {
+      ++m_goalsAgainst;
+      if (stop.goalAgainst) end("goal_against");
+    } else if (event.kind == Kind::BallOut) {
+      ++m_ballsOut;
+      if (stop.ballOut) end("ball_out");
+    } else if (event.kind == Kind::Fall && ofTeam(event)) {
+      m_fell = true;
+      if (stop.fell) end("fell");
+    } else if (event.kind == Kind::Penalised && ofTeam(event)) {
+      ++m_penalties;
+    }
+  }
+}
+
+void RunMeasure::sample(const SimulatedMatch& match) {
+  match.simulation().snapshot(m_now);
+  for (Robot& robot : m_robots) {
+    robot.belief.add(m_rows->value(robot.beliefError) * centimetre);
+  }
+  for (ReducedExpression& expression : m_expressions) expression.sample(m_now.time, *m_rows);
+  watchMovement();
+  followPaths();
+  countCollisions(match.simulation().state());
+  followPossession();
+}
+
+void RunMeasure::watchMovement() {
+  std::vector<Point>& anchors = m_anchors;
+  const bool first = anchors.empty();
+  std::size_t at = 0;
+  bool moved = first;
+  const auto look = [&](const Point& place) {
+    if (first) anchors.push_back(place);
+    moved = moved || distance(anchors[at], place) > still;
+    ++at;
+  };
+  look(m_now.ball);
+  for (std::size_t i = 0; i < m_robots.size(); ++i) {
+    if (m_robots[i].ours) look(m_now.robots[i].pose.position);
+  }
+  if (moved) {
+    anchors.clear();
+    anchors.push_back(m_now.ball);
+    for (std::size_t i = 0; i < m_robots.size(); ++i) {
+      if (m_robots[i].ours) anchors.push_back(m_now.robots[i].pose.position);
+    }
+    m_movedAt = m_now.time;
+  }
+  if (m_experiment.stop.stuck && m_now.time - m_movedAt >= *m_experiment.stop.stuck) {
+    m_stuck = true;
+    end("stuck");
+  }
+}
+
+void RunMeasure::followPaths() {
+  if (m_paths.empty()) return;
+  m_paths.front().follow(m_now.ball);
+  for (std::size_t i = 0; i < m_robots.size(); ++i) {
+    m_paths[i + 1].follow(m_now.robots[i].pose.position);
+  }
+}
+
+void RunMeasure::countCollisions(const sim::WorldState& world) {
+  const std::size_t n = m_robots.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double apart = distance(m_now.robots[i].pose.position, m_now.robots[j].pose.position);
+      const bool touches =
+          apart < sim::robotRadius(world, i) + sim::robotRadius(world, j) + touchTolerance;
+      char& before = m_touching[i * n + j];
+      m_collisions += touches && !before && (m_robots[i].ours || m_robots[j].ours);
+      before = touches;
+    }
+  }
+}
+
+void RunMeasure::followPossession() {
+  double nearest = ballReach;
+  const Robot* owner = nullptr;
+  for (std::size_t i = 0; i < m_robots.size(); ++i) {
+    const double away = distance(m_now.robots[i].pose.position, m_now.ball);
+    if (away >= nearest) continue;
+    nearest = away;
+    owner = &m_robots[i];
+  }
+  if (!owner) return;
+  m_anybodys += 1.0;
+  m_ours += owner->ours;
+}
+
+RunResult RunMeasure::result(const SimulatedMatch& match) {
+  match.simulation().snapshot(m_now);
+  if (match.finished()) end(match.finishedBy());
+  RunResult out;
+  out.number = m_run.number;
+  out.seed = match.simulation().state().settings.seed;
+  out.endedBy = m_endedBy;
+  out.ticks = m_now.tick;
+  out.hash = match.simulation().hash();
+
+  std::vector<double> team(teamValueCount, 0.0);
+  const auto put = [&team](TeamValue which, double value) {
+    team[static_cast<std::size_t>(which)] = value;
+  };
+  MeanOf belief, beliefEnd;
+  double walked = 0.0, displacement = 0.0, kicks = 0.0, falls = 0.0;
+  for (std::size_t i = 0; i < m_robots.size(); ++i) {
+    if (!m_robots[i].ours) continue;
+    const sim::RobotSnapshot& now = m_now.robots[i];
+    walked += now.statistics.distanceWalked;
+    displacement += distance(m_robots[i].start, now.pose.position);
+    kicks += now.statistics.kicks;
+    falls += now.statistics.falls;
+    belief.add(m_robots[i].belief.mean());
+    if (std::isfinite(m_robots[i].belief.mean())) beliefEnd.add(m_robots[i].belief.last());
+  }
+  put(TeamValue::Goal, m_goals > 0);
+  put(TeamValue::GoalAgainst, m_goalsAgainst > 0);
+  put(TeamValue::BallOut, m_ballsOut > 0);
+  put(TeamValue::Stuck, m_stuck);
+  put(TeamValue::Fell, m_fell);
+  put(TeamValue::Timeout, m_endedBy == "time");
+  put(TeamValue::Goals, m_goals);
+  put(TeamValue::GoalsAgainst, m_goalsAgainst);
+  put(TeamValue::Time, m_now.time);
+  put(TeamValue::TimeToGoal, m_firstGoal.value_or(nan));
+  put(TeamValue::Walked, walked);
+  put(TeamValue::Displacement, displacement);
+  put(TeamValue::Kicks, kicks);
+  put(TeamValue::Falls, falls);
+  put(TeamValue::BallsOut, m_ballsOut);
+  put(TeamValue::BeliefError, belief.mean());
+  put(TeamValue::BeliefErrorEnd, beliefEnd.mean());
+  put(TeamValue::Possession, m_anybodys > 0.0 ? m_ours / m_anybodys : nan);
+  put(TeamValue::Collisions, m_collisions);
+  put(TeamValue::Penalties, m_penalties);
+  out.values = std::move(team);
+
+  for (const std::string& name : robotsOf(m_experiment)) {
+    const auto robot = std::find_if(m_robots.begin(), m_robots.end(),
+                                    [&](const Robot& one) { return one.name == name; });
+    const bool here = robot != m_robots.end();
+    const auto index = static_cast<std::size_t>(robot - m_robots.begin());
+    out.values.push_back(here ? m_now.robots[index].statistics.distanceWalked : nan);
+    out.values.push_back(here ? double(m_now.robots[index].statistics.kicks) : nan);
+    out.values.push_back(here ? robot->belief.mean() : nan);
+  }
+  for (const ReducedExpression& expression : m_expressions)
+    out.values.push_back(expression.value());
+  for (const PathFollower& path : m_paths) out.paths.push_back({path.who(), path.points()});
+  return out;
+}
+
+}  // namespace pitchboard::link

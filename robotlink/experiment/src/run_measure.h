@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Measures one run while it is played, and says when it is over. An observer behind the
+// MatchSampler whose rows it reads. The thread of its match; metres, seconds.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <robotlink/experiment/run_result.h>
+#include <robotlink/match/tick_observer.h>
+#include <simcore/world/snapshot.h>
+
+#include "latest_rows.h"
+#include "run_layout.h"
+#include "run_values.h"
+
+namespace pitchboard::link {
+
+class RunMeasure : public TickObserver {
+ public:
+  RunMeasure(const Experiment& experiment, const RunPlace& run, std::shared_ptr<LatestRows> rows);
+
+  void ticked(const SimulatedMatch& match, std::chrono::nanoseconds tickTime) override;
+  void happened(std::span<const MatchEvent> events) override;
+
+  /// Why the run is over, as RunResult::endedBy; empty: it goes on.
+  std::string_view endedBy() const { return m_endedBy; }
+  /// An expression that cannot be computed; looked for at the first moment.
+  const std::optional<Error>& problem() const { return m_problem; }
+  /// Of the run that is over, or that `match` itself has ended.
+  RunResult result(const SimulatedMatch& match);
+
+ private:
+  struct Robot {
+    std::string name;
+    bool ours = false;
+    LatestRows::Place beliefError;
+    MeanOf belief;
+    Point start;
+  };
+  void begin(const SimulatedMatch& match);
+  void sample(const SimulatedMatch& match);
+  void watchMovement();
+  void followPaths();
+  void countCollisions(const sim::WorldState& world);
+  void followPossession();
+  void end(std::string_view why) {
+    if (m_endedBy.empty()) m_endedBy = why;
+  }
+
+  const Experiment& m_experiment;
+  RunPlace m_run;
+  std::shared_ptr<LatestRows> m_rows;
+  std::uint64_t m_samples = 0;
+  std::vector<Robot> m_robots;  // in the order of the snapshot
+  std::vector<ReducedExpression> m_expressions;
+  sim::Snapshot m_now;
+  std::string m_endedBy;
+  std::optional<Error> m_problem;
+  double m_rate = 60.0;
+
+  int m_goals = 0, m_goalsAgainst = 0, m_ballsOut = 0, m_penalties = 0, m_collisions = 0;
+  bool m_fell = false, m_stuck = false;
+  std::optional<double> m_firstGoal;
+  double m_ours = 0.0, m_anybodys = 0.0;  // s with the ball
+  std::vector<Point> m_anchors;           // the ball, then the robots of the team
+  double m_movedAt = 0.0;
+  std::vector<char> m_touching;  // of each pair
+  std::vector<PathFollower> m_paths;
+};
+
+}  // namespace pitchboard::link

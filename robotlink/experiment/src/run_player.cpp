@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/experiment/run_player.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include <robotlink/match/match_player.h>
+#include <robotlink/session/match_recorder.h>
+#include <telemetry/wire/live_clock.h>
+
+#include "checks.h"
+#include "run_measure.h"
+
+namespace pitchboard::link {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+constexpr auto lookInterval = std::chrono::milliseconds(50);
+constexpr std::uint64_t ticksBetweenLooks = 64;  // at the clock and at who cancels
+
+sim::RobotIdentity const* robotNamed(const sim::WorldState& world, std::string_view name) {
+  const auto found = std::find_if(world.robots.begin(), world.robots.end(),
+                                  [&](const auto& robot) { return robot.name() == name; });
+  return found == world.robots.end() ? nullptr : &*found;
+}
+
+/// Moves by hand whose time has come.
+class Hand {
+ public:
+  Hand(const Experiment& experiment, MatchPlayer& player)
+      : m_placed(experiment.placed), m_player(player) {}
+
+  Result<void> act() {
+    if (m_next >= m_placed.size()) return {};
+    sim::Simulation& simulation = m_player.match().simulation();
+    const double now =
+        static_cast<double>(simulation.state().tick) / simulation.state().settings.tickRate;
+    bool acted = false;
+    for (; m_next < m_placed.size() && m_placed[m_next].time <= now + 1e-9; ++m_next) {
+      const PlacedByHand& one = m_placed[m_next];
+      const sim::RobotIdentity* robot = robotNamed(simulation.state(), one.who);
+      const auto done = one.who == "ball" ? simulation.placeBall(one.pose.position, one.velocity)
+                        : robot           ? simulation.placeRobot(robot->id, one.pose)
+                                          : Result<void>();  // this condition has no such robot
+      if (!done) return done;
+      acted = true;
+    }
+    if (acted) m_player.worldChanged();
+    return {};
+  }
+
+ private:
+  const std::vector<PlacedByHand>& m_placed;
+  MatchPlayer& m_player;
+  std::size_t m_next = 0;
+};
+
+}  // namespace
+
+struct RunPlayer::Recording {
+  std::string path, program;
+};
+
+RunPlayer::RunPlayer(const Experiment& experiment, PlaySettings settings,
+                     std::unique_ptr<Check> success)
+    : m_experiment(&experiment), m_settings(std::move(settings)), m_success(std::move(success)) {}
+RunPlayer::RunPlayer(RunPlayer&&) noexcept = default;
+RunPlayer::~RunPlayer() = default;
+
+Result<RunPlayer> RunPlayer::create(const Experiment& experiment, PlaySettings settings) {
+  auto success = Check::parse(experiment.success, Check::Over::Run, metricsOf(experiment));
+  if (!success) return tl::unexpected(success.error());
+  return RunPlayer(experiment, std::move(settings), std::make_unique<Check>(std::move(*success)));
+}
+
+Result<RunResult> RunPlayer::play(std::size_t number) {
+  return playOne(number, nullptr);
+}
+
+Result<RunResult> RunPlayer::record(std::size_t number, const std::string& path,
+                                    const std::string& program) {
+  const Recording recording{path, program};
+  return playOne(number, &recording);
+}
+
+Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* recording) {
+  const Experiment& e = *m_experiment;
+  const RunPlace run = placeOf(e, number);
+  const auto scenario = scenarioOf(e, run);
+  if (!scenario) return tl::unexpected(scenario.error());
+  MatchOptions options;
+  options.cognition = e.separateProcesses ? Cognition::External : Cognition::Inline;
+  options.robotProgram = m_settings.robotProgram;
+  auto match = SimulatedMatch::create(*scenario, options);
+  if (!match) return tl::unexpected(match.error());
+
+  const auto begin = WallClock::now();
+  MatchPlayer player(std::move(*match));
+  player.match().setPlaying(MatchPlayer::unlimitedSpeed, false, begin);
+  std::shared_ptr<MatchRecorder> recorder;
+  if (recording) {
+    telemetry::SessionWriterOptions writing;
+    writing.waitWhenFull = true;
+    auto writer = telemetry::SessionWriter::create(
+        recording->path,
+        sessionInfo(player.match(), recording->program, telemetry::LiveClock().now()), writing);
+    if (!writer) return tl::unexpected(writer.error());
+    const std::shared_ptr<telemetry::SessionWriter> shared = std::move(*writer);
+    attachMatch(*shared, player.match().scenario(), VariableCatalog::published());
+    const auto every = std::make_shared<MatchSampler>();
+    recorder = std::make_shared<MatchRecorder>(shared, every);
+    player.observe(every);
+    player.observe(recorder);
+  }
+  const auto rows = std::make_shared<LatestRows>();
+  const double rate = scenario->settings.tickRate;
+  const auto sampler = std::make_shared<MatchSampler>(
+      rows, MatchSamplerOptions{std::max(1, static_cast<int>(e.sampleEvery * rate + 0.5))});
+  const auto measure = std::make_shared<RunMeasure>(e, run, rows);
+  player.observe(sampler);
+  player.observe(measure);
+  if (measure->problem()) return tl::unexpected(*measure->problem());
+
+  Hand hand(e, player);
+  auto looked = begin;
+  while (measure->endedBy().empty() && !player.match().finished()) {
+    if (auto acted = hand.act(); !acted) return tl::unexpected(acted.error());
+    player.tick();
+    if (player.currentTick() % ticksBetweenLooks != 0) continue;
+    if (m_settings.cancelled && *m_settings.cancelled) {
+      return failure(ErrorCode::Conflict, "cancelled");
+    }
+    if (!e.separateProcesses) continue;
+    if (const auto now = WallClock::now(); now - looked >= lookInterval) {
+      looked = now;
+      player.match().lookAfterProcesses(now);
+      (void)player.match().processes().takeLines();
+    }
+  }
+  RunResult result = measure->result(player.match());
+  std::vector<double> values;
+  for (const Check::Name& name : m_success->names()) values.push_back(result.values[name.metric]);
+  result.values[static_cast<std::size_t>(TeamValue::Success)] = m_success->holds(values);
+  m_wall = std::chrono::duration<double>(WallClock::now() - begin).count();
+  m_simulated = static_cast<double>(result.ticks) / rate;
+  if (recorder) {
+    if (auto finished = recorder->finish(); !finished) return tl::unexpected(finished.error());
+  }
+  return result;
+}
+
+Result<void> playRuns(const Experiment& experiment, std::span<const std::size_t> numbers,
+                      std::size_t jobs, const PlaySettings& settings,
+                      const std::function<Result<void>(PlayedRun)>& take) {
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> over{false};
+  std::mutex mutex;
+  std::optional<Error> problem;
+  const auto fail = [&](const Error& error) {  // with the mutex
+    if (!problem) problem = error;
+    over = true;
+  };
+  const auto isCancelled = [&settings] { return settings.cancelled && *settings.cancelled; };
+  const auto work = [&] {
+    auto player = RunPlayer::create(experiment, settings);
+    if (!player) {
+      const std::lock_guard lock(mutex);
+      return fail(player.error());
+    }
+    while (!over && !isCancelled()) {
+      const std::size_t mine = next++;
+      if (mine >= numbers.size()) return;
+      auto result = player->play(numbers[mine]);
+      if (!result && isCancelled()) return;
+      const std::lock_guard lock(mutex);
+      if (!result) {
+        Error error = result.error();
+        error.context = "run " + std::to_string(numbers[mine]) +
+                        (error.context.empty() ? "" : ": " + error.context);
+        return fail(error);
+      }
+      if (over) return;
+      auto taken = take({std::move(*result), player->wallSeconds(), player->simulatedSeconds()});
+      if (!taken) fail(taken.error());
+    }
+  };
+  std::vector<std::thread> threads;
+  const std::size_t count =
+      std::clamp<std::size_t>(jobs, 1, std::max<std::size_t>(1, numbers.size()));
+  threads.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  if (problem) return tl::unexpected(*problem);
+  return {};
+}
+
+}  // namespace pitchboard::link

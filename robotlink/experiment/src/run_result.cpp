@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/experiment/run_result.h>
+
+#include <algorithm>
+#include <array>
+
+#include "run_layout.h"
+
+namespace pitchboard::link {
+namespace {
+
+struct TeamMetric {
+  const char *name, *unit, *title;
+  bool rate = false;
+};
+
+// In the order of TeamValue.
+constexpr std::array<TeamMetric, teamValueCount> teamTable{{
+    {"success", "", "Good runs", true},
+    {"goal", "", "Runs with a goal", true},
+    {"goal_against", "", "Runs with a goal against", true},
+    {"ball_out", "", "Runs with the ball out", true},
+    {"stuck", "", "Runs that got stuck", true},
+    {"fell", "", "Runs with a fall", true},
+    {"timeout", "", "Runs that ran out of time", true},
+    {"goals", "", "Goals"},
+    {"goals_against", "", "Goals against"},
+    {"time_s", "s", "Time"},
+    {"time_to_goal_s", "s", "Time to the first goal"},
+    {"walked_m", "m", "Distance walked"},
+    {"displacement_m", "m", "From the start to the end"},
+    {"kicks", "", "Kicks"},
+    {"falls", "", "Falls"},
+    {"balls_out", "", "Times the ball was out"},
+    {"belief_error_m", "m", "Belief error"},
+    {"belief_error_end_m", "m", "Belief error at the end"},
+    {"possession", "", "Share of possession"},
+    {"collisions", "", "Collisions"},
+    {"penalties", "", "Penalties"},
+}};
+
+constexpr std::array<TeamMetric, robotValueCount> robotTable{{
+    {"walked_m", "m", "Distance walked"},
+    {"kicks", "", "Kicks"},
+    {"belief_error_m", "m", "Belief error"},
+}};
+
+struct EndWord {
+  const char *endedBy, *words;
+};
+constexpr std::array<EndWord, 7> ends{{{"goal", "goal"},
+                                       {"goal_against", "goal against"},
+                                       {"ball_out", "ball out"},
+                                       {"fell", "fell"},
+                                       {"stuck", "stuck"},
+                                       {"time", "time was up"},
+                                       {"full_time", "final whistle"}}};
+
+}  // namespace
+
+std::vector<std::string> robotsOf(const Experiment& experiment) {
+  std::vector<std::string> names;
+  for (const Condition& condition : experiment.conditions) {
+    for (const ScenarioRobot& robot : condition.scenario.robots) {
+      const std::string name = robot.identity.name();
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::vector<MetricInfo> teamMetrics() {
+  std::vector<MetricInfo> out;
+  for (const TeamMetric& one : teamTable) out.push_back({one.name, one.unit, one.title, one.rate});
+  return out;
+}
+
+std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
+  std::vector<MetricInfo> out = teamMetrics();
+  for (const std::string& robot : robotsOf(experiment)) {
+    for (const TeamMetric& one : robotTable) {
+      out.push_back({std::string(one.name) + '_' + robot, one.unit,
+                     robot + ": " + std::string(one.title), one.rate});
+    }
+  }
+  for (const ExpressionMetric& metric : experiment.metrics) {
+    out.push_back({metric.name, metric.unit, metric.name, false});
+  }
+  return out;
+}
+
+std::string endWords(const std::string& endedBy) {
+  const auto found = std::find_if(ends.begin(), ends.end(),
+                                  [&](const EndWord& one) { return one.endedBy == endedBy; });
+  return found == ends.end() ? endedBy : found->words;
+}
+
+}  // namespace pitchboard::link

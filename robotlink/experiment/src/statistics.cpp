@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/experiment/statistics.h>
+
+#include <algorithm>
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+namespace pitchboard::link {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double tail = 0.025;  // of each side of a 95 % interval
+constexpr std::size_t resamples = 2000;
+// More values than this: draws are what takes the time, and fewer resamples say the same.
+constexpr std::size_t mostDraws = 4'000'000;
+constexpr std::size_t leastResamples = 200;
+
+std::vector<double> finite(std::span<const double> values) {
+  std::vector<double> out;
+  out.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(out),
+               [](double value) { return std::isfinite(value); });
+  return out;
+}
+
+/// A number below `limit` from 32 random bits; its bias (limit / 2^32) is far below what counts.
+std::size_t below(std::uint32_t bits, std::size_t limit) {
+  return static_cast<std::size_t>((std::uint64_t{bits} * limit) >> 32U);
+}
+
+/// Of a rate that was the same in all n cases.
+Interval exactRate(bool all, std::size_t n) {
+  const double count = static_cast<double>(n);
+  if (all) {
+    const boost::math::beta_distribution<> lower(count, 1.0);
+    return {boost::math::quantile(lower, tail), 1.0};
+  }
+  const boost::math::beta_distribution<> upper(1.0, count);
+  return {0.0, boost::math::quantile(upper, 1.0 - tail)};
+}
+
+}  // namespace
+
+SampleMoments momentsOf(std::span<const double> values) {
+  SampleMoments out;
+  double squares = 0.0;  // Welford's update
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    ++out.count;
+    const double off = value - out.mean;
+    out.mean += off / static_cast<double>(out.count);
+    squares += off * (value - out.mean);
+  }
+  if (out.count == 0) out.mean = nan;
+  if (out.count > 1) out.deviation = std::sqrt(squares / static_cast<double>(out.count - 1));
+  return out;
+}
+
+double quantile(std::span<const double> sorted, double share) {
+  if (sorted.empty()) return nan;
+  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  const double part = at - static_cast<double>(low);
+  return sorted[low] + part * (sorted[high] - sorted[low]);
+}
+
+std::optional<Interval> intervalOfMean(std::span<const double> all) {
+  const std::vector<double> values = finite(all);
+  if (values.size() < 2) return {};
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (*least == *most) {
+    if (*least == 0.0 || *least == 1.0) return exactRate(*least == 1.0, values.size());
+    return Interval{*least, *least};
+  }
+  const std::size_t count = std::clamp(mostDraws / values.size(), leastResamples, resamples);
+  std::mt19937 random(20180611);
+  std::vector<double> means(count);
+  for (double& mean : means) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      sum += values[below(static_cast<std::uint32_t>(random()), values.size())];
+    }
+    mean = sum / static_cast<double>(values.size());
+  }
+  std::sort(means.begin(), means.end());
+  return Interval{quantile(means, tail), quantile(means, 1.0 - tail)};
+}
+
+Summary summaryOf(std::span<const double> all) {
+  Summary out;
+  out.moments = momentsOf(all);
+  std::vector<double> values = finite(all);
+  std::sort(values.begin(), values.end());
+  out.least = quantile(values, 0.0);
+  out.lowerQuartile = quantile(values, 0.25);
+  out.median = quantile(values, 0.5);
+  out.upperQuartile = quantile(values, 0.75);
+  out.p95 = quantile(values, 0.95);
+  out.most = quantile(values, 1.0);
+  out.mean95 = intervalOfMean(all);
+  return out;
+}
+
+std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& b) {
+  if (a.count < 2 || b.count < 2) return {};
+  const double na = static_cast<double>(a.count), nb = static_cast<double>(b.count);
+  const double va = a.deviation * a.deviation / na, vb = b.deviation * b.deviation / nb;
+  if (!(va + vb > 0.0) || !std::isfinite(va + vb)) return {};
+  WelchTest out;
+  out.difference = a.mean - b.mean;
+  const double error = std::sqrt(va + vb);
+  out.t = out.difference / error;
+  out.freedom = (va + vb) * (va + vb) / (va * va / (na - 1.0) + vb * vb / (nb - 1.0));
+  const boost::math::students_t distribution(out.freedom);
+  out.p =
+      std::min(1.0, 2.0 * boost::math::cdf(boost::math::complement(distribution, std::abs(out.t))));
+  out.criticalOne = boost::math::quantile(boost::math::complement(distribution, 2.0 * tail));
+  out.criticalTwo = boost::math::quantile(boost::math::complement(distribution, tail));
+  out.difference95 = {out.difference - out.criticalTwo * error,
+                      out.difference + out.criticalTwo * error};
+  const double pooled =
+      std::sqrt(((na - 1.0) * a.deviation * a.deviation + (nb - 1.0) * b.deviation * b.deviation) /
+                (na + nb - 2.0));
+  // Hedges, Distribution theory for Glass's estimator of effect size (1981).
+  const double small = 1.0 - 3.0 / (4.0 * (na + nb) - 9.0);
+  out.hedgesG = pooled > 0.0 ? small * out.difference / pooled : 0.0;
+  return out;
+}
+
+PairedDifference pairedDifference(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (std::isfinite(a[i]) && std::isfinite(b[i])) differences.push_back(a[i] - b[i]);
+  }
+  PairedDifference out;
+  out.pairs = differences.size();
+  out.mean = momentsOf(differences).mean;
+  // Equal pairs say nothing of how far they might differ.
+  const bool vary = std::any_of(differences.begin(), differences.end(),
+                                [&](double one) { return one != differences.front(); });
+  if (vary) out.mean95 = intervalOfMean(differences);
+  return out;
+}
+
+std::vector<std::size_t> histogram(std::span<const double> values, double low, double high,
+                                   std::size_t bins) {
+  std::vector<std::size_t> counts(bins, 0);
+  if (bins == 0) return counts;
+  for (const double value : values) {
+    if (!std::isfinite(value) || value < low || value > high) continue;
+    const double share = high > low ? (value - low) / (high - low) : 0.0;
+    const auto bin = static_cast<std::size_t>(share * static_cast<double>(bins));
+    ++counts[std::min(bin, bins - 1)];
+  }
+  return counts;
+}
+
+}  // namespace pitchboard::link

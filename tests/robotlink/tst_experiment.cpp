@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Experiments: files and their errors, runs that depend on their number only, folders whose bytes
+// do not depend on how they were filled, separate processes that end in the same state.
+
+#include <QtTest>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <base/file_target.h>
+#include <base/read_file.h>
+#include <robotlink/experiment/experiment_folder.h>
+#include <robotlink/experiment/run_player.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+/// Two conditions of a short match: three seconds, or until the ball is out.
+const std::string shortMatch = R"({
+  "version": 1, "name": "short", "scenario": {
+    "version": 1, "ball": {"x": 0.3, "y": 0},
+    "robots": [{"team": "blue", "number": 1, "x": 0, "y": 0, "behaviour": "naive"}],
+    "writes": [{"variable": "COM_REFEREE", "value": 2}]
+  },
+  "runs": 4, "seed": 7,
+  "conditions": [
+    {"name": "plain", "set": {"noise": "none"}},
+    {"name": "noisy", "set": {"noise": "paper", "noise.forward": 0.01}}
+  ],
+  "starts": {"robots": {"x": 0.1, "y": 0.1, "heading": 5}},
+  "metrics": [{"name": "nearest_cm", "unit": "cm", "expression": "B1.TRUE_BALL_DIST", "reduce": "min"}],
+  "stop": {"duration": 3},
+  "success": "nearest_cm < 25",
+  "assertions": ["p95(nearest_cm) < 60", {"check": "time_s == 3", "condition": "plain"}]
+})";
+
+Experiment experimentFrom(const std::string& text) {
+  auto made = experimentFromJson(text, "test.json");
+  if (!made) qFatal("%s", made.error().text().c_str());
+  return std::move(*made);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  if (at == std::string::npos) qFatal("no %s", what.c_str());
+  return text.replace(at, what.size(), by);
+}
+
+std::map<std::string, std::string> filesIn(const std::string& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    out[entry.path().filename()] = readFile(entry.path(), 1 << 24).value();
+  }
+  return out;
+}
+
+Result<void> playInto(ExperimentFolder& folder, const Experiment& experiment,
+                      const std::vector<std::size_t>& numbers, std::size_t jobs) {
+  auto played = playRuns(experiment, numbers, jobs, {},
+                         [&](const PlayedRun& run) { return folder.add(run.result); });
+  if (!played) return played;
+  return folder.finish();
+}
+
+std::vector<std::size_t> numbers(std::size_t from, std::size_t to, std::size_t step = 1) {
+  std::vector<std::size_t> out;
+  for (std::size_t n = from; n <= to; n += step) out.push_back(n);
+  return out;
+}
+
+bool same(const RunResult& a, const RunResult& b) {
+  return a.number == b.number && a.seed == b.seed && a.endedBy == b.endedBy && a.hash == b.hash &&
+         a.ticks == b.ticks && a.paths == b.paths &&
+         std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
+                    [](double x, double y) { return x == y || (x != x && y != y); });
+}
+
+}  // namespace
+
+class TestExperiment : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void builtInFilesAreGood();
+  void errorsNameTheLineAndTheKey_data();
+  void errorsNameTheLineAndTheKey();
+  void gridsAreEveryCombination();
+  void conditionsShareSeedsAndStarts();
+  void drawnSettingsAreInTheirRange();
+  void runsDependOnTheirNumberOnly();
+  void folderDoesNotShowHowItWasFilled();
+  void folderOfAnotherExperimentIsRefused();
+  void aPlacedRobotStandsThere();
+  void stuckRobotsEndTheRun();
+  void goalsAreCountedForTheTeam();
+  void recordedRunEndsInTheSameState();
+  void separateProcessesEndInTheSameState();
+};
+
+void TestExperiment::builtInFilesAreGood() {
+  const auto all = builtInExperiments(), situations = builtInSituations();
+  QVERIFY(all.size() >= 2);
+  QCOMPARE(situations.size(), std::size_t{5});
+  for (const auto* list : {&all, &situations}) {
+    for (const ExperimentName& one : *list) {
+      const auto loaded = loadExperiment(one.name);
+      QVERIFY2(loaded.has_value(), loaded ? "" : loaded.error().text().c_str());
+      QCOMPARE(loaded->name, one.name);
+      QVERIFY(!loaded->title.empty());
+    }
+  }
+  for (const ExperimentName& one : situations) {
+    QVERIFY(!loadExperiment(one.name)->assertions.empty());
+  }
+}
+
+void TestExperiment::errorsNameTheLineAndTheKey_data() {
+  QTest::addColumn<QString>("what");
+  QTest::addColumn<QString>("by");
+  QTest::addColumn<QString>("error");
+  QTest::newRow("no metric") << "p95(nearest_cm)"
+                             << "p95(nearst_cm)"
+                             << "there is no metric \"nearst_cm\"; did you mean \"nearest_cm\"?";
+  QTest::newRow("range") << "\"runs\": 4"
+                         << "\"runs\": 0"
+                         << "test.json:7: runs:";
+  QTest::newRow("key") << "\"seed\": 7"
+                       << "\"sed\": 7"
+                       << "test.json:7: sed";
+  QTest::newRow("scenario key") << "\"noise.forward\": 0.01"
+                                << "\"noise.forwrd\": 0.01"
+                                << "test.json:10: condition \"noisy\": noise.forwrd";
+  QTest::newRow("scenario value") << "\"noise\": \"none\""
+                                  << "\"noise\": \"nome\""
+                                  << "test.json:9: condition \"plain\": noise";
+  QTest::newRow("robot") << "\"robots\": {\"x\": 0.1"
+                         << "\"B2\": {\"x\": 0.1"
+                         << "there is no robot B2";
+  QTest::newRow("condition") << "\"condition\": \"plain\""
+                             << "\"condition\": \"plan\""
+                             << "there is no condition plan";
+  QTest::newRow("expression") << "B1.TRUE_BALL_DIST"
+                              << "B1.TRUE_BALL_DIST +"
+                              << "test.json:13: metrics: nearest_cm: cannot be read";
+  QTest::newRow("stop key") << "\"noise.forward\""
+                            << "\"stop.duration\""
+                            << "\"stop\" is the experiment's own key";
+  QTest::newRow("name twice") << "\"name\": \"noisy\""
+                              << "\"name\": \"plain\""
+                              << "another condition has this name";
+}
+
+void TestExperiment::errorsNameTheLineAndTheKey() {
+  QFETCH(QString, what);
+  QFETCH(QString, by);
+  QFETCH(QString, error);
+  const auto made =
+      experimentFromJson(replaced(shortMatch, what.toStdString(), by.toStdString()), "test.json");
+  QVERIFY(!made);
+  const QString text = QString::fromStdString(made.error().text());
+  QVERIFY2(text.contains(error), qPrintable(text));
+}
+
+void TestExperiment::gridsAreEveryCombination() {
+  const Experiment e = experimentFrom(replaced(
+      replaced(shortMatch, ", \"condition\": \"plain\"", ""), "\"starts\"",
+      "\"grid\": {\"physics\": [\"published\", \"rigid-body\"], \"robots[*].y\": [0, 1, 2]}, "
+      "\"starts\""));
+  QCOMPARE(e.conditions.size(), std::size_t{12});
+  QCOMPARE(e.allRuns(), std::size_t{48});
+  QCOMPARE(e.conditions[0].name, std::string("plain, physics = published, robots[*].y = 0"));
+  QCOMPARE(e.conditions[11].name, std::string("noisy, physics = rigid-body, robots[*].y = 2"));
+  QCOMPARE(e.conditions[5].scenario.robots[0].pose.position.y, 2.0);
+  QCOMPARE(e.conditions[5].scenario.settings.physics, std::string("rigid-body"));
+}
+
+void TestExperiment::conditionsShareSeedsAndStarts() {
+  const Experiment common = experimentFrom(shortMatch);
+  const Experiment apart = experimentFrom(
+      replaced(shortMatch, "\"seed\": 7", "\"seed\": 7, \"common_random_numbers\": false"));
+  const auto plain = scenarioOf(common, placeOf(common, 2)),
+             noisy = scenarioOf(common, placeOf(common, 6));
+  QCOMPARE(plain->settings.seed, std::uint64_t{8});
+  QCOMPARE(noisy->settings.seed, std::uint64_t{8});
+  QCOMPARE(plain->robots[0].pose, noisy->robots[0].pose);
+  QVERIFY(plain->robots[0].pose != common.conditions[0].scenario.robots[0].pose);
+  QVERIFY(std::abs(plain->robots[0].pose.position.x) <= 0.1);
+  QCOMPARE(plain->settings.noise.forward, 0.0);
+  QCOMPARE(noisy->settings.noise.forward, 0.01);
+  QCOMPARE(seedOf(apart, placeOf(apart, 6)), std::uint64_t{12});
+}
+
+void TestExperiment::drawnSettingsAreInTheirRange() {
+  const Experiment e = experimentFrom(
+      replaced(shortMatch, "\"starts\"",
+               "\"random\": {\"noise.vision_bearing\": {\"from\": 1, \"to\": 4}}, \"starts\""));
+  double least = 10.0, most = 0.0;
+  for (std::size_t index = 0; index < 200; ++index) {
+    const auto scenario = scenarioOf(e, {1, 0, index});
+    QVERIFY(scenario.has_value());
+    // Stored in radians.
+    const double drawn = scenario->settings.noise.visionBearing * 180.0 / 3.14159265358979323846;
+    least = std::min(least, drawn);
+    most = std::max(most, drawn);
+  }
+  QVERIFY(least >= 1.0 && least < 1.1);
+  QVERIFY(most <= 4.0 && most > 3.9);
+}
+
+void TestExperiment::runsDependOnTheirNumberOnly() {
+  const Experiment e = experimentFrom(shortMatch);
+  std::map<std::size_t, RunResult> one, many;
+  const auto into = [](std::map<std::size_t, RunResult>& results) {
+    return [&results](const PlayedRun& run) -> Result<void> {
+      results[run.result.number] = run.result;
+      return {};
+    };
+  };
+  QVERIFY(playRuns(e, numbers(1, 8), 1, {}, into(one)).has_value());
+  std::vector<std::size_t> backwards = numbers(1, 8);
+  std::reverse(backwards.begin(), backwards.end());
+  QVERIFY(playRuns(e, backwards, 3, {}, into(many)).has_value());
+  QCOMPARE(one.size(), std::size_t{8});
+  for (const auto& [number, result] : one) QVERIFY(same(result, many[number]));
+  QVERIFY(one[1].hash != one[2].hash);
+  QVERIFY(one[1].hash != one[5].hash);
+  const auto metrics = metricsOf(e);
+  QCOMPARE(one[1].values.size(), metrics.size());
+  QCOMPARE(metrics.back().name, std::string("nearest_cm"));
+  QVERIFY(one[1].values.back() > 5.0 && one[1].values.back() < 45.0);
+  QCOMPARE(one[1].paths.size(), std::size_t{2});  // the ball and B1
+}
+
+void TestExperiment::folderDoesNotShowHowItWasFilled() {
+  const QTemporaryDir dir;
+  const Experiment e = experimentFrom(shortMatch);
+  const auto in = [&dir](const char* name) { return dir.filePath(name).toStdString(); };
+  {
+    auto whole = ExperimentFolder::begin(in("whole"), e, false);
+    QVERIFY(whole.has_value());
+    QVERIFY(playInto(*whole, e, numbers(1, 8), 1).has_value());
+    QVERIFY(whole->complete());
+  }
+  {  // some runs, then a program that was killed in the middle of a line
+    auto begun = ExperimentFolder::begin(in("resumed"), e, false);
+    QVERIFY(playInto(*begun, e, {5, 2, 8}, 2).has_value());
+    QVERIFY(!begun->complete());
+  }
+  QVERIFY(!std::filesystem::exists(in("resumed/report.md")));
+  {
+    QFile lines(QString::fromStdString(in("resumed/runs.jsonl")));
+    QVERIFY(lines.open(QIODevice::Append));
+    lines.write("{\"run\":3,\"seed\":9,\"en");
+  }
+  {
+    auto resumed = ExperimentFolder::begin(in("resumed"), e, true);
+    QVERIFY(resumed.has_value());
+    QCOMPARE(resumed->finishedCount(), std::size_t{3});
+    QVERIFY(playInto(*resumed, e, {7, 6, 4, 3, 1}, 3).has_value());
+    QVERIFY(resumed->complete());
+  }
+  for (const std::size_t shard : {1, 2, 3}) {
+    auto part = ExperimentFolder::begin(in("part") + std::to_string(shard), e, false);
+    QVERIFY(playInto(*part, e, numbers(shard, 8, 3), 2).has_value());
+  }
+  {
+    const auto merged = mergeFolders({in("part3"), in("part1"), in("part2")}, in("merged"), e);
+    QVERIFY2(merged.has_value(), merged ? "" : merged.error().text().c_str());
+    QVERIFY(merged->complete());
+  }
+  const auto whole = filesIn(in("whole"));
+  QCOMPARE(whole.size(), std::size_t{7});
+  QVERIFY(filesIn(in("resumed")) == whole);
+  QVERIFY(filesIn(in("merged")) == whole);
+  QVERIFY(whole.at("report.md").find("p95(nearest_cm) < 60") != std::string::npos);
+  QVERIFY(whole.at("report.html").find("<svg") != std::string::npos);
+  QCOMPARE(std::count(whole.at("runs.csv").begin(), whole.at("runs.csv").end(), '\n'), 9);
+  const auto again = experimentOf(in("whole"));
+  QVERIFY(again.has_value());
+  QCOMPARE(again->text, e.text);
+}
+
+void TestExperiment::folderOfAnotherExperimentIsRefused() {
+  const QTemporaryDir dir;
+  const std::string path = dir.filePath("results").toStdString();
+  const Experiment e = experimentFrom(shortMatch);
+  const Experiment other = experimentFrom(replaced(shortMatch, "\"seed\": 7", "\"seed\": 8"));
+  {
+    auto folder = ExperimentFolder::begin(path, e, false);
+    QVERIFY(folder.has_value());
+    QCOMPARE(ExperimentFolder::begin(path, e, true).error().message,
+             std::string("another program is playing this experiment"));
+  }
+  QCOMPARE(ExperimentFolder::begin(path, e, false).error().code, ErrorCode::Conflict);
+  QCOMPARE(ExperimentFolder::begin(path, other, true).error().code, ErrorCode::Conflict);
+  QVERIFY(ExperimentFolder::begin(path, e, true).has_value());
+  QCOMPARE(mergeFolders({path}, dir.filePath("m").toStdString(), other).error().code,
+           ErrorCode::Conflict);
+}
+
+void TestExperiment::aPlacedRobotStandsThere() {
+  const Experiment e = experimentFrom(R"({
+    "version": 1, "scenario": "one-robot", "runs": 1, "set": {"noise": "none"},
+    "placed": [{"time": 1, "who": "B1", "x": 2, "y": 1}, {"time": 1, "who": "ball", "x": -3, "y": -2}],
+    "metrics": [{"name": "far", "expression": "B1.TRUE_X", "reduce": "max"},
+                {"name": "ball", "expression": "match.BALL_X", "reduce": "last"}],
+    "stop": {"duration": 1.2}})");
+  auto player = RunPlayer::create(e, {});
+  const auto result = player->play(1);
+  QVERIFY2(result.has_value(), result ? "" : result.error().text().c_str());
+  QVERIFY(std::abs(result->values[result->values.size() - 2] - 2.0) < 0.1);
+  QVERIFY(std::abs(result->values.back() + 3.0) < 0.1);
+  QCOMPARE(result->ticks, std::uint64_t{72});
+}
+
+void TestExperiment::stuckRobotsEndTheRun() {
+  const Experiment e =
+      experimentFrom(replaced(replaced(shortMatch, "\"naive\"", "\"none\""), "\"duration\": 3",
+                              "\"duration\": 100, \"stuck\": 2"));
+  auto player = RunPlayer::create(e, {});
+  const auto result = player->play(1);
+  QVERIFY(result.has_value());
+  QCOMPARE(result->endedBy, std::string("stuck"));
+  QCOMPARE(result->ticks, std::uint64_t{120});
+}
+
+void TestExperiment::goalsAreCountedForTheTeam() {
+  const std::string shot = R"({
+    "version": 1, "team": "TEAM", "scenario": {"version": 1, "ball": {"x": 4, "y": 0, "vx": 8},
+      "robots": [{"team": "blue", "number": 1, "x": -3, "y": 2, "behaviour": "none"},
+                 {"team": "red", "number": 1, "x": 3, "y": 2, "behaviour": "none"}]},
+    "stop": {"duration": 3, "goal": true, "goal_against": true}})";
+  for (const auto& [team, end] : {std::pair{"blue", "goal"}, std::pair{"red", "goal_against"}}) {
+    const Experiment e = experimentFrom(replaced(shot, "TEAM", team));
+    auto player = RunPlayer::create(e, {});
+    const auto result = player->play(1);
+    QVERIFY(result.has_value());
+    QCOMPARE(result->endedBy, std::string(end));
+  }
+}
+
+void TestExperiment::recordedRunEndsInTheSameState() {
+  const QTemporaryDir dir;
+  const Experiment e = experimentFrom(shortMatch);
+  auto player = RunPlayer::create(e, {});
+  const auto played = player->play(6);
+  const auto recorded = player->record(6, dir.filePath("run.mcap").toStdString(), "test");
+  QVERIFY2(recorded.has_value(), recorded ? "" : recorded.error().text().c_str());
+  QVERIFY(same(*played, *recorded));
+  QVERIFY(QFileInfo(dir.filePath("run.mcap")).size() > 1000);
+}
+
+void TestExperiment::separateProcessesEndInTheSameState() {
+  const Experiment inside = experimentFrom(shortMatch);
+  const Experiment separate = experimentFrom(
+      replaced(shortMatch, "\"runs\": 4", "\"processes\": \"separate\", \"runs\": 4"));
+  PlaySettings settings;
+  settings.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+  std::map<std::size_t, std::uint64_t> hashes;
+  // Two at a time: each has its own match number, so that they do not hear each other.
+  const auto played =
+      playRuns(separate, numbers(5, 6), 2, settings, [&](const PlayedRun& run) -> Result<void> {
+        hashes[run.result.number] = run.result.hash;
+        return {};
+      });
+  QVERIFY2(played.has_value(), played ? "" : played.error().text().c_str());
+  auto player = RunPlayer::create(inside, {});
+  for (const std::size_t number : {5, 6}) QCOMPARE(hashes[number], player->play(number)->hash);
+}
+
+QTEST_GUILESS_MAIN(TestExperiment)
+#include "tst_experiment.moc"

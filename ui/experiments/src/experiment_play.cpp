@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "experiment_play.h"
+
+#include <QDir>
+#include <chrono>
+#include <thread>
+
+#include <robotlink/experiment/run_player.h>
+#include <robotlink/processes/own_program.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+constexpr auto progressInterval = std::chrono::milliseconds(100);
+constexpr int mostFolders = 100'000;
+
+link::PlaySettings settingsWith(const std::atomic<bool>& cancelled) {
+  return {link::besideOwnProgram("pitchboard-robot"), &cancelled};
+}
+
+/// "name-1", the first that is free.
+QString newFolder(const QString& folders, const QString& name) {
+  for (int i = 1; i < mostFolders; ++i) {
+    const QString path = QStringLiteral("%1/%2-%3").arg(folders, name).arg(i);
+    if (!QDir(path).exists()) return path;
+  }
+  return folders + QLatin1Char('/') + name;
+}
+
+}  // namespace
+
+ExperimentPlay::ExperimentPlay(QObject* parent) : QObject(parent) {}
+
+ExperimentPlay::~ExperimentPlay() {
+  m_cancelled = true;
+  m_worker.waitForDone();
+}
+
+void ExperimentPlay::start(link::Experiment experiment, const QString& folders) {
+  m_cancelled = false;
+  m_playing = true;
+  const QString folder = newFolder(folders, QString::fromStdString(experiment.name));
+  m_worker.start([this, e = std::move(experiment), folder] { play(e, folder); });
+}
+
+void ExperimentPlay::cancel() {
+  m_cancelled = true;
+}
+
+void ExperimentPlay::fail(const Error& error) {
+  m_ui.post([this, sentence = QString::fromStdString(error.text())] {
+    m_playing = false;
+    emit failed(sentence);
+  });
+}
+
+// In the worker's thread.
+void ExperimentPlay::play(const link::Experiment& experiment, const QString& folder) {
+  auto results = link::ExperimentFolder::begin(folder.toStdString(), experiment, false);
+  if (!results) return fail(results.error());
+  std::vector<std::size_t> numbers(experiment.allRuns());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;
+  const auto begin = WallClock::now();
+  auto told = begin;
+  const auto played =
+      link::playRuns(experiment, numbers, std::max(1U, std::thread::hardware_concurrency()),
+                     settingsWith(m_cancelled), [&](const link::PlayedRun& run) -> Result<void> {
+                       if (auto added = results->add(run.result); !added) return added;
+                       const auto now = WallClock::now();
+                       if (now - told < progressInterval && !results->complete()) return {};
+                       told = now;
+                       m_ui.post([this, done = results->finishedCount(), all = numbers.size(),
+                                  seconds = std::chrono::duration<double>(now - begin).count()] {
+                         emit progressed(done, all, seconds);
+                       });
+                       return {};
+                     });
+  if (!played) return fail(played.error());
+  if (auto finished = results->finish(); !finished) return fail(finished.error());
+  auto table = link::resultsOf(folder.toStdString(), experiment);
+  if (!table) return fail(table.error());
+  auto summary = link::summarize(experiment, *table);
+  const PlayedPtr all = std::make_shared<PlayedExperiment>(
+      PlayedExperiment{experiment, folder, std::move(*table), std::move(summary)});
+  m_ui.post([this, all] {
+    m_playing = false;
+    emit ended(all);
+  });
+}
+
+void ExperimentPlay::record(PlayedPtr of, std::size_t number) {
+  m_cancelled = false;
+  m_worker.start([this, of = std::move(of), number] {
+    const QString path = QStringLiteral("%1/sessions/run-%2.mcap")
+                             .arg(of->folder)
+                             .arg(number, 6, 10, QLatin1Char('0'));
+    if (!QFileInfo::exists(path)) {
+      QDir().mkpath(of->folder + QStringLiteral("/sessions"));
+      auto player = link::RunPlayer::create(of->experiment, settingsWith(m_cancelled));
+      if (!player) return fail(player.error());
+      const auto result = player->record(number, path.toStdString(), "pitchboard");
+      if (!result) return fail(result.error());
+    }
+    m_ui.post([this, path] { emit recorded(path); });
+  });
+}
+
+}  // namespace pitchboard::ui

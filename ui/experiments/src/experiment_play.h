@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// An experiment that is played for the studio: in threads of its own, into a folder of the user's
+// data, with progress and cancel. What has been played comes to the UI thread as values. UI thread;
+// owned by the dock, whose end waits for the runs that are being played to stop.
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <memory>
+
+#include <robotlink/experiment/experiment_folder.h>
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
+
+namespace pitchboard::ui {
+
+/// What can be shown of an experiment; never changed once it is there.
+struct PlayedExperiment {
+  link::Experiment experiment;
+  QString folder;
+  link::ResultTable table;
+  link::ExperimentSummary summary;
+};
+using PlayedPtr = std::shared_ptr<const PlayedExperiment>;
+
+class ExperimentPlay : public QObject {
+  Q_OBJECT
+ public:
+  explicit ExperimentPlay(QObject* parent = nullptr);
+  ~ExperimentPlay() override;
+
+  bool isPlaying() const { return m_playing; }
+  /// Plays it into a new folder below `folders`, one run for each processor at a time.
+  void start(link::Experiment experiment, const QString& folders);
+  /// Keeps what has been played; `ended` follows.
+  void cancel();
+  /// Plays the run again into a session file; `recorded` or `failed` follows.
+  void record(PlayedPtr of, std::size_t number);
+
+ signals:
+  void progressed(qulonglong done, qulonglong all, double seconds);
+  /// All runs are there, or it was cancelled: then the summary is that of the runs that are.
+  void ended(const pitchboard::ui::PlayedPtr& played);
+  void recorded(const QString& session);
+  void failed(const QString& sentence);
+
+ private:
+  void play(const link::Experiment& experiment, const QString& folder);
+  void fail(const Error& error);
+
+  std::atomic<bool> m_cancelled{false};
+  bool m_playing = false;
+  UiQueue m_ui;
+  Workers m_worker;  // last: waits for its work before the rest goes
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/experiments/experiments_dock.h>
+
+#include <QComboBox>
+#include <QDesktopServices>
+#include <QFileDialog>
+#include <QFontDatabase>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPlainTextEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QSortFilterProxyModel>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QTabWidget>
+#include <QTableView>
+#include <QToolButton>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <ui/base/table_style.h>
+#include <ui/sources/replay_controller.h>
+
+#include "distribution_view.h"
+#include "experiment_play.h"
+#include "results_model.h"
+#include "ways_view.h"
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr int mostRuns = 1'000'000;
+constexpr int seconds_min = 60;
+
+QString folderOfExperiments() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+         QStringLiteral("/experiments");
+}
+
+class ExperimentsDock : public QWidget {
+ public:
+  ExperimentsDock(ReplayController* replay, QWidget* parent)
+      : QWidget(parent),
+        m_replay(replay),
+        m_play(new ExperimentPlay(this)),
+        m_choice(new QComboBox(this)),
+        m_runs(new QSpinBox(this)),
+        m_start(new QPushButton(QStringLiteral("Start"), this)),
+        m_report(new QToolButton(this)),
+        m_progress(new QProgressBar(this)),
+        m_words(new QLabel(this)),
+        m_tabs(new QTabWidget(this)),
+        m_text(new QPlainTextEdit(this)),
+        m_condition(new QComboBox(this)),
+        m_ways(new WaysView(this)),
+        m_distribution(new DistributionView(this)) {
+    makeBar();
+    makeTabs();
+    connect(m_play, &ExperimentPlay::progressed, this, &ExperimentsDock::showProgress);
+    connect(m_play, &ExperimentPlay::ended, this, &ExperimentsDock::showResults);
+    connect(m_play, &ExperimentPlay::failed, this, [this](const QString& sentence) {
+      setPlaying(false);
+      say(sentence, true);
+    });
+    connect(m_play, &ExperimentPlay::recorded, m_replay, &ReplayController::open);
+    connect(m_play, &ExperimentPlay::recorded, this,
+            [this] { say(QStringLiteral("The run is open in Replay.")); });
+    for (const link::ExperimentName& one : link::builtInExperiments()) {
+      m_choice->addItem(QString::fromStdString(one.title), QString::fromStdString(one.name));
+    }
+    for (const link::ExperimentName& one : link::builtInSituations()) {
+      m_choice->addItem(QStringLiteral("Test: ") + QString::fromStdString(one.title),
+                        QString::fromStdString(one.name));
+    }
+    connect(m_choice, &QComboBox::currentIndexChanged, this, [this] { load(); });
+    load();
+    setPlaying(false);
+  }
+
+ private:
+  void makeBar() {
+    m_choice->setObjectName(QStringLiteral("experimentChoice"));
+    m_choice->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    m_choice->setMinimumContentsLength(16);
+    auto* open = new QToolButton(this);
+    open->setIcon(themedIcon(QStringLiteral("document-open")));
+    open->setToolTip(QStringLiteral("Open an experiment file…"));
+    connect(open, &QToolButton::clicked, this, [this] { askAndOpen(); });
+    auto* save = new QToolButton(this);
+    save->setIcon(themedIcon(QStringLiteral("document-save-as")));
+    save->setToolTip(QStringLiteral("Save the edited file…"));
+    connect(save, &QToolButton::clicked, this, [this] { askAndSave(); });
+    m_runs->setObjectName(QStringLiteral("experimentRuns"));
+    m_runs->setRange(1, mostRuns);
+    m_runs->setSuffix(QStringLiteral(" runs"));
+    m_runs->setToolTip(QStringLiteral("Runs of each condition"));
+    m_start->setObjectName(QStringLiteral("experimentStart"));
+    connect(m_start, &QPushButton::clicked, this, [this] { startOrCancel(); });
+    m_report->setIcon(themedIcon(QStringLiteral("text-html")));
+    m_report->setToolTip(QStringLiteral("Open the report in a browser"));
+    m_report->setEnabled(false);
+    connect(m_report, &QToolButton::clicked, this, [this] {
+      QDesktopServices::openUrl(
+          QUrl::fromLocalFile(m_shown->folder + QStringLiteral("/report.html")));
+    });
+    m_progress->setTextVisible(false);
+    m_progress->setMaximumWidth(scaled(this, 140));
+    m_words->setObjectName(QStringLiteral("experimentWords"));
+    m_words->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_words->setMinimumWidth(scaled(this, 40));
+    m_words->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    auto* row = new QHBoxLayout;
+    const int gap = scaled(this, 4);
+    row->setContentsMargins(gap, gap, gap, gap);
+    row->setSpacing(gap);
+    row->addWidget(m_choice, 1);
+    for (QWidget* one : {static_cast<QWidget*>(open), static_cast<QWidget*>(save),
+                         static_cast<QWidget*>(m_runs), static_cast<QWidget*>(m_start),
+                         static_cast<QWidget*>(m_report), static_cast<QWidget*>(m_progress)}) {
+      row->addWidget(one);
+    }
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addLayout(row);
+    m_words->setContentsMargins(gap, 0, gap, gap);
+    layout->addWidget(m_words);
+    layout->addWidget(m_tabs, 1);
+  }
+
+  QTableView* addTable(ResultsModel::Kind kind, const QString& title, const QString& name) {
+    auto* model = new ResultsModel(kind, this);
+    auto* sorted = new QSortFilterProxyModel(this);
+    sorted->setSourceModel(model);
+    sorted->setSortRole(Qt::UserRole);
+    auto* table = new QTableView(this);
+    table->setObjectName(name);
+    table->setModel(sorted);
+    styleTable(table);
+    table->setSortingEnabled(kind == ResultsModel::Kind::Runs);
+    m_models.push_back(model);
+    m_tables.push_back(table);
+    m_tabs->addTab(table, title);
+    return table;
+  }
+
+  void makeTabs() {
+    m_tabs->setObjectName(QStringLiteral("experimentTabs"));
+    m_tabs->setDocumentMode(true);
+    m_text->setObjectName(QStringLiteral("experimentText"));
+    m_text->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+    m_text->setLineWrapMode(QPlainTextEdit::NoWrap);
+    m_tabs->addTab(m_text, QStringLiteral("File"));
+    addTable(ResultsModel::Kind::Measured, QStringLiteral("Measured"),
+             QStringLiteral("experimentMeasured"));
+    addTable(ResultsModel::Kind::Differences, QStringLiteral("Differences"),
+             QStringLiteral("experimentDifferences"));
+    addTable(ResultsModel::Kind::Assertions, QStringLiteral("Assertions"),
+             QStringLiteral("experimentAssertions"));
+    m_runsTable = addTable(ResultsModel::Kind::Runs, QStringLiteral("Runs"),
+                           QStringLiteral("experimentTable"));
+    m_runsTable->sortByColumn(0, Qt::AscendingOrder);
+    connect(m_runsTable, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
+      const std::size_t number = numberOf(index);
+      say(QStringLiteral("Playing run %1 again…").arg(number));
+      m_play->record(m_shown, number);
+    });
+    connect(m_runsTable->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+            [this] { highlight(); });
+    auto* page = new QWidget(this);
+    auto* layout = new QVBoxLayout(page);
+    layout->setContentsMargins(0, scaled(this, 4), 0, 0);
+    layout->setSpacing(scaled(this, 4));
+    m_condition->setObjectName(QStringLiteral("experimentCondition"));
+    m_condition->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    layout->addWidget(m_condition, 0, Qt::AlignLeft);
+    layout->addWidget(m_ways, 1);
+    connect(m_condition, &QComboBox::currentIndexChanged, this, [this](int index) {
+      if (index < 0 || !m_shown) return;
+      m_ways->show(m_shown, static_cast<std::size_t>(index));
+      highlight();
+    });
+    m_tabs->addTab(page, QStringLiteral("Ways"));
+    m_tabs->addTab(m_distribution, QStringLiteral("Distribution"));
+  }
+
+  std::size_t numberOf(const QModelIndex& index) const {
+    const auto* proxy = static_cast<const QSortFilterProxyModel*>(m_runsTable->model());
+    return m_models.back()->runNumber(proxy->mapToSource(index).row());
+  }
+
+  void highlight() {
+    std::vector<std::size_t> numbers;
+    for (const QModelIndex& index : m_runsTable->selectionModel()->selectedRows()) {
+      numbers.push_back(numberOf(index));
+    }
+    m_ways->highlight(std::move(numbers));
+  }
+
+  void say(const QString& words, bool isError = false) {
+    QPalette colours = palette();
+    if (isError) colours.setColor(QPalette::WindowText, theme().errorText);
+    m_words->setPalette(colours);
+    m_words->setText(words);
+    m_words->setToolTip(words);
+  }
+
+  void load() {
+    const auto loaded = link::loadExperiment(m_choice->currentData().toString().toStdString());
+    if (!loaded) return say(QString::fromStdString(loaded.error().text()), true);
+    m_text->setPlainText(QString::fromStdString(loaded->text));
+    m_runs->setValue(static_cast<int>(loaded->runs));
+    say(QString::fromStdString(loaded->description));
+  }
+
+  void askAndOpen() {
+    const QString path =
+        QFileDialog::getOpenFileName(this, QStringLiteral("Open experiment"), {},
+                                     QStringLiteral("Experiments (*.json);;All files (*)"));
+    if (path.isEmpty()) return;
+    m_choice->addItem(QFileInfo(path).fileName(), path);
+    m_choice->setCurrentIndex(m_choice->count() - 1);
+  }
+
+  void askAndSave() {
+    const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), {},
+                                                      QStringLiteral("Experiments (*.json)"));
+    if (path.isEmpty()) return;
+    QSaveFile file(path);
+    if (!file.open(QIODevice::WriteOnly) || file.write(m_text->toPlainText().toUtf8()) < 0 ||
+        !file.commit()) {
+      say(QStringLiteral("%1 cannot be written: %2").arg(path, file.errorString()), true);
+    }
+  }
+
+  void startOrCancel() {
+    if (m_play->isPlaying()) {
+      m_start->setEnabled(false);
+      m_play->cancel();
+      return;
+    }
+    auto experiment = link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {},
+                                               {{}, static_cast<std::size_t>(m_runs->value())});
+    if (!experiment) {
+      m_tabs->setCurrentWidget(m_text);
+      return say(QString::fromStdString(experiment.error().text()), true);
+    }
+    setPlaying(true);
+    say(QStringLiteral("Playing %1 runs…").arg(experiment->allRuns()));
+    m_play->start(std::move(*experiment), folderOfExperiments());
+  }
+
+  void setPlaying(bool on) {
+    m_start->setEnabled(true);
+    m_start->setText(on ? QStringLiteral("Cancel") : QStringLiteral("Start"));
+    m_progress->setVisible(on);
+    m_progress->setRange(0, 0);
+    m_choice->setEnabled(!on);
+    m_runs->setEnabled(!on);
+    m_text->setReadOnly(on);
+  }
+
+  void showProgress(qulonglong done, qulonglong all, double seconds) {
+    m_progress->setRange(0, 1000);
+    m_progress->setValue(
+        static_cast<int>(1000.0 * double(done) / double(std::max<qulonglong>(all, 1))));
+    const double rate = double(done) / std::max(seconds, 1e-9);
+    const int left = static_cast<int>(double(all - done) / std::max(rate, 1e-9));
+    say(QStringLiteral("%1 of %2 runs, %3 runs/s, %4:%5 left")
+            .arg(done)
+            .arg(all)
+            .arg(rate, 0, 'f', rate < 10.0 ? 1 : 0)
+            .arg(left / seconds_min)
+            .arg(left % seconds_min, 2, 10, QLatin1Char('0')));
+  }
+
+  void showResults(const PlayedPtr& played) {
+    setPlaying(false);
+    m_shown = played;
+    for (ResultsModel* model : m_models) model->show(played);
+    for (QTableView* table : m_tables) table->resizeColumnsToContents();
+    m_condition->clear();
+    std::size_t runs = 0;
+    for (const link::ConditionSummary& condition : played->summary.conditions) {
+      m_condition->addItem(QString::fromStdString(condition.name));
+      runs += condition.runs;
+    }
+    m_distribution->show(played);
+    const bool complete = runs == played->experiment.allRuns();
+    m_report->setEnabled(complete);
+    const auto& checks = played->summary.assertions;
+    const auto failed =
+        std::count_if(checks.begin(), checks.end(), [](const auto& one) { return !one.holds; });
+    QString words = complete ? QStringLiteral("%1 runs").arg(runs)
+                             : QStringLiteral("Cancelled: %1 of %2 runs")
+                                   .arg(runs)
+                                   .arg(played->experiment.allRuns());
+    if (!checks.empty()) {
+      words += failed == 0
+                   ? QStringLiteral("; all assertions hold")
+                   : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
+    }
+    say(words + QStringLiteral(". Results: ") + played->folder, failed > 0);
+    if (m_tabs->currentWidget() == m_text) m_tabs->setCurrentIndex(1);
+  }
+
+  ReplayController* m_replay;
+  ExperimentPlay* m_play;
+  QComboBox* m_choice;
+  QSpinBox* m_runs;
+  QPushButton* m_start;
+  QToolButton* m_report;
+  QProgressBar* m_progress;
+  QLabel* m_words;
+  QTabWidget* m_tabs;
+  QPlainTextEdit* m_text;
+  QComboBox* m_condition;
+  WaysView* m_ways;
+  DistributionView* m_distribution;
+  std::vector<ResultsModel*> m_models;
+  std::vector<QTableView*> m_tables;
+  QTableView* m_runsTable = nullptr;
+  PlayedPtr m_shown;
+};
+
+}  // namespace
+
+QWidget* makeExperimentsDock(ReplayController* replay, QWidget* parent) {
+  return new ExperimentsDock(replay, parent);
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results_model.h"
+
+#include <cmath>
+
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr int fixedRunColumns = 3;
+const QString minusSign = QStringLiteral("−"), nothing = QStringLiteral("–");
+
+QString text(double value, bool rate = false) {
+  if (!std::isfinite(value)) return nothing;
+  QString out = rate ? QString::number(100.0 * value, 'f', 1) + QStringLiteral(" %")
+                     : QString::number(value, 'g', 4);
+  return out.replace(QLatin1Char('-'), minusSign);
+}
+
+QString text(const std::optional<link::Interval>& interval, bool rate) {
+  if (!interval) return nothing;
+  return QStringLiteral("%1 to %2").arg(text(interval->low, rate), text(interval->high, rate));
+}
+
+QString title(const link::MetricInfo& metric) {
+  const QString name = QString::fromStdString(metric.title);
+  return metric.unit.empty() ? name
+                             : name + QStringLiteral(", ") + QString::fromStdString(metric.unit);
+}
+
+QString qs(const std::string& text) {
+  return QString::fromStdString(text);
+}
+
+}  // namespace
+
+ResultsModel::ResultsModel(Kind kind, QObject* parent)
+    : QAbstractTableModel(parent), m_kind(kind) {}
+
+void ResultsModel::show(const PlayedPtr& played) {
+  beginResetModel();
+  m_played = played;
+  m_heads.clear();
+  m_rows.clear();
+  m_runs.clear();
+  m_metrics.clear();
+  if (played) fill();
+  endResetModel();
+}
+
+void ResultsModel::fill() {
+  const link::ExperimentSummary& s = m_played->summary;
+  const std::vector<std::size_t> telling = link::tellingMetrics(s);
+  switch (m_kind) {
+    case Kind::Measured:
+      m_heads = {"Metric", "Condition", "n", "Mean", "95 % of the mean", "SD", "Median", "95 %"};
+      for (const std::size_t m : telling) {
+        for (const link::ConditionSummary& condition : s.conditions) {
+          const link::Summary& one = condition.metrics[m];
+          const bool rate = s.metrics[m].rate;
+          const auto plain = [&](double value) { return rate ? nothing : text(value); };
+          m_rows.append({title(s.metrics[m]), qs(condition.name),
+                         QString::number(one.moments.count), text(one.moments.mean, rate),
+                         text(one.mean95, rate), plain(one.moments.deviation), plain(one.median),
+                         plain(one.p95)});
+        }
+      }
+      break;
+    case Kind::Differences:
+      m_heads = {"Metric", "Of", "Minus", "Difference", "95 %", "t", "p", "Hedges' g"};
+      for (const link::ConditionDifference& one : s.differences) {
+        const bool tells = std::find(telling.begin(), telling.end(), one.metric) != telling.end();
+        if (!tells || !one.welch) continue;
+        const bool rate = s.metrics[one.metric].rate;
+        m_rows.append({title(s.metrics[one.metric]), qs(s.conditions[one.second].name),
+                       qs(s.conditions[one.first].name), text(one.welch->difference, rate),
+                       text(one.welch->difference95, rate), text(one.welch->t), text(one.welch->p),
+                       text(one.welch->hedgesG)});
+      }
+      for (const link::GivenComparison& one : s.comparisons) {
+        if (!one.welch) continue;
+        const bool rate = s.metrics[one.metric].rate;
+        m_rows.append({title(s.metrics[one.metric]), qs(s.conditions[one.condition].name),
+                       qs(m_played->experiment.given[one.figure].name),
+                       text(one.welch->difference, rate), text(one.welch->difference95, rate),
+                       text(one.welch->t), text(one.welch->p), text(one.welch->hedgesG)});
+      }
+      break;
+    case Kind::Assertions:
+      m_heads = {"Holds", "Condition", "Assertion", "Measured"};
+      for (const link::CheckedAssertion& one : s.assertions) {
+        m_rows.append({one.holds ? QStringLiteral("yes") : QStringLiteral("NO"), qs(one.condition),
+                       qs(one.text), qs(one.values)});
+      }
+      break;
+    case Kind::Runs:
+      m_heads = {"Run", "Condition", "Seed"};
+      m_metrics = telling;
+      for (const std::size_t m : m_metrics) m_heads.append(qs(s.metrics[m].name));
+      for (std::size_t number = 1; number <= m_played->experiment.allRuns(); ++number) {
+        const link::RunPlace place = link::placeOf(m_played->experiment, number);
+        if (m_played->table.conditions[place.condition].played[place.index])
+          m_runs.push_back(number);
+      }
+      break;
+  }
+}
+
+std::size_t ResultsModel::runNumber(int row) const {
+  return m_runs[static_cast<std::size_t>(row)];
+}
+
+int ResultsModel::rowCount(const QModelIndex& parent) const {
+  if (parent.isValid()) return 0;
+  return m_kind == Kind::Runs ? static_cast<int>(m_runs.size()) : static_cast<int>(m_rows.size());
+}
+
+int ResultsModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(m_heads.size());
+}
+
+QVariant ResultsModel::runCell(int row, int column, bool sorting) const {
+  const std::size_t number = runNumber(row);
+  const link::RunPlace place = link::placeOf(m_played->experiment, number);
+  if (column == 0) return sorting ? QVariant(qulonglong(number)) : QString::number(number);
+  if (column == 1) return qs(m_played->summary.conditions[place.condition].name);
+  if (column == 2) {
+    const qulonglong seed = link::seedOf(m_played->experiment, place);
+    return sorting ? QVariant(seed) : QString::number(seed);
+  }
+  const std::size_t metric = m_metrics[static_cast<std::size_t>(column - fixedRunColumns)];
+  const double value = m_played->table.conditions[place.condition].columns[metric][place.index];
+  if (sorting) return std::isfinite(value) ? value : -1e300;
+  return text(value);
+}
+
+QVariant ResultsModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  if (role == Qt::DisplayRole || role == Qt::UserRole) {
+    if (m_kind == Kind::Runs) return runCell(index.row(), index.column(), role == Qt::UserRole);
+    return m_rows[index.row()][index.column()];
+  }
+  if (role == Qt::ForegroundRole && m_kind == Kind::Assertions && index.column() == 0 &&
+      m_rows[index.row()][0] == QStringLiteral("NO")) {
+    return theme().errorText;
+  }
+  if (role == Qt::ToolTipRole && m_kind == Kind::Runs) {
+    return QStringLiteral("Double click: see this run in Replay");
+  }
+  return {};
+}
+
+QVariant ResultsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section >= m_heads.size())
+    return {};
+  return m_heads[section];
+}
+
+}  // namespace pitchboard::ui

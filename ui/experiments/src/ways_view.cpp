@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ways_view.h"
+
+#include <QPainter>
+#include <algorithm>
+
+#include <simcore/world/field.h>
+#include <ui/base/theme.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr double way_m = 0.03, ball_m = 0.02;
+constexpr int faint = 60, plain = 150, strong = 255;
+
+void paintField(QPainter& p, const sim::FieldSpec& f) {
+  const double x = f.halfLength(), y = f.halfWidth();
+  p.setPen(QPen(theme().fieldLines, f.lineWidth));
+  p.setBrush(theme().grass);
+  p.drawRect(QRectF(-x, -y, 2 * x, 2 * y));
+  p.setBrush(Qt::NoBrush);
+  p.drawLine(QPointF(0, -y), QPointF(0, y));
+  p.drawEllipse(QPointF(), f.centreCircleDiameter / 2, f.centreCircleDiameter / 2);
+  for (const double side : {-1.0, 1.0}) {
+    const auto area = [&](double from, double to, double width) {
+      p.drawRect(
+          QRectF(QPointF(side * from, -width / 2), QPointF(side * to, width / 2)).normalized());
+    };
+    if (f.goalAreaLength > 0) area(x - f.goalAreaLength, x, f.goalAreaWidth);
+    if (f.penaltyAreaLength > 0) area(x - f.penaltyAreaLength, x, f.penaltyAreaWidth);
+    area(x, x + f.goalDepth, f.goalWidth);
+  }
+}
+
+void paintWay(QPainter& p, const std::vector<Point>& points, QColor colour, int alpha,
+              double width) {
+  if (points.empty()) return;
+  QPolygonF line;
+  for (const Point& point : points) line << QPointF(point.x, point.y);
+  colour.setAlpha(alpha);
+  p.setPen(QPen(colour, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  p.setBrush(Qt::NoBrush);
+  p.drawPolyline(line);
+  p.setBrush(colour);
+  p.setPen(Qt::NoPen);
+  p.drawEllipse(line.last(), 2 * width, 2 * width);
+}
+
+}  // namespace
+
+WaysView::WaysView(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("experimentWays"));
+  setToolTip(QStringLiteral(
+      "Robots of runs that ended with a goal in blue, of the others in red; the ball in orange. "
+      "Choose one run or several in Runs to bring them out."));
+}
+
+void WaysView::show(const PlayedPtr& played, std::size_t condition) {
+  m_played = played;
+  m_condition = condition;
+  m_highlighted.clear();
+  update();
+}
+
+void WaysView::highlight(std::vector<std::size_t> numbers) {
+  m_highlighted = std::move(numbers);
+  update();
+}
+
+void WaysView::paintEvent(QPaintEvent* /*event*/) {
+  QPainter p(this);
+  p.fillRect(rect(), theme().fieldBorder);
+  if (!m_played || m_condition >= m_played->table.conditions.size()) return;
+  const sim::FieldSpec& field =
+      m_played->experiment.conditions[m_condition].scenario.settings.field;
+  const double wide = 2 * (field.halfLength() + field.border);
+  const double high = 2 * (field.halfWidth() + field.border);
+  const double scale = std::min(width() / wide, height() / high);
+  p.setRenderHint(QPainter::Antialiasing);
+  p.translate(width() / 2.0, height() / 2.0);
+  p.scale(scale, -scale);
+  paintField(p, field);
+  const auto& runs = m_played->table.conditions[m_condition].drawn;
+  const auto stands = [this](std::size_t number) {
+    return std::find(m_highlighted.begin(), m_highlighted.end(), number) != m_highlighted.end();
+  };
+  const bool any =
+      std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return stands(run.number); });
+  for (const bool front : {false, true}) {
+    for (const auto& run : runs) {
+      if (stands(run.number) != front) continue;
+      const int alpha = front ? strong : any ? faint : plain;
+      for (const link::RunPath& path : run.paths) {
+        const bool isBall = path.who == "ball";
+        const QColor colour = isBall                  ? theme().ball
+                              : run.endedBy == "goal" ? theme().blueTeam
+                                                      : theme().redTeam;
+        paintWay(p, path.points, colour, alpha, isBall ? ball_m : way_m);
+      }
+    }
+  }
+}
+
+}  // namespace pitchboard::ui
