@@ -14,6 +14,7 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <robotlink/frame/match_frame.h>
 #include <simcore/world/published_frame.h>

@@ -24,7 +24,9 @@ MatchDrawings::MatchDrawings(int port) {
 }
 
 void MatchDrawings::hear(double time, std::vector<HeardDrawing>& out) {
-  if (!m_receiver || !m_receiver->take(m_batch)) return;
+  if (!m_receiver) return;
+  if (!m_isBound) lookAtPort();
+  if (!m_receiver->take(m_batch)) return;
   for (std::size_t i = 0; i < m_batch.size(); ++i) {
     const telemetry::DatagramView datagram = m_batch[i];
     // Of a message with a drawing behind it only the drawing concerns the match.
@@ -35,14 +37,16 @@ void MatchDrawings::hear(double time, std::vector<HeardDrawing>& out) {
   }
 }
 
-std::string MatchDrawings::problem() const {
-  if (!m_receiver) return m_problem;
-  for (const telemetry::PortStatus& port : m_receiver->status().ports) {
-    if (!port.problem.empty()) {
-      return "drawings are not heard on UDP " + std::to_string(port.port) + ": " + port.problem;
-    }
-  }
-  return m_book.lastProblem();
+void MatchDrawings::lookAtPort() {
+  const telemetry::PortStatus port = m_receiver->status().ports.front();
+  m_isBound = port.bound;
+  m_problem = m_isBound ? std::string()
+                        : "drawings are not heard on UDP " + std::to_string(port.port) + ": " +
+                              port.problem;
+}
+
+const std::string& MatchDrawings::problem() const {
+  return m_problem.empty() ? m_book.lastProblem() : m_problem;
 }
 
 }  // namespace pitchboard::link

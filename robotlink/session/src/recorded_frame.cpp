@@ -177,7 +177,7 @@ MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, d
   MatchFrame frame = build(time, lookBack);
   addReferee(session, time, frame);
   if (session.count(telemetry::SessionStream::Telemetry) > 0) {
-    frame.drawings = m_drawings.at(SessionHistory(session), time);
+    frame.drawings = m_drawings.at(SessionHistory(session), time + timeTolerance);
   }
   return frame;
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <base/angles.h>
-#include <robotlink/cognition/process_registry.h>
 #include <robotlink/frame/belief.h>
 #include <robotlink/frame/match_frame.h>
+#include <robotlink/scenario/scenario.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/pose_difference.h>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
 #include "field_stamps.h"

@@ -80,10 +80,23 @@ void RobotsDock::addCardActions(QMenu& menu) {
   addListActions(*own);
   for (const RobotId id : m_context.selection->ids()) {
     const auto card = m_cards.find(id);
-    if (card == m_cards.end() || m_floating.count(id) != 0) continue;
+    if (card == m_cards.end()) continue;
+    if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
+      addForgetting(menu, card->second);
+    }
+    if (m_floating.count(id) != 0) continue;
     own->addAction(QStringLiteral("%1 in a window of its own").arg(card->second->state().name),
                    this, [this, id] { floatCard(id); });
   }
+}
+
+void RobotsDock::addForgetting(QMenu& menu, RobotCard* card) {
+  const RobotId id = card->state().id;
+  QAction* forget = menu.addAction(themedIcon(QStringLiteral("edit-delete")),
+                                   QStringLiteral("Forget %1").arg(card->state().name),
+                                   m_context.live, [this, id] { m_context.live->forget(id); });
+  forget->setObjectName(QStringLiteral("forgetRobot"));
+  forget->setToolTip(QStringLiteral("Its card goes until it is heard again; its curves stay"));
 }
 
 void RobotsDock::addListActions(QMenu& menu) {
@@ -133,11 +146,7 @@ void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   QMenu menu(this);
   if (m_context.source->kind() == SourceKind::Simulate) addMatchActions(menu, card);
   if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
-    QAction* forget = menu.addAction(themedIcon(QStringLiteral("edit-delete")),
-                                     QStringLiteral("Forget %1").arg(card->state().name),
-                                     m_context.live, [this, id] { m_context.live->forget(id); });
-    forget->setObjectName(QStringLiteral("forgetRobot"));
-    forget->setToolTip(QStringLiteral("Its card goes until it is heard again; its curves stay"));
+    addForgetting(menu, card);
     menu.addSeparator();
   }
   QAction* follow = menu.addAction(QStringLiteral("Follow"));

@@ -33,10 +33,10 @@ struct MatchFrame {
   std::vector<RobotFrame> robots;
   std::vector<telemetry::RobotDrawings> drawings;  ///< of the robots' programs (docs/DRAWINGS.md)
   std::string drawingProblem;                      ///< why the last one was not drawn; or empty
-  std::optional<RefereeView> referee;  ///< once one was heard
-  std::string refereeRules;            ///< of a simulated match; empty: without a referee
-  bool refereeAutomatic = false;       ///< its referee calls by itself
-  std::optional<TeamBall> teamBall;    ///< while at least two robots agree
+  std::optional<RefereeView> referee;              ///< once one was heard
+  std::string refereeRules;          ///< of a simulated match; empty: without a referee
+  bool refereeAutomatic = false;     ///< its referee calls by itself
+  std::optional<TeamBall> teamBall;  ///< while at least two robots agree
   double speed = 0.0;             ///< simulated seconds per second, measured over the last second
   double ticksPerSecond = 0.0;    ///< measured
   double tickMicroseconds = 0.0;  ///< mean time of a tick, measured

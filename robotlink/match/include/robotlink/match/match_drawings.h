@@ -31,10 +31,13 @@ class MatchDrawings {
   void hear(double time, std::vector<HeardDrawing>& out);
   const telemetry::DrawingBook& book() const { return m_book; }
   /// Why nothing is heard, or the last drawing was refused; empty: all is well.
-  std::string problem() const;
+  const std::string& problem() const;
 
  private:
+  void lookAtPort();
+
   std::unique_ptr<telemetry::UdpReceiver> m_receiver;
+  bool m_isBound = false;
   telemetry::DatagramBatch m_batch;
   telemetry::DrawingBook m_book;
   std::string m_problem;

@@ -77,6 +77,7 @@ class RobotsDock : public QScrollArea {
   void addMatchActions(QMenu& menu, RobotCard* card);
   void addPartActions(QMenu& menu, RobotCard* card);
   void addListActions(QMenu& menu);
+  void addForgetting(QMenu& menu, RobotCard* card);
   void collapseMany(std::size_t robots);
   qsizetype placeAt(RobotCard* card, const QPoint& globalPosition) const;
   void showDropMark(qsizetype place);
