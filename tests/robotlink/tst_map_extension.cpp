@@ -60,9 +60,15 @@ QString slot(int number, const char* what) {
   return QString("VISION_RBT%1_%2").arg(number, 2, 10, QChar('0')).arg(what);
 }
 
+Target to(const Pose& pose) {
+  Target target;
+  target.pose = pose;
+  return target;
+}
+
 struct Planner {
   Planner() : process(findProcess("planning")->make(ProcessOptions{}).value()) {
-    variables.write(board, ProcessOptions{}.field, {});
+    variables.write(board, field, {});
     variables.clear(board);
     setPose({{0, 0}, 0});
   }
@@ -211,12 +217,12 @@ class TestMapExtension : public QObject {
 
   void planningWalksToTheTarget() {
     Planner p;
-    QCOMPARE(p.actionAfter({{{2, 0}, 0}}), 1);  // ahead: forward
-    QCOMPARE(p.actionAfter({{{0, 2}, 0}}), 6);  // beside it, same heading: sideways
-    QCOMPARE(p.actionAfter({{{0, 2}, std::numbers::pi / 2}}), 2);  // to look there: turns left
-    QCOMPARE(p.actionAfter({{{-2, 0}, 0}}), 17);                   // behind it: backward
-    QCOMPARE(p.actionAfter({{{0.02, 0}, 1.0}}), 2);                // there, but looks elsewhere
-    QCOMPARE(p.actionAfter({{{0.02, 0}, 0.1}}), 0);                // there
+    QCOMPARE(p.actionAfter(to({{2, 0}, 0})), 1);  // ahead: forward
+    QCOMPARE(p.actionAfter(to({{0, 2}, 0})), 6);  // beside it, same heading: sideways
+    QCOMPARE(p.actionAfter(to({{0, 2}, std::numbers::pi / 2})), 2);  // to look there: turns left
+    QCOMPARE(p.actionAfter(to({{-2, 0}, 0})), 17);                   // behind it: backward
+    QCOMPARE(p.actionAfter(to({{0.02, 0}, 1.0})), 2);                // there, but looks elsewhere
+    QCOMPARE(p.actionAfter(to({{0.02, 0}, 0.1})), 0);                // there
     QCOMPARE(p.pathPoints(), 0);
   }
 
@@ -228,7 +234,7 @@ class TestMapExtension : public QObject {
       p.board.write(*map.floatVar(std::string(variable) + "_X"), static_cast<float>(cm.x));
       p.board.write(*map.floatVar(std::string(variable) + "_Y"), static_cast<float>(cm.y));
       p.now += 1;
-      (void)p.actionAfter({{{2, 0}, 0}});
+      (void)p.actionAfter(to({{2, 0}, 0}));
       const int points = p.pathPoints();
       const double bendY =
           double(valueOf(p.board, "PLANNING_PATH01_Y")) - 100 * p.field.halfWidth();
@@ -245,7 +251,7 @@ class TestMapExtension : public QObject {
     (void)p.actionAfter({{{2, 0}, 0}, 0.1, 0.2, Point{1, 0}});
     QVERIFY(p.pathPoints() > 1);  // the ball
     p.now += 1;
-    (void)p.actionAfter({{{2, 0}, 0}});
+    (void)p.actionAfter(to({{2, 0}, 0}));
     QCOMPARE(p.pathPoints(), 1);
   }
 

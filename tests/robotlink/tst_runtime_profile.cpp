@@ -262,7 +262,7 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(match.robotsOfOthers().front().name(), std::string("B2"));
     // And back again.
     QVERIFY(match.setRuntime(RobotId{2}, {}));
-    QCOMPARE(namesOf(match, 2).size(), std::size_t{4});
+    QCOMPARE(namesOf(match, 2).size(), std::size_t{5});
     QVERIFY(match.robotsOfOthers().empty());
     match.tick();
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planning/target.h"
+
 namespace pitchboard::link {
 namespace {
 
@@ -25,6 +27,7 @@ class NaiveDecision final : public CognitiveProcess {
   explicit NaiveDecision(double distanceToKick) : m_distanceToKick(distanceToKick) {}
 
   void step(Blackboard& board, const Clock&) override {
+    m_target.clear(board);  // of a decision before it, for a planning that still runs
     switch (board.read(m_variables.comReferee)) {
       case Stopped:
       case Ready:
@@ -51,6 +54,7 @@ class NaiveDecision final : public CognitiveProcess {
   }
 
   RobotVariables m_variables;
+  TargetVariables m_target;
   double m_distanceToKick;
 };
 

@@ -113,8 +113,13 @@ Point aimFrom(const WorldModel& world, const Point& ball) {
   const double heading = world.localized() ? world.pose().yaw : world.imuYaw();
   Point best = world.opponentGoal();
   double least = 1e9;
+  // A ball that lies on the goal line is not to come back from it.
+  constexpr double close = 0.3;  // m
+  const bool onTheLine =
+      ball.x > field.halfLength() - close && std::abs(ball.y) < field.goalWidth / 2;
+  const double depth = onTheLine ? 2 * close : 0.0;
   for (int i = -2; i <= 2; ++i) {
-    const Point aim{field.halfLength(), i * 0.16 * field.goalWidth};
+    const Point aim{field.halfLength() + depth, i * 0.16 * field.goalWidth};
     const double way = direction(ball, aim);
     double cost = 0.3 * std::abs(i) + std::abs(wrapToPi(way - heading));
     for (const Point& opponent : opponents) {
