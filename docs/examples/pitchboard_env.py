@@ -144,7 +144,8 @@ class ScoringEnv:
 
     Observation: five variables of the robot's blackboard as its own processes read them.
     Action: a code of DECISION_ACTION_A, held for `ticks_per_action` ticks.
-    Reward: metres that the ball came nearer to the goal line, and 10 for a goal.
+    Reward: metres that the ball came nearer to the goal line; 10 for a goal, after which the ball
+    lies on the centre mark.
     Terminated: a goal or the ball out. Truncated: after `seconds`.
     """
 
@@ -234,8 +235,8 @@ class ScoringEnv:
                 over.append(i)
                 truncations[i] = finished == self.DURATION
                 terminations[i] = not truncations[i]
-                if finished == self.GOAL and row[self._scored] > 0:
-                    self._rewards[i] += 10.0
+                if finished == self.GOAL:
+                    self._rewards[i] = 10.0 if row[self._scored] > 0 else 0.0
         infos = {}
         if over:
             columns = len(self.VARIABLES)
@@ -260,9 +261,12 @@ class ScoringEnv:
             self._api.reset(self._worlds, i, self._next_seed)
             self._next_seed += 1
             draw = self._random.uniform
-            self._api.place_robot(self._worlds, i, 1, draw(-1.0, 2.0), draw(-1.0, 1.0), draw(-0.5, 0.5))
-            self._balls[i] = draw(2.5, 3.5)
-            self._api.place_ball(self._worlds, i, self._balls[i], draw(-1.0, 1.0), 0.0, 0.0)
+            x, y = draw(2.5, 3.5), draw(-1.0, 1.0)
+            self._balls[i] = x
+            self._api.place_ball(self._worlds, i, x, y, 0.0, 0.0)
+            # Behind the ball, near enough to see it.
+            self._api.place_robot(self._worlds, i, 1, x - draw(0.5, 2.0), y + draw(-0.5, 0.5),
+                                  draw(-0.5, 0.5))
             self._start_memory[i * columns] = 1.0  # nothing has been seen yet
         self._api.write_variables(self._worlds, self._variables, columns, self._start_memory,
                                   len(self._start_memory))
@@ -308,10 +312,10 @@ def main():
         observations, rewards, terminations, truncations, _ = env.step(env.actions)
         steps += env.num_envs
         for i in range(env.num_envs):
-            total += rewards[i]
+            total += float(rewards[i])
             if terminations[i] or truncations[i]:
                 episodes += 1
-                goals += rewards[i] > 5.0
+                goals += int(rewards[i] > 5.0)
     took = time.perf_counter() - began
     print(json.dumps({
         "episodes": episodes,
