@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs the fuzz targets for a bounded time: scripts/fuzz.sh [SECONDS each] [text|referee|profile|session|formats ...]
+# Runs the fuzz targets for a bounded time: scripts/fuzz.sh [SECONDS each] [text|referee|profile|session|formats|experiment ...]
 # New inputs stay in build/fuzz/corpus; an input that breaks something ends the run with an error and
 # stands in build/fuzz/findings. Turn it into a test.
 set -euo pipefail
@@ -9,7 +9,7 @@ seconds=${1:-60}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "error: SECONDS must be a whole number" >&2; exit 2; }
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(text referee profile session formats)
+[ ${#targets[@]} -gt 0 ] || targets=(text referee profile session formats experiment)
 
 cmake --preset fuzz >/dev/null
 build=build/fuzz
@@ -17,10 +17,11 @@ ninja -C "$build" -j2 "${targets[@]/#/fuzz_}"
 
 seeds=$build/seeds
 rm -rf "$seeds"
-mkdir -p "$seeds/text" "$seeds/referee" "$seeds/profile" "$seeds/session" "$seeds/formats" "$build/findings"
+mkdir -p "$seeds/text" "$seeds/referee" "$seeds/profile" "$seeds/session" "$seeds/formats" "$seeds/experiment" "$build/findings"
 cp tests/data/gamecontroller/*.bin "$seeds/referee/"
 cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
+cp resources/experiments/*.json resources/situations/*.json "$seeds/experiment/"
 cp tests/data/sessions/*.mcap "$seeds/session/"
 number=0
 while IFS=$'\t' read -r _ _ datagram; do
@@ -30,7 +31,7 @@ done < tests/data/telemetry/telemetry_capture_1_robot_60s.txt
 for target in "${targets[@]}"; do
   mkdir -p "$build/corpus/$target"
   length=2000
-  [ "$target" = profile ] && length=8000
+  [[ $target = profile || $target = experiment ]] && length=8000
   [ "$target" = session ] && length=16000
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     "$build/bin/fuzz_$target" -max_total_time="$seconds" -max_len=$length -timeout=5 -rss_limit_mb=1024 \
