@@ -18,7 +18,7 @@ DOCUMENTS = ["*.md", "docs/**/*.md"]
 # Options of other programs that the documents show.
 FOREIGN_OPTIONS = {
     "--preset", "--build", "--target", "--install", "--prefix", "--output-on-failure", "--parallel",
-    "--recursive", "--version", "--help", "--benchmark_filter", "--no-install-recommends", "--test-dir",
+    "--recursive", "--array", "--version", "--help", "--benchmark_filter", "--no-install-recommends", "--test-dir",
 }
 SOURCES = (".h", ".cpp", ".py", ".sh", ".json", ".md", ".mjs", ".txt", ".cmake", ".supp", ".dict", ".svg",
            ".png", ".bin", ".mcap")

@@ -25,6 +25,7 @@ cp tests/data/gamecontroller/*.bin "$seeds/referee/"
 cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
 cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$seeds/rules/"
+cp resources/experiments/*.json resources/situations/*.json "$seeds/experiment/"
 cp tests/data/sessions/*.mcap "$seeds/session/"
 printf 'PBD1 3 12\nlayer a/b robot 0.5\ncolour #11223344\nwidth 3\narrow 0 0 1.5 -0.5\ntext 1 1 hello\nmore c\ndisc 1 2 0.3\n' \
   > "$seeds/drawings/shapes.txt"
@@ -39,7 +40,7 @@ done < tests/data/telemetry/telemetry_capture_1_robot_60s.txt
 for target in "${targets[@]}"; do
   mkdir -p "$build/corpus/$target"
   length=2000
-  [ "$target" = profile ] && length=8000
+  [[ $target = profile || $target = experiment ]] && length=8000
   [ "$target" = session ] && length=16000
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     "$build/bin/fuzz_$target" -max_total_time="$seconds" -max_len=$length -timeout=5 -rss_limit_mb=1024 \

@@ -69,7 +69,10 @@ bool makeConditions(Experiment& e, const ConditionParts& parts, JsonReport& repo
   for (const auto& axis : parts.grid) combinations *= axis.values.size();
   for (const auto& one : named) {
     for (std::size_t combination = 0; combination < combinations; ++combination) {
-      Condition condition{one.name, parts.common, {}, {}};
+      Condition condition{one.name, parts.common, {}, {}, e.placed};
+      condition.placed.insert(condition.placed.end(), one.placed.begin(), one.placed.end());
+      std::stable_sort(condition.placed.begin(), condition.placed.end(),
+                       [](const auto& a, const auto& b) { return a.time < b.time; });
       condition.settings.insert(condition.settings.end(), one.settings.begin(), one.settings.end());
       std::size_t rest = combination, block = combinations;
       for (const auto& axis : parts.grid) {
@@ -108,9 +111,11 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
       root.fail("starts", "there is no robot " + start.who + "; say ball, robots or a name");
     }
   }
-  for (const PlacedByHand& placed : e.placed) {
-    if (placed.who != "ball" && !hasRobot(scenario, placed.who)) {
-      root.fail("placed", "there is no robot " + placed.who + "; say ball or a robot's name");
+  for (const Condition& condition : e.conditions) {
+    for (const PlacedByHand& placed : condition.placed) {
+      if (placed.who != "ball" && !hasRobot(condition.scenario, placed.who)) {
+        root.fail("placed", "there is no robot " + placed.who + "; say ball or a robot's name");
+      }
     }
   }
   for (const ExpressionMetric& metric : e.metrics) {

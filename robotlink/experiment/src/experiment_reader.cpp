@@ -74,7 +74,7 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
   readConditions(parts);
   readRandom(e);
   readStarts(e);
-  readPlaced(e);
+  e.placed = placedOf(m_root);
   readStop(e, parts.stop);
   readMetrics(e);
   readGiven(e);
@@ -140,9 +140,10 @@ void ExperimentReader::readConditions(ConditionParts& parts) {
   const auto* items = m_root.array("conditions", mostConditions);
   for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
     const std::string path = m_root.pathOf("conditions", i);
-    const JsonObject object(m_report, (*items)[i], path, {"name", "set"});
+    const JsonObject object(m_report, (*items)[i], path, {"name", "set", "placed"});
     object.require("name");
-    ConditionParts::Named condition{object.text("name", "", 100), {}, (*items)[i].line};
+    ConditionParts::Named condition{
+        object.text("name", "", 100), {}, placedOf(object), (*items)[i].line};
     if (condition.name.empty()) object.fail("name", "is empty");
     for (const auto& other : parts.named) {
       if (other.name == condition.name) object.fail("name", "another condition has this name");
@@ -198,10 +199,11 @@ void ExperimentReader::readStarts(Experiment& e) {
   }
 }
 
-void ExperimentReader::readPlaced(Experiment& e) {
-  const auto* items = m_root.array("placed", mostEntries);
+std::vector<PlacedByHand> ExperimentReader::placedOf(const JsonObject& parent) {
+  std::vector<PlacedByHand> out;
+  const auto* items = parent.array("placed", mostEntries);
   for (std::size_t i = 0; items && i < items->size() && !m_report.failed(); ++i) {
-    const JsonObject object(m_report, (*items)[i], m_root.pathOf("placed", i),
+    const JsonObject object(m_report, (*items)[i], parent.pathOf("placed", i),
                             {"time", "who", "x", "y", "heading", "vx", "vy"});
     for (const std::string_view key : {"time", "who", "x", "y"}) object.require(key);
     const NumberRange place{-fieldReach, fieldReach, "metres"};
@@ -212,10 +214,9 @@ void ExperimentReader::readPlaced(Experiment& e) {
     one.pose.position = {object.number("x", 0, place), object.number("y", 0, place)};
     one.pose.yaw = radiansFromDegrees(object.number("heading", 0, {-360, 360, "degrees"}));
     one.velocity = {object.number("vx", 0, speed), object.number("vy", 0, speed)};
-    e.placed.push_back(std::move(one));
+    out.push_back(std::move(one));
   }
-  std::stable_sort(e.placed.begin(), e.placed.end(),
-                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  return out;
 }
 
 void ExperimentReader::readStop(Experiment& e, const StopConditions& usual) {

@@ -18,6 +18,7 @@ struct ConditionParts {
   struct Named {
     std::string name;
     std::vector<ScenarioSetting> settings;
+    std::vector<PlacedByHand> placed;
     int line = 1;
   };
   std::vector<Named> named;
@@ -40,12 +41,12 @@ class ExperimentReader {
   void readConditions(ConditionParts& parts);
   void readRandom(Experiment& experiment);
   void readStarts(Experiment& experiment);
-  void readPlaced(Experiment& experiment);
   void readStop(Experiment& experiment, const StopConditions& usual);
   void readMetrics(Experiment& experiment);
   void readGiven(Experiment& experiment);
   void readAssertions(Experiment& experiment);
   void readRecord(Experiment& experiment);
+  std::vector<PlacedByHand> placedOf(const JsonObject& object);
   std::vector<ScenarioSetting> settingsOf(const JsonNode& node, const std::string& path);
 
   JsonReport& m_report;

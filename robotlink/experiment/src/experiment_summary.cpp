@@ -74,8 +74,9 @@ void ResultTable::add(const Experiment& experiment, const RunResult& result) {
     condition.columns[i][place.index] = result.values[i];
   }
   if (result.paths.empty()) return;
-  const auto after = std::find_if(condition.drawn.begin(), condition.drawn.end(),
-                                  [&](const OfCondition::Drawn& one) { return one.number > result.number; });
+  const auto after =
+      std::find_if(condition.drawn.begin(), condition.drawn.end(),
+                   [&](const OfCondition::Drawn& one) { return one.number > result.number; });
   condition.drawn.insert(after, {result.number, result.endedBy, result.paths});
 }
 

@@ -29,8 +29,8 @@ sim::RobotIdentity const* robotNamed(const sim::WorldState& world, std::string_v
 /// Moves by hand whose time has come.
 class Hand {
  public:
-  Hand(const Experiment& experiment, MatchPlayer& player)
-      : m_placed(experiment.placed), m_player(player) {}
+  Hand(const std::vector<PlacedByHand>& placed, MatchPlayer& player)
+      : m_placed(placed), m_player(player) {}
 
   Result<void> act() {
     if (m_next >= m_placed.size()) return {};
@@ -43,7 +43,7 @@ class Hand {
       const sim::RobotIdentity* robot = robotNamed(simulation.state(), one.who);
       const auto done = one.who == "ball" ? simulation.placeBall(one.pose.position, one.velocity)
                         : robot           ? simulation.placeRobot(robot->id, one.pose)
-                                          : Result<void>();  // this condition has no such robot
+                                          : Result<void>();
       if (!done) return done;
       acted = true;
     }
@@ -123,7 +123,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   player.observe(measure);
   if (measure->problem()) return tl::unexpected(*measure->problem());
 
-  Hand hand(e, player);
+  Hand hand(e.conditions[run.condition].placed, player);
   auto looked = begin;
   while (measure->endedBy().empty() && !player.match().finished()) {
     if (auto acted = hand.act(); !acted) return tl::unexpected(acted.error());

@@ -33,13 +33,6 @@ struct RandomSetting {
   bool operator==(const RandomSetting&) const = default;
 };
 
-struct Condition {
-  std::string name;
-  std::vector<ScenarioSetting> settings;
-  Scenario scenario;  ///< with the settings; without stop conditions
-  std::string json;   ///< the same as text, for what is drawn for each run
-};
-
 /// How far a run's start is from the scenario's: uniform within ± these.
 struct StartSpread {
   std::string who;  ///< "ball", "robots" (all of them), or a name: "B1"
@@ -55,6 +48,14 @@ struct PlacedByHand {
   Pose pose;
   Velocity velocity;  ///< of the ball
   bool operator==(const PlacedByHand&) const = default;
+};
+
+struct Condition {
+  std::string name;
+  std::vector<ScenarioSetting> settings;
+  Scenario scenario;                 ///< with the settings; without stop conditions
+  std::string json;                  ///< the same as text, for what is drawn for each run
+  std::vector<PlacedByHand> placed;  ///< the experiment's and its own, in order of time
 };
 
 /// The first that is met ends a run.
@@ -113,7 +114,7 @@ struct Experiment {
   std::vector<Condition> conditions;
   std::vector<RandomSetting> random;
   std::vector<StartSpread> starts;
-  std::vector<PlacedByHand> placed;  ///< in order of time
+  std::vector<PlacedByHand> placed;  ///< in every condition
   RunStop stop;
   std::vector<ExpressionMetric> metrics;
   double sampleEvery = 0.1;      ///< s, for expressions, beliefs and possession
