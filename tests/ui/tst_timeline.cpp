@@ -70,7 +70,7 @@ struct Bench {
   QWidget window;
   QWidget* dock = nullptr;
   TimelineStrip* strip = nullptr;
-  QToolButton* live = nullptr;
+  QToolButton* now = nullptr;
   Bench() {
     TimelineContext context;
     context.time = &plots;
@@ -78,7 +78,7 @@ struct Bench {
     context.timelineActions = &actions;
     dock = makeTimelineDock(context, &window);
     strip = dock->findChild<TimelineStrip*>();
-    live = dock->findChild<QToolButton*>(QStringLiteral("live"));
+    now = dock->findChild<QToolButton*>(QStringLiteral("now"));
     window.resize(1000, 120);
     dock->setGeometry(0, 0, 1000, dock->sizeHint().height());
     window.show();
@@ -115,22 +115,22 @@ class TestTimeline : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
-  void aClickLooksBackAndLiveReturns() {
+  void aClickLooksBackAndNowReturns() {
     Bench b;
-    QVERIFY(b.live->isChecked());
+    QVERIFY(!b.now->isChecked() && !b.now->isEnabled());
     QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.above(40));
     QVERIFY(b.timeline.isLookingBack());
     QVERIFY(std::abs(b.x() - 40) <= onePixel);
-    QVERIFY(!b.live->isChecked());
+    QVERIFY(b.now->isChecked());
     // The source goes on unseen.
     const double seen = b.x();
     b.source.goTo(101);
     QCOMPARE(b.x(), seen);
     QCOMPARE(b.timeline.now(), 101.0);
-    QTest::mouseClick(b.live, Qt::LeftButton);
+    QTest::mouseClick(b.now, Qt::LeftButton);
     QVERIFY(!b.timeline.isLookingBack());
     QCOMPARE(b.x(), 101.0);
-    QVERIFY(b.live->isChecked());
+    QVERIFY(!b.now->isChecked());
     b.source.goTo(102);
     QCOMPARE(b.x(), 102.0);
   }
@@ -152,7 +152,7 @@ class TestTimeline : public QObject {
     QVERIFY(!sign.isVisible());
     b.timeline.seek(62.5);
     QVERIFY(sign.isVisible());
-    QCOMPARE(sign.text(), QStringLiteral("Looking back: 00:01:02 (live goes on)"));
+    QCOMPARE(sign.text(), QStringLiteral("Looking back: 00:01:02 (Now leads back)"));
     b.timeline.goLive();
     QVERIFY(!sign.isVisible());
   }

@@ -31,6 +31,16 @@ void drawBox(QPainter* painter, const QStyleOption* option, bool pressed) {
   painter->drawRoundedRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5), corner, corner);
 }
 
+// Where the keyboard is must be seen at every stop, on every ground.
+void drawFocus(QPainter* painter, const QRect& rect) {
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  painter->setPen(QPen(theme().accentLine, 1.5));
+  painter->setBrush(Qt::NoBrush);
+  painter->drawRoundedRect(QRectF(rect).adjusted(1, 1, -1, -1), corner, corner);
+  painter->restore();
+}
+
 void drawCombo(const QStyleOptionComboBox* option, QPainter* painter) {
   painter->save();
   painter->setRenderHint(QPainter::Antialiasing);
@@ -82,6 +92,10 @@ FlatStyle::FlatStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusio
 
 void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
                               QPainter* painter, const QWidget* widget) const {
+  if (element == PE_FrameFocusRect) {
+    drawFocus(painter, option->rect);
+    return;
+  }
   if (element != PE_PanelButtonCommand) {
     QProxyStyle::drawPrimitive(element, option, painter, widget);
     return;
@@ -96,12 +110,19 @@ void FlatStyle::drawComplexControl(ComplexControl control, const QStyleOptionCom
                                    QPainter* painter, const QWidget* widget) const {
   if (const auto* combo = plainCombo(control, option)) {
     drawCombo(combo, painter);
+    if (option->state & State_HasFocus) drawFocus(painter, option->rect);
+    return;
+  }
+  if (control == CC_ToolButton) {
+    QProxyStyle::drawComplexControl(control, option, painter, widget);
+    if (option->state & State_HasFocus) drawFocus(painter, option->rect);
     return;
   }
   const auto* slider = qstyleoption_cast<const QStyleOptionSlider*>(option);
   if (control == CC_Slider && slider && slider->orientation == Qt::Horizontal &&
       slider->tickPosition == 0) {
     drawSlider(slider, subControlRect(control, option, SC_SliderHandle, widget), painter);
+    if (option->state & State_HasFocus) drawFocus(painter, option->rect);
     return;
   }
   QProxyStyle::drawComplexControl(control, option, painter, widget);

@@ -32,6 +32,7 @@ class LogDock : public QWidget {
           QWidget* parent)
       : QWidget(parent),
         m_controller(controller),
+        m_source(shown),
         m_timeline(timeline),
         m_model(new LogModel(this)),
         m_filter(new LogFilter(this)),
@@ -104,9 +105,15 @@ class LogDock : public QWidget {
     connect(m_filter, &QAbstractItemModel::modelReset, this, &LogDock::showEmpty);
     showEmpty();
     m_start->hide();
-    connect(m_table, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
-      m_timeline->seek(index.siblingAtColumn(0).data(LogModel::timeRole).toDouble());
+    connect(m_table, &QTableView::clicked, this, [this](const QModelIndex& index) {
+      // With a key lines are chosen, to be copied.
+      if (QApplication::keyboardModifiers() == Qt::NoModifier) goTo(index);
     });
+    connect(m_table, &QTableView::activated, this, &LogDock::goTo);
+    for (const auto moved : {&Timeline::moved, &Timeline::sourceChanged}) {
+      connect(timeline, moved, this, &LogDock::showMoment);
+    }
+    connect(timeline, &Timeline::lookingBackChanged, this, &LogDock::showMoment);
     // Who scrolls up wants to read there; who comes back to the end wants to see what is new.
     connect(m_table->verticalScrollBar(), &QAbstractSlider::actionTriggered, this, [this] {
       const QScrollBar* bar = m_table->verticalScrollBar();
@@ -122,12 +129,13 @@ class LogDock : public QWidget {
 
     // Simulated and live lines stand in one log: both go on while the other is looked at.
     for (FrameSource* source : shown->sources()) {
-      connect(
-          source, &FrameSource::logReceived, this,
-          [this, source](const std::vector<LogLine>& lines) { append(lines, source->clock()); });
+      connect(source, &FrameSource::logReceived, this,
+              [this, source](const std::vector<LogLine>& lines) {
+                append(lines, source->clock(), source->kind());
+              });
       connect(source, &FrameSource::eventsReceived, this,
               [this, source](const std::vector<link::MatchEvent>& events) {
-                appendEvents(events, source->clock());
+                appendEvents(events, source->clock(), source->kind());
               });
     }
     m_model->setTimesOfDay(shown->timesOfDay());
@@ -135,7 +143,8 @@ class LogDock : public QWidget {
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
       append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
-               LogLevel::Warning}});
+               LogLevel::Warning}},
+             {}, SourceKind::Simulate);
     });
   }
 
@@ -151,21 +160,51 @@ class LogDock : public QWidget {
                              "processes print appear here."));
   }
 
-  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {}) {
-    m_model->append(lines, clock);
+  void goTo(const QModelIndex& index) {
+    const QModelIndex row = index.siblingAtColumn(0);
+    if (row.data(LogModel::shownRole).toBool())
+      m_timeline->seek(row.data(LogModel::timeRole).toDouble());
+  }
+
+  bool isPast() const { return m_timeline->isLookingBack() || m_timeline->isRecording(); }
+
+  void showMoment() {
+    if (!isPast() && !m_wasPast) return;
+    m_wasPast = isPast();
+    m_model->setMoment(m_source->kind(),
+                       isPast() ? std::optional(m_timeline->shownTime()) : std::nullopt);
+    scroll();
+  }
+
+  void scroll() {
+    // Who clicks on a line has it in sight.
+    if (!m_follow->isChecked() || m_table->underMouse()) return;
+    if (!isPast()) {
+      m_table->scrollToBottom();
+      return;
+    }
+    int row = m_model->rowAtMoment();
+    QModelIndex shown;
+    while (row >= 0 && !shown.isValid()) shown = m_filter->mapFromSource(m_model->index(row--, 0));
+    if (shown.isValid()) m_table->scrollTo(shown);
+  }
+
+  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
+              std::optional<SourceKind> of = {}) {
+    m_model->append(lines, clock, of);
     m_start->setText(QStringLiteral("Start-up lines: %1").arg(m_model->startLines()));
     m_start->setVisible(m_model->startLines() > 0);
-    if (m_follow->isChecked()) m_table->scrollToBottom();
+    if (!isPast() && m_follow->isChecked()) m_table->scrollToBottom();
   }
 
   void appendEvents(const std::vector<link::MatchEvent>& events,
-                    const std::optional<QDateTime>& clock) {
+                    const std::optional<QDateTime>& clock, SourceKind of) {
     std::vector<LogLine> lines;
     for (const link::MatchEvent& event : events) {
       lines.push_back(logLineOf(event));
       if (event.kind == link::MatchEventKind::ProcessStarted) lines.back().level = LogLevel::Debug;
     }
-    append(lines, clock);
+    append(lines, clock, of);
   }
 
   static QString textOf(const QModelIndex& row) {
@@ -197,7 +236,9 @@ class LogDock : public QWidget {
   }
 
   MatchController* m_controller;
+  const SourceSwitch* m_source;
   Timeline* m_timeline;
+  bool m_wasPast = false;
   LogModel* m_model;
   LogFilter* m_filter;
   QTableView* m_table;

@@ -15,7 +15,8 @@ bool isStartLine(const LogLine& line) {
 
 }  // namespace
 
-void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock) {
+void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock,
+                      std::optional<SourceKind> of) {
   const std::size_t kept = std::min(lines.size(), maxLines);
   m_dropped += lines.size() - kept;
   if (kept == 0) return;
@@ -32,7 +33,7 @@ void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDa
   const int first = static_cast<int>(m_lines.size());
   beginInsertRows({}, first, first + static_cast<int>(kept) - 1);
   for (std::size_t i = lines.size() - kept; i < lines.size(); ++i) {
-    m_lines.push_back({lines[i], clock});
+    m_lines.push_back({lines[i], clock, of});
   }
   m_startLines += static_cast<int>(
       std::count_if(lines.end() - static_cast<std::ptrdiff_t>(kept), lines.end(), isStartLine));
@@ -43,6 +44,22 @@ void LogModel::setTimesOfDay(bool on) {
   if (on == m_timesOfDay) return;
   m_timesOfDay = on;
   if (!m_lines.empty()) emit dataChanged(index(0, Time), index(rowCount() - 1, Time));
+}
+
+void LogModel::setMoment(SourceKind shown, std::optional<double> time) {
+  if (shown == m_shown && time == m_moment) return;
+  m_shown = shown;
+  m_moment = time;
+  if (m_lines.empty()) return;
+  emit dataChanged(index(0, 0), index(rowCount() - 1, columns - 1), {Qt::ForegroundRole});
+}
+
+int LogModel::rowAtMoment() const {
+  for (int row = rowCount() - 1; row >= 0; --row) {
+    const Line& line = m_lines[static_cast<std::size_t>(row)];
+    if (line.of == m_shown && !isLater(line)) return row;
+  }
+  return -1;
 }
 
 void LogModel::clear() {
@@ -77,9 +94,11 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
     }
   }
   if (role == timeRole) return line.time;
+  if (role == shownRole) return line.of == m_shown;
   if (role == levelRole) return static_cast<int>(line.level);
   if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
   if (role == Qt::ForegroundRole) {
+    if (isLater(line)) return theme().disabledText;
     if (line.isWarning() && index.column() == Text) return theme().warningText;
     if (index.column() != Text) return theme().secondaryText;
   }

@@ -12,6 +12,7 @@
 
 #include <base/log_line.h>
 #include <ui/base/words_filter.h>
+#include <ui/sources/frame_source.h>
 
 namespace pitchboard::ui {
 
@@ -22,10 +23,17 @@ class LogModel : public QAbstractTableModel {
   static constexpr std::size_t maxLines = 10'000;
   static constexpr int timeRole = Qt::UserRole;       ///< s of the source
   static constexpr int levelRole = Qt::UserRole + 1;  ///< LogLevel
+  static constexpr int shownRole = Qt::UserRole + 2;  ///< bool: of the source that is shown
   using QAbstractTableModel::QAbstractTableModel;
 
   /// `clock`: the time of day at their source's second 0, where it has one.
-  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {});
+  /// `of`: whose lines they are, for setMoment().
+  void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
+              std::optional<SourceKind> of = {});
+  /// The source that is shown, and the moment while it is not the newest: later lines are pale.
+  void setMoment(SourceKind shown, std::optional<double> time);
+  /// The last line of the source shown that had been said at the moment; −1: none.
+  int rowAtMoment() const;
   /// Times as time of day, where the lines' source has one.
   void setTimesOfDay(bool on);
   void clear();
@@ -42,8 +50,14 @@ class LogModel : public QAbstractTableModel {
  private:
   struct Line : LogLine {
     std::optional<QDateTime> clock;
+    std::optional<SourceKind> of;
   };
+  bool isLater(const Line& line) const {
+    return m_moment && line.of == m_shown && line.time > *m_moment;
+  }
   std::deque<Line> m_lines;
+  SourceKind m_shown = SourceKind::Simulate;
+  std::optional<double> m_moment;
   bool m_timesOfDay = true;
   quint64 m_dropped = 0;
   int m_startLines = 0;

@@ -64,6 +64,8 @@ class NoiseDock : public QScrollArea {
     connect(m_controller, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { follow(*frame); });
     connect(m_controller->edits(), &MatchEdits::modelsChanged, this, [this] { showRobots(); });
+    connect(m_controller->edits(), &MatchEdits::lockedChanged, form,
+            [form](bool locked) { form->setEnabled(!locked); });
     connect(m_selection, &RobotSelection::changed, this, [this] { showRobots(); });
     adopt();
   }

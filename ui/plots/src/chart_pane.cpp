@@ -17,7 +17,7 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int pixelsPerValueStep = 18;  // px of the mock
-constexpr int lowestChart = 40;
+constexpr int lowestChart = 64;         // lower ones cannot be read: the plots scroll instead
 
 QColor mixed(const QColor& a, const QColor& b, double share) {
   const auto part = [share](int x, int y) { return qRound(x + (y - x) * share); };
@@ -33,6 +33,7 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_chart->setCurvePainter([this](QPainter& painter) { paintCurves(painter); },
                            ValueChart::Painting::Parts);
   connect(m_chart, &ValueChart::resized, this, [this] { draw(); });
+  connect(m_gestures, &TimeGestures::pointed, this, &PlotPane::pointed);
   connect(m_gestures, &TimeGestures::valueZoomed, this, [this](double factor, double y) {
     const ValueScale scale = valueScale();
     const double anchor = scale.toValue(y);
@@ -64,6 +65,29 @@ QWidget* ChartPane::surface() const {
 int ChartPane::wantedLeft() const {
   return m_chart->wantedLeft();
 }
+int ChartPane::wantedRight() const {
+  return hasRightAxis() ? m_chart->wantedRight() : 0;
+}
+
+bool ChartPane::hasRightAxis() const {
+  return std::any_of(m_curves.begin(), m_curves.end(),
+                     [](const Curve& curve) { return curve.spec().rightAxis; });
+}
+
+ValueScale ChartPane::rightScale() const {
+  const QRectF area = m_chart->plotArea();
+  return {hasRightAxis() ? m_chart->rightLimits() : m_chart->yLimits(), area.top(), area.bottom()};
+}
+
+QString ChartPane::pointedText(QPointF at) const {
+  const ValueScale left = valueScale();
+  if (at.y() < left.top || at.y() > left.bottom) return {};
+  const QString value = valueText(left.toValue(at.y()));
+  return hasRightAxis()
+             ? QStringLiteral("%1 | %2").arg(value, valueText(rightScale().toValue(at.y())))
+             : value;
+}
+
 void ChartPane::setBoxTool(bool on) {
   m_gestures->setBoxTool(on);
 }
@@ -89,7 +113,7 @@ void ChartPane::setValues(ValueLimits limits) {
 
 void ChartPane::draw() {
   const int room = scaled(this, 5);  // half a label above and below
-  m_chart->setMargins(left(), room, scaled(this, rightMargin), room);
+  m_chart->setMargins(left(), room, right(), room);
   const QRectF area = m_chart->plotArea();
   if (area.isEmpty()) return;
   const telemetry::TimeRange range = m_feed->time()->range();
@@ -101,30 +125,47 @@ void ChartPane::draw() {
     m_traces[i] = traceOf(m_curves[i].view(), range, columns);
   });
   traceCompared(range, columns);
-  bool any = false;
-  double low = 0.0, high = 0.0;
-  for (const auto* traces : {&m_traces, &m_comparedTraces}) {
-    for (const CurveTrace& trace : *traces) {
-      if (!trace.any) continue;
-      low = any ? std::min(low, trace.low) : trace.low;
-      high = any ? std::max(high, trace.high) : trace.high;
-      any = true;
-    }
-  }
+  const Extent leftExtent = extent(false), rightExtent = extent(true);
   const int steps =
       std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep), 2, 12);
   NiceLimits nice{m_spec.values, niceStep(m_spec.values.high - m_spec.values.low, steps)};
-  if (m_spec.autoValues) nice = any ? niceLimits(low, high, steps) : niceLimits(0.0, 1.0, steps);
+  const auto limitsOf = [steps](const Extent& e) {
+    return e.any ? niceLimits(e.low, e.high, steps) : niceLimits(0.0, 1.0, steps);
+  };
+  if (m_spec.autoValues) nice = limitsOf(leftExtent);
   const std::vector<AxisTick> ticks = ticksOf(timeAxis(), *m_feed, this);
   const bool divided = ticks.size() > 1;
-  const int before = wantedLeft();
+  const std::pair before(wantedLeft(), wantedRight());
   m_chart->setAxes({range.begin, range.end},
                    divided ? ticks[1].time - ticks[0].time : range.end - range.begin, nice.limits,
                    nice.step, ticks.empty() ? range.begin : ticks[0].time);
+  if (hasRightAxis()) {
+    const NiceLimits right = limitsOf(rightExtent);
+    m_chart->setRightAxis(right.limits, right.step);
+  } else {
+    m_chart->hideRightAxis();
+  }
   m_chart->setTitles({}, m_spec.valueTitle);
   shape();
   m_chart->redraw();
-  if (wantedLeft() != before) emit leftChanged();
+  if (std::pair(wantedLeft(), wantedRight()) != before) emit leftChanged();
+}
+
+void ChartPane::Extent::take(const CurveTrace& trace) {
+  if (!trace.any) return;
+  low = any ? std::min(low, trace.low) : trace.low;
+  high = any ? std::max(high, trace.high) : trace.high;
+  any = true;
+}
+
+ChartPane::Extent ChartPane::extent(bool right) const {
+  Extent all;
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    if (m_curves[i].spec().rightAxis != right) continue;
+    all.take(m_traces[i]);
+    all.take(m_comparedTraces[i]);
+  }
+  return all;
 }
 
 /// Of the variables that the compared session has too; curves that are computed have none.
@@ -151,7 +192,10 @@ void ChartPane::shape() {
   }
   m_shapes.clear();
   m_shapedFor = timeAxis();
-  const ValueScale values = valueScale();
+  const ValueScale atLeft = valueScale(), atRight = rightScale();
+  const auto values = [&](std::size_t curve) {
+    return m_curves[curve].spec().rightAxis ? atRight : atLeft;
+  };
   for (const Curve& curve : m_curves) {
     const CurveSpec& spec = curve.spec();
     m_shapes.push_back(
@@ -161,7 +205,7 @@ void ChartPane::shape() {
   sideBySide(static_cast<int>(m_shapes.size()), [&](int number) {
     const auto i = static_cast<std::size_t>(number);
     m_shapes[i].lines =
-        polylines(m_traces[i], m_shapedFor, values, m_shapes[i].look.style == CurveStyle::Steps);
+        polylines(m_traces[i], m_shapedFor, values(i), m_shapes[i].look.style == CurveStyle::Steps);
   });
   m_caption = {QStringLiteral("thin: ") + m_feed->comparedCaption(),
                m_chart->plotArea().adjusted(4, 2, -4, -2), themeFont(TypeRole::Secondary),
@@ -173,8 +217,8 @@ void ChartPane::shape() {
     other.look = m_shapes[i].look;
     other.look.color = mixed(m_shapes[i].look.color, palette().color(QPalette::Base), 0.5);
     other.look.width = m_shapes[i].look.width * 0.66;
-    other.lines =
-        polylines(m_comparedTraces[i], m_shapedFor, values, other.look.style == CurveStyle::Steps);
+    other.lines = polylines(m_comparedTraces[i], m_shapedFor, values(i),
+                            other.look.style == CurveStyle::Steps);
   }
 }
 

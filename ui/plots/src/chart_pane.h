@@ -17,12 +17,16 @@ class ChartPane : public PlotPane {
 
   QWidget* surface() const override;
   int wantedLeft() const override;
+  int wantedRight() const override;
+  QString pointedText(QPointF at) const override;
   void setBoxTool(bool on) override;
   /// What is drawn of each curve, in the order of curves().
   const std::vector<CurveTrace>& traces() const { return m_traces; }
   /// The same of the compared session, at the times of what is shown; empty where it has none.
   const std::vector<CurveTrace>& comparedTraces() const { return m_comparedTraces; }
   ValueScale valueScale() const;
+  /// Of the second axis; that of the first one while no curve is read there.
+  ValueScale rightScale() const;
   void extendMenu(QMenu* menu) override;
 
  protected:
@@ -32,6 +36,14 @@ class ChartPane : public PlotPane {
  private:
   void paintCurves(QPainter& painter) const;
   void shape();
+  struct Extent {
+    bool any = false;
+    double low = 0.0, high = 0.0;
+    void take(const CurveTrace& trace);
+  };
+  /// Of the curves at one of the two axes, as far as visible.
+  Extent extent(bool right) const;
+  bool hasRightAxis() const;
   void traceCompared(telemetry::TimeRange range, int columns);
   void setValues(ValueLimits limits);
 

@@ -33,8 +33,8 @@ QColor curveColor(int number) {
                                                            {"#d792bd", "#b0508c"},
                                                            {"#7fd0d6", "#12858d"},
                                                            {"#d6c36a", "#8d7a0f"},
-                                                           {"#b9a6a0", "#7a5f57"},
-                                                           {"#c3ccd6", "#4d5763"}}};
+                                                           {"#ef8378", "#b23a2e"},
+                                                           {"#c9cfd6", "#4d5763"}}};
   return shade(curves[static_cast<std::size_t>(number % curveColors)]);
 }
 

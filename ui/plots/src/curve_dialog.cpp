@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve_dialog.h"
 
+#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QCompleter>
@@ -9,6 +10,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <algorithm>
 
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
@@ -30,6 +32,58 @@ NumberBox* numberBox(QWidget* parent) {
   box->setDecimals(6);
   box->setButtonSymbols(QAbstractSpinBox::NoButtons);
   return box;
+}
+
+bool isOfName(QChar c) {
+  return c.isLetterOrNumber() || c == QLatin1Char('_') || c == QLatin1Char('.');
+}
+
+/// The name that is being written at the cursor.
+std::pair<int, int> nameAt(const QLineEdit& edit) {
+  const QString text = edit.text();
+  int begin = edit.cursorPosition();
+  const int end = begin;
+  while (begin > 0 && isOfName(text[begin - 1])) --begin;
+  return {begin, end};
+}
+
+/// As an expression writes it: `B1.NAME`, or in braces where a name has other characters.
+QString inExpression(const QString& name) {
+  const bool plain = std::all_of(name.begin(), name.end(),
+                                 [](QChar c) { return isOfName(c) || c == QLatin1Char('/'); }) &&
+                     name.count(QLatin1Char('/')) == 1;
+  return plain ? QString(name).replace(QLatin1Char('/'), QLatin1Char('.'))
+               : QStringLiteral("{%1}").arg(name);
+}
+
+/// Offers variables for the word at the cursor, not for the whole line.
+void completeNames(QLineEdit* edit, const QStringList& names) {
+  QStringList written;
+  for (const QString& name : names) written << inExpression(name);
+  auto* completer = new QCompleter(written, edit);
+  completer->setObjectName(QStringLiteral("expressionCompleter"));
+  completer->setFilterMode(Qt::MatchContains);
+  completer->setCaseSensitivity(Qt::CaseInsensitive);
+  completer->setMaxVisibleItems(15);
+  completer->setWidget(edit);
+  QObject::connect(edit, &QLineEdit::textEdited, completer, [edit, completer] {
+    constexpr int enough = 2;  // letters, before everything would be offered
+    const auto [begin, end] = nameAt(*edit);
+    const QString word = edit->text().mid(begin, end - begin);
+    if (word.size() < enough || word.front().isDigit()) {
+      completer->popup()->hide();
+      return;
+    }
+    completer->setCompletionPrefix(word);
+    completer->complete();
+  });
+  QObject::connect(completer, qOverload<const QString&>(&QCompleter::activated), edit,
+                   [edit](const QString& chosen) {
+                     const auto [begin, end] = nameAt(*edit);
+                     const QString text = edit->text();
+                     edit->setText(text.left(begin) + chosen + text.mid(end));
+                     edit->setCursorPosition(begin + int(chosen.size()));
+                   });
 }
 
 QDialogButtonBox* buttons(QDialog* dialog) {
@@ -88,7 +142,9 @@ CurveDialog::CurveDialog(PlotFeed* feed, const CurveSpec& curve, QWidget* parent
   m_expression->setToolTip(
       QStringLiteral("Operators + - * / ^, comparisons, condition ? a : b; functions sin, "
                      "cos, atan2, sqrt, abs, min, max, hypot, deg, rad, wrap(angle, turn); "
-                     "pi; t is the time in seconds. Variables: GROUP.NAME"));
+                     "pi; t is the time in seconds. Variables: GROUP.NAME; each.NAME for every "
+                     "robot, first.NAME for the first; {curve/NAME} is another computed curve"));
+  completeNames(m_expression, names);
   m_title->setPlaceholderText(QStringLiteral("as the variable"));
   m_unit->setPlaceholderText(QStringLiteral("as the variable"));
   m_form->addRow(QStringLiteral("Kind"), m_kind);
@@ -186,6 +242,7 @@ CurveSpec CurveDialog::curve() const {
   spec.parameter = parameter ? m_parameter->value() : 0.0;
   spec.offset = spec.kind == CurveKind::Conversion ? m_offset->value() : 0.0;
   spec.unit = m_unit->text().trimmed();
+  spec.rightAxis = m_curve.rightAxis;
   spec.title = m_title->text().trimmed();
   return spec;
 }

@@ -90,7 +90,7 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
 
 class LanePane::Lanes : public QWidget {
  public:
-  explicit Lanes(LanePane* pane) : QWidget(pane), m_pane(pane) {}
+  explicit Lanes(LanePane* pane) : QWidget(pane), m_pane(pane) { setFocusPolicy(Qt::ClickFocus); }
   void paintEvent(QPaintEvent*) override {
     QPainter painter(this);
     m_pane->paintLanes(painter);
@@ -109,6 +109,7 @@ LanePane::LanePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   setSurface(m_lanes);
   m_gestures = new TimeGestures(m_lanes, feed->time(), [this] { return timeAxis(); });
   m_gestures->setHasValues(false);
+  connect(m_gestures, &TimeGestures::pointed, this, &PlotPane::pointed);
   fitHeight();
 }
 
@@ -161,7 +162,7 @@ void LanePane::paintLanes(QPainter& painter) const {
       const int used = painter.fontMetrics().horizontalAdvance(text) + scaled(this, 8);
       painter.setPen(colors.secondaryText);
       painter.drawText(name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                       curve.valueTextAt(m_feed->time()->cursor()));
+                       curve.valueTextAt(m_feed->time()->readAt()));
     }
     y += scaled(this, nameHeight);
     const double height = scaled(this, laneHeight);

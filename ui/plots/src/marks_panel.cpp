@@ -20,7 +20,8 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int mostEventsNamed = 3;
-}
+constexpr int nameWidth = 148, numberWidth = 56;  // px of the mock
+}  // namespace
 
 QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, double b,
                       const PlotFeed& feed) {
@@ -63,9 +64,9 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   m_table->horizontalHeader()->setStretchLastSection(false);
   m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
-  m_table->setColumnWidth(MarksModel::Name, scaled(this, 130));
+  m_table->horizontalHeader()->setSectionResizeMode(MarksModel::Name, QHeaderView::Stretch);
   for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
-    m_table->setColumnWidth(c, scaled(this, 60));
+    m_table->setColumnWidth(c, scaled(this, numberWidth));
   }
   m_times->setTextFormat(Qt::RichText);
   m_difference->setFont(themeFont(TypeRole::Secondary, true));
@@ -97,7 +98,8 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
 }
 
 QSize MarksPanel::sizeHint() const {
-  return {scaled(this, 372), scaled(this, 120)};
+  // All columns side by side.
+  return {scaled(this, nameWidth + (MarksModel::columns - 1) * numberWidth), scaled(this, 120)};
 }
 
 void MarksPanel::copyTable() const {

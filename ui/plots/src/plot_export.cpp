@@ -3,6 +3,7 @@
 
 #include <QBuffer>
 #include <QPainter>
+#include <QRegularExpression>
 #include <QSaveFile>
 #include <QSvgGenerator>
 #include <cmath>
@@ -39,6 +40,16 @@ QString quoted(QString text) {
   }
   return QLatin1Char('"') + text.replace(QLatin1Char('"'), QStringLiteral("\"\"")) +
          QLatin1Char('"');
+}
+
+/// The desktop's "Sans Serif" is a name that only this computer knows.
+QByteArray withKnownFonts(QByteArray svg) {
+  static const QRegularExpression family(QStringLiteral("font-family=\"([^\"]*)\""));
+  QString text = QString::fromUtf8(svg);
+  text.replace(family,
+               QStringLiteral("font-family=\"\\1, DejaVu Sans, Verdana, Arial, sans-serif\""));
+  text.replace(QStringLiteral("font-family=\"Sans Serif, "), QStringLiteral("font-family=\""));
+  return text.toUtf8();
 }
 
 /// Samples of one column, read piece by piece: a file may be larger than memory.
@@ -82,16 +93,18 @@ class SampleReader {
 
 }  // namespace
 
-QImage plotPicture(const PlotPage& page, double ratio) {
+QImage plotPicture(PlotPage& page, double ratio) {
   QWidget* widget = page.picture();
   QImage image(widget->size() * ratio, QImage::Format_RGB32);
   image.setDevicePixelRatio(ratio);
   image.fill(widget->palette().color(QPalette::Base));
+  page.setForPicture(true);
   widget->render(&image);
+  page.setForPicture(false);
   return image;
 }
 
-Result<void> savePlotPng(const PlotPage& page, const QString& path) {
+Result<void> savePlotPng(PlotPage& page, const QString& path) {
   QByteArray bytes;
   QBuffer buffer(&bytes);
   buffer.open(QIODevice::WriteOnly);
@@ -101,7 +114,7 @@ Result<void> savePlotPng(const PlotPage& page, const QString& path) {
   return writeBytes(path, bytes);
 }
 
-Result<void> savePlotSvg(const PlotPage& page, const QString& path) {
+Result<void> savePlotSvg(PlotPage& page, const QString& path) {
   QWidget* widget = page.picture();
   QByteArray bytes;
   QBuffer buffer(&bytes);
@@ -113,9 +126,11 @@ Result<void> savePlotSvg(const PlotPage& page, const QString& path) {
   generator.setTitle(page.name());
   QPainter painter(&generator);
   painter.fillRect(widget->rect(), widget->palette().color(QPalette::Base));
+  page.setForPicture(true);
   widget->render(&painter);
+  page.setForPicture(false);
   painter.end();
-  return writeBytes(path, bytes);
+  return writeBytes(path, withKnownFonts(bytes));
 }
 
 void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeRange range) {

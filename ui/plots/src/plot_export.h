@@ -17,10 +17,11 @@ class PlotPage;
 class PlotPane;
 
 /// The plots of a page as on the screen, in `ratio` pixels for one of theirs.
-QImage plotPicture(const PlotPage& page, double ratio);
-/// PNG with twice the pixels of the screen; SVG with lines and text.
-Result<void> savePlotPng(const PlotPage& page, const QString& path);
-Result<void> savePlotSvg(const PlotPage& page, const QString& path);
+QImage plotPicture(PlotPage& page, double ratio);
+/// PNG with twice the pixels of the screen; SVG with lines, and text in fonts that every browser
+/// has.
+Result<void> savePlotPng(PlotPage& page, const QString& path);
+Result<void> savePlotSvg(PlotPage& page, const QString& path);
 /// Every sample in the range: a first line of names, then time in s and one column for each curve;
 /// a cell is empty where a curve has no sample at that time. RFC 4180, decimal point.
 Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange range,

@@ -2,12 +2,17 @@
 #include "plot_feed.h"
 
 #include <QTimer>
+#include <algorithm>
 
 #include <ui/base/time_axis.h>
 #include <ui/sources/linked_time.h>
 
+#include "derived_series.h"
+
 namespace pitchboard::ui {
 namespace {
+
+const QString curvePrefix = QStringLiteral("curve/");
 
 /// `GROUP/COLUMN`.
 std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, const QString& name) {
@@ -24,6 +29,8 @@ PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
   connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
 }
+
+PlotFeed::~PlotFeed() = default;
 
 void PlotFeed::setRunning(bool on) {
   if (on == m_timer->isActive()) return;
@@ -42,6 +49,7 @@ void PlotFeed::forget() {
   m_views.clear();
   m_store.reset();
   ++m_generation;
+  ++m_looks;
   if (m_timer->isActive()) refresh();
 }
 
@@ -53,11 +61,14 @@ void PlotFeed::refresh() {
     m_storeRevision = revision;
     m_found.clear();
     ++m_generation;
+    ++m_looks;
   } else if (revision != m_storeRevision) {
     m_storeRevision = revision;
+    ++m_looks;
     lookAgain();
   }
   m_views.clear();
+  for (auto& [name, curve] : m_named) curve.updated = false;
   m_time->setData(m_store ? m_store->range() : std::nullopt);
   emit refreshed();
 }
@@ -76,8 +87,59 @@ void PlotFeed::lookAgain() {
   m_missed = false;
 }
 
+void PlotFeed::setNamedCurves(const std::map<QString, CurveSpec>& curves) {
+  bool changed = false;
+  std::erase_if(m_named, [&](const auto& known) {
+    const auto now = curves.find(known.first);
+    const bool gone = now == curves.end() || !sameData(now->second, known.second.spec);
+    changed = changed || gone;
+    return gone;
+  });
+  for (const auto& [name, spec] : curves) {
+    if (m_named.contains(name)) continue;
+    changed = true;
+    Named& made = m_named[name];
+    made.spec = spec;
+    if (spec.kind != CurveKind::Variable) made.rows = std::make_unique<DerivedSeries>(spec);
+  }
+  // Only what is made of them has to be computed anew.
+  if (changed && m_namedAsked) ++m_generation;
+}
+
+ColumnView PlotFeed::named(const QString& name) {
+  m_namedAsked = true;
+  const auto found = m_named.find(name);
+  if (found == m_named.end() || found->second.inWork) return {};
+  Named& curve = found->second;
+  if (!curve.rows) return find(curve.spec.inputs.value(0));
+  if (!curve.updated) {
+    curve.updated = curve.inWork = true;
+    curve.rows->update(*this);
+    curve.inWork = false;
+  }
+  return curve.rows->view();
+}
+
+QStringList PlotFeed::groupsWith(const QStringList& columns) const {
+  QStringList groups;
+  if (!m_store) return groups;
+  for (telemetry::GroupId id = 0; id < m_store->groups(); ++id) {
+    const auto view = m_store->view(id);
+    if (!view) continue;
+    const auto& info = view->info();
+    const bool all = std::all_of(columns.begin(), columns.end(), [&](const QString& column) {
+      return std::any_of(info.columns.begin(), info.columns.end(), [&](const auto& known) {
+        return column == QLatin1String(known.name.data(), qsizetype(known.name.size()));
+      });
+    });
+    if (all) groups << QString::fromStdString(info.name);
+  }
+  return groups;
+}
+
 ColumnView PlotFeed::find(const QString& name) {
   if (!m_store) return {};
+  if (name.startsWith(curvePrefix)) return named(name.mid(curvePrefix.size()));
   auto known = m_found.find(name);
   if (known == m_found.end()) {
     const auto id = idOf(*m_store, name);
@@ -121,6 +183,7 @@ QStringList PlotFeed::names() const {
       all << prefix + QString::fromStdString(column.name);
     }
   }
+  for (const auto& [name, curve] : m_named) all << curvePrefix + name;
   return all;
 }
 

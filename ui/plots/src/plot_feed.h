@@ -11,12 +11,14 @@
 #include <optional>
 
 #include <telemetry/series/series_store.h>
+#include <ui/plots/plot_layout.h>
 #include <ui/sources/frame_source.h>
 
 class QTimer;
 
 namespace pitchboard::ui {
 
+class DerivedSeries;
 class LinkedTime;
 
 /// A column as it was at the last refresh. Cheap to copy; any thread may read it.
@@ -36,11 +38,16 @@ class PlotFeed : public QObject {
 
   /// Both outlive the feed.
   PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent = nullptr);
+  ~PlotFeed() override;
 
   FrameSource* source() const { return m_source; }
   LinkedTime* time() const { return m_time; }
-  /// `GROUP/COLUMN`; nothing when there is no such variable now.
+  /// `GROUP/COLUMN`, or `curve/NAME`; nothing when there is no such variable now.
   ColumnView find(const QString& name);
+  /// Computed curves that others may take as `curve/NAME`, by name.
+  void setNamedCurves(const std::map<QString, CurveSpec>& curves);
+  /// Groups that have all of these columns, in the source's order.
+  QStringList groupsWith(const QStringList& columns) const;
   /// Every variable there is, `GROUP/COLUMN`.
   QStringList names() const;
   /// Wall clock at second 0, where the source has one (Live): then times are written as time of
@@ -51,6 +58,8 @@ class PlotFeed : public QObject {
   QString timeText(double time, int decimals) const;
   /// Grows when variables came or went: what find() said before is void.
   quint64 generation() const { return m_generation; }
+  /// Grows when there are other groups or columns: what groupsWith() said before is void.
+  quint64 looks() const { return m_looks; }
 
   /// Rows of a second session, whose second 0 is at `offset` (s); null: none.
   void setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
@@ -70,6 +79,7 @@ class PlotFeed : public QObject {
   void refreshed();
 
  private:
+  ColumnView named(const QString& name);
   void forget();
   void lookAgain();
 
@@ -79,6 +89,7 @@ class PlotFeed : public QObject {
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;
+  quint64 m_looks = 1;
   bool m_missed = false;  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;
@@ -86,6 +97,14 @@ class PlotFeed : public QObject {
   QString m_comparedCaption;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<QString, telemetry::SeriesId> m_found;
+  struct Named {
+    CurveSpec spec;
+    std::unique_ptr<DerivedSeries> rows;  // null: a plain variable under another name
+    bool updated = false;                 // since the last refresh
+    bool inWork = false;                  // a curve that is made of itself has no rows
+  };
+  std::map<QString, Named> m_named;
+  bool m_namedAsked = false;
 };
 
 }  // namespace pitchboard::ui

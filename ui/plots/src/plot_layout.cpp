@@ -67,6 +67,7 @@ QJsonObject curveToJson(const CurveSpec& curve) {
   if (!curve.unit.isEmpty()) o["unit"] = curve.unit;
   if (!curve.title.isEmpty()) o["title"] = curve.title;
   if (curve.color.isValid()) o["color"] = curve.color.name();
+  if (curve.rightAxis) o["rightAxis"] = true;
   return o;
 }
 
@@ -94,6 +95,7 @@ CurveSpec curveFrom(const JsonObject& o) {
   curve.title = textOf(o, "title");
   curve.colorNumber = wholeOf(o, "colorNumber", 0, 0, std::numeric_limits<int>::max());
   if (o.find("color")) curve.color = QColor(textOf(o, "color"));
+  curve.rightAxis = o.boolean("rightAxis", false);
   curve.width = std::clamp(o.number("width", 1.5, anyNumber), 0.5, 10.0);
   return curve;
 }
@@ -169,6 +171,11 @@ Result<PlotLayout> layoutFromText(std::string_view text, std::string_view source
   return layout;
 }
 
+bool sameData(const CurveSpec& a, const CurveSpec& b) {
+  return a.kind == b.kind && a.inputs == b.inputs && a.expression == b.expression &&
+         a.parameter == b.parameter && a.offset == b.offset && a.unit == b.unit;
+}
+
 CurveSpec variableCurve(const QString& name) {
   CurveSpec curve;
   curve.inputs << name;
@@ -183,8 +190,14 @@ QString curveName(const CurveSpec& curve) {
     return slash < 0 ? name : name.mid(slash + 1) + QLatin1Char(' ') + name.left(slash);
   };
   switch (curve.kind) {
-    case CurveKind::Variable:
-      return shown(0);
+    case CurveKind::Variable: {
+      if (curve.inputs.size() < 2) return shown(0);
+      // Of an XY plot; the group stands once when both have it.
+      const QString x = curve.inputs[0], y = curve.inputs[1];
+      const qsizetype slash = y.indexOf(QLatin1Char('/'));
+      const bool same = slash > 0 && x.startsWith(y.left(slash + 1));
+      return QStringLiteral("%1 over %2").arg(same ? y.mid(slash + 1) : shown(1), shown(0));
+    }
     case CurveKind::Derivative:
       return QStringLiteral("d/dt ") + shown(0);
     case CurveKind::Integral:

@@ -19,6 +19,7 @@
 
 #include "chart_pane.h"
 #include "curve_dialog.h"
+#include "curve_template.h"
 #include "plot_export.h"
 #include "plot_page.h"
 #include "plot_presets.h"
@@ -61,7 +62,7 @@ void addExports(QMenu* menu, PlotsDock* dock) {
   });
   menu->addAction(QStringLiteral("Copy values"), dock, [dock] {
     QApplication::clipboard()->setText(
-        valuesText(dock->currentPage()->panes(), dock->time()->cursor()));
+        valuesText(dock->currentPage()->panes(), dock->time()->readAt()));
   });
 }
 
@@ -120,7 +121,7 @@ QIcon swatch(const QColor& color) {
 template <class Value>
 void addChoices(QMenu* menu, PlotPane* pane, int curve, Value CurveSpec::*member,
                 const std::vector<std::pair<QString, Value>>& choices) {
-  const CurveSpec now = pane->curves()[static_cast<std::size_t>(curve)].spec();
+  const CurveSpec now = pane->description(curve);
   for (const auto& [name, value] : choices) {
     CurveSpec changed = now;
     changed.*member = value;
@@ -132,7 +133,7 @@ void addChoices(QMenu* menu, PlotPane* pane, int curve, Value CurveSpec::*member
 }
 
 void addLooks(QMenu* menu, PlotPane* pane, int curve) {
-  const CurveSpec now = pane->curves()[static_cast<std::size_t>(curve)].spec();
+  const CurveSpec now = pane->description(curve);
   QMenu* colors = menu->addMenu(QStringLiteral("Colour"));
   for (int number = 0; number < curveColors; ++number) {
     CurveSpec changed = now;
@@ -159,6 +160,18 @@ void addLooks(QMenu* menu, PlotPane* pane, int curve) {
                       {QStringLiteral("Normal"), 1.5},
                       {QStringLiteral("Thick"), 2.5},
                       {QStringLiteral("Very thick"), 4.0}});
+  if (pane->kind() != PaneKind::Chart) return;
+  addChoices<bool>(menu->addMenu(QStringLiteral("Value axis")), pane, curve, &CurveSpec::rightAxis,
+                   {{QStringLiteral("Left"), false}, {QStringLiteral("Right"), true}});
+}
+
+/// One description for all robots, now and in other matches.
+void addForEach(QMenu* menu, PlotPane* pane, int curve) {
+  const CurveSpec now = pane->description(curve);
+  const CurveSpec each = forEachGroup(now);
+  if (each == now) return;
+  menu->addAction(QStringLiteral("For every robot"), pane,
+                  [pane, curve, each] { pane->setCurve(curve, each); });
 }
 
 /// Curves that can be computed from this one.
@@ -185,7 +198,7 @@ void addDerived(QMenu* menu, PlotPage* page, PlotPane* pane, int index) {
     spec.parameter = parameter;
     return spec;
   };
-  // What has another unit gets a plot of its own.
+  // What has another unit gets a plot of its own; Value axis > Right puts it beside the first.
   offer(QStringLiteral("Derivative"), with(CurveKind::Derivative, 0.0), true);
   offer(QStringLiteral("Integral"), with(CurveKind::Integral, 0.0), true);
   for (const double seconds : {0.2, 1.0, 5.0}) {
@@ -259,6 +272,8 @@ QMenu* makePlotsMenu(PlotsDock* dock) {
   menu->addAction(QStringLiteral("Add curve…"), dock, [dock] { askForCurve(dock); });
   menu->addAction(QStringLiteral("Rename tab…"), dock,
                   [dock] { dock->renamePage(int(dock->pages().indexOf(dock->currentPage()))); });
+  menu->addAction(QStringLiteral("Remove all plots of the tab"), dock,
+                  [dock] { dock->currentPage()->removeAll(); });
   menu->addSeparator();
   addPresets(menu, dock);
   menu->addSeparator();
@@ -277,7 +292,7 @@ void askForCurve(PlotsDock* dock) {
 }
 
 void editCurve(PlotsDock* dock, PlotPane* pane, int curve) {
-  CurveDialog dialog(dock->feed(), pane->curves()[static_cast<std::size_t>(curve)].spec(), dock);
+  CurveDialog dialog(dock->feed(), pane->description(curve), dock);
   if (dialog.exec() == QDialog::Accepted) pane->setCurve(curve, dialog.curve());
 }
 
@@ -289,6 +304,7 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
     into->addAction(QStringLiteral("Edit…"), dock,
                     [dock, pane, index] { editCurve(dock, pane, index); });
     if (pane->kind() != PaneKind::Lane) addLooks(into, pane, index);
+    addForEach(into, pane, index);
     addDerived(into, page, pane, index);
     into->addAction(themedIcon(QStringLiteral("edit-delete")), QStringLiteral("Remove curve"), page,
                     [page, pane, index] {

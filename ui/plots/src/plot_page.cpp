@@ -5,6 +5,8 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMimeData>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSplitter>
 #include <QVBoxLayout>
 
@@ -40,6 +42,8 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
       m_name(spec.name),
       m_stack(new QWidget(this)),
       m_panes(new QSplitter(Qt::Vertical, m_stack)),
+      m_split(new QSplitter(Qt::Horizontal, this)),
+      m_scroll(new QScrollArea(m_stack)),
       m_empty(new QLabel(m_stack)),
       m_marks(new MarksPanel(feed, timeline, this)) {
   setObjectName(QStringLiteral("plotPage"));
@@ -52,6 +56,15 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   m_stack->setAutoFillBackground(true);
   m_panes->setChildrenCollapsible(false);
   m_panes->setHandleWidth(scaled(this, 4));
+  m_panes->setBackgroundRole(QPalette::Base);
+  // More plots than fit are scrolled: the window never grows because of them.
+  m_scroll->setFrameShape(QFrame::NoFrame);
+  m_scroll->setWidgetResizable(true);
+  m_scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  m_scroll->setFocusPolicy(Qt::NoFocus);
+  m_scroll->viewport()->setBackgroundRole(QPalette::Base);
+  m_scroll->setWidget(m_panes);
+  connect(m_scroll->verticalScrollBar(), &QScrollBar::valueChanged, this, &PlotPage::placeLines);
   m_empty->setObjectName(QStringLiteral("emptyPlots"));
   m_empty->setText(
       QStringLiteral("Drag variables here, or press Enter on one in Variables.\n"
@@ -63,29 +76,30 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   column->setSpacing(0);
   column->addWidget(m_heads);
   column->addWidget(m_empty, 1);
-  column->addWidget(m_panes, 1);
+  column->addWidget(m_scroll, 1);
   column->addWidget(m_ruler);
-  auto* split = new QSplitter(Qt::Horizontal, this);
-  split->setChildrenCollapsible(false);
-  split->setHandleWidth(scaled(this, 1));
-  split->addWidget(m_stack);
-  split->addWidget(m_marks);
-  split->setStretchFactor(0, 1);
+  m_split->setChildrenCollapsible(false);
+  m_split->setHandleWidth(scaled(this, 1));
+  m_split->addWidget(m_stack);
+  m_split->addWidget(m_marks);
+  m_split->setStretchFactor(0, 1);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
-  row->addWidget(split);
+  row->addWidget(m_split);
   m_stack->installEventFilter(this);
   connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::changed);
-  connect(feed->time(), &LinkedTime::cursorChanged, this, [this] {
-    if (!isVisible()) return;
-    for (PlotPane* pane : panes()) {
-      if (pane->isOverTime())
-        pane->showValues();
-      else
-        pane->refresh();
-      if (pane->kind() == PaneKind::Lane) pane->surface()->update();
-    }
-  });
+  for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::momentChanged}) {
+    connect(feed->time(), moved, this, [this] {
+      if (!isVisible()) return;
+      for (PlotPane* pane : panes()) {
+        if (pane->isOverTime())
+          pane->showValues();
+        else
+          pane->refresh();
+        if (pane->kind() == PaneKind::Lane) pane->surface()->update();
+      }
+    });
+  }
   for (const PaneSpec& pane : spec.panes) insertPane(m_panes->count(), pane);
   QList<int> shares;
   for (const PaneSpec& pane : spec.panes) shares << pane.share;
@@ -124,7 +138,12 @@ PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
   pane->setBoxTool(m_boxTool);
   connect(pane, &PlotPane::leftChanged, this, &PlotPage::align);
   connect(pane, &PlotPane::changed, this, &PlotPage::changed);
-  connect(pane, &PlotPane::changed, this, [this] { m_marks->refresh(panes()); });
+  connect(pane, &PlotPane::changed, this, &PlotPage::showMarks);
+  connect(pane, &PlotPane::pointed, this, [this, pane](std::optional<QPointF> at) {
+    m_pointedPane = pane;
+    m_pointedAt = at;
+    showPointed();
+  });
   connect(pane, &PlotPane::menuRequested, this,
           [this, pane](int curve, const QPoint& at) { emit menuRequested(pane, curve, at); });
   connect(pane, &PlotPane::editRequested, this,
@@ -141,8 +160,43 @@ void PlotPage::removePane(PlotPane* pane) {
   pane->setParent(nullptr);
   pane->deleteLater();
   align();
-  m_marks->refresh(panes());
+  showMarks();
   emit changed();
+}
+
+void PlotPage::removeAll() {
+  for (PlotPane* pane : panes()) {
+    pane->setParent(nullptr);
+    pane->deleteLater();
+  }
+  align();
+  showMarks();
+  emit changed();
+}
+
+// The table gets the width that its columns want, as long as the plots keep half.
+void PlotPage::showMarks() {
+  const bool before = m_marks->isVisibleTo(this);
+  m_marks->refresh(panes());
+  if (before || !m_marks->isVisibleTo(this)) return;
+  const int wanted = std::min(m_marks->sizeHint().width(), width() / 2);
+  m_split->setSizes({width() - wanted, wanted});
+}
+
+void PlotPage::showPointed() {
+  std::optional<PointedValue> value;
+  if (m_pointedPane && m_pointedAt) {
+    const QString text = m_pointedPane->pointedText(*m_pointedAt);
+    const QPointF at = m_pointedPane->surface()->mapTo(m_stack, m_pointedAt->toPoint());
+    if (!text.isEmpty()) value = {at.y() - m_lines->y(), text};
+  }
+  m_lines->setPointed(value);
+}
+
+void PlotPage::setForPicture(bool on) {
+  m_lines->setForPicture(on);
+  m_ruler->setForPicture(on);
+  m_scroll->setVerticalScrollBarPolicy(on ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
 }
 
 void PlotPage::replacePane(PlotPane* pane, const PaneSpec& spec) {
@@ -222,6 +276,9 @@ void PlotPage::drop(const QStringList& names, const QPoint& position) {
     xy.kind = PaneKind::Xy;
     xy.curves << variableCurve(names[0]);
     xy.curves[0].inputs << names[1];
+    // A path on the field is one only when a metre is a metre in both directions.
+    const ColumnView x = m_feed->find(names[0]), y = m_feed->find(names[1]);
+    xy.equalScales = x && y && !x.info().unit.empty() && x.info().unit == y.info().unit;
     insertPane(m_panes->count(), xy);
     return;
   }
@@ -276,17 +333,20 @@ void PlotPage::align() {
   if (m_aligning) return;
   m_aligning = true;
   int left = scaled(this, plainLeft);
+  int right = scaled(this, PlotPane::rightMargin);
   bool overTime = false;
   for (PlotPane* pane : panes()) {
     left = qMax(left, pane->wantedLeft());
+    right = qMax(right, pane->wantedRight());
     overTime = overTime || pane->isOverTime();
   }
   m_left = left;
-  for (PlotPane* pane : panes()) pane->setLeft(left);
+  m_right = right;
+  for (PlotPane* pane : panes()) pane->setEdges(left, right);
   giveLanesTheirHeight();
   const bool empty = m_panes->count() == 0;
   m_empty->setVisible(empty);
-  m_panes->setVisible(!empty);
+  m_scroll->setVisible(!empty);
   m_ruler->setVisible(overTime);
   m_aligning = false;
   placeLines();
@@ -317,21 +377,22 @@ void PlotPage::giveLanesTheirHeight() {
 }
 
 TimeAxis PlotPage::timeAxis() const {
-  const int right = qMax(m_stack->width() - scaled(this, PlotPane::rightMargin), m_left + 1);
+  const int right = qMax(m_scroll->viewport()->width() - m_right, m_left + 1);
   return {m_feed->time()->range(), static_cast<double>(m_left),
           static_cast<double>(right - m_left)};
 }
 
 void PlotPage::placeLines() {
-  int bottom = 0;
-  for (PlotPane* pane : panes()) {
-    if (pane->isOverTime()) bottom = pane->mapTo(m_stack, QPoint(0, pane->height())).y();
-  }
   const bool hinting = m_lines->hint().has_value();
-  const int top = m_heads->isVisibleTo(m_stack) ? m_heads->geometry().bottom() : 0;
-  m_lines->setGeometry(0, hinting ? 0 : top, m_stack->width(),
-                       hinting || bottom == 0 ? m_stack->height() : bottom - top);
+  m_lines->setGeometry(hinting ? m_stack->rect() : m_scroll->geometry());
+  QList<QRect> plots;
+  for (PlotPane* pane : panes()) {
+    if (!pane->isOverTime()) continue;
+    plots << QRect(pane->mapTo(m_stack, QPoint()) - m_lines->pos(), pane->size());
+  }
+  m_lines->setPlots(plots);
   m_lines->raise();
+  showPointed();
 }
 
 bool PlotPage::eventFilter(QObject* watched, QEvent* event) {
@@ -358,7 +419,7 @@ bool PlotPage::isWorking() const {
 
 void PlotPage::refresh() {
   for (PlotPane* pane : panes()) pane->refresh();
-  m_marks->refresh(panes());
+  showMarks();
   m_ruler->update();
   giveLanesTheirHeight();
   placeLines();

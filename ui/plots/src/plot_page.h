@@ -5,12 +5,14 @@
 // what lies between the marks. Takes drops for all its plots. UI thread only.
 
 #include <QList>
+#include <QPointer>
 #include <QWidget>
 
 #include "plot_pane.h"
 
 class QLabel;
 class QMimeData;
+class QScrollArea;
 class QSplitter;
 
 namespace pitchboard::ui {
@@ -48,6 +50,9 @@ class PlotPage : public QWidget {
   MarksPanel* marksPanel() const { return m_marks; }
   /// What a picture of the page shows: the plots with their marks, without the table.
   QWidget* picture() const { return m_stack; }
+  /// While on, nothing is drawn that only makes sense on the screen: pointer, moment, scroll bar.
+  void setForPicture(bool on);
+  void removeAll();
   void setBoxTool(bool on);
   /// A curve is still being computed.
   bool isWorking() const;
@@ -79,18 +84,24 @@ class PlotPage : public QWidget {
   void align();
   void placeLines();
   void giveLanesTheirHeight();
+  void showPointed();
+  void showMarks();
   TimeAxis timeAxis() const;
 
   PlotFeed* m_feed;
   QString m_name;
   QWidget* m_stack;
   QSplitter* m_panes;
+  QSplitter* m_split;
+  QScrollArea* m_scroll;  // of m_panes
   QLabel* m_empty;
   MarkHeads* m_heads;
   TimeRuler* m_ruler;
   TimeLines* m_lines;
   MarksPanel* m_marks;
-  int m_left = 0;
+  QPointer<PlotPane> m_pointedPane;
+  std::optional<QPointF> m_pointedAt;  // in the pane's surface
+  int m_left = 0, m_right = 0;
   bool m_boxTool = false;
   bool m_aligning = false;
 };

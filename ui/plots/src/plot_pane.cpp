@@ -4,11 +4,13 @@
 #include <QContextMenuEvent>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
 
 #include "chart_pane.h"
+#include "curve_template.h"
 #include "lane_pane.h"
 #include "legend_bar.h"
 #include "xy_pane.h"
@@ -23,7 +25,9 @@ PlotPane::PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
       m_column(new QVBoxLayout(this)) {
   setObjectName(QStringLiteral("plot"));
   m_spec.curves.clear();
-  for (const CurveSpec& curve : spec.curves) m_curves.emplace_back(curve);
+  m_descriptions = spec.curves;
+  m_right = scaled(this, rightMargin);
+  expand();
   m_column->setContentsMargins(0, 0, 0, 0);
   m_column->setSpacing(0);
   m_column->addWidget(m_legend);
@@ -39,7 +43,7 @@ void PlotPane::setSurface(QWidget* surface) {
 
 PaneSpec PlotPane::spec() const {
   PaneSpec all = m_spec;
-  for (const Curve& curve : m_curves) all.curves << curve.spec();
+  all.curves = m_descriptions;
   return all;
 }
 
@@ -54,37 +58,66 @@ void PlotPane::setOptions(const PaneSpec& spec) {
 
 int PlotPane::freeColor() const {
   for (int number = 0;; ++number) {
-    const auto uses = [number](const Curve& c) { return c.spec().colorNumber == number; };
+    const auto uses = [number](const Curve& c) {
+      return c.spec().colorNumber % curveColors == number;
+    };
+    if (number == curveColors) return static_cast<int>(m_curves.size());
     if (std::none_of(m_curves.begin(), m_curves.end(), uses)) return number;
   }
 }
 
 bool PlotPane::hasCurve(const CurveSpec& curve) const {
-  return std::any_of(m_curves.begin(), m_curves.end(), [&curve](const Curve& mine) {
-    return mine.spec().kind == curve.kind && mine.spec().inputs == curve.inputs &&
-           mine.spec().expression == curve.expression && mine.spec().parameter == curve.parameter &&
-           mine.spec().offset == curve.offset;
-  });
+  return std::any_of(m_curves.begin(), m_curves.end(),
+                     [&curve](const Curve& mine) { return sameData(mine.spec(), curve); });
 }
 
 void PlotPane::addCurve(CurveSpec curve) {
   if (hasCurve(curve)) return;
   const auto taken = [&curve](const Curve& c) { return c.spec().colorNumber == curve.colorNumber; };
   if (std::any_of(m_curves.begin(), m_curves.end(), taken)) curve.colorNumber = freeColor();
-  m_curves.emplace_back(curve);
+  m_descriptions << curve;
+  expand();
   edited();
 }
 
 void PlotPane::setCurve(int index, const CurveSpec& curve) {
   if (index < 0 || static_cast<std::size_t>(index) >= m_curves.size()) return;
-  m_curves[static_cast<std::size_t>(index)].setSpec(curve);
+  m_descriptions[m_describedBy[static_cast<std::size_t>(index)]] = curve;
+  expand();
   edited();
 }
 
 void PlotPane::removeCurve(int index) {
   if (index < 0 || static_cast<std::size_t>(index) >= m_curves.size()) return;
-  m_curves.erase(m_curves.begin() + index);
+  m_descriptions.removeAt(m_describedBy[static_cast<std::size_t>(index)]);
+  expand();
   edited();
+}
+
+const CurveSpec& PlotPane::description(int curve) const {
+  return m_descriptions[m_describedBy[static_cast<std::size_t>(curve)]];
+}
+
+// Curves that go on keep what was computed for them.
+void PlotPane::expand() {
+  m_expandedFor = m_feed->looks();
+  std::vector<Curve> before = std::exchange(m_curves, {});
+  std::vector<bool> taken(before.size(), false);
+  m_describedBy.clear();
+  for (qsizetype d = 0; d < m_descriptions.size(); ++d) {
+    for (const CurveSpec& wanted : curvesOf(m_descriptions[d], *m_feed)) {
+      std::size_t i = 0;
+      while (i < before.size() && (taken[i] || !sameData(before[i].spec(), wanted))) ++i;
+      if (i < before.size()) {
+        taken[i] = true;
+        m_curves.push_back(std::move(before[i]));
+        m_curves.back().setSpec(wanted);
+      } else {
+        m_curves.emplace_back(wanted);
+      }
+      m_describedBy.push_back(d);
+    }
+  }
 }
 
 void PlotPane::edited() {
@@ -92,19 +125,21 @@ void PlotPane::edited() {
   emit changed();
 }
 
-void PlotPane::setLeft(int left) {
-  if (left == m_left) return;
+void PlotPane::setEdges(int left, int right) {
+  if (left == m_left && right == m_right) return;
   m_left = left;
+  m_right = right;
   m_legend->setLeft(left, scaled(this, rightMargin));
   draw();
 }
 
 TimeAxis PlotPane::timeAxis() const {
-  const double right = std::max(surface()->width() - scaled(this, rightMargin), m_left + 1);
+  const double right = std::max(surface()->width() - m_right, m_left + 1);
   return {m_feed->time()->range(), static_cast<double>(m_left), right - m_left};
 }
 
 void PlotPane::refresh() {
+  if (m_feed->looks() != m_expandedFor) expand();
   for (Curve& curve : m_curves) curve.update(*m_feed);
   showValues();
   draw();
@@ -123,7 +158,7 @@ void PlotPane::showValues() {
       entry.text = entry.faulty ? entry.text + QStringLiteral(": ") + curve.note() : curve.note();
     } else {
       if (!curve.unit().isEmpty()) entry.text += QStringLiteral(" [%1]").arg(curve.unit());
-      entry.value = curve.valueTextAt(m_feed->time()->cursor());
+      entry.value = curve.valueTextAt(m_feed->time()->readAt());
     }
     entry.color = curve.color();
     entry.tip = curve.spec().inputs.join(QStringLiteral(", "));

@@ -31,7 +31,10 @@ class PlotPane : public QWidget {
   PaneSpec spec() const;
   /// Title, limits, axes: everything but the curves.
   void setOptions(const PaneSpec& spec);
+  /// What is shown: more curves than descriptions where one stands for every robot.
   const std::vector<Curve>& curves() const { return m_curves; }
+  /// The description that a shown curve is of.
+  const CurveSpec& description(int curve) const;
 
   void addCurve(CurveSpec curve);
   void setCurve(int index, const CurveSpec& curve);
@@ -45,12 +48,17 @@ class PlotPane : public QWidget {
   virtual bool isOverTime() const { return true; }
   /// Room that value labels need at the left, px.
   virtual int wantedLeft() const { return 0; }
-  void setLeft(int left);
+  /// The same at the right, where a plot has a second value axis.
+  virtual int wantedRight() const { return 0; }
+  void setEdges(int left, int right);
   int left() const { return m_left; }
+  int right() const { return m_right; }
   /// In coordinates of surface().
   TimeAxis timeAxis() const;
   /// A drag without keys draws a box.
   virtual void setBoxTool(bool) {}
+  /// The value at this place of the surface, in words; empty where there is none.
+  virtual QString pointedText(QPointF) const { return {}; }
 
   /// Takes the newest rows and draws what is visible of them.
   void refresh();
@@ -64,6 +72,7 @@ class PlotPane : public QWidget {
   void leftChanged();  ///< wantedLeft() or a fixed height did
   void menuRequested(int curve, const QPoint& globalPosition);  ///< curve: -1 for the plot
   void editRequested(int curve);
+  void pointed(std::optional<QPointF> at);  ///< the pointer, in the surface
 
  protected:
   PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent);
@@ -82,11 +91,15 @@ class PlotPane : public QWidget {
 
  private:
   void edited();
+  void expand();
   int freeColor() const;
 
   LegendBar* m_legend;
   QVBoxLayout* m_column;
-  int m_left = 0;
+  QList<CurveSpec> m_descriptions;
+  std::vector<qsizetype> m_describedBy;  // the description of each curve
+  quint64 m_expandedFor = 0;             // the feed's looks()
+  int m_left = 0, m_right = 0;
 };
 
 /// The pane for a description's kind.

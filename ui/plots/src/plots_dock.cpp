@@ -2,16 +2,21 @@
 #include <ui/plots/plots_dock.h>
 
 #include <QAction>
-#include <QComboBox>
+#include <QActionGroup>
 #include <QDockWidget>
 #include <QHBoxLayout>
 #include <QInputDialog>
 #include <QJsonDocument>
+#include <QMenu>
 #include <QSettings>
 #include <QTabBar>
 #include <QTabWidget>
+#include <QToolBar>
 #include <QToolButton>
+#include <QUndoStack>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <map>
 
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
@@ -22,6 +27,8 @@
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
+#include "curve_template.h"
+#include "layout_command.h"
 #include "plot_feed.h"
 #include "plot_page.h"
 
@@ -42,7 +49,6 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
   button->setDefaultAction(action);
   button->setAutoRaise(true);
-  button->setFocusPolicy(Qt::NoFocus);
   button->setIconSize(QSize(scaled(parent, 16), scaled(parent, 16)));
   button->setFont(themeFont(TypeRole::Secondary));
   if (action->icon().isNull()) button->setToolButtonStyle(Qt::ToolButtonTextOnly);
@@ -59,19 +65,26 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
       m_feed(new PlotFeed(context.source, context.time, this)),
       m_tabs(new QTabWidget(this)),
       m_notices(new NoticeBar(this)),
-      m_window(new QComboBox(this)) {
+      m_window(new QToolButton(this)),
+      m_undo(new QUndoStack(this)) {
   setObjectName(QStringLiteral("plots"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(m_notices);
-  column->addWidget(m_tabs, 1);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(0);
+  row->addWidget(makeTools());
+  row->addWidget(m_tabs, 1);
+  column->addLayout(row, 1);
   m_tabs->setDocumentMode(true);
+  // The dock has a tab already: with one page, its own row would only take room from the curves.
+  m_tabs->setTabBarAutoHide(true);
   m_tabs->setMovable(true);
   m_tabs->tabBar()->setFont(themeFont(TypeRole::Secondary));
   m_tabs->tabBar()->setExpanding(false);
   m_tabs->setElideMode(Qt::ElideRight);
-  makeTools();
   m_draw.setSingleShot(true);
   m_draw.setInterval(drawMilliseconds);
   m_saveSoon.setSingleShot(true);
@@ -90,21 +103,46 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   connect(context.source, &SourceSwitch::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
   if (context.timeline != nullptr) {
     connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
+    connect(context.time, &LinkedTime::nowRequested, context.timeline, &Timeline::goLive);
+    connect(context.timeline, &Timeline::moved, this, &PlotsDock::follow);
+    connect(context.timeline, &Timeline::lookingBackChanged, this, &PlotsDock::follow);
+    connect(context.timeline, &Timeline::sourceChanged, this, &PlotsDock::follow);
+    follow();
   }
   if (context.compared != nullptr) {
     connect(context.compared, &ComparedSession::changed, this, &PlotsDock::compare);
     connect(context.compared, &ComparedSession::rowsCame, this, &PlotsDock::scheduleDraw);
     compare();
   }
-  PlotLayout layout;
-  if (context.settings != nullptr) {
-    const std::string saved = context.settings->value(layoutKey).toByteArray().toStdString();
-    // A layout that cannot be read is not worth a message at every start: the plots begin empty.
-    if (const auto read = layoutFromText(saved, "settings")) layout = *read;
-    const double window = context.settings->value(windowKey).toDouble();
-    if (window > 0.0) context.time->setWindow(window);
+  restore();
+}
+
+void PlotsDock::restore() {
+  const QSettings* settings = m_context.settings;
+  PlotLayout layout = m_context.first;
+  if (settings != nullptr && settings->contains(layoutKey)) {
+    const std::string saved = settings->value(layoutKey).toByteArray().toStdString();
+    if (const auto read = layoutFromText(saved, "settings")) {
+      layout = *read;
+    } else {
+      layout = {};
+      showNotice(QStringLiteral("The plots of the last time cannot be shown, they begin empty: %1")
+                     .arg(QString::fromStdString(read.error().text())));
+    }
   }
-  setLayoutSpec(layout);
+  const double window = settings != nullptr ? settings->value(windowKey).toDouble() : 0.0;
+  if (window > 0.0) m_context.time->setWindow(window);
+  put(layout);
+  m_known = layoutSpec();
+  changed();
+  m_saveSoon.stop();
+}
+
+/// Plots are at the moment that field and cards show.
+void PlotsDock::follow() {
+  const Timeline& timeline = *m_context.timeline;
+  const bool past = timeline.isLookingBack() || timeline.isRecording();
+  m_context.time->setMoment(past ? std::optional(timeline.shownTime()) : std::nullopt);
 }
 
 PlotsDock::~PlotsDock() {
@@ -115,32 +153,33 @@ QSize PlotsDock::sizeHint() const {
   return {scaled(this, 800), scaled(this, 248)};
 }
 
-void PlotsDock::makeTools() {
-  auto* corner = new QWidget(this);
-  auto* row = new QHBoxLayout(corner);
-  row->setContentsMargins(0, 0, scaled(this, 4), 0);
-  row->setSpacing(scaled(this, 2));
+// Beside the plots, because height is what they lack.
+QToolBar* PlotsDock::makeTools() {
+  auto* tools = new QToolBar(QStringLiteral("Tools of the plots"), this);
+  tools->setOrientation(Qt::Vertical);
+  tools->setObjectName(QStringLiteral("plotTools"));
   LinkedTime* time = m_context.time;
 
-  m_follow = new QAction(themedIcon(QStringLiteral("media-seek-forward")),
-                         QStringLiteral("Follow live"), this);
-  m_follow->setToolTip(QStringLiteral("Follow the newest moment"));
+  m_follow =
+      new QAction(themedIcon(QStringLiteral("media-seek-forward")), QStringLiteral("Follow"), this);
+  m_follow->setToolTip(QStringLiteral("Follow the newest moment, or the moment shown"));
   m_follow->setCheckable(true);
   m_follow->setChecked(time->isFollowing());
   connect(m_follow, &QAction::triggered, time, &LinkedTime::setFollowing);
   connect(time, &LinkedTime::followingChanged, m_follow, &QAction::setChecked);
 
-  for (const double seconds : LinkedTime::windows) {
-    m_window->addItem(windowText(seconds), seconds);
-  }
   m_window->setObjectName(QStringLiteral("plotWindow"));
   m_window->setToolTip(QStringLiteral("How much is shown while following"));
   m_window->setFont(themeFont(TypeRole::Secondary));
-  m_window->setFocusPolicy(Qt::NoFocus);
-  connect(m_window, &QComboBox::activated, this, [this, time](int index) {
-    time->setWindow(m_window->itemData(index).toDouble());
-    time->setFollowing(true);
-  });
+  m_window->setPopupMode(QToolButton::InstantPopup);
+  auto* windows = new QMenu(m_window);
+  for (const double seconds : LinkedTime::windows) {
+    windows->addAction(windowText(seconds), this, [time, seconds] {
+      time->setWindow(seconds);
+      time->setFollowing(true);
+    });
+  }
+  m_window->setMenu(windows);
   connect(time, &LinkedTime::windowChanged, this, &PlotsDock::showWindow);
   showWindow();
 
@@ -183,25 +222,20 @@ void PlotsDock::makeTools() {
     m_tabs->setCurrentIndex(m_tabs->count() - 1);
   });
 
-  row->addWidget(toolButton(m_follow, corner));
-  row->addWidget(m_window);
+  tools->addWidget(toolButton(m_follow, tools));
+  tools->addWidget(m_window);
   for (QAction* action : {m_marks, m_box, fit, add, newPage, more}) {
-    row->addWidget(toolButton(action, corner));
+    tools->addWidget(toolButton(action, tools));
   }
-  m_tabs->setCornerWidget(corner, Qt::TopRightCorner);
+  return tools;
 }
 
 void PlotsDock::showWindow() {
   const double seconds = m_context.time->window();
-  int index = m_window->findData(seconds);
-  constexpr auto offered = static_cast<int>(LinkedTime::windows.size());
-  if (index < 0) {
-    // Zoomed by hand: one more entry tells what it is now.
-    while (m_window->count() > offered) m_window->removeItem(offered);
-    m_window->addItem(QStringLiteral("%1 s").arg(seconds, 0, 'g', 3), seconds);
-    index = offered;
-  }
-  m_window->setCurrentIndex(index);
+  const auto& offered = LinkedTime::windows;
+  const bool round = std::find(offered.begin(), offered.end(), seconds) != offered.end();
+  m_window->setText(round ? windowText(seconds) : QStringLiteral("%1 s").arg(seconds, 0, 'g', 3));
+  m_window->setAccessibleName(QStringLiteral("Time shown: %1").arg(m_window->text()));
   if (!m_restoring) m_saveSoon.start();
 }
 
@@ -230,7 +264,7 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
   m_tabs->tabBar()->setTabButton(index, QTabBar::RightSide, close);
   connect(page, &PlotPage::changed, this, [this, page] {
     m_tabs->setTabText(m_tabs->indexOf(page), page->name());
-    if (!m_restoring) m_saveSoon.start();
+    changed();
     scheduleDraw();
   });
   connect(page, &PlotPage::menuRequested, this,
@@ -239,7 +273,7 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
           });
   connect(page, &PlotPage::editRequested, this,
           [this](PlotPane* pane, int curve) { editCurve(this, pane, curve); });
-  if (!m_restoring) m_saveSoon.start();
+  changed();
   return page;
 }
 
@@ -249,7 +283,7 @@ void PlotsDock::closePage(int index) {
   m_tabs->removeTab(index);
   page->deleteLater();
   if (m_tabs->count() == 0) addPage({QStringLiteral("Plots"), {}});
-  m_saveSoon.start();
+  changed();
 }
 
 void PlotsDock::renamePage(int index) {
@@ -270,6 +304,35 @@ PlotLayout PlotsDock::layoutSpec() const {
 }
 
 void PlotsDock::setLayoutSpec(const PlotLayout& layout) {
+  put(layout);
+  changed();
+}
+
+/// Something that a layout holds is another: kept soon, and can be undone.
+void PlotsDock::changed() {
+  if (m_restoring) return;
+  m_saveSoon.start();
+  PlotLayout now = layoutSpec();
+  std::map<QString, CurveSpec> named;
+  for (const PageSpec& page : now.pages) {
+    for (const PaneSpec& pane : page.panes) {
+      for (const CurveSpec& curve : pane.curves) {
+        const bool computed = curve.kind != CurveKind::Variable || !curve.title.isEmpty();
+        if (computed && !isTemplate(curve)) named.emplace(curveName(curve), curve);
+      }
+    }
+  }
+  m_feed->setNamedCurves(named);
+  if (now == m_known) return;
+  m_undo->push(new LayoutCommand(m_known, now, [this](const PlotLayout& layout) {
+    put(layout);
+    m_known = layoutSpec();
+    changed();
+  }));
+  m_known = std::move(now);
+}
+
+void PlotsDock::put(const PlotLayout& layout) {
   m_restoring = true;
   while (m_tabs->count() > 0) {
     QWidget* page = m_tabs->widget(0);
@@ -292,6 +355,11 @@ void PlotsDock::save() {
 
 void PlotsDock::showNotice(const QString& sentence) {
   m_notices->show(sentence);
+}
+
+QStringList PlotsDock::variables() const {
+  m_feed->refresh();
+  return m_feed->names();
 }
 
 void PlotsDock::plotVariables(const QStringList& names) {

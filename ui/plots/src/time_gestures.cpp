@@ -15,6 +15,7 @@ constexpr double stepFactor = 0.8;   // one notch of the wheel
 constexpr double notch = 120.0;      // eighths of a degree, as Qt counts them
 constexpr double markReach = 4.0;    // px of the mock
 constexpr double smallestBox = 4.0;  // px; less is a click
+constexpr double clickReach = 4.0;   // px; more is a drag
 constexpr double flatBox = 10.0;     // px; lower boxes choose times only
 }  // namespace
 
@@ -22,12 +23,18 @@ TimeGestures::TimeGestures(QWidget* surface, LinkedTime* time, std::function<Tim
     : QObject(surface), m_surface(surface), m_time(time), m_axis(std::move(axis)) {
   surface->setMouseTracking(true);
   surface->installEventFilter(this);
+  connect(time, &LinkedTime::rangeChanged, this, &TimeGestures::showCursor);
 }
 
 bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
   if (watched != m_surface) return false;
   switch (event->type()) {
     case QEvent::Wheel:
+      // Over the numbers beside the axis it scrolls the plots.
+      if (static_cast<QWheelEvent*>(event)->position().x() < m_axis().left) {
+        event->ignore();
+        return true;
+      }
       wheel(static_cast<QWheelEvent*>(event));
       return true;
     case QEvent::MouseButtonPress:
@@ -43,11 +50,16 @@ bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
       return true;
     case QEvent::MouseButtonDblClick:
       if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return false;
+      // Its first half was a click, and is taken back.
+      if (m_before)
+        m_time->requestMoment(*m_before);
+      else
+        m_time->requestNow();
       m_time->fitAll();
       emit fitRequested();
       return true;
     case QEvent::Leave:
-      m_time->setCursor({});
+      leave();
       return false;
     default:
       return false;
@@ -80,7 +92,22 @@ std::optional<TimeMark> TimeGestures::markAt(const QPointF& position) const {
   return {};
 }
 
+void TimeGestures::leave() {
+  m_over = false;
+  m_time->setCursor({});
+  emit pointed({});
+}
+
+void TimeGestures::showCursor() {
+  if (!m_over) return;
+  const TimeAxis axis = m_axis();
+  const bool inside = m_last.x() >= axis.left && m_last.x() <= axis.right();
+  const bool moving = m_drag == Drag::Pan && m_dragged;
+  m_time->setCursor(inside && !moving ? std::optional(axis.time(m_last.x())) : std::nullopt);
+}
+
 void TimeGestures::press(QMouseEvent* event) {
+  m_dragged = false;
   m_from = m_last = event->position();
   const bool left = event->button() == Qt::LeftButton;
   if (left && (m_boxTool || (event->modifiers() & Qt::ShiftModifier))) {
@@ -96,7 +123,6 @@ void TimeGestures::press(QMouseEvent* event) {
     return;
   }
   m_drag = Drag::Pan;
-  m_surface->setCursor(Qt::ClosedHandCursor);
 }
 
 void TimeGestures::move(QMouseEvent* event) {
@@ -111,6 +137,9 @@ void TimeGestures::move(QMouseEvent* event) {
         m_surface->unsetCursor();
       break;
     case Drag::Pan: {
+      if (!m_dragged && (at - m_from).manhattanLength() < clickReach) return;
+      m_dragged = true;
+      m_surface->setCursor(Qt::ClosedHandCursor);
       m_time->pan(-(at.x() - m_last.x()) / axis.width * (axis.shown.end - axis.shown.begin));
       if (at.y() != m_last.y()) emit valuePanned(at.y() - m_last.y());
       break;
@@ -129,14 +158,22 @@ void TimeGestures::move(QMouseEvent* event) {
       break;
   }
   m_last = at;
-  const bool inside = at.x() >= axis.left && at.x() <= axis.right();
-  m_time->setCursor(inside && m_drag != Drag::Pan ? std::optional(m_axis().time(at.x()))
-                                                  : std::nullopt);
+  m_over = true;
+  showCursor();
+  emit pointed(at);
 }
 
 void TimeGestures::release(QMouseEvent* event) {
   const Drag drag = std::exchange(m_drag, Drag::None);
-  if (drag == Drag::Pan) m_surface->unsetCursor();
+  if (drag == Drag::Pan) {
+    m_surface->unsetCursor();
+    const TimeAxis axis = m_axis();
+    const double x = m_from.x();
+    if (m_dragged || event->button() != Qt::LeftButton || x < axis.left || x > axis.right()) return;
+    m_before = m_time->moment();
+    m_time->requestMoment(axis.time(x));
+    return;
+  }
   if (drag != Drag::Box) return;
   m_band->hide();
   const QRectF box = QRectF(m_from, event->position()).normalized();

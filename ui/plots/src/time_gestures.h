@@ -2,7 +2,8 @@
 #pragma once
 
 // What the mouse does over anything that has the linked time axis: the wheel zooms, dragging moves,
-// hovering sets the cursor, and a mark near the pointer can be dragged. UI thread only.
+// a click shows that moment everywhere, hovering sets the cursor, which stays under a still pointer
+// while times run along below it, and a mark near the pointer can be dragged. UI thread only.
 
 #include <QObject>
 #include <QPointF>
@@ -43,12 +44,16 @@ class TimeGestures : public QObject {
   void boxDrawn(const QRectF& box);
   /// Double click.
   void fitRequested();
+  /// Where the pointer is, in the surface; nothing: not over it.
+  void pointed(std::optional<QPointF> at);
 
  private:
   void wheel(QWheelEvent* event);
   void press(QMouseEvent* event);
   void move(QMouseEvent* event);
   void release(QMouseEvent* event);
+  void leave();
+  void showCursor();
   std::optional<TimeMark> markAt(const QPointF& position) const;
 
   enum class Drag { None, Pan, Box, Mark };
@@ -59,6 +64,9 @@ class TimeGestures : public QObject {
   Drag m_drag = Drag::None;
   TimeMark m_mark = TimeMark::A;
   QPointF m_from, m_last;
+  bool m_over = false;             // the pointer is over the surface, at m_last
+  bool m_dragged = false;          // since the button went down: farther than a trembling hand
+  std::optional<double> m_before;  // the moment shown before the last click
   bool m_boxTool = false;
   bool m_hasValues = true;
 };

@@ -23,6 +23,9 @@ std::vector<AxisTick> ticksOf(const TimeAxis& axis, const PlotFeed& feed, const 
 TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeAxis()> axis, QWidget* parent)
     : QWidget(parent), m_feed(feed), m_axis(std::move(axis)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::momentChanged}) {
+    connect(feed->time(), moved, this, qOverload<>(&QWidget::update));
+  }
 }
 
 QSize TimeRuler::sizeHint() const {
@@ -39,6 +42,29 @@ void TimeRuler::paintEvent(QPaintEvent*) {
     const double x = axis.pixel(tick.time);
     painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }
+  if (m_forPicture) return;
+  const LinkedTime& time = *m_feed->time();
+  if (time.moment()) paintTag(painter, *time.moment(), theme().accentFill, Qt::white);
+  if (time.cursor()) paintTag(painter, *time.cursor(), theme().button, theme().text);
+}
+
+void TimeRuler::paintTag(QPainter& painter, double time, const QColor& ground,
+                         const QColor& text) const {
+  const TimeAxis axis = m_axis();
+  const double x = axis.pixel(time);
+  if (x < axis.left - 0.5 || x > axis.right() + 0.5) return;
+  constexpr double fine = 0.003, coarse = 0.03;  // s for each pixel
+  const double each = axis.secondsPerPixel();
+  const QString words = m_feed->timeText(time, each < fine ? 3 : each < coarse ? 2 : 1);
+  const double wide = painter.fontMetrics().horizontalAdvance(words) + scaled(this, 8);
+  QRectF box(x - wide / 2, 0.5, wide, height() - 1.0);
+  if (box.left() < 0) box.moveLeft(0);
+  if (box.right() > width()) box.moveRight(width());
+  painter.setPen(theme().innerLine);
+  painter.setBrush(ground);
+  painter.drawRoundedRect(box, 2, 2);
+  painter.setPen(text);
+  painter.drawText(box, Qt::AlignCenter, words);
 }
 
 MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent)
@@ -107,8 +133,8 @@ TimeLines::TimeLines(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* 
     : QWidget(parent), m_time(time), m_axis(std::move(axis)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setAttribute(Qt::WA_NoSystemBackground);
-  for (const auto moved :
-       {&LinkedTime::marksChanged, &LinkedTime::cursorChanged, &LinkedTime::rangeChanged}) {
+  for (const auto moved : {&LinkedTime::marksChanged, &LinkedTime::cursorChanged,
+                           &LinkedTime::momentChanged, &LinkedTime::rangeChanged}) {
     connect(time, moved, this, &TimeLines::follow);
   }
 }
@@ -121,8 +147,21 @@ QList<double> TimeLines::places() const {
     all << (x >= axis.left - 0.5 && x <= axis.right() + 0.5 ? std::round(x) : -1.0);
   };
   for (const TimeMark mark : bothMarks) add(m_time->mark(mark));
+  add(m_time->playhead());
   add(m_time->cursor());
   return all;
+}
+
+void TimeLines::setPlots(const QList<QRect>& plots) {
+  if (plots == m_plots) return;
+  m_plots = plots;
+  update();
+}
+
+void TimeLines::setPointed(const std::optional<PointedValue>& value) {
+  if (value == m_pointed) return;
+  m_pointed = value;
+  update();
 }
 
 void TimeLines::follow() {
@@ -144,12 +183,30 @@ void TimeLines::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   const ThemeColors& colors = theme();
   m_drawn = places();
+  // In the order of places().
+  const QPen mark(colors.accentLine, 1.0, Qt::DashLine), moment(colors.accentLine, 2.0),
+      pointer(colors.secondaryText, 1.0);
+  const QPen pens[] = {mark, mark, moment, pointer};
   for (qsizetype i = 0; i < m_drawn.size(); ++i) {
-    if (m_drawn[i] < 0) continue;
-    const bool cursor = i == m_drawn.size() - 1;
-    painter.setPen(cursor ? QPen(colors.secondaryText, 1.0)
-                          : QPen(colors.accentLine, 1.0, Qt::DashLine));
-    painter.drawLine(QPointF(m_drawn[i], 0), QPointF(m_drawn[i], height()));
+    if (m_drawn[i] < 0 || (m_forPicture && i > 1)) continue;
+    painter.setPen(pens[i]);
+    for (const QRect& plot : m_plots) {
+      painter.drawLine(QPointF(m_drawn[i], plot.top()), QPointF(m_drawn[i], plot.bottom()));
+    }
+  }
+  if (m_pointed && !m_forPicture) {
+    const TimeAxis axis = m_axis();
+    painter.setPen(QPen(colors.secondaryText, 1.0, Qt::DotLine));
+    painter.drawLine(QPointF(axis.left, m_pointed->y), QPointF(axis.right(), m_pointed->y));
+    painter.setFont(themeFont(TypeRole::Small));
+    const double high = scaled(this, rulerHeight) - 2.0;
+    const double wide = painter.fontMetrics().horizontalAdvance(m_pointed->text) + scaled(this, 6);
+    const QRectF box(std::max(0.0, axis.left - wide), m_pointed->y - high / 2, wide, high);
+    painter.setPen(colors.innerLine);
+    painter.setBrush(colors.button);
+    painter.drawRoundedRect(box, 2, 2);
+    painter.setPen(colors.text);
+    painter.drawText(box, Qt::AlignCenter, m_pointed->text);
   }
   if (!m_hint) return;
   QColor ground = colors.accentFill;

@@ -2,7 +2,8 @@
 #pragma once
 
 // What stands above and below the plots of a page and runs over all of them: the heads of the A and
-// B marks, the numbers of the time axis, and the lines of marks and cursor. UI thread only.
+// B marks, the numbers of the time axis, and the lines of marks, of the moment shown and of the
+// pointer. UI thread only.
 
 #include <QWidget>
 #include <functional>
@@ -17,19 +18,23 @@ namespace pitchboard::ui {
 
 class TimeGestures;
 
-/// Numbers of the linked time axis; below the lowest plot.
+/// Numbers of the linked time axis, and the times of pointer and moment; below the lowest plot.
 class TimeRuler : public QWidget {
   Q_OBJECT
  public:
   TimeRuler(const PlotFeed* feed, std::function<TimeAxis()> axis, QWidget* parent);
   QSize sizeHint() const override;
+  /// Without the times of pointer and moment.
+  void setForPicture(bool on) { m_forPicture = on; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void paintTag(QPainter& painter, double time, const QColor& ground, const QColor& text) const;
   const PlotFeed* m_feed;
   std::function<TimeAxis()> m_axis;
+  bool m_forPicture = false;
 };
 
 /// Heads of A and B, which can be dragged; there is no row while there are no marks.
@@ -62,13 +67,26 @@ struct DropHint {
 /// Round times of the axis, for its numbers and for the grid above them.
 std::vector<AxisTick> ticksOf(const TimeAxis& axis, const PlotFeed& feed, const QWidget* widget);
 
-/// Lines of marks and cursor over all plots; lets the mouse through.
+/// The value under the pointer, as a line across its plot.
+struct PointedValue {
+  double y = 0.0;
+  QString text;
+  bool operator==(const PointedValue&) const = default;
+};
+
+/// Lines of marks, of the moment shown and of the pointer over all plots; lets the mouse through.
 class TimeLines : public QWidget {
   Q_OBJECT
  public:
   TimeLines(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent);
   void setHint(const std::optional<DropHint>& hint);
   const std::optional<DropHint>& hint() const { return m_hint; }
+  /// Each plot that has the time axis, in this widget.
+  void setPlots(const QList<QRect>& plots);
+  void setPointed(const std::optional<PointedValue>& value);
+  const std::optional<PointedValue>& pointed() const { return m_pointed; }
+  /// For a picture that others look at: marks stay, what follows moment and pointer goes.
+  void setForPicture(bool on) { m_forPicture = on; }
   /// Redraws what has moved since the last time.
   void follow();
 
@@ -82,6 +100,9 @@ class TimeLines : public QWidget {
   std::function<TimeAxis()> m_axis;
   QList<double> m_drawn;  // x of each line
   std::optional<DropHint> m_hint;
+  QList<QRect> m_plots;
+  std::optional<PointedValue> m_pointed;
+  bool m_forPicture = false;
 };
 
 }  // namespace pitchboard::ui

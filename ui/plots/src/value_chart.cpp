@@ -100,7 +100,10 @@ class ValueChart::Layer : public QGraphicsItem {
 };
 
 ValueChart::ValueChart(QWidget* parent)
-    : QChartView(new QChart, parent), m_axisX(new QValueAxis(this)), m_axisY(new QValueAxis(this)) {
+    : QChartView(new QChart, parent),
+      m_axisX(new QValueAxis(this)),
+      m_axisY(new QValueAxis(this)),
+      m_axisRight(new QValueAxis(this)) {
   setFrameShape(NoFrame);
   setRubberBand(NoRubberBand);
   setAcceptDrops(false);  // the page takes drops for all its plots
@@ -123,8 +126,15 @@ ValueChart::ValueChart(QWidget* parent)
   chart()->setLocale(numbersLocale());
   chart()->addAxis(m_axisX, Qt::AlignBottom);
   chart()->addAxis(m_axisY, Qt::AlignLeft);
+  chart()->addAxis(m_axisRight, Qt::AlignRight);
   addSeries(new QLineSeries);  // axes are laid out by the domain of a series
-  for (QValueAxis* axis : {m_axisX, m_axisY}) {
+  auto* atRight = new QLineSeries;
+  chart()->addSeries(atRight);
+  atRight->attachAxis(m_axisX);
+  atRight->attachAxis(m_axisRight);
+  m_axisRight->setVisible(false);
+  m_axisRight->setGridLineVisible(false);
+  for (QValueAxis* axis : {m_axisX, m_axisY, m_axisRight}) {
     axis->setLineVisible(false);
     axis->setTruncateLabels(false);  // wantedLeft() makes room for them
     axis->setTickType(QValueAxis::TicksDynamic);
@@ -155,7 +165,7 @@ void ValueChart::applyTheme() {
   QColor grid = colors.innerLine;
   grid.setRgb((grid.red() + colors.view.red()) / 2, (grid.green() + colors.view.green()) / 2,
               (grid.blue() + colors.view.blue()) / 2);
-  for (QValueAxis* axis : {m_axisX, m_axisY}) {
+  for (QValueAxis* axis : {m_axisX, m_axisY, m_axisRight}) {
     axis->setGridLinePen(QPen(grid, 1));
     axis->setTitleFont(themeFont(TypeRole::Small));
     axis->setTitleBrush(colors.secondaryText);
@@ -190,22 +200,43 @@ void ValueChart::place() {
   redraw();
 }
 
+void ValueChart::put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
+                     double toStep) {
+  if (now == to && step == toStep) return;
+  // While limits and step disagree Qt would make a grid line for every step of the new range.
+  if (step != toStep) axis->setTickInterval(std::max(step, toStep));
+  // Rounding must not cost the first or last number.
+  const double slack = toStep * 1e-9;
+  if (!(now == to)) axis->setRange(to.low - slack, to.high + slack);
+  if (step != toStep) {
+    axis->setTickInterval(toStep);
+    axis->setLabelFormat(QStringLiteral("%.%1f").arg(decimalsOf(toStep)));
+  }
+  now = to;
+  step = toStep;
+}
+
+void ValueChart::setRightAxis(ValueLimits limits, double step) {
+  put(m_axisRight, m_right, limits, m_stepRight, step);
+  if (!m_axisRight->isVisible()) {
+    m_axisRight->setVisible(true);
+    place();
+  }
+}
+
+void ValueChart::hideRightAxis() {
+  if (m_axisRight->isVisible()) m_axisRight->setVisible(false);
+}
+
+int ValueChart::wantedRight() const {
+  const QFontMetrics metrics(themeFont(TypeRole::Small));
+  const int decimals = decimalsOf(m_stepRight);
+  return std::max(metrics.horizontalAdvance(numberText(m_right.low, decimals)),
+                  metrics.horizontalAdvance(numberText(m_right.high, decimals))) +
+         scaled(this, 10);
+}
+
 void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor) {
-  const auto put = [](QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
-                      double toStep) {
-    if (now == to && step == toStep) return;
-    // While limits and step disagree Qt would make a grid line for every step of the new range.
-    if (step != toStep) axis->setTickInterval(std::max(step, toStep));
-    // Rounding must not cost the first or last number.
-    const double slack = toStep * 1e-9;
-    if (!(now == to)) axis->setRange(to.low - slack, to.high + slack);
-    if (step != toStep) {
-      axis->setTickInterval(toStep);
-      axis->setLabelFormat(QStringLiteral("%.%1f").arg(decimalsOf(toStep)));
-    }
-    now = to;
-    step = toStep;
-  };
   if (xAnchor != m_axisX->tickAnchor()) m_axisX->setTickAnchor(xAnchor);
   put(m_axisX, m_x, x, m_stepX, xStep);
   put(m_axisY, m_y, y, m_stepY, yStep);

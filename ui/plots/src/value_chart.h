@@ -40,6 +40,11 @@ class ValueChart : public QChartView {
   void addSeries(QAbstractSeries* series);
   /// Room for the numbers of the y axis and its title, px.
   int wantedLeft() const;
+  /// A second value axis at the right, without a grid.
+  void setRightAxis(ValueLimits limits, double step);
+  void hideRightAxis();
+  ValueLimits rightLimits() const { return m_right; }
+  int wantedRight() const;
 
   void setCurvePainter(Painter painter, Painting painting = Painting::Whole);
   /// The curves have changed: paint them anew at the next opportunity.
@@ -56,14 +61,17 @@ class ValueChart : public QChartView {
  private:
   class Layer;
   void place();
+  static void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
+                  double toStep);
 
   QValueAxis* m_axisX;
   QValueAxis* m_axisY;
+  QValueAxis* m_axisRight;
   Layer* m_layer;
   QMargins m_margins;
   QRectF m_area;
-  ValueLimits m_x, m_y;
-  double m_stepX = 0.0, m_stepY = 0.0;
+  ValueLimits m_x, m_y, m_right;
+  double m_stepX = 0.0, m_stepY = 0.0, m_stepRight = 0.0;
 };
 
 }  // namespace pitchboard::ui

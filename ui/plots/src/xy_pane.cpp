@@ -125,8 +125,8 @@ void XyPane::restyle() {
 }
 
 void XyPane::draw() {
-  m_chart->setMargins(std::max(left(), m_chart->wantedLeft()), scaled(this, 5),
-                      scaled(this, rightMargin), scaled(this, 34));
+  m_chart->setMargins(std::max(left(), m_chart->wantedLeft()), scaled(this, 5), right(),
+                      scaled(this, 34));
   const QRectF area = m_chart->plotArea();
   if (area.isEmpty()) return;
   m_points.clear();
@@ -214,7 +214,7 @@ void XyPane::removeMarkers() {
 
 void XyPane::showMarkers() {
   // Where it was at the cursor, or is now.
-  const auto cursor = m_feed->time()->cursor();
+  const auto cursor = m_feed->time()->readAt();
   while (m_markers.size() < m_curves.size()) {
     m_markers.push_back(new QScatterSeries);
     m_chart->addSeries(m_markers.back());

@@ -115,22 +115,22 @@ void EventList::setNote(int row, const QString& note) {
   setData(index(row, Note), note, Qt::EditRole);
 }
 
-std::optional<int> EventList::next(double time) const {
+std::optional<int> EventList::next(double time, const EventFilter& filter) const {
   link::MatchEvent moment;
   moment.time = time;
-  const auto found =
-      std::find_if(std::upper_bound(m_events.begin(), m_events.end(), moment, earlier),
-                   m_events.end(), link::isMarked);
+  const auto shown = [&filter](const link::MatchEvent& event) { return filter.shows(event); };
+  const auto found = std::find_if(
+      std::upper_bound(m_events.begin(), m_events.end(), moment, earlier), m_events.end(), shown);
   if (found == m_events.end()) return {};
   return static_cast<int>(found - m_events.begin());
 }
 
-std::optional<int> EventList::previous(double time) const {
+std::optional<int> EventList::previous(double time, const EventFilter& filter) const {
   link::MatchEvent moment;
   moment.time = time;
   const auto before = std::lower_bound(m_events.begin(), m_events.end(), moment, earlier);
-  const auto found =
-      std::find_if(std::make_reverse_iterator(before), m_events.rend(), link::isMarked);
+  const auto shown = [&filter](const link::MatchEvent& event) { return filter.shows(event); };
+  const auto found = std::find_if(std::make_reverse_iterator(before), m_events.rend(), shown);
   if (found == m_events.rend()) return {};
   return static_cast<int>(m_events.rend() - found) - 1;
 }

@@ -4,6 +4,7 @@
 #include <QUndoStack>
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <ui/base/robot_words.h>
 
@@ -43,36 +44,58 @@ const link::ScenarioRobot* MatchEdits::robot(RobotId id) const {
   return m_roster->robot(id);
 }
 
+void MatchEdits::setLocked(bool on) {
+  if (on == m_locked) return;
+  m_locked = on;
+  m_toldLocked = false;
+  emit lockedChanged(on);
+}
+
+bool MatchEdits::refuses() {
+  if (m_locked && !std::exchange(m_toldLocked, true)) {
+    emit failed(
+        QStringLiteral("A past moment is shown, and the match cannot be changed from it. Now leads "
+                       "back to the match."));
+  }
+  return m_locked;
+}
+
 void MatchEdits::adopt(const link::Moment& moment) {
   m_undoStack->clear();
   m_roster->adopt(moment);
 }
 
 void MatchEdits::moveRobots(const std::vector<RobotPlacement>& placements) {
+  if (refuses()) return;
   if (m_match->isOpen() && !placements.empty()) {
     m_undoStack->push(new PlacementCommand(m_roster.get(), placements));
   }
 }
 
 void MatchEdits::nudgeRobots(const std::vector<RobotPlacement>& placements) {
+  if (refuses()) return;
   if (m_match->isOpen() && !placements.empty()) {
     m_undoStack->push(new NudgeCommand(m_roster.get(), placements));
   }
 }
 
 void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
+  if (refuses()) return;
   if (m_match->isOpen()) m_undoStack->push(new BallCommand(m_roster.get(), from, to, velocity));
 }
 
 void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
+  if (refuses()) return;
   m_roster->place(placements, false);
 }
 
 void MatchEdits::previewBall(Point position) {
+  if (refuses()) return;
   m_roster->placeBall(position);
 }
 
 void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
+  if (refuses()) return;
   if (!m_match->isOpen()) return;
   std::set<int> ids, numbers;
   for (const auto& [id, entry] : m_roster->robots()) {
@@ -103,6 +126,7 @@ void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> n
 }
 
 void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
+  if (refuses()) return;
   const FramePtr newest = m_match->frame();
   std::vector<link::ScenarioRobot> leaving;
   for (const RobotId id : ids) {
@@ -117,6 +141,7 @@ void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
 }
 
 void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
+  if (refuses()) return;
   if (!m_match->isOpen()) return;
   std::set<int> numbers;
   for (const auto& [id, entry] : m_roster->robots()) {
@@ -144,6 +169,7 @@ void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
 }
 
 void MatchEdits::setNumber(RobotId id, int number) {
+  if (refuses()) return;
   const link::ScenarioRobot* known = robot(id);
   if (!m_match->isOpen() || known == nullptr || known->identity.number == number) return;
   sim::RobotIdentity after = known->identity;
@@ -162,6 +188,7 @@ void MatchEdits::setNumber(RobotId id, int number) {
 }
 
 void MatchEdits::setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour) {
+  if (refuses()) return;
   std::vector<BehaviourCommand::Change> changes;
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
@@ -174,6 +201,7 @@ void MatchEdits::setBehaviour(const std::vector<RobotId>& ids, const QString& be
 }
 
 void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model) {
+  if (refuses()) return;
   ModelCommand::Models before, after;
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
@@ -187,6 +215,7 @@ void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel
 }
 
 void MatchEdits::load(const link::Scenario& scenario, const QString& words) {
+  if (refuses()) return;
   if (!m_match->isOpen()) {
     m_match->open(scenario, m_match->isPaused());
     return;
@@ -201,6 +230,7 @@ void MatchEdits::reopen(const link::Scenario& scenario) {
 }
 
 void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
+  if (refuses()) return;
   m_match->post([id, actionA, actionB](link::SimulatedMatch& match) {
     link::Blackboard* board = match.blackboard(id);
     if (board == nullptr) return;
@@ -211,6 +241,7 @@ void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actio
 }
 
 void MatchEdits::commandSearch(RobotId id, bool on) {
+  if (refuses()) return;
   m_match->post([id, on](link::SimulatedMatch& match) {
     if (link::Blackboard* board = match.blackboard(id)) {
       board->write(match.variables().decisionSearchOn, on ? 1 : 0);
@@ -219,6 +250,7 @@ void MatchEdits::commandSearch(RobotId id, bool on) {
 }
 
 void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
+  if (refuses()) return;
   const link::Variable* variable = m_match->catalog().find(name.toStdString());
   const QString notWritten = QStringLiteral("%1 is not written").arg(name);
   if (variable == nullptr) {
@@ -247,12 +279,14 @@ void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
 }
 
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
+  if (refuses()) return;
   m_match->post({QStringLiteral("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
                    return match.simulation().setNoise(noise);
                  }});
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
+  if (refuses()) return;
   m_match->post(
       {QStringLiteral("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
          return match.simulation().setRigidBody(settings);
@@ -260,6 +294,7 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
 }
 
 void MatchEdits::setPhysics(const QString& model) {
+  if (refuses()) return;
   link::Scenario moment = m_match->currentMoment();
   if (moment.settings.physics == model.toStdString()) return;
   moment.settings.physics = model.toStdString();
@@ -267,6 +302,7 @@ void MatchEdits::setPhysics(const QString& model) {
 }
 
 void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
+  if (refuses()) return;
   m_roster->setRuntime(id, choice);
 }
 
@@ -291,11 +327,13 @@ void MatchEdits::killProcess(int process) {
 }
 
 void MatchEdits::setClockRunning(bool running) {
+  if (refuses()) return;
   m_match->post(
       [running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
 }
 
 void MatchEdits::resetScore() {
+  if (refuses()) return;
   m_match->post([](link::SimulatedMatch& match) {
     match.simulation().setScore({});
     match.simulation().editState().clockTicks = 0;

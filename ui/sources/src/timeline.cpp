@@ -114,6 +114,11 @@ void Timeline::lookAt(double time) {
 }
 
 void Timeline::seek(double time) {
+  m_reached.reset();
+  show(time);
+}
+
+void Timeline::show(double time) {
   if (!std::isfinite(time)) return;
   if (isRecording()) {
     playback()->seek(time);
@@ -158,21 +163,37 @@ namespace {
 constexpr double sameMoment = 1e-6;
 }  // namespace
 
-bool Timeline::goToNextEvent() {
-  const auto row = events()->next(shownTime() + sameMoment);
+bool Timeline::goToEvent(std::optional<int> row) {
   if (!row) return false;
-  seek(events()->event(*row).time);
+  const double time = events()->event(*row).time;
+  const auto range = available();
+  // What has left memory cannot be shown any more.
+  if (!range || time < range->begin - sameMoment) return false;
+  show(time);
+  m_reached = time;
   return true;
 }
 
+bool Timeline::goToNextEvent() {
+  return goToEvent(events()->next(shownTime() + sameMoment, m_filter));
+}
+
 bool Timeline::goToPreviousEvent() {
-  const auto row = events()->previous(shownTime() - sameMoment);
-  if (!row) return false;
-  const auto range = available();
-  // What has left memory cannot be shown any more.
-  if (!range || events()->event(*row).time < range->begin - sameMoment) return false;
-  seek(events()->event(*row).time);
-  return true;
+  double from = shownTime();
+  // The event that was just reached lies behind again as soon as it plays on.
+  constexpr double soon = 1.5;  // s of a person's time
+  const Playback* moves = playback();
+  if (m_reached && !moves->isPaused() && from >= *m_reached &&
+      from - *m_reached < soon * std::max(moves->speed(), 1.0)) {
+    from = *m_reached;
+  }
+  return goToEvent(events()->previous(from - sameMoment, m_filter));
+}
+
+void Timeline::setEventFilter(const EventFilter& filter) {
+  if (filter == m_filter) return;
+  m_filter = filter;
+  emit eventFilterChanged();
 }
 
 int Timeline::addBookmark(const QString& note) {

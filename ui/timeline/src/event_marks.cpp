@@ -112,7 +112,8 @@ void drawMark(QPainter& painter, link::EventShape shape, QPointF centre, double 
 }
 
 std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, const TimeAxis& axis,
-                                   const MarkSizes& sizes, const QFontMetrics& font) {
+                                   const MarkSizes& sizes, const QFontMetrics& font,
+                                   const EventFilter& filter) {
   const auto before = [](const link::MatchEvent& event, double time) { return event.time < time; };
   const double margin = sizes.spacing * axis.secondsPerPixel();
   auto at = std::lower_bound(events.begin(), events.end(), axis.shown.begin - margin, before);
@@ -121,7 +122,7 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
   // One candidate a pixel: what follows costs the width, not the number of events.
   std::vector<EventMark> marks;
   for (; at != end; ++at) {
-    if (!link::isMarked(*at)) continue;
+    if (!filter.shows(*at)) continue;
     const int row = static_cast<int>(at - events.begin());
     const double x = axis.pixel(at->time);
     if (!marks.empty() && std::floor(marks.back().x) == std::floor(x)) {

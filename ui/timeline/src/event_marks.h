@@ -11,6 +11,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <ui/base/time_axis.h>
+#include <ui/sources/event_filter.h>
 
 namespace pitchboard::ui {
 
@@ -29,7 +30,8 @@ struct MarkSizes {
 
 /// Marks in order of x for events in order of time.
 std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, const TimeAxis& axis,
-                                   const MarkSizes& sizes, const QFontMetrics& font);
+                                   const MarkSizes& sizes, const QFontMetrics& font,
+                                   const EventFilter& filter = {});
 
 /// Draws the shape around `centre`, `size` px high.
 void drawMark(QPainter& painter, link::EventShape shape, QPointF centre, double size);

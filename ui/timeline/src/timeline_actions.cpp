@@ -3,7 +3,10 @@
 
 #include <QAction>
 #include <QMenu>
+#include <map>
+#include <set>
 
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/playback.h>
@@ -25,8 +28,8 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
     : QObject(parent),
       m_timeline(timeline),
       m_plots(plots),
-      m_live(make(this, QStringLiteral("Back to &now"), "media-seek-forward",
-                  QKeySequence(Qt::CTRL | Qt::Key_End))),
+      m_now(make(this, QStringLiteral("Back to &now"), "media-seek-forward",
+                 QKeySequence(Qt::CTRL | Qt::Key_End))),
       m_play(make(this, QStringLiteral("&Play the past"), "media-playback-start",
                   QKeySequence(Qt::CTRL | Qt::Key_Space))),
       m_next(make(this, QStringLiteral("&Next event"), "go-next", QKeySequence(Qt::Key_N))),
@@ -41,13 +44,13 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
       m_clearRange(make(this, QStringLiteral("Choose no &range"), nullptr, {})),
       m_loop(make(this, QStringLiteral("&Loop the chosen range"), "media-playlist-repeat",
                   QKeySequence(Qt::CTRL | Qt::Key_L))) {
-  m_live->setObjectName(QStringLiteral("timelineLive"));
+  m_now->setObjectName(QStringLiteral("timelineNow"));
   m_next->setObjectName(QStringLiteral("nextEvent"));
   m_previous->setObjectName(QStringLiteral("previousEvent"));
   m_bookmark->setObjectName(QStringLiteral("addBookmark"));
   m_loop->setObjectName(QStringLiteral("loopRange"));
   m_loop->setCheckable(true);
-  connect(m_live, &QAction::triggered, timeline, &Timeline::goLive);
+  connect(m_now, &QAction::triggered, timeline, &Timeline::goLive);
   connect(m_play, &QAction::triggered, timeline, &Timeline::togglePlay);
   connect(m_next, &QAction::triggered, timeline, &Timeline::goToNextEvent);
   connect(m_previous, &QAction::triggered, timeline, &Timeline::goToPreviousEvent);
@@ -73,7 +76,7 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, QObject*
 
 void TimelineActions::refresh() {
   const bool past = m_timeline->isLookingBack() || m_timeline->isRecording();
-  m_live->setEnabled(m_timeline->isLookingBack());
+  m_now->setEnabled(m_timeline->isLookingBack());
   m_play->setEnabled(past);
   m_on->setEnabled(past);
   m_clearRange->setEnabled(m_timeline->selection().has_value());
@@ -81,10 +84,68 @@ void TimelineActions::refresh() {
   m_loop->setChecked(m_timeline->isLooping());
 }
 
-void TimelineActions::fill(QMenu* menu) const {
-  menu->addActions({m_live, m_play, m_back, m_on});
+void TimelineActions::change(const std::function<void(EventFilter&)>& how) {
+  EventFilter filter = m_timeline->eventFilter();
+  how(filter);
+  m_timeline->setEventFilter(filter);
+}
+
+void TimelineActions::fillFilter(QMenu* menu) {
+  menu->clear();
+  const EventFilter& now = m_timeline->eventFilter();
+  std::map<link::MatchEventKind, int> kinds;
+  std::set<std::string> robots = now.robots;
+  for (const link::MatchEventKind hidden : now.hidden) kinds[hidden];
+  for (const link::MatchEvent& event : m_timeline->events()->events()) {
+    if (!link::isMarked(event)) continue;
+    ++kinds[event.kind];
+    if (!event.name.empty()) robots.insert(event.name);
+  }
+  QAction* all =
+      menu->addAction(QStringLiteral("&All"), this, [this] { m_timeline->setEventFilter({}); });
+  all->setEnabled(now.isOn());
+  menu->addSeparator();
+  for (const auto& [kind, count] : kinds) {
+    const std::string_view words = link::info(kind).words;
+    const QString name = kind == link::MatchEventKind::GameState
+                             ? QStringLiteral("State of the game")
+                             : capitalised(words);
+    QAction* action = menu->addAction(QStringLiteral("%1 (%2)").arg(name).arg(count));
+    action->setCheckable(true);
+    action->setChecked(!now.hidden.contains(kind));
+    connect(action, &QAction::toggled, this, [this, kind = kind](bool on) {
+      change([&](EventFilter& filter) {
+        if (on)
+          filter.hidden.erase(kind);
+        else
+          filter.hidden.insert(kind);
+      });
+    });
+  }
+  if (robots.empty()) return;
+  menu->addSeparator();
+  for (const std::string& robot : robots) {
+    QAction* action = menu->addAction(QStringLiteral("Only %1").arg(QString::fromStdString(robot)));
+    action->setCheckable(true);
+    action->setChecked(now.robots.contains(robot));
+    connect(action, &QAction::toggled, this, [this, robot](bool on) {
+      change([&](EventFilter& filter) {
+        if (on)
+          filter.robots.insert(robot);
+        else
+          filter.robots.erase(robot);
+      });
+    });
+  }
+}
+
+void TimelineActions::fill(QMenu* menu) {
+  menu->addActions({m_now, m_play, m_back, m_on});
   menu->addSeparator();
   menu->addActions({m_next, m_previous, m_bookmark});
+  QMenu* shown = menu->addMenu(QStringLiteral("Events sho&wn"));
+  shown->setObjectName(QStringLiteral("eventsShown"));
+  QObject::connect(shown, &QMenu::aboutToShow, this, [this, shown] { fillFilter(shown); });
   menu->addSeparator();
   menu->addActions({m_selectVisible, m_loop, m_clearRange});
 }

@@ -21,25 +21,24 @@ class TimelineDock : public QWidget {
       : QWidget(parent),
         m_timeline(context.timeline),
         m_strip(new TimelineStrip(context.timeline, context.time, this)),
-        m_live(new QToolButton(this)) {
+        m_now(new QToolButton(this)) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    m_live->setObjectName(QStringLiteral("live"));
-    m_live->setText(QStringLiteral("Live"));
-    m_live->setCheckable(true);
-    m_live->setFocusPolicy(Qt::NoFocus);
-    m_live->setFixedWidth(scaled(this, 48));
-    m_live->setFixedHeight(scaled(this, 28));
+    m_now->setObjectName(QStringLiteral("now"));
+    m_now->setText(QStringLiteral("Now"));
+    m_now->setCheckable(true);  // checked: filled
+    m_now->setFixedWidth(scaled(this, 48));
+    m_now->setFixedHeight(scaled(this, 28));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, scaled(this, 12), 0);
     row->setSpacing(0);
     row->addWidget(m_strip, 1);
-    row->addWidget(m_live);
-    connect(m_live, &QToolButton::clicked, this, [this] {
+    row->addWidget(m_now);
+    connect(m_now, &QToolButton::clicked, this, [this] {
       m_timeline->goLive();
-      showLive();
+      showNow();
     });
-    connect(m_timeline, &Timeline::lookingBackChanged, this, &TimelineDock::showLive);
-    connect(m_timeline, &Timeline::sourceChanged, this, &TimelineDock::showLive);
+    connect(m_timeline, &Timeline::lookingBackChanged, this, &TimelineDock::showNow);
+    connect(m_timeline, &Timeline::sourceChanged, this, &TimelineDock::showNow);
     connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
             &TimelineStrip::editNote);
     connect(m_strip, &TimelineStrip::menuRequested, this,
@@ -58,7 +57,7 @@ class TimelineDock : public QWidget {
                 m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
               });
     }
-    showLive();
+    showNow();
   }
 
  private:
@@ -83,17 +82,18 @@ class TimelineDock : public QWidget {
     menu->addAction(QStringLiteral("St&op comparing"), session, &ComparedSession::stop);
     menu->addSeparator();
   }
-  void showLive() {
-    m_live->setVisible(!m_timeline->isRecording());
-    m_live->setChecked(!m_timeline->isLookingBack());
-    m_live->setToolTip(m_timeline->isLookingBack()
-                           ? QStringLiteral("Back to now (Ctrl+End)")
-                           : QStringLiteral("The window shows what happens now"));
+  void showNow() {
+    m_now->setVisible(!m_timeline->isRecording());
+    m_now->setChecked(m_timeline->isLookingBack());
+    m_now->setEnabled(m_timeline->isLookingBack());
+    m_now->setToolTip(m_timeline->isLookingBack()
+                          ? QStringLiteral("Back to now (Ctrl+End)")
+                          : QStringLiteral("The window shows what happens now"));
   }
 
   Timeline* m_timeline;
   TimelineStrip* m_strip;
-  QToolButton* m_live;
+  QToolButton* m_now;
 };
 
 }  // namespace

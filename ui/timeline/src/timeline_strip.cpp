@@ -41,6 +41,10 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
     update();
   });
   connect(timeline, &Timeline::selectionChanged, this, qOverload<>(&QWidget::update));
+  connect(timeline, &Timeline::eventFilterChanged, this, [this] {
+    m_marksOf = nullptr;
+    update();
+  });
   if (plots != nullptr) {
     connect(plots, &LinkedTime::rangeChanged, this, qOverload<>(&QWidget::update));
     connect(plots, &LinkedTime::cursorChanged, this, qOverload<>(&QWidget::update));
@@ -163,7 +167,7 @@ const std::vector<EventMark>& TimelineStrip::marks() {
     m_marksAxis = m_axis;
     m_marks =
         layOutMarks(list->events(), m_axis, {double(scaled(this, 10)), double(scaled(this, 9))},
-                    QFontMetrics(themeFont(TypeRole::Small)));
+                    QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
   }
   return m_marks;
 }
@@ -174,7 +178,7 @@ std::vector<EventMark> TimelineStrip::comparedMarks() const {
   moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
   return layOutMarks(m_compared->events(), moved,
                      {double(scaled(this, 10)), double(scaled(this, 9))},
-                     QFontMetrics(themeFont(TypeRole::Small)));
+                     QFontMetrics(themeFont(TypeRole::Small)), m_timeline->eventFilter());
 }
 
 const EventMark* TimelineStrip::nearest(const std::vector<EventMark>& marks, double x) const {
@@ -201,7 +205,7 @@ QString TimelineStrip::tipAt(QPointF at) {
   constexpr int most = 8;
   for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
     const link::MatchEvent& e = m_timeline->events()->event(row);
-    if (!link::isMarked(e)) continue;
+    if (!m_timeline->eventFilter().shows(e)) continue;
     lines << momentText(e.time, 2, m_timeline->clock()) + QStringLiteral("  ") +
                  QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }

@@ -18,6 +18,7 @@
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
@@ -69,6 +70,8 @@ class VariablesDock : public QWidget {
     adoptSettings();
     connect(context.source, &FrameSource::restarted, this, [this] { adoptSource(); });
     connect(context.source, &SourceSwitch::changed, this, [this] { adoptSource(); });
+    connect(context.controller->edits(), &MatchEdits::lockedChanged, this,
+            [this] { allowEditing(m_lock->isChecked()); });
     connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
     constexpr int pollMilliseconds = 100;
     m_timer->start(pollMilliseconds);
@@ -285,7 +288,10 @@ class VariablesDock : public QWidget {
   }
 
   void allowEditing(bool on) {
+    const bool past = m_context.controller->edits()->isLocked();
+    on = on && !past;
     m_model->setEditingAllowed(on);
+    m_lock->setEnabled(m_context.source->kind() == SourceKind::Simulate && !past);
     m_lock->setIcon(
         themedIcon(on ? QStringLiteral("object-unlocked") : QStringLiteral("object-locked")));
     const QString tip =
@@ -294,6 +300,8 @@ class VariablesDock : public QWidget {
                   "Values of live robots are only shown: nothing is ever sent to robots.")
         : m_context.source->kind() == SourceKind::Replay
             ? QStringLiteral("Values of a recording are what they were.")
+        : past
+            ? QStringLiteral("A past moment is shown. Now leads back to values that can be edited.")
             : QStringLiteral("Edit values: double-click a value of a simulated robot to change it");
     m_lock->setToolTip(tip);
     m_lock->setAccessibleName(QStringLiteral("Edit values"));

@@ -205,6 +205,10 @@ QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
   }
   if (m_kind == SourceKind::Replay)
     return QStringLiteral("Values of a recording are what they were.");
+  if (m_moment) {
+    return QStringLiteral(
+        "A past moment is shown, and its values are what they were. Now leads back to the match.");
+  }
   const telemetry::GroupInfo& group = groupOf(index)->info();
   if (group.attributes.count("robot") == 0) {
     return group.name == "match" ? QStringLiteral("Facts of the match are measured, not set.")

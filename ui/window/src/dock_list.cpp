@@ -19,6 +19,15 @@ namespace pitchboard::ui {
 
 namespace {
 
+/// What a newcomer sees moving: how far one robot sees the ball, and what it decides.
+PlotLayout firstPlots() {
+  PaneSpec distance, decision;
+  distance.curves << variableCurve(QStringLiteral("first/VISION_BALL_DIST"));
+  decision.kind = PaneKind::Lane;
+  decision.curves << variableCurve(QStringLiteral("first/DECISION_ACTION_A"));
+  return {{{QStringLiteral("Plots"), {distance, decision}}}, 0};
+}
+
 // Each dock gets what it uses and no more.
 QWidget* robots(const StudioParts& s, QWidget* parent) {
   return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings, s.live},
@@ -34,7 +43,8 @@ QWidget* refereeing(const StudioParts& s, QWidget* parent) {
   return makeRefereeingDock(s.controller, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
-  return makePlotsDock({s.source, s.time, s.timeline, s.plots, s.settings, s.compared}, parent);
+  return makePlotsDock(
+      {s.source, s.time, s.timeline, s.plots, s.settings, s.compared, firstPlots()}, parent);
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
   return makeProcessesDock(s.controller, s.source, parent);

@@ -5,10 +5,14 @@
 #include <QDialog>
 #include <QGridLayout>
 #include <QLabel>
+#include <QMainWindow>
+#include <QMenuBar>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
 #include <ui/base/theme.h>
+
+#include "menu_actions.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -18,15 +22,8 @@ struct Keys {
   const char* does;
 };
 
+// What the mouse does and the keys that are no actions of a menu; those are listed by themselves.
 constexpr Keys shortcuts[] = {
-    {nullptr, "Window"},
-    {"Ctrl+P", "play or pause"},
-    {"Ctrl+.", "one tick"},
-    {"Ctrl+R", "restart the scenario"},
-    {"Ctrl+Z, Ctrl+Shift+Z", "undo, redo"},
-    {"Ctrl+O, Ctrl+S", "open a scenario, save this moment"},
-    {"Ctrl+Shift+A", "select all robots"},
-    {"F11", "full screen"},
     {nullptr, "Field"},
     {"Drag, Shift-drag", "move, turn"},
     {"Wheel over a robot, wheel", "turn, zoom"},
@@ -47,30 +44,66 @@ constexpr Keys shortcuts[] = {
     {"F2, F3, F4", "load the match, start it again, clear the field"},
     {"F5", "pause or go on"},
     {"F6, F7, F8", "field of view, EOPRA, StarVars"},
+    {nullptr, "Plots"},
+    {"Click", "show that moment everywhere"},
+    {"Drag, wheel", "move, zoom in time"},
+    {"Ctrl+wheel, Shift-drag", "zoom the values, zoom into a box"},
+    {"Double click", "show everything"},
+    {"Wheel over the numbers", "scroll the plots"},
+    {nullptr, "Timeline"},
+    {"Click, drag", "look back"},
+    {"Left, Right, Shift+Left, Shift+Right", "one tick, one second back or on"},
+    {"Home, End", "to the oldest moment, to now"},
+    {"Space, L", "play the past, loop the chosen range"},
+    {"Shift-drag, Escape", "choose a range, choose none or go back to now"},
+    {"+, \xE2\x88\x92, 0, wheel", "zoom, show everything"},
+    {nullptr, "Variables"},
+    {"Enter, F2, *", "plot, edit the value, favourite"},
+    {nullptr, "Log"},
+    {"Click, Ctrl+C", "show that moment everywhere, copy"},
 };
 
 }  // namespace
 
-void showShortcuts(QWidget* parent) {
+void showShortcuts(QMainWindow* parent) {
   auto* dialog = new QDialog(parent);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setObjectName(QStringLiteral("shortcuts"));
   dialog->setWindowTitle(QStringLiteral("Keyboard shortcuts"));
   auto* list = new QWidget(dialog);
   auto* grid = new QGridLayout(list);
   grid->setHorizontalSpacing(scaled(parent, 24));
   grid->setVerticalSpacing(scaled(parent, 4));
   int row = 0;
-  for (const Keys& line : shortcuts) {
-    auto* does = new QLabel(QString::fromUtf8(line.does), list);
-    if (line.keys == nullptr) {
-      does->setFont(themeFont(TypeRole::Body, true));
-      does->setContentsMargins(0, row == 0 ? 0 : scaled(parent, 8), 0, 0);
-      grid->addWidget(does, row++, 0, 1, 2);
-      continue;
-    }
-    grid->addWidget(new QLabel(QString::fromUtf8(line.keys), list), row, 0);
+  const auto head = [&](const QString& text) {
+    auto* label = new QLabel(text, list);
+    label->setFont(themeFont(TypeRole::Body, true));
+    label->setContentsMargins(0, row == 0 ? 0 : scaled(parent, 8), 0, 0);
+    grid->addWidget(label, row++, 0, 1, 2);
+  };
+  const auto add = [&](const QString& keys, const QString& text) {
+    auto* does = new QLabel(text, list);
     does->setForegroundRole(QPalette::PlaceholderText);
+    grid->addWidget(new QLabel(keys, list), row, 0);
     grid->addWidget(does, row++, 1);
+  };
+  QString menu;
+  for (const MenuAction& each : menuActions(*parent->menuBar())) {
+    if (each.action->shortcut().isEmpty()) continue;
+    const QString top = each.menu.section(QLatin1Char(':'), 0, 0);
+    if (top != menu) head(top);
+    menu = top;
+    QStringList keys;
+    for (const QKeySequence& sequence : each.action->shortcuts()) {
+      keys << sequence.toString(QKeySequence::NativeText);
+    }
+    add(keys.join(QStringLiteral(", ")), each.text);
+  }
+  for (const Keys& line : shortcuts) {
+    if (line.keys == nullptr)
+      head(QString::fromUtf8(line.does));
+    else
+      add(QString::fromUtf8(line.keys), QString::fromUtf8(line.does));
   }
   grid->setColumnStretch(1, 1);
   auto* scroll = new QScrollArea(dialog);

@@ -23,7 +23,7 @@ void LookingBackSign::present() {
   const double at = m_timeline->shownTime();
   const auto clock = m_timeline->clock();
   const QString time = clock ? momentText(at, 0, clock) : longMomentText(at);
-  const QString text = QStringLiteral("Looking back: %1 (live goes on)").arg(time);
+  const QString text = QStringLiteral("Looking back: %1 (Now leads back)").arg(time);
   if (text == this->text() && isVisible()) return;
   setText(text);
   QRect box(0, 0, sizeHint().width() + scaled(this, 24), scaled(this, 28));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Says at the top of the field that the past is shown: "Looking back: 00:03:12 (live goes on)". UI
-// thread only.
+// Says at the top of the field that the past is shown: "Looking back: 00:03:12 (Now leads back)".
+// UI thread only.
 
 #include "field_sign.h"
 

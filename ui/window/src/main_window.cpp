@@ -2,12 +2,16 @@
 #include <ui/window/main_window.h>
 
 #include <QAbstractScrollArea>
+#include <QApplication>
 #include <QCloseEvent>
 #include <QDialog>
 #include <QDockWidget>
+#include <QFileDialog>
 #include <QFileInfo>
+#include <QMenuBar>
 #include <QScreen>
 #include <QSettings>
+#include <QTimer>
 #include <QUndoGroup>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -16,7 +20,10 @@
 
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
+#include <ui/base/robot_words.h>
+#include <ui/base/time_axis.h>
 #include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
 #include <ui/processes/orphan_notice.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
@@ -37,9 +44,13 @@
 #include <ui/timeline/timeline_actions.h>
 #include <ui/window/scenario_files.h>
 
+#include "alarms.h"
+#include "command_palette.h"
 #include "dock_list.h"
 #include "dock_title.h"
+#include "field_only.h"
 #include "looking_back_sign.h"
+#include "menu_actions.h"
 #include "menus.h"
 #include "opening_label.h"
 #include "scenario_chooser.h"
@@ -54,6 +65,7 @@ constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
 constexpr int mostMemory = 65536;
+const QString recentSessionsKey = QStringLiteral("sessions/recent");
 const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
 
@@ -94,22 +106,13 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_compared = new ComparedSession(m_timeline, this);
   connect(m_compared, &ComparedSession::failed, m_notices,
           [this](const QString& sentence) { m_notices->show(sentence); });
-  column->addWidget(m_notices);
   column->addWidget(m_field, 1);
+  m_notices->floatOver(centre);
   setCentralWidget(centre);
+  m_fieldOnly = new FieldOnly(this, m_source);
+  m_alarms = new Alarms(m_source, centre, settings, this);
 
   m_sessions = new SessionFiles(m_replay, controller, m_source, m_timeline, m_notices, this);
-  for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
-    connect(m_recording, said, m_notices,
-            [this](const QString& sentence) { m_notices->show(sentence); });
-  }
-  connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
-  connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
-    m_notices->show(QStringLiteral("Saved: %1").arg(path),
-                    {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},
-                     {QStringLiteral("Close"), {}}});
-  });
-  connect(m_time, &LinkedTime::momentRequested, m_timeline, &Timeline::seek);
   m_bar = new TransportBar({controller, m_source, m_timeline, m_replay, m_recording, m_live},
                            settings, this);
   addToolBar(m_bar);
@@ -118,23 +121,24 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   makeDocks();
+  m_plotsDock = findChild<PlotsDock*>();
+  m_undo->addStack(m_plotsDock->undoStack());
   makeMenus();
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     new OpeningLabel(controller, canvas);
     new LookingBackSign(m_timeline, canvas);
   }
-  connect(controller, &MatchController::errorOccurred, m_notices,
-          [this](const QString& sentence) { m_notices->show(sentence); });
-  connect(m_live, &LiveController::errorOccurred, m_notices,
-          [this](const QString& sentence) { m_notices->show(sentence); });
-  connect(m_source, &SourceSwitch::changed, this, [this] {
-    const bool editable = m_source->kind() == SourceKind::Simulate;
-    m_undo->setActiveStack(editable ? m_controller->edits()->undoStack() : nullptr);
-    m_selection->set({});
-  });
-  connect(m_files, &ScenarioFiles::failed, m_notices,
-          [this](const QString& sentence) { m_notices->show(sentence); });
+  connectNotices();
+  connect(m_source, &SourceSwitch::changed, this, [this] { m_selection->set({}); });
+  const auto lock = [this] {
+    m_controller->edits()->setLocked(m_source->kind() == SourceKind::Simulate &&
+                                     m_timeline->isLookingBack());
+    chooseUndo();
+  };
+  connect(m_timeline, &Timeline::lookingBackChanged, this, lock);
+  connect(m_timeline, &Timeline::sourceChanged, this, lock);
+  connect(qApp, &QApplication::focusChanged, this, &MainWindow::chooseUndo);
   connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
@@ -143,6 +147,10 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   if (!live.problem.isEmpty()) m_notices->show(QStringLiteral("Live: %1").arg(live.problem));
   setMemoryBudget(memoryBudget());
   restoreLayout();
+  constexpr int saveMilliseconds = 3000;
+  auto* saving = new QTimer(this);
+  connect(saving, &QTimer::timeout, this, &MainWindow::saveLayout);
+  saving->start(saveMilliseconds);
   m_field->setFocus();
 }
 
@@ -154,6 +162,7 @@ MainWindow::~MainWindow() {
 // what is seen; then what that shows. Left to themselves, children go by age, the oldest first, and
 // those are the sources that everything else uses. The match itself outlives the window.
 void MainWindow::shutDown() {
+  qApp->disconnect(this);  // focus moves on as widgets go
   m_recording->end();
   qDeleteAll(findChildren<QDialog*>(Qt::FindDirectChildrenOnly));
   delete m_sessions;
@@ -180,9 +189,126 @@ StudioParts MainWindow::parts() const {
           m_recording,  m_live,   m_overlay,   m_compared};
 }
 
+// Each thing that can go wrong is a topic: what is right again takes its notice away.
+void MainWindow::connectNotices() {
+  static const QString match = QStringLiteral("match"), scenario = QStringLiteral("scenario"),
+                       live = QStringLiteral("live"), recording = QStringLiteral("recording"),
+                       locked = QStringLiteral("locked"), finished = QStringLiteral("finished");
+  const auto tell = [this](const QString& topic) {
+    return [this, topic](const QString& sentence) { m_notices->show(sentence, {}, {topic}); };
+  };
+  for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
+    connect(m_recording, said, m_notices, tell(recording));
+  }
+  connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
+  connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
+    m_notices->show(QStringLiteral("Saved: %1").arg(path),
+                    {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},
+                     {QStringLiteral("Close"), {}}},
+                    {recording, NoticeTone::Success});
+  });
+  connect(m_controller, &MatchController::errorOccurred, m_notices,
+          [this](const QString& sentence) {
+            m_notices->show(sentence, {}, {m_controller->edits()->isLocked() ? locked : match});
+          });
+  connect(m_controller, &MatchController::opened, m_notices, [this] {
+    if (m_controller->isOpen()) m_notices->settle(scenario);
+  });
+  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
+    m_notices->settle(match);
+    m_notices->settle(finished);
+    m_toldFinished = false;
+  });
+  connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
+          [this] { m_notices->settle(locked); });
+  connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
+  connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
+  connect(m_controller, &MatchController::frameReceived, this,
+          [this](const FramePtr& frame) { tellFinished(*frame); });
+  connect(m_replay, &ReplayController::opened, this, [this] {
+    QStringList recent = recentSessions();
+    recent.removeAll(m_replay->path());
+    recent.prepend(m_replay->path());
+    constexpr qsizetype most = 8;
+    m_settings->setValue(recentSessionsKey, recent.mid(0, most));
+  });
+}
+
+// A match that stands still should not look as if it hung.
+void MainWindow::tellFinished(const link::MatchFrame& frame) {
+  if (!frame.finished) {
+    if (std::exchange(m_toldFinished, false)) m_notices->settle(QStringLiteral("finished"));
+    return;
+  }
+  if (std::exchange(m_toldFinished, true)) return;
+  m_notices->show(
+      QStringLiteral("The match is over, %1 : %2. Look back on the timeline, export it, or play it "
+                     "again.")
+          .arg(frame.snapshot.score.left)
+          .arg(frame.snapshot.score.right),
+      {{QStringLiteral("Play again"),
+        [this] {
+          m_controller->restart();
+          m_controller->setPaused(false);
+        }},
+       {QStringLiteral("Export…"), [this] { showExport(); }},
+       {QStringLiteral("Close"), {}}},
+      {QStringLiteral("finished"), NoticeTone::Success});
+}
+
+QStringList MainWindow::recentSessions() const {
+  QStringList files = m_settings->value(recentSessionsKey).toStringList();
+  files.removeIf([](const QString& file) { return !QFileInfo::exists(file); });
+  return files;
+}
+
+void MainWindow::askAndOpen() {
+  const QString path = QFileDialog::getOpenFileName(
+      this, QStringLiteral("Open a scenario or a session"), {},
+      QStringLiteral("Scenarios and sessions (*.json *.mcap);;All files (*)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().toLower() == QStringLiteral("mcap"))
+    openSession(path);
+  else
+    m_files->open(path);
+}
+
+void MainWindow::showPalette() {
+  std::vector<PaletteEntry> entries;
+  for (const MenuAction& each : menuActions(*menuBar())) {
+    if (!each.action->isEnabled()) continue;
+    entries.push_back({QStringLiteral("%1: %2").arg(each.menu, each.text),
+                       each.action->shortcut().toString(QKeySequence::NativeText),
+                       [action = each.action] {
+                         if (action) action->trigger();
+                       }});
+  }
+  if (const FramePtr frame = m_source->frame()) {
+    for (const link::RobotFrame& robot : frame->robots) {
+      entries.push_back({robotName(robot.identity), QStringLiteral("robot"),
+                         [this, id = robot.id()] { m_selection->set({id}); }});
+    }
+  }
+  for (const QString& name : m_plotsDock->variables()) {
+    entries.push_back(
+        {name, QStringLiteral("plot"), [this, name] { m_plotsDock->plotVariables({name}); }});
+  }
+  const auto& events = m_timeline->events()->events();
+  constexpr int mostEvents = 500;
+  int listed = 0;
+  for (auto event = events.rbegin(); event != events.rend() && listed < mostEvents; ++event) {
+    if (!link::isMarked(*event)) continue;
+    ++listed;
+    entries.push_back({QString::fromStdString(sentenceOf(*event)),
+                       momentText(event->time, 1, m_timeline->clock()),
+                       [this, time = event->time] { m_timeline->seek(time); }});
+  }
+  (new CommandPalette(std::move(entries), this))->show();
+}
+
 void MainWindow::makeMenus() {
   StudioMenus({parts(), m_undo, m_files, m_sessions, m_bar->scenarios(), m_bar->transportActions(),
-               m_status, m_docks},
+               m_status, m_docks, m_fieldOnly, m_alarms},
               *this)
       .make();
 }
@@ -255,6 +381,17 @@ void MainWindow::showSource(SourceKind kind) {
   m_source->choose(source);
 }
 
+// Undo belongs to the plots while somebody works there, else to the match.
+void MainWindow::chooseUndo() {
+  const QWidget* focus = QApplication::focusWidget();
+  if (focus != nullptr && m_plotsDock->isAncestorOf(focus)) {
+    m_undo->setActiveStack(m_plotsDock->undoStack());
+    return;
+  }
+  const bool editable = m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
+  m_undo->setActiveStack(editable ? m_controller->edits()->undoStack() : nullptr);
+}
+
 void MainWindow::makeDocks() {
   const StudioParts parts = this->parts();
   for (const DockInfo& info : studioDocks()) {
@@ -317,7 +454,50 @@ void MainWindow::restoreLayout() {
   }
   resetLayout();
   const QByteArray saved = m_settings->value(layoutKey).toByteArray();
-  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) resetLayout();
+  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) {
+    resetLayout();
+    m_notices->show(QStringLiteral(
+        "The layout of the last time cannot be used by this version: docks stand where they do at "
+        "the first start."));
+  }
+  m_savedLayout = saveState(layoutVersion);
+}
+
+// Kept while the studio runs: however it ends, the layout is there.
+void MainWindow::saveLayout() {
+  if (m_fieldOnly->isOn()) return;
+  const QByteArray now = saveState(layoutVersion);
+  m_settings->setValue(geometryKey, saveGeometry());
+  if (now == m_savedLayout) return;
+  m_savedLayout = now;
+  m_settings->setValue(layoutKey, now);
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (std::exchange(m_wasShown, true)) return;
+  // The frame has its size only when the desktop has drawn it.
+  QTimer::singleShot(0, this, [this] {
+    fitScreen();
+    for (QDockWidget* dock : m_docks) {
+      if (dock->isFloating() && dock->isVisible()) dock->raise();
+    }
+  });
+}
+
+// The first window must not be larger than what is there for it, frame included.
+void MainWindow::fitScreen() {
+  if (isMaximized() || isFullScreen()) return;
+  const QRect room = screen()->availableGeometry();
+  const QSize frame = frameGeometry().size() - size();
+  const QSize most = room.size() - frame;
+  if (width() > most.width() || height() > most.height()) resize(size().boundedTo(most));
+  QRect outer = frameGeometry();
+  if (outer.right() > room.right()) outer.moveRight(room.right());
+  if (outer.bottom() > room.bottom()) outer.moveBottom(room.bottom());
+  if (outer.left() < room.left()) outer.moveLeft(room.left());
+  if (outer.top() < room.top()) outer.moveTop(room.top());
+  if (outer.topLeft() != frameGeometry().topLeft()) move(outer.topLeft());
 }
 
 void MainWindow::resetLayout() {
@@ -356,7 +536,8 @@ void MainWindow::offerToRemoveOrphans() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  m_settings->setValue(geometryKey, saveGeometry());
+  m_fieldOnly->set(false);
+  saveLayout();
   m_settings->setValue(layoutKey, saveState(layoutVersion));
   QMainWindow::closeEvent(event);
 }

@@ -11,6 +11,7 @@
 #include <QSettings>
 #include <QUndoGroup>
 
+#include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/plots/plot_menus.h>
@@ -30,12 +31,36 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "alarms.h"
+#include "field_only.h"
 #include "help_windows.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
+#include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
+
+/// "Match 3 · seed 42 · robots decide in the studio", what a match was started with.
+QString matchFacts(const MatchController& controller) {
+  QStringList facts;
+  const FramePtr frame = controller.frame();
+  const int number = frame ? frame->matchNumber.value_or(0) : 0;
+  facts << QStringLiteral("Match %1").arg(number)
+        << QStringLiteral("seed %1").arg(controller.scenario().settings.seed);
+  switch (controller.cognition()) {
+    case link::Cognition::External:
+      facts << QStringLiteral("separate robot processes");
+      break;
+    case link::Cognition::Inline:
+      facts << QStringLiteral("robots decide in the studio");
+      break;
+    case link::Cognition::None:
+      facts << QStringLiteral("your processes only");
+      break;
+  }
+  return facts.join(QStringLiteral(" · "));
+}
 
 QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = {}) {
   if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
@@ -69,15 +94,23 @@ void StudioMenus::onlyWhenSimulating(QAction* action) {
 void StudioMenus::makeFile() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&File"));
   ScenarioFiles* files = m_context.files;
-  withIcon(menu->addAction(QStringLiteral("&Open scenario…"), files, &ScenarioFiles::askAndOpen),
+  withIcon(menu->addAction(QStringLiteral("&Open…"), &m_window,
+                           [this_ = &m_window] { this_->askAndOpen(); }),
            "document-open", QKeySequence::Open);
   QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
   QObject::connect(
-      menu, &QMenu::aboutToShow, recent, [recent, files, scenarios = m_context.scenarios] {
+      menu, &QMenu::aboutToShow, recent,
+      [recent, files, window = &m_window, scenarios = m_context.scenarios] {
         recent->clear();
         for (const QString& file : scenarios->recentFiles()) {
           QAction* action = recent->addAction(QFileInfo(file).completeBaseName(), files,
                                               [files, file] { files->open(file); });
+          action->setToolTip(file);
+        }
+        recent->addSeparator();
+        for (const QString& file : window->recentSessions()) {
+          QAction* action = recent->addAction(QFileInfo(file).fileName(), window,
+                                              [window, file] { window->openSession(file); });
           action->setToolTip(file);
         }
         recent->setToolTipsVisible(true);
@@ -120,6 +153,9 @@ void StudioMenus::makeEdit() {
                            }),
            // Ctrl+A is a key of the field: it adds a red robot.
            "edit-select-all", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_A));
+  withIcon(menu->addAction(QStringLiteral("&Find anything…"), &m_window,
+                           [this_ = &m_window] { this_->showPalette(); }),
+           "edit-find", QKeySequence(Qt::CTRL | Qt::Key_K));
   // The Delete key itself belongs to the field, so that it also works in text boxes elsewhere.
   QAction* remove = menu->addAction(
       QStringLiteral("&Delete selected robots"), controller,
@@ -182,9 +218,11 @@ void StudioMenus::makeView() {
   menu->addSeparator();
   makeThemes(menu->addMenu(QStringLiteral("&Theme")));
   menu->addAction(QStringLiteral("&Reset layout"), &m_window, &MainWindow::resetLayout);
+  m_context.alarms->fill(menu->addMenu(QStringLiteral("&Alarms")));
+  menu->addAction(m_context.fieldOnly->action());
   QAction* full = menu->addAction(QStringLiteral("&Full screen"));
   full->setCheckable(true);
-  withIcon(full, "view-fullscreen", QKeySequence(Qt::Key_F11));
+  withIcon(full, "view-fullscreen", QKeySequence(Qt::SHIFT | Qt::Key_F11));
   QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
     this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
   });
@@ -207,6 +245,43 @@ void StudioMenus::makeSimulation() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Simulation"));
   MatchController* controller = m_parts.controller;
   for (QAction* action : m_context.transport) menu->addAction(action);
+  QMenu* speeds = menu->addMenu(QStringLiteral("S&peed"));
+  QObject::connect(speeds, &QMenu::aboutToShow, speeds, [speeds, controller] {
+    speeds->clear();
+    for (const double speed : matchSpeeds) {
+      QAction* action = speeds->addAction(speedText(speed), controller,
+                                          [controller, speed] { controller->setSpeed(speed); });
+      action->setCheckable(true);
+      action->setChecked(speed == controller->speed());
+    }
+  });
+  QAction* seed =
+      menu->addAction(QStringLiteral("S&eed…"), &m_window, [parts = m_parts, this_ = &m_window] {
+        link::Scenario again = parts.controller->scenario();
+        bool chosen = false;
+        const QString text = QInputDialog::getText(
+            this_, QStringLiteral("Seed"),
+            QStringLiteral("The same seed gives the same match, from the beginning. Seed:"),
+            QLineEdit::Normal, QString::number(again.settings.seed), &chosen);
+        if (!chosen) return;
+        bool good = false;
+        const qulonglong wanted = text.trimmed().toULongLong(&good);
+        if (!good) {
+          this_->notices()->show(
+              QStringLiteral(
+                  "“%1” is no seed: a seed is a whole number from 0 on. The match goes on.")
+                  .arg(text));
+          return;
+        }
+        again.settings.seed = wanted;
+        parts.controller->open(again, parts.controller->isPaused());
+      });
+  seed->setObjectName(QStringLiteral("matchSeed"));
+  onlyWhenSimulating(seed);
+  QAction* facts = menu->addAction(QStringLiteral("This match"));
+  facts->setEnabled(false);
+  QObject::connect(menu, &QMenu::aboutToShow, facts,
+                   [facts, parts = m_parts] { facts->setText(matchFacts(*parts.controller)); });
   menu->addSeparator();
   QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
   freely->setCheckable(true);

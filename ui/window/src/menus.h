@@ -15,6 +15,8 @@ class QUndoGroup;
 
 namespace pitchboard::ui {
 
+class Alarms;
+class FieldOnly;
 class MainWindow;
 class ScenarioChooser;
 class ScenarioFiles;
@@ -31,6 +33,8 @@ struct MenuContext {
   QList<QAction*> transport;   ///< restart, play/pause, step
   StudioStatusBar* status;
   std::vector<QDockWidget*> docks;
+  FieldOnly* fieldOnly;
+  Alarms* alarms;
 };
 
 /// Makes the menus, once.

@@ -19,8 +19,8 @@ ScenarioChooser::ScenarioChooser(QSettings* settings, QWidget* parent)
     : QComboBox(parent), m_settings(settings) {
   setObjectName(QStringLiteral("scenarioChooser"));
   setToolTip(QStringLiteral("Scenario"));
-  setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  setMinimumWidth(scaled(this, 168));
+  setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  setAccessibleName(QStringLiteral("Scenario"));
   setMaxVisibleItems(30);
   connect(this, &QComboBox::activated, this, [this](int index) {
     const QString picked = itemData(index).toString();

@@ -3,10 +3,12 @@
 
 #include <QActionGroup>
 #include <QComboBox>
+#include <QLayout>
 #include <QMenu>
 #include <QPainter>
 #include <QTimer>
 #include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
 #include <ui/base/robot_words.h>
@@ -38,14 +40,15 @@ constexpr Mode modes[] = {
     {SourceKind::Replay, "Replay", "A recorded session"},
 };
 
-constexpr double matchSpeeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 10, link::MatchRunner::unlimitedSpeed};
+}  // namespace
+
+const std::array<double, 8> matchSpeeds{0.1, 0.25, 0.5, 1,
+                                        2,   5,    10,  link::MatchRunner::unlimitedSpeed};
 
 QString speedText(double speed) {
   if (speed == link::MatchRunner::unlimitedSpeed) return QStringLiteral("max");
   return QStringLiteral("%1×").arg(speed, 0, 'f', speed == 0.25 ? 2 : speed < 4 ? 1 : 0);
 }
-
-}  // namespace
 
 TransportBar::TransportBar(const TransportContext& context, QSettings* settings, QWidget* parent)
     : QToolBar(QStringLiteral("Tool bar"), parent),
@@ -67,13 +70,9 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   addControl(SourceKind::Simulate, addWidget(m_scenarios));
   addControl(SourceKind::Simulate, addSeparator());
   addTransport();
-  m_recordSeparator = addSeparator();
+  addSeparator();
   addRecord();
   addControl(SourceKind::Live, addWidget(new LiveBar(context.live, settings, this)));
-  auto* stretch = new QWidget(this);
-  stretch->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  addWidget(stretch);
-  addWidget(m_scoreboard);
   // A choice made by mouse leaves the keys with the field.
   for (QComboBox* box : findChildren<QComboBox*>()) box->setFocusPolicy(Qt::TabFocus);
 
@@ -82,7 +81,9 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   connect(timer, &QTimer::timeout, this, [this] {
     if (const FramePtr frame = m_context.source->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
+      placeScoreboard();
     }
+    if (isFinished() != m_finished) showTransport();
     if (m_context.recording->isRecording()) showRecord();
   });
   connect(context.source, &SourceSwitch::changed, this, &TransportBar::showMode);
@@ -120,10 +121,14 @@ void TransportBar::addTransport() {
   m_restart->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
   m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), QStringLiteral("Pause"),
                      this, [this] {
-                       if (Playback* past = playback())
+                       if (Playback* past = playback()) {
                          past->setPaused(!past->isPaused());
-                       else
+                       } else if (isFinished()) {
+                         m_context.controller->restart();
+                         m_context.controller->setPaused(false);
+                       } else {
                          m_context.controller->setPaused(!m_context.controller->isPaused());
+                       }
                      });
   m_play->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
   m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), QStringLiteral("One tick"),
@@ -147,7 +152,8 @@ void TransportBar::addTransport() {
     else
       m_context.controller->setSpeed(speed);
   });
-  m_speedAction = addWidget(m_speed);
+  m_speed->setAccessibleName(QStringLiteral("Speed"));
+  addWidget(m_speed);
   connect(m_context.controller, &MatchController::transportChanged, this,
           &TransportBar::showTransport);
   connect(m_context.timeline, &Timeline::lookingBackChanged, this, &TransportBar::showTransport);
@@ -212,12 +218,41 @@ Playback* TransportBar::playback() const {
   return timeline.isRecording() || timeline.isLookingBack() ? timeline.playback() : nullptr;
 }
 
+bool TransportBar::isFinished() const {
+  if (m_context.source->kind() != SourceKind::Simulate) return false;
+  const FramePtr frame = m_context.controller->frame();
+  return frame && frame->finished;
+}
+
+void TransportBar::resizeEvent(QResizeEvent* event) {
+  QToolBar::resizeEvent(event);
+  // A title is shown whole where there is room for it.
+  constexpr int least = 168, roomy = 1200;  // px of the mock
+  m_scenarios->setMinimumWidth(width() >= scaled(this, roomy)
+                                   ? std::max(m_scenarios->sizeHint().width(), scaled(this, least))
+                                   : scaled(this, least));
+  placeScoreboard();
+}
+
+void TransportBar::placeScoreboard() {
+  const int wide = m_scoreboard->sizeHint().width();
+  QMargins margins = layout()->contentsMargins();
+  if (margins.right() != wide) {
+    margins.setRight(wide);
+    layout()->setContentsMargins(margins);
+  }
+  m_scoreboard->setGeometry(width() - wide, (height() - m_scoreboard->sizeHint().height()) / 2,
+                            wide, m_scoreboard->sizeHint().height());
+  m_scoreboard->raise();
+}
+
 void TransportBar::showMode() {
   const SourceKind shown = m_context.source->kind();
   for (const Control& mode : m_modes) mode.action->setChecked(mode.kind == shown);
   for (const Control& control : m_controls) control.action->setVisible(control.kind == shown);
   const FramePtr frame = m_context.source->frame();
   m_scoreboard->setState(frame ? scoreboardOf(*frame) : ScoreboardState{});
+  placeScoreboard();
   showTransport();
   showRecord();
 }
@@ -225,24 +260,26 @@ void TransportBar::showMode() {
 void TransportBar::showTransport() {
   const MatchController& controller = *m_context.controller;
   const Playback* past = playback();
-  const bool paused = past != nullptr ? past->isPaused() : controller.isPaused();
+  m_finished = isFinished();
+  const bool again = past == nullptr && m_finished;
+  const bool paused = past != nullptr ? past->isPaused() : controller.isPaused() || again;
   const bool there =
       past != nullptr ? past->isAvailable() : controller.isOpen() || controller.isOpening();
   m_restart->setText(past != nullptr ? QStringLiteral("To the start") : QStringLiteral("Restart"));
   m_restart->setToolTip(
       QStringLiteral("%1 (%2)").arg(m_restart->text(), m_restart->shortcut().toString()));
-  m_play->setText(paused ? QStringLiteral("Play") : QStringLiteral("Pause"));
+  m_play->setText(again    ? QStringLiteral("Play the match again")
+                  : paused ? QStringLiteral("Play")
+                           : QStringLiteral("Pause"));
   m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(), m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
-  // Live goes on by itself; only its past can be played.
-  const bool shown = past != nullptr || m_context.source->kind() == SourceKind::Simulate;
-  for (QAction* action : transportActions()) {
-    action->setVisible(shown);
-    action->setEnabled(there && shown);
-  }
-  m_speedAction->setVisible(shown);
-  m_recordSeparator->setVisible(shown);
+  // Live goes on by itself; only its past can be played. The buttons stay all the same, so that
+  // nothing jumps when somebody looks back.
+  const bool usable = past != nullptr || m_context.source->kind() == SourceKind::Simulate;
+  for (QAction* action : transportActions()) action->setEnabled(there && usable);
+  m_step->setEnabled(there && usable && !again);
+  m_speed->setEnabled(usable);
   const std::span<const double> speeds =
       past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
   const double speed = past != nullptr ? past->speed() : controller.speed();

@@ -5,6 +5,7 @@
 // scoreboard. UI thread only.
 
 #include <QToolBar>
+#include <array>
 #include <vector>
 
 #include <ui/sources/frame_source.h>
@@ -35,6 +36,11 @@ struct TransportContext {
   LiveController* live = nullptr;
 };
 
+/// Simulated seconds per second that are offered.
+extern const std::array<double, 8> matchSpeeds;
+/// "0.25×", "max".
+QString speedText(double speed);
+
 class TransportBar : public QToolBar {
   Q_OBJECT
  public:
@@ -46,7 +52,13 @@ class TransportBar : public QToolBar {
  signals:
   void sourceRequested(pitchboard::ui::SourceKind kind);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  /// At the right, whatever else has room: what is hidden first is not the score.
+  void placeScoreboard();
+  bool isFinished() const;
   void addModes();
   /// Shown while a source of this kind is; hidden otherwise.
   void addControl(SourceKind kind, QAction* action) { m_controls.push_back({kind, action}); }
@@ -69,13 +81,12 @@ class TransportBar : public QToolBar {
   ScenarioChooser* m_scenarios;
   Scoreboard* m_scoreboard;
   QComboBox* m_speed;
-  QAction* m_speedAction = nullptr;
   QToolButton* m_record = nullptr;
   QAction* m_recordAction = nullptr;
-  QAction* m_recordSeparator = nullptr;
   QAction* m_restart;
   QAction* m_play;
   QAction* m_step;
+  bool m_finished = false;
 };
 
 }  // namespace pitchboard::ui

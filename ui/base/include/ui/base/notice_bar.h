@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A strip above the field for what a person should know or decide, without stopping anything. One
-// notice at a time; further ones wait, the same one twice is shown once. UI thread only.
+// A strip for what a person should know or decide, without stopping anything. One notice at a time,
+// the newest one; older ones wait behind it, the same one twice is shown once. UI thread only.
 
 #include <QFrame>
+#include <QString>
 #include <functional>
 #include <vector>
 
 class QHBoxLayout;
 class QLabel;
+class QTimer;
 
 namespace pitchboard::ui {
 
@@ -18,13 +20,30 @@ struct NoticeButton {
   std::function<void()> action;  ///< may be empty: the button only closes the notice
 };
 
+enum class NoticeTone { Trouble, Success };
+
+/// What a notice is about. A new notice of a topic takes the place of the older one, and settle()
+/// removes it when its cause is gone.
+struct NoticeTopic {
+  QString name = {};
+  NoticeTone tone = NoticeTone::Trouble;
+};
+
 class NoticeBar : public QFrame {
   Q_OBJECT
  public:
   explicit NoticeBar(QWidget* parent = nullptr);
 
-  /// Without buttons it can only be closed.
-  void show(const QString& sentence, std::vector<NoticeButton> buttons = {});
+  /// Lies over the lower edge of `host` from now on instead of taking room in its layout.
+  void floatOver(QWidget* host);
+  /// Without buttons it can only be closed. A success leaves by itself.
+  void show(const QString& sentence, std::vector<NoticeButton> buttons = {},
+            const NoticeTopic& topic = {});
+  /// The cause is gone.
+  void settle(const QString& topic);
+  NoticeTone tone() const {
+    return m_notices.empty() ? NoticeTone::Trouble : m_notices.front().topic.tone;
+  }
   QString text() const;
   int waiting() const { return m_notices.empty() ? 0 : static_cast<int>(m_notices.size()) - 1; }
 
@@ -32,7 +51,10 @@ class NoticeBar : public QFrame {
   struct Notice {
     QString sentence;
     std::vector<NoticeButton> buttons;
+    NoticeTopic topic;
   };
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void place();
   void present();
   void dismiss();
 
@@ -40,6 +62,8 @@ class NoticeBar : public QFrame {
   QLabel* m_text;
   QLabel* m_more;
   QHBoxLayout* m_buttons;
+  QTimer* m_leaving;  // of a success
+  bool m_floats = false;
 };
 
 }  // namespace pitchboard::ui

@@ -12,7 +12,8 @@ class MatchController;
 class SourceSwitch;
 class Timeline;
 
-/// All must outlive the dock. A double click on a line shows its moment on the timeline.
+/// All must outlive the dock. A click on a line shows its moment everywhere, if it is of the source
+/// that is shown; what came after the moment shown is pale.
 QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, Timeline* timeline,
                      QWidget* parent);
 

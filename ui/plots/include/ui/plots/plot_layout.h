@@ -3,6 +3,8 @@
 
 // What the plots show, without any data: tabs, plots, curves. Plain values; they are what a preset
 // holds. Variables are named `GROUP/COLUMN`, so a layout fits every source that has such names.
+// In place of a group, `each` stands for every group that has the columns, and `first` for the
+// first one; `curve/NAME` is another computed curve of the plots.
 
 #include <QColor>
 #include <QJsonObject>
@@ -40,7 +42,8 @@ struct CurveSpec {
   int colorNumber = 0;  ///< of the palette of curves, which has one for each theme
   QColor color;         ///< chosen by hand; not valid: the palette's
   CurveStyle style = CurveStyle::Line;
-  double width = 1.5;  ///< px of the mock
+  double width = 1.5;      ///< px of the mock
+  bool rightAxis = false;  ///< read at the second value axis
   bool operator==(const CurveSpec&) const = default;
 };
 
@@ -81,6 +84,8 @@ Result<PlotLayout> layoutFromText(std::string_view text, std::string_view source
 
 /// "VISION_BALL_DIST B1", "d/dt VISION_BALL_DIST B1", or the title.
 QString curveName(const CurveSpec& curve);
+/// Computed from the same things in the same way, whatever it looks like.
+bool sameData(const CurveSpec& a, const CurveSpec& b);
 /// A variable on its own.
 CurveSpec variableCurve(const QString& name);
 

@@ -14,10 +14,12 @@
 #include <ui/sources/linked_time.h>
 
 class QAction;
-class QComboBox;
 class QMenu;
 class QSettings;
 class QTabWidget;
+class QToolBar;
+class QToolButton;
+class QUndoStack;
 
 namespace pitchboard::ui {
 
@@ -38,6 +40,7 @@ struct PlotsContext {
   PlotTarget* plots = nullptr;          ///< who asks for plots from elsewhere; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
   ComparedSession* compared = nullptr;  ///< whose curves are drawn beside; may be null
+  PlotLayout first = {};                ///< shown when nothing was kept, at the very first start
 };
 
 class PlotsDock : public QWidget {
@@ -56,12 +59,16 @@ class PlotsDock : public QWidget {
   void renamePage(int index);
 
   PlotLayout layoutSpec() const;
+  /// Can be undone, as everything that is changed here.
   void setLayoutSpec(const PlotLayout& layout);
+  QUndoStack* undoStack() const { return m_undo; }
 
   const PlotsContext& context() const { return m_context; }
   /// Says what went wrong, above the plots.
   void showNotice(const QString& sentence);
 
+  /// Every variable of the source that is shown, `GROUP/COLUMN`.
+  QStringList variables() const;
   /// Adds to the page in front, and brings it there.
   void plotVariables(const QStringList& names);
 
@@ -71,7 +78,11 @@ class PlotsDock : public QWidget {
   QSize sizeHint() const override;
 
  private:
-  void makeTools();
+  QToolBar* makeTools();
+  void restore();
+  void put(const PlotLayout& layout);
+  void changed();
+  void follow();
   void compare();
   void scheduleDraw();
   void drawNow();
@@ -84,7 +95,9 @@ class PlotsDock : public QWidget {
   PlotFeed* m_feed;
   QTabWidget* m_tabs;
   NoticeBar* m_notices;
-  QComboBox* m_window;
+  QToolButton* m_window;
+  QUndoStack* m_undo;
+  PlotLayout m_known;  // what the last command led to
   QAction* m_follow;
   QAction* m_marks;
   QAction* m_box;

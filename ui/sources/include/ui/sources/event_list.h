@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <robotlink/frame/match_event.h>
+#include <ui/sources/event_filter.h>
 
 namespace pitchboard::ui {
 
@@ -43,9 +44,9 @@ class EventList : public QAbstractTableModel {
 
   const std::deque<link::MatchEvent>& events() const { return m_events; }
   const link::MatchEvent& event(int row) const { return m_events[static_cast<std::size_t>(row)]; }
-  /// Row of the first event after / last event before this time, of those that have a mark.
-  std::optional<int> next(double time) const;
-  std::optional<int> previous(double time) const;
+  /// Row of the first event after / last event before this time, of those that the filter shows.
+  std::optional<int> next(double time, const EventFilter& filter = {}) const;
+  std::optional<int> previous(double time, const EventFilter& filter = {}) const;
   /// Events that had to leave.
   std::size_t dropped() const { return m_dropped; }
   /// Grows with every change, for whoever caches what it draws.

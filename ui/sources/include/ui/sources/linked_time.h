@@ -2,7 +2,8 @@
 #pragma once
 
 // The time that plots and timeline show together: the visible range, whether it follows the newest
-// data, the moment under the cursor, and the A and B marks. Seconds of the source. UI thread only.
+// data or the moment shown, that moment, the one under the cursor, and the A and B marks. Seconds
+// of the source. UI thread only.
 
 #include <QObject>
 #include <array>
@@ -39,8 +40,18 @@ class LinkedTime : public QObject {
   void setData(std::optional<telemetry::TimeRange> data);
   std::optional<telemetry::TimeRange> data() const { return m_data; }
 
-  /// Zooms by `factor` (< 1: closer) so that `anchor` stays where it is. While following the newest
-  /// moment stays at the right edge and the window changes.
+  /// The moment that field and cards show when it is not the newest one: while looking back, and in
+  /// a recording. The visible range keeps it in sight as long as it follows, and as long as it was
+  /// in sight. Nothing: the newest is shown.
+  void setMoment(std::optional<double> time);
+  std::optional<double> moment() const { return m_moment; }
+  /// Where the line of the moment shown stands; nothing while there are no rows.
+  std::optional<double> playhead() const;
+  /// Where values are read: under the pointer, else at the moment shown. Nothing: the newest.
+  std::optional<double> readAt() const { return m_cursor ? m_cursor : m_moment; }
+
+  /// Zooms by `factor` (< 1: closer) so that `anchor` stays where it is. While the newest moment is
+  /// followed it stays at the right edge and the window changes.
   void zoom(double factor, double anchor);
   void pan(double seconds);
   void fitAll();
@@ -55,6 +66,8 @@ class LinkedTime : public QObject {
 
   /// Asks whoever can (timeline, field) to show the field as it was at this time.
   void requestMoment(double time) { emit momentRequested(time); }
+  /// The same for the newest moment of a source that goes on.
+  void requestNow() { emit nowRequested(); }
 
  signals:
   void rangeChanged();
@@ -62,18 +75,22 @@ class LinkedTime : public QObject {
   void windowChanged(double seconds);
   void cursorChanged();
   void marksChanged();
+  void momentChanged();
   void momentRequested(double time);
+  void nowRequested();
 
  private:
   static std::size_t index(TimeMark mark) { return mark == TimeMark::A ? 0 : 1; }
   void put(telemetry::TimeRange range);
   void follow();
+  void keepInSight(double span);
+  bool isInSight(double time) const { return time >= m_range.begin && time <= m_range.end; }
 
   telemetry::TimeRange m_range{0.0, defaultWindow};
   std::optional<telemetry::TimeRange> m_data;
   double m_window = defaultWindow;
   bool m_following = true;
-  std::optional<double> m_cursor;
+  std::optional<double> m_cursor, m_moment;
   std::array<std::optional<double>, 2> m_marks;
 };
 

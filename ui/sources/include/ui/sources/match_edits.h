@@ -38,6 +38,11 @@ class MatchEdits : public QObject {
   QUndoStack* undoStack() const { return m_undoStack; }
   /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
   const link::ScenarioRobot* robot(RobotId id) const;
+  /// While on, nothing that is done by hand reaches the match: a person looks at another moment of
+  /// it. The first attempt is answered by `failed`. Processes can be started and ended all the
+  /// same.
+  void setLocked(bool on);
+  bool isLocked() const { return m_locked; }
   /// The match goes on from this moment: its robots are known, and nothing can be undone.
   void adopt(const link::Moment& moment);
 
@@ -91,6 +96,7 @@ class MatchEdits : public QObject {
 
  signals:
   void failed(const QString& sentence);
+  void lockedChanged(bool on);
   /// A robot became another kind of robot, by hand or by undo.
   void modelsChanged();
   /// `time`: of the tick after which it was written, simulated s.
@@ -99,10 +105,12 @@ class MatchEdits : public QObject {
  private:
   friend class ReopenCommand;
   void reopen(const link::Scenario& scenario);
+  bool refuses();
 
   MatchController* m_match;
   std::unique_ptr<MatchRoster> m_roster;
   QUndoStack* m_undoStack;
+  bool m_locked = false, m_toldLocked = false;
   bool m_reopening = false;  // a command opens a match: what was done before can still be undone
 };
 

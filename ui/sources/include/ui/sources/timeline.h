@@ -57,12 +57,17 @@ class Timeline : public QObject {
   /// One tick back or on; from now it starts to look back.
   void step(int ticks);
   void togglePlay();
+  /// Of the events that the filter shows. While it plays, going back again soon after an event was
+  /// reached means the one before.
   bool goToNextEvent();
   bool goToPreviousEvent();
   /// At the moment shown; its row in events().
   int addBookmark(const QString& note = {});
   /// Of the bookmark at exactly this time.
   void setNote(double time, const QString& note);
+
+  const EventFilter& eventFilter() const { return m_filter; }
+  void setEventFilter(const EventFilter& filter);
 
   std::optional<telemetry::TimeRange> selection() const { return m_selection; }
   /// A range of less than a tick is none.
@@ -76,18 +81,23 @@ class Timeline : public QObject {
   void moved();          ///< shownTime() or now()
   void lookingBackChanged(bool on);
   void selectionChanged();
+  void eventFilterChanged();
   /// For recordings; also when a note changed.
   void bookmarked(const pitchboard::link::MatchEvent& event);
 
  private:
   void follow();
   void lookAt(double time);
+  void show(double time);
+  bool goToEvent(std::optional<int> row);
   void refresh();
 
   SourceSwitch* m_source;
   Playback* m_past;  // while looking back
   std::map<FrameSource*, EventCollector*> m_collectors;
   std::optional<telemetry::TimeRange> m_selection;
+  EventFilter m_filter;
+  std::optional<double> m_reached;  // the event gone to last, until another moment is chosen
   bool m_looping = false;
   double m_lastNow = 0.0;
 };

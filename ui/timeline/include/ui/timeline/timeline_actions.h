@@ -6,12 +6,14 @@
 
 #include <QObject>
 #include <QPoint>
+#include <functional>
 
 class QAction;
 class QMenu;
 
 namespace pitchboard::ui {
 
+struct EventFilter;
 class LinkedTime;
 class Timeline;
 
@@ -20,7 +22,7 @@ class TimelineActions : public QObject {
  public:
   /// `plots` may be null.
   TimelineActions(Timeline* timeline, LinkedTime* plots, QObject* parent);
-  void fill(QMenu* menu) const;
+  void fill(QMenu* menu);
 
   QAction* next() const { return m_next; }
   QAction* previous() const { return m_previous; }
@@ -33,10 +35,12 @@ class TimelineActions : public QObject {
 
  private:
   void refresh();
+  void fillFilter(QMenu* menu);
+  void change(const std::function<void(EventFilter&)>& how);
 
   Timeline* m_timeline;
   LinkedTime* m_plots;
-  QAction* m_live;
+  QAction* m_now;
   QAction* m_play;
   QAction* m_next;
   QAction* m_previous;

@@ -16,12 +16,15 @@ class QSettings;
 class QUndoGroup;
 
 namespace pitchboard::link {
+struct MatchFrame;
 struct Scenario;
-}
+}  // namespace pitchboard::link
 
 namespace pitchboard::ui {
 
+class Alarms;
 class ComparedSession;
+class FieldOnly;
 class FieldView;
 class LinkedTime;
 class LiveController;
@@ -29,6 +32,7 @@ class LiveOverlay;
 class MatchController;
 class NoticeBar;
 class PlotTarget;
+class PlotsDock;
 class ReplayController;
 class RobotSelection;
 class ScenarioFiles;
@@ -59,6 +63,12 @@ class MainWindow : public QMainWindow {
   LiveController* live() const { return m_live; }
   /// A recorded session, in Replay; what is wrong with it is a notice.
   void openSession(const QString& path);
+  /// Asks for a scenario or a session.
+  void askAndOpen();
+  /// Paths, newest first, of sessions that are still there.
+  QStringList recentSessions() const;
+  /// Finds actions, variables, robots and events by words.
+  void showPalette();
   /// Records what is shown into this file, as the button does into one of its own choice. What goes
   /// wrong, now or later, is a notice and `recordingFailed`.
   void recordInto(const QString& path);
@@ -83,14 +93,20 @@ class MainWindow : public QMainWindow {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   StudioParts parts() const;
   void makeMenus();
   void makeDocks();
+  void chooseUndo();
   void showTitles();
   void connectField();
   void shutDown();
+  void connectNotices();
+  void saveLayout();
+  void fitScreen();
+  void tellFinished(const link::MatchFrame& frame);
 
   MatchController* m_controller;
   LiveController* m_live;
@@ -112,6 +128,12 @@ class MainWindow : public QMainWindow {
   TransportBar* m_bar;
   StudioStatusBar* m_status;
   ScenarioFiles* m_files;
+  PlotsDock* m_plotsDock = nullptr;
+  FieldOnly* m_fieldOnly;
+  Alarms* m_alarms;
+  QByteArray m_savedLayout;
+  bool m_wasShown = false;
+  bool m_toldFinished = false;
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()
 };
 

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is done with plots over a working day: layouts that fit other robots, undo, second axis,
+// curves of curves, pictures for others. Values are computed here.
+#include <QCompleter>
+#include <QLineEdit>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QUndoStack>
+#include <QtTest>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/theme.h>
+
+#include "chart_pane.h"
+#include "curve_dialog.h"
+#include "curve_template.h"
+#include "marks_panel.h"
+#include "plot_export.h"
+#include "plot_page.h"
+#include "plot_source.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+struct Bench : PlotBench {
+  std::unique_ptr<PlotsDock> dock;
+  explicit Bench(const QStringList& robots = {QStringLiteral("B1"), QStringLiteral("B2")}) {
+    for (const QString& robot : robots) source.fill(robot.toUtf8().constData(), 10.0);
+    dock = std::make_unique<PlotsDock>(context(), nullptr);
+    dock->resize(1000, 300);
+    dock->show();
+    dock->feed()->refresh();
+  }
+  PlotPane* show(const CurveSpec& curve) {
+    PaneSpec pane;
+    pane.curves << curve;
+    return dock->currentPage()->insertPane(0, pane);
+  }
+};
+
+CurveSpec expression(const QString& text) {
+  CurveSpec curve;
+  curve.kind = CurveKind::Expression;
+  curve.expression = text;
+  return curve;
+}
+
+QStringList namesOf(const PlotPane* pane) {
+  QStringList names;
+  for (const Curve& curve : pane->curves()) names << curve.name();
+  return names;
+}
+
+}  // namespace
+
+class TestPlotWork : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void oneDescriptionForEveryRobot() {
+    Bench b;
+    PlotPane* pane = b.show(variableCurve(QStringLiteral("each/DIST")));
+    QCOMPARE(namesOf(pane), QStringList({QStringLiteral("DIST B1"), QStringLiteral("DIST B2")}));
+    QVERIFY(pane->curves()[0].color() != pane->curves()[1].color());
+    // A robot that comes later has its curve; what is kept is the description.
+    b.source.fill("B3", 10.0);
+    b.dock->feed()->refresh();
+    QTRY_COMPARE(pane->curves().size(), std::size_t(3));
+    QCOMPARE(pane->spec().curves.size(), 1);
+    QCOMPARE(pane->spec().curves[0].inputs, QStringList(QStringLiteral("each/DIST")));
+    // The same in a source with other robots, or none.
+    b.source.restart();
+    b.source.fill("Robot 7", 10.0);
+    b.dock->feed()->refresh();
+    QTRY_COMPARE(namesOf(pane), QStringList(QStringLiteral("DIST Robot 7")));
+    QCOMPARE(pane->curves()[0].valueAt({}), std::optional(PlotSource::distanceAt(10.0)));
+    b.source.restart();
+    b.dock->feed()->refresh();
+    QTRY_VERIFY(pane->curves().size() == 1 && pane->curves()[0].isWaiting());
+  }
+
+  void expressionsForEveryRobotAndTheFirst() {
+    Bench b({QStringLiteral("Robot 1"), QStringLiteral("B2")});
+    PlotPane* pane = b.show(expression(QStringLiteral("each.DIST * 2 + each.ANGLE")));
+    QCOMPARE(namesOf(pane), QStringList({QStringLiteral("DIST * 2 + ANGLE Robot 1"),
+                                         QStringLiteral("DIST * 2 + ANGLE B2")}));
+    const double expected = PlotSource::distanceAt(10.0) * 2 + 900.0;
+    QTRY_VERIFY(pane->curves()[0].valueAt({}) && pane->curves()[1].valueAt({}));
+    QTRY_COMPARE(pane->curves()[0].valueAt(10.0), std::optional(expected));
+    PlotPane* first = b.show(variableCurve(QStringLiteral("first/DIST")));
+    QCOMPARE(namesOf(first), QStringList(QStringLiteral("DIST Robot 1")));
+    // From a plain curve by the menu's way.
+    QCOMPARE(forEachGroup(variableCurve(QStringLiteral("B2/DIST"))).inputs,
+             QStringList(QStringLiteral("each/DIST")));
+  }
+
+  void curvesAreMadeOfCurves() {
+    Bench b;
+    CurveSpec near = expression(QStringLiteral("B1.DIST / 100"));
+    near.title = QStringLiteral("near");
+    b.show(near);
+    PlotPane* pane = b.show(expression(QStringLiteral("{curve/near} + B1.ANGLE")));
+    const double expected = PlotSource::distanceAt(10.0) / 100 + 900.0;
+    QTRY_VERIFY(pane->curves()[0].valueAt(10.0) &&
+                std::abs(*pane->curves()[0].valueAt(10.0) - expected) < 1e-9);
+    // What it is made of changes: so does it.
+    PlotPane* source = b.dock->currentPage()->panes()[1];
+    near.expression = QStringLiteral("B1.DIST / 10");
+    source->setCurve(0, near);
+    const double now = PlotSource::distanceAt(10.0) / 10 + 900.0;
+    QTRY_VERIFY(pane->curves()[0].valueAt(10.0) &&
+                std::abs(*pane->curves()[0].valueAt(10.0) - now) < 1e-9);
+    // A curve that is made of itself waits for ever and harms nobody.
+    CurveSpec circle = expression(QStringLiteral("{curve/circle} + B1.DIST"));
+    circle.title = QStringLiteral("circle");
+    PlotPane* endless = b.show(circle);
+    b.dock->feed()->refresh();
+    QVERIFY(endless->curves()[0].isWaiting());
+  }
+
+  void everythingIsUndone() {
+    Bench b;
+    QUndoStack* undo = b.dock->undoStack();
+    QVERIFY(!undo->canUndo());
+    b.dock->plotVariables({QStringLiteral("B1/DIST")});
+    b.dock->plotVariables({QStringLiteral("B2/DIST")});
+    b.dock->plotVariables({QStringLiteral("B1/ACTION")});
+    const PlotLayout full = b.dock->layoutSpec();
+    b.dock->currentPage()->removeAll();
+    QVERIFY(b.dock->currentPage()->panes().isEmpty());
+    undo->undo();
+    QCOMPARE(b.dock->layoutSpec().pages[0].panes.size(), full.pages[0].panes.size());
+    QCOMPARE(b.dock->layoutSpec().pages[0].panes[0].curves, full.pages[0].panes[0].curves);
+    undo->undo();
+    undo->undo();
+    QCOMPARE(b.dock->currentPage()->panes().size(), 1);
+    QCOMPARE(namesOf(b.dock->currentPage()->panes()[0]), QStringList(QStringLiteral("DIST B1")));
+    undo->undo();
+    QVERIFY(b.dock->currentPage()->panes().isEmpty());
+    QVERIFY(!undo->canUndo());
+    while (undo->canRedo()) undo->redo();
+    QVERIFY(b.dock->currentPage()->panes().isEmpty());
+    undo->undo();
+    QCOMPARE(b.dock->currentPage()->panes().size(), 2);
+  }
+
+  void aSecondAxisHasLimitsOfItsOwn() {
+    Bench b;
+    CurveSpec angle = variableCurve(QStringLiteral("B1/ANGLE"));
+    auto* chart = qobject_cast<ChartPane*>(b.show(variableCurve(QStringLiteral("B1/DIST"))));
+    chart->addCurve(angle);
+    b.time.setRange({0.0, 10.0});
+    QTRY_VERIFY(chart->valueScale().limits.high >= 900.0);
+    const int narrow = chart->wantedRight();
+    angle = chart->description(1);
+    angle.rightAxis = true;
+    chart->setCurve(1, angle);
+    QVERIFY(chart->valueScale().limits.high < 300.0);
+    QVERIFY(chart->rightScale().limits.high >= 900.0);
+    QVERIFY(chart->wantedRight() > narrow);
+    // It comes back from a file.
+    const QByteArray text = QJsonDocument(toJson(b.dock->layoutSpec())).toJson();
+    const auto read = layoutFromText({text.data(), std::size_t(text.size())}, "test");
+    QVERIFY(read);
+    QVERIFY(read->pages[0].panes[0].curves[1].rightAxis);
+    QVERIFY(!read->pages[0].panes[0].curves[0].rightAxis);
+  }
+
+  void anXyPlotNamesBoth() {
+    CurveSpec pair = variableCurve(QStringLiteral("B1/TRUE_X"));
+    pair.inputs << QStringLiteral("B1/TRUE_Y");
+    QCOMPARE(curveName(pair), QStringLiteral("TRUE_Y over TRUE_X B1"));
+    pair.inputs[1] = QStringLiteral("B2/TRUE_Y");
+    QCOMPARE(curveName(pair), QStringLiteral("TRUE_Y B2 over TRUE_X B1"));
+  }
+
+  void eightCurvesAreToldApart() {
+    for (const ThemeChoice choice : {ThemeChoice::Dark, ThemeChoice::Light}) {
+      setTheme(*qApp, choice);
+      const auto back = qScopeGuard([] { setTheme(*qApp, ThemeChoice::Dark); });
+      for (int a = 0; a < curveColors; ++a) {
+        for (int b = a + 1; b < curveColors; ++b) {
+          // By hue, or one of them is grey.
+          const QColor x = curveColor(a), y = curveColor(b);
+          const int apart = std::abs((x.hslHue() - y.hslHue() + 540) % 360 - 180);
+          const bool hue = apart >= 14, grey = std::abs(x.hslSaturation() - y.hslSaturation()) > 60;
+          QVERIFY2(hue || grey, qPrintable(QStringLiteral("%1 and %2").arg(a + 1).arg(b + 1)));
+        }
+      }
+    }
+  }
+
+  void manyPlotsScroll() {
+    Bench b;
+    const QSize before = b.dock->size();
+    PaneSpec lane;
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve(QStringLiteral("B1/ACTION"));
+    for (int i = 0; i < 24; ++i) b.dock->currentPage()->insertPane(i, lane);
+    QVERIFY(b.dock->minimumSizeHint().height() < 200);
+    QCOMPARE(b.dock->size(), before);
+    auto* bar = b.dock->findChild<QScrollArea*>()->verticalScrollBar();
+    QTRY_VERIFY(bar->maximum() > 300);
+    // The wheel over the numbers beside the axis.
+    QWidget* surface = b.dock->currentPage()->panes()[0]->surface();
+    const QPoint at(4, 10);
+    QWheelEvent wheel(at, surface->mapToGlobal(at), {}, {0, -240}, Qt::NoButton, {},
+                      Qt::NoScrollPhase, false);
+    const telemetry::TimeRange range = b.time.range();
+    QApplication::sendEvent(surface, &wheel);
+    QVERIFY(bar->value() > 0);
+    QCOMPARE(b.time.range(), range);
+  }
+
+  void theTableOfMarksShowsAllItsColumns() {
+    Bench b;
+    b.dock->resize(1404, 224);
+    b.dock->plotVariables({QStringLiteral("B1/DIST"), QStringLiteral("B1/ACTION")});
+    b.time.setRange({0.0, 10.0});
+    b.time.showMarks(true);
+    auto* table = b.dock->currentPage()->marksPanel()->findChild<QTableView*>();
+    QTRY_VERIFY(table->isVisible());
+    QTRY_VERIFY(!table->horizontalScrollBar()->isVisible());
+    QCOMPARE(table->columnAt(table->viewport()->width() - 2), int(MarksModel::columns) - 1);
+    QVERIFY(table->columnWidth(0) >= 100);
+    // Beside it a chart that can be read, and a whole lane.
+    PlotPane* chart = b.dock->currentPage()->panes()[0];
+    QTRY_VERIFY2(chart->surface()->height() >= 64, qPrintable(QString::number(chart->height())));
+    QVERIFY(chart->surface()->width() > 500);
+  }
+
+  void picturesAreCleanForOthers() {
+    Bench b;
+    PlotPane* pane = b.show(variableCurve(QStringLiteral("B1/DIST")));
+    b.time.setRange({0.0, 10.0});
+    const QImage clean = plotPicture(*b.dock->currentPage(), 1.0);
+    const QPoint at(qRound(pane->timeAxis().pixel(5.0)), 40);
+    QMouseEvent move(QEvent::MouseMove, at, pane->surface()->mapToGlobal(at), Qt::NoButton,
+                     Qt::NoButton, {});
+    QApplication::sendEvent(pane->surface(), &move);
+    QVERIFY(b.time.cursor());
+    // Below the legend, which has the value at the pointer, nothing is another.
+    const QImage pointed = plotPicture(*b.dock->currentPage(), 1.0);
+    const int top = pane->surface()->mapTo(b.dock->currentPage()->picture(), QPoint()).y();
+    QCOMPARE(pointed.copy(0, top, pointed.width(), pointed.height()),
+             clean.copy(0, top, clean.width(), clean.height()));
+    const QString path = b.folder.filePath(QStringLiteral("plots.svg"));
+    QVERIFY(savePlotSvg(*b.dock->currentPage(), path));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString svg = QString::fromUtf8(file.readAll());
+    QVERIFY(svg.contains(QStringLiteral("font-family=")));
+    QVERIFY(!svg.contains(QStringLiteral("\"Sans Serif")));
+    QCOMPARE(svg.count(QStringLiteral("font-family=")), svg.count(QStringLiteral("sans-serif\"")));
+  }
+
+  void namesAreCompletedInExpressions() {
+    Bench b({QStringLiteral("B1"), QStringLiteral("Robot 7")});
+    CurveDialog dialog(b.dock->feed(), expression({}), nullptr);
+    dialog.show();
+    auto* line = dialog.findChild<QLineEdit*>(QStringLiteral("expression"));
+    auto* completer = line->findChild<QCompleter*>(QStringLiteral("expressionCompleter"));
+    line->setFocus();
+    QTest::keyClicks(line, QStringLiteral("2 * angl"));
+    QCOMPARE(completer->completionCount(), 2);
+    emit completer->activated(completer->currentCompletion());
+    QCOMPARE(line->text(), QStringLiteral("2 * B1.ANGLE"));
+    QVERIFY2(dialog.problem().isEmpty(), qPrintable(dialog.problem()));
+    QTest::keyClicks(line, QStringLiteral(" + dist"));
+    completer->setCurrentRow(1);
+    emit completer->activated(completer->currentCompletion());
+    QCOMPARE(line->text(), QStringLiteral("2 * B1.ANGLE + {Robot 7/DIST}"));
+    QVERIFY2(dialog.problem().isEmpty(), qPrintable(dialog.problem()));
+  }
+
+  void aLayoutThatCannotComeBackSaysWhy() {
+    Bench b;
+    b.settings.setValue(QStringLiteral("plots/layout"),
+                        QStringLiteral("{\"pitchboardPlots\": 99}"));
+    PlotsDock dock(b.context(), nullptr);
+    QVERIFY2(dock.findChild<NoticeBar*>()->text().contains(QStringLiteral("version 99")),
+             qPrintable(dock.findChild<NoticeBar*>()->text()));
+    // At the very first start there is nothing to complain of, but something to see.
+    b.settings.remove(QStringLiteral("plots/layout"));
+    PlotsContext context = b.context();
+    context.first = {{{QStringLiteral("Plots"), {{}}}}, 0};
+    context.first.pages[0].panes[0].curves << variableCurve(QStringLiteral("first/DIST"));
+    PlotsDock fresh(context, nullptr);
+    QVERIFY(fresh.findChild<NoticeBar*>()->text().isEmpty());
+    fresh.feed()->refresh();
+    QCOMPARE(fresh.currentPage()->panes().size(), 1);
+  }
+};
+
+QTEST_MAIN(TestPlotWork)
+#include "tst_plot_work.moc"

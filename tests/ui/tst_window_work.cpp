@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window over a day at a match: looking back, finding things, notices, what stays where.
+#include <QAccessible>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListView>
+#include <QMenuBar>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSettings>
+#include <QSlider>
+#include <QStatusBar>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QUndoStack>
+#include <QtTest>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/theme.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/robot_selection.h>
+#include <ui/sources/timeline.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
+
+#include "alarms.h"
+#include "menu_actions.h"
+#include "plot_page.h"
+#include "scoreboard.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestWindowWork : public QObject {
+  Q_OBJECT
+
+  struct Studio {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    MatchController controller;
+    MainWindow window;
+    explicit Studio(QSize size = {1280, 800})
+        : controller(options()), window(&controller, &settings) {
+      window.resize(size);
+      window.show();
+    }
+    static link::MatchOptions options() {
+      link::MatchOptions made;
+      made.cognition = link::Cognition::Inline;
+      return made;
+    }
+    /// A match of five seconds, paused.
+    void play() {
+      controller.open(link::loadScenario("match-3v3").value(), true);
+      controller.runTo(300);
+      QTRY_VERIFY(controller.frame() && controller.frame()->snapshot.tick == 300);
+    }
+    template <class Widget>
+    Widget* find(const char* name) {
+      return window.findChild<Widget*>(QLatin1String(name));
+    }
+    Timeline* timeline() { return window.findChild<Timeline*>(); }
+    QAction* menuAction(const QString& text) {
+      for (const MenuAction& each : menuActions(*window.menuBar())) {
+        if (each.text.startsWith(text)) return each.action;
+      }
+      return nullptr;
+    }
+  };
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void lookingBackForbidsEdits() {
+    Studio s;
+    s.play();
+    s.controller.edits()->removeRobots({RobotId{1}});
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(5));
+    s.timeline()->seek(2.0);
+    QVERIFY(s.timeline()->isLookingBack());
+    QVERIFY(!s.find<QToolButton>("editValues")->isEnabled());
+    QVERIFY(!s.menuAction(QStringLiteral("Undo"))->isEnabled());
+    s.controller.edits()->removeRobots({RobotId{2}});
+    s.controller.edits()->writeVariable(RobotId{3}, QStringLiteral("DECISION_ACTION_A"), 5);
+    QVERIFY2(s.window.notices()->text().contains(QStringLiteral("past moment")),
+             qPrintable(s.window.notices()->text()));
+    QCOMPARE(s.controller.edits()->undoStack()->count(), 1);
+    // Back at now the notice has no cause any more, and edits reach the match.
+    QTest::mouseClick(s.find<QToolButton>("now"), Qt::LeftButton);
+    QVERIFY(s.window.notices()->text().isEmpty());
+    QVERIFY(s.find<QToolButton>("editValues")->isEnabled());
+    s.menuAction(QStringLiteral("Undo"))->trigger();
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(6));
+  }
+
+  void aClickOnALogLineGoesThere() {
+    Studio s;
+    s.play();
+    emit s.controller.logReceived({{2.0, "B1 decision", "here"}, {4.0, "B1 decision", "later"}});
+    auto* dock = s.find<QDockWidget>("log");
+    dock->raise();
+    auto* table = dock->findChild<QTableView*>();
+    QTRY_VERIFY(table->isVisible());
+    const auto row = [table](const QString& text) {
+      for (int r = 0; r < table->model()->rowCount(); ++r) {
+        const QModelIndex cell = table->model()->index(r, 2);
+        if (cell.data().toString() == text) return cell;
+      }
+      return QModelIndex();
+    };
+    table->scrollTo(row(QStringLiteral("here")));
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                      table->visualRect(row(QStringLiteral("here"))).center());
+    QCOMPARE(s.timeline()->shownTime(), 2.0);
+    QCOMPARE(row(QStringLiteral("later")).data(Qt::ForegroundRole).value<QColor>(),
+             theme().disabledText);
+    s.timeline()->goLive();
+    QVERIFY(!row(QStringLiteral("later")).data(Qt::ForegroundRole).isValid());
+  }
+
+  void wordsFindEverything() {
+    Studio s;
+    s.play();
+    const auto find = [&s](const QString& words) {
+      QTest::keyClick(&s.window, Qt::Key_K, Qt::ControlModifier);
+      auto* line = s.find<QLineEdit>("paletteWords");
+      QVERIFY(line);
+      QTest::keyClicks(line, words);
+      QTest::keyClick(line, Qt::Key_Return);
+      QTRY_VERIFY(s.find<QDialog>("commandPalette") == nullptr);
+    };
+    find(QStringLiteral("R2"));
+    const auto selected = s.window.findChild<RobotSelection*>()->ids();
+    QCOMPARE(selected.size(), std::size_t(1));
+    QCOMPARE(s.controller.edits()->robot(selected[0])->identity.number, 2);
+    find(QStringLiteral("b2 vision_ball_angle"));
+    const auto* plots = s.window.findChild<PlotsDock*>();
+    QVERIFY(plots->currentPage()->panes()[0]->hasCurve(
+        variableCurve(QStringLiteral("B2/VISION_BALL_ANGLE"))));
+    QVERIFY(s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
+    find(QStringLiteral("view log"));
+    QVERIFY(!s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
+  }
+
+  void theListOfShortcutsIsWhole() {
+    Studio s;
+    s.menuAction(QStringLiteral("Keyboard shortcuts"))->trigger();
+    auto* dialog = s.find<QDialog>("shortcuts");
+    QVERIFY(dialog);
+    QStringList shown;
+    for (const QLabel* label : dialog->findChildren<QLabel*>()) shown << label->text();
+    int count = 0;
+    for (const MenuAction& each : menuActions(*s.window.menuBar())) {
+      for (const QKeySequence& keys : each.action->shortcuts()) {
+        ++count;
+        const QString text = keys.toString(QKeySequence::NativeText);
+        QVERIFY2(shown.filter(text).size() > 0, qPrintable(each.text + ": " + text));
+      }
+    }
+    QVERIFY(count > 15);
+  }
+
+  void theFieldAloneAndBack() {
+    Studio s;
+    s.play();
+    QTest::keyClick(&s.window, Qt::Key_F11);
+    QVERIFY(s.window.isFullScreen());
+    QVERIFY(!s.find<QDockWidget>("robots")->isVisible());
+    QVERIFY(!s.window.menuBar()->isVisible() && !s.window.statusBar()->isVisible());
+    int boards = 0;
+    for (const Scoreboard* board : s.window.findChildren<Scoreboard*>())
+      boards += board->isVisible();
+    QCOMPARE(boards, 1);
+    QTest::keyClick(&s.window, Qt::Key_Escape);
+    QVERIFY(!s.window.isFullScreen());
+    QTRY_VERIFY(s.find<QDockWidget>("robots")->isVisible());
+    QVERIFY(s.window.menuBar()->isVisible() && s.window.statusBar()->isVisible());
+  }
+
+  void noticesNewestFirstAndTheFieldStays() {
+    Studio s;
+    s.play();
+    NoticeBar* bar = s.window.notices();
+    const QWidget* field = s.window.centralWidget()->layout()->itemAt(0)->widget();
+    const QRect before = field->geometry();
+    bar->show(QStringLiteral("old"), {}, {QStringLiteral("a")});
+    bar->show(QStringLiteral("new"), {}, {QStringLiteral("b")});
+    QCOMPARE(bar->text(), QStringLiteral("new"));
+    QVERIFY(bar->isVisible());
+    QCOMPARE(field->geometry(), before);
+    bar->settle(QStringLiteral("b"));
+    QCOMPARE(bar->text(), QStringLiteral("old"));
+    bar->settle(QStringLiteral("a"));
+    QVERIFY(!bar->isVisible());
+    const QString ground = theme().warningGround.name();
+    bar->show(QStringLiteral("saved"), {}, {QStringLiteral("c"), NoticeTone::Success});
+    QVERIFY(!bar->styleSheet().contains(ground));
+    bar->show(QStringLiteral("bad"));
+    QVERIFY(bar->styleSheet().contains(ground));
+    // A scenario that cannot be opened is forgotten when one could.
+    s.window.files()->open(s.folder.filePath(QStringLiteral("missing.json")));
+    QVERIFY(bar->text().contains(QStringLiteral("missing.json")));
+    s.window.files()->open(QStringLiteral("one-robot"));
+    QTRY_VERIFY(!bar->text().contains(QStringLiteral("missing.json")));
+  }
+
+  void aFinishedMatchSaysWhatCanBeDone() {
+    Studio s;
+    link::Scenario scenario = link::loadScenario("one-robot").value();
+    scenario.stop.duration = 1.0;
+    s.controller.setSpeed(link::MatchRunner::unlimitedSpeed);
+    s.controller.open(scenario);
+    QTRY_VERIFY(s.window.notices()->text().startsWith(QStringLiteral("The match is over")));
+    auto* play = s.find<QAction>("play");
+    QTRY_COMPARE(play->text(), QStringLiteral("Play the match again"));
+    s.controller.setSpeed(0.1);
+    play->trigger();
+    QTRY_VERIFY(s.controller.frame() && !s.controller.frame()->finished);
+    QVERIFY(s.window.notices()->text().isEmpty());
+    QTRY_COMPARE(play->text(), QStringLiteral("Pause"));
+  }
+
+  void theLayoutIsKeptWhileItRuns() {
+    Studio s;
+    s.find<QDockWidget>("processes")->close();
+    // As if the studio were killed: what is in the settings by then is what counts.
+    QTRY_VERIFY_WITH_TIMEOUT(s.settings.contains(QStringLiteral("window/layout")), 10'000);
+    MatchController controller(Studio::options());
+    MainWindow again(&controller, &s.settings);
+    again.show();
+    QVERIFY(again.findChild<QDockWidget*>(QStringLiteral("processes"))->isHidden());
+    QVERIFY(!again.findChild<QDockWidget*>(QStringLiteral("plots"))->isHidden());
+  }
+
+  void theScoreStaysInNarrowWindows() {
+    Studio s({1000, 700});
+    s.play();
+    auto* score = s.window.findChild<Scoreboard*>();
+    QTRY_VERIFY(score->isVisible() && score->width() >= score->sizeHint().width());
+    const QPoint right = score->mapTo(&s.window, QPoint(score->width(), 0));
+    QVERIFY(right.x() <= s.window.width());
+  }
+
+  void theWindowFitsASmallScreen() {
+    Studio s({1280, 800});
+    s.play();
+    PaneSpec lane;
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve(QStringLiteral("B1/DECISION_ACTION_A"));
+    auto* plots = s.window.findChild<PlotsDock*>();
+    for (int i = 0; i < 24; ++i) plots->currentPage()->insertPane(i, lane);
+    QCoreApplication::processEvents();
+    QVERIFY2(s.window.minimumSizeHint().height() <= 720,
+             qPrintable(QString::number(s.window.minimumSizeHint().height())));
+    QCOMPARE(s.window.size(), QSize(1280, 800));
+  }
+
+  void undoBelongsToThePlotsWhileOneWorksThere() {
+    Studio s;
+    s.play();
+    auto* plots = s.window.findChild<PlotsDock*>();
+    s.controller.edits()->removeRobots({RobotId{1}});
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(5));
+    const auto before = plots->currentPage()->panes().size();
+    plots->currentPage()->removeAll();
+    QWidget* tool = plots->findChild<QToolButton*>(QStringLiteral("plotWindow"));
+    s.window.activateWindow();
+    tool->setFocus();
+    QTRY_VERIFY(tool->hasFocus());
+    QTest::keyClick(&s.window, Qt::Key_Z, Qt::ControlModifier);
+    QTRY_COMPARE(plots->currentPage()->panes().size(), before);
+    QCOMPARE(s.controller.frame()->robots.size(), std::size_t(5));
+    s.find<QComboBox>("speed")->setFocus();
+    QTest::keyClick(&s.window, Qt::Key_Z, Qt::ControlModifier);
+    QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(6));
+  }
+
+  void whatTheKeyboardReachesHasANameAndAFrame() {
+    Studio s;
+    s.play();
+    s.window.activateWindow();
+    QSet<QWidget*> seen;
+    QWidget* at = s.find<QComboBox>("speed");
+    at->setFocus();
+    QTRY_VERIFY(at->hasFocus());
+    for (int i = 0; i < 60; ++i) {
+      QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+      QWidget* stop = QApplication::focusWidget();
+      if (stop == nullptr || seen.contains(stop)) break;
+      seen.insert(stop);
+      QAccessibleInterface* spoken = QAccessible::queryAccessibleInterface(stop);
+      QVERIFY(spoken);
+      const QString name = spoken->text(QAccessible::Name);
+      QVERIFY2(!name.isEmpty(), qPrintable(QString::fromLatin1(stop->metaObject()->className()) +
+                                           ' ' + stop->objectName()));
+    }
+    QVERIFY2(seen.size() >= 10, qPrintable(QString::number(seen.size())));
+  }
+
+  void theNoisePanelScrollsByWheel() {
+    Studio s;
+    s.play();
+    auto* dock = s.find<QDockWidget>("noise");
+    dock->show();
+    dock->raise();
+    auto* area = qobject_cast<QScrollArea*>(dock->widget());
+    QTRY_VERIFY(area->verticalScrollBar()->maximum() > 0);
+    auto* slider = area->findChild<QSlider*>();
+    const int value = slider->value();
+    const QPointF at = slider->rect().center();
+    QWheelEvent wheel(at, slider->mapToGlobal(at), {}, {0, -240}, Qt::NoButton, {},
+                      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(slider, &wheel);
+    QVERIFY(area->verticalScrollBar()->value() > 0);
+    QCOMPARE(slider->value(), value);
+  }
+
+  void chosenEventsRaiseAnAlarm() {
+    Studio s;
+    s.play();
+    auto* alarms = s.window.findChild<Alarms*>();
+    link::MatchEvent low{link::MatchEventKind::BatteryLow, 1.0, RobotId{1}, "B1"};
+    emit s.controller.eventsReceived({low});
+    QVERIFY(!alarms->isRaised());
+    s.menuAction(QStringLiteral("A robot has a low battery"))->trigger();
+    emit s.controller.eventsReceived({low});
+    QVERIFY(alarms->isRaised());
+    QTRY_VERIFY(!alarms->isRaised());
+    QCOMPARE(s.settings.value(QStringLiteral("alarms/kinds")).toStringList(),
+             QStringList(QStringLiteral("battery-low")));
+  }
+};
+
+QTEST_MAIN(TestWindowWork)
+#include "tst_window_work.moc"

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curve_template.h"
+
+#include <QRegularExpression>
+#include <algorithm>
+
+#include "expression.h"
+#include "plot_feed.h"
+
+namespace pitchboard::ui {
+namespace {
+
+const QString eachGroup = QStringLiteral("each");
+const QString firstGroup = QStringLiteral("first");
+constexpr qsizetype mostCurves = 24;  // of one description: more cannot be told apart anyway
+
+QString groupOf(const QString& name) {
+  return name.left(name.indexOf(QLatin1Char('/')));
+}
+
+bool isWord(const QString& group) {
+  return group == eachGroup || group == firstGroup;
+}
+
+QStringList variablesOf(const CurveSpec& curve) {
+  if (curve.kind != CurveKind::Expression) return curve.inputs;
+  const auto expression = Expression::parse(curve.expression);
+  return expression ? expression->variables() : QStringList();
+}
+
+CurveSpec ofGroup(const CurveSpec& curve, const QString& group) {
+  CurveSpec made = curve;
+  for (QString& input : made.inputs) {
+    if (isWord(groupOf(input))) input = group + input.mid(input.indexOf(QLatin1Char('/')));
+  }
+  // Names of groups may have characters that only braces can hold.
+  static const QRegularExpression plain(
+      QStringLiteral("(?<![\\w.{])(?:each|first)\\.([A-Za-z_][\\w.]*)"));
+  static const QRegularExpression braced(QStringLiteral("\\{\\s*(?:each|first)/"));
+  made.expression.replace(braced, QStringLiteral("{") + group + QLatin1Char('/'));
+  made.expression.replace(plain, QStringLiteral("{") + group + QStringLiteral("/\\1}"));
+  if (!curve.title.isEmpty()) {
+    made.title = curve.title + QLatin1Char(' ') + group;
+  } else if (curve.kind == CurveKind::Expression) {
+    made.title = curve.expression;
+    made.title.remove(QStringLiteral("each.")).remove(QStringLiteral("first."));
+    made.title += QLatin1Char(' ') + group;
+  }
+  return made;
+}
+
+}  // namespace
+
+bool isTemplate(const CurveSpec& curve) {
+  const QStringList names = variablesOf(curve);
+  return std::any_of(names.begin(), names.end(),
+                     [](const QString& name) { return isWord(groupOf(name)); });
+}
+
+QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
+  QStringList columns;
+  bool every = false;
+  for (const QString& name : variablesOf(curve)) {
+    const QString group = groupOf(name);
+    if (!isWord(group)) continue;
+    columns << name.mid(group.size() + 1);
+    every = every || group == eachGroup;
+  }
+  if (columns.isEmpty()) return {curve};
+  const QStringList groups = feed.groupsWith(columns);
+  QList<CurveSpec> all;
+  for (const QString& group : groups) {
+    if (all.size() == (every ? mostCurves : 1)) break;
+    all << ofGroup(curve, group);
+    all.back().colorNumber += static_cast<int>(all.size()) - 1;
+  }
+  if (all.isEmpty()) all << curve;
+  return all;
+}
+
+CurveSpec forEachGroup(const CurveSpec& curve) {
+  CurveSpec made = curve;
+  if (curve.inputs.isEmpty()) return made;
+  const QString group = groupOf(curve.inputs.front());
+  for (QString& input : made.inputs) {
+    if (groupOf(input) != group) return curve;
+    input = eachGroup + input.mid(group.size());
+  }
+  return made;
+}
+
+}  // namespace pitchboard::ui

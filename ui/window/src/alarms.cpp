@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "alarms.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QMenu>
+#include <QPainter>
+#include <QSettings>
+#include <QTimer>
+#include <QWidget>
+#include <algorithm>
+
+#include <ui/base/theme.h>
+#include <ui/sources/source_switch.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using Kind = link::MatchEventKind;
+
+const QString kindsKey = QStringLiteral("alarms/kinds");
+const QString soundKey = QStringLiteral("alarms/sound");
+constexpr int calmMilliseconds = 1500;
+
+struct Offer {
+  Kind kind;
+  const char* words;
+};
+// What somebody at a match has to act on; a further one is a line here.
+constexpr Offer offers[] = {
+    {Kind::RobotSilent, "A robot is not heard any more"},
+    {Kind::BatteryLow, "A robot has a low battery"},
+    {Kind::Penalised, "A robot is penalised"},
+    {Kind::Fall, "A robot falls"},
+    {Kind::ProcessDied, "A process died"},
+    {Kind::ProcessSilent, "A process is silent"},
+    {Kind::RefereeSilent, "The referee is not heard any more"},
+    {Kind::SecondSender, "Two programs send as one robot"},
+    {Kind::PortLost, "A port cannot be received"},
+    {Kind::Goal, "A goal"},
+};
+
+/// A red edge that lets the mouse through.
+class AlarmFrame : public QWidget {
+ public:
+  explicit AlarmFrame(QWidget* host) : QWidget(host) {
+    setObjectName(QStringLiteral("alarmFrame"));
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_NoSystemBackground);
+    host->installEventFilter(this);
+    hide();
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize) setGeometry(parentWidget()->rect());
+    return QWidget::eventFilter(watched, event);
+  }
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    const double wide = scaled(this, 6);
+    painter.setPen(QPen(theme().errorText, wide));
+    painter.drawRect(QRectF(rect()).adjusted(wide / 2, wide / 2, -wide / 2, -wide / 2));
+  }
+};
+
+}  // namespace
+
+Alarms::Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObject* parent)
+    : QObject(parent),
+      m_frame(new AlarmFrame(field)),
+      m_calm(new QTimer(this)),
+      m_settings(settings) {
+  m_calm->setSingleShot(true);
+  m_calm->setInterval(calmMilliseconds);
+  connect(m_calm, &QTimer::timeout, m_frame, &QWidget::hide);
+  if (settings != nullptr) {
+    for (const QString& name : settings->value(kindsKey).toStringList()) {
+      if (const auto kind = link::matchEventKind(name.toStdString())) m_chosen.insert(*kind);
+    }
+    m_sound = settings->value(soundKey).toBool();
+  }
+  for (FrameSource* source : sources->sources()) {
+    connect(source, &FrameSource::eventsReceived, this, &Alarms::take);
+  }
+}
+
+bool Alarms::isRaised() const {
+  return m_frame->isVisible();
+}
+
+void Alarms::keep() {
+  if (m_settings == nullptr) return;
+  QStringList names;
+  for (const Kind kind : m_chosen) {
+    const std::string_view name = link::info(kind).name;
+    names << QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  }
+  m_settings->setValue(kindsKey, names);
+  m_settings->setValue(soundKey, m_sound);
+}
+
+void Alarms::fill(QMenu* menu) {
+  for (const Offer& offer : offers) {
+    QAction* action = menu->addAction(QString::fromUtf8(offer.words));
+    action->setCheckable(true);
+    action->setChecked(m_chosen.contains(offer.kind));
+    connect(action, &QAction::toggled, this, [this, kind = offer.kind](bool on) {
+      if (on)
+        m_chosen.insert(kind);
+      else
+        m_chosen.erase(kind);
+      keep();
+    });
+  }
+  menu->addSeparator();
+  QAction* sound = menu->addAction(QStringLiteral("With a sound"));
+  sound->setCheckable(true);
+  sound->setChecked(m_sound);
+  connect(sound, &QAction::toggled, this, [this](bool on) {
+    m_sound = on;
+    keep();
+    if (on) QApplication::beep();
+  });
+}
+
+void Alarms::take(const std::vector<link::MatchEvent>& events) {
+  const auto first = std::find_if(events.begin(), events.end(), [this](const auto& event) {
+    return m_chosen.contains(event.kind);
+  });
+  if (first == events.end()) return;
+  QWidget* field = m_frame->parentWidget();
+  m_frame->setGeometry(field->rect());
+  m_frame->show();
+  m_frame->raise();
+  m_calm->start();
+  QApplication::alert(field->window());
+  if (m_sound) QApplication::beep();
+  emit raised(QString::fromStdString(sentenceOf(*first)));
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Draws attention to chosen events at a match: the window asks for attention, the field gets a red
+// frame for a moment, and, if wanted, there is a sound. Which ones is kept in the settings. UI
+// thread only.
+
+#include <QObject>
+#include <set>
+#include <vector>
+
+#include <robotlink/frame/match_event.h>
+
+class QMenu;
+class QSettings;
+class QTimer;
+class QWidget;
+
+namespace pitchboard::ui {
+
+class SourceSwitch;
+
+class Alarms : public QObject {
+  Q_OBJECT
+ public:
+  /// Listens to every source that the switch has by now. `field`: gets the frame.
+  Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObject* parent);
+  /// A tick for each kind of event that can be an alarm, and one for the sound.
+  void fill(QMenu* menu);
+  bool isRaised() const;
+
+ signals:
+  void raised(const QString& sentence);
+
+ private:
+  void take(const std::vector<link::MatchEvent>& events);
+  void keep();
+
+  QWidget* m_frame;  // over the field
+  QTimer* m_calm;
+  QSettings* m_settings;
+  std::set<link::MatchEventKind> m_chosen;
+  bool m_sound = false;
+};
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command_palette.h"
+
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QListView>
+#include <QPainter>
+#include <QStandardItemModel>
+#include <QStyledItemDelegate>
+#include <QVBoxLayout>
+#include <utility>
+
+#include <ui/base/theme.h>
+#include <ui/base/words_filter.h>
+
+namespace pitchboard::ui {
+namespace {
+
+constexpr int entryRole = Qt::UserRole;     // its place in the entries
+constexpr int kindRole = Qt::UserRole + 1;  // stands at the right
+
+class EntryDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  void paint(QPainter* painter, const QStyleOptionViewItem& option,
+             const QModelIndex& index) const override {
+    QStyledItemDelegate::paint(painter, option, index);
+    painter->save();
+    painter->setFont(themeFont(TypeRole::Secondary));
+    painter->setPen(theme().secondaryText);
+    painter->drawText(option.rect.adjusted(0, 0, -scaled(option.widget, 8), 0),
+                      Qt::AlignRight | Qt::AlignVCenter, index.data(kindRole).toString());
+    painter->restore();
+  }
+};
+
+}  // namespace
+
+CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* window)
+    : QDialog(window),
+      m_entries(std::move(entries)),
+      m_words(new QLineEdit(this)),
+      m_list(new QListView(this)),
+      m_model(new QStandardItemModel(this)),
+      m_filter(new WordsFilter(this)) {
+  setObjectName(QStringLiteral("commandPalette"));
+  setWindowTitle(QStringLiteral("Find anything"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  m_words->setObjectName(QStringLiteral("paletteWords"));
+  m_words->setPlaceholderText(QStringLiteral("Words of an action, a variable, a robot, an event"));
+  m_words->setAccessibleName(m_words->placeholderText());
+  for (std::size_t i = 0; i < m_entries.size(); ++i) {
+    auto* item = new QStandardItem(m_entries[i].text);
+    item->setEditable(false);
+    item->setData(static_cast<int>(i), entryRole);
+    item->setData(m_entries[i].kind, kindRole);
+    m_model->appendRow(item);
+  }
+  m_filter->setSourceModel(m_model);
+  m_list->setObjectName(QStringLiteral("paletteList"));
+  m_list->setAccessibleName(QStringLiteral("What was found"));
+  m_list->setModel(m_filter);
+  m_list->setUniformItemSizes(true);
+  m_list->setItemDelegate(new EntryDelegate(m_list));
+  m_list->setFocusPolicy(Qt::NoFocus);
+  auto* column = new QVBoxLayout(this);
+  const int gap = scaled(this, 8);
+  column->setContentsMargins(gap, gap, gap, gap);
+  column->setSpacing(gap);
+  column->addWidget(m_words);
+  column->addWidget(m_list, 1);
+  const auto first = [this] { m_list->setCurrentIndex(m_filter->index(0, 0)); };
+  connect(m_words, &QLineEdit::textChanged, this, [this, first](const QString& text) {
+    m_filter->setWords(text);
+    first();
+  });
+  connect(m_words, &QLineEdit::returnPressed, this, &CommandPalette::runCurrent);
+  connect(m_list, &QListView::clicked, this, &CommandPalette::runCurrent);
+  m_words->installEventFilter(this);
+  first();
+  const int wide = std::min(scaled(this, 560), window->width());
+  resize(wide, std::min(scaled(this, 360), window->height()));
+  move(window->mapToGlobal(QPoint((window->width() - wide) / 2, scaled(this, 64))));
+  m_words->setFocus();
+}
+
+bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::KeyPress) {
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    // The list is moved in while the words keep the focus.
+    if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_PageUp ||
+        key == Qt::Key_PageDown) {
+      QCoreApplication::sendEvent(m_list, event);
+      return true;
+    }
+  }
+  return QDialog::eventFilter(watched, event);
+}
+
+void CommandPalette::runCurrent() {
+  const QModelIndex chosen = m_list->currentIndex();
+  if (!chosen.isValid()) return;
+  const auto run = m_entries[static_cast<std::size_t>(chosen.data(entryRole).toInt())].run;
+  close();
+  run();
+}
+
+}  // namespace pitchboard::ui

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// One field that finds everything by words: what menus offer, variables, robots, events. Enter does
+// it: runs the action, plots the variable, selects the robot, shows the moment of the event. Made
+// when it is asked for; closes after that. UI thread only.
+
+#include <QDialog>
+#include <functional>
+#include <vector>
+
+class QLineEdit;
+class QListView;
+class QStandardItemModel;
+
+namespace pitchboard::ui {
+
+class WordsFilter;
+
+/// Something that can be found.
+struct PaletteEntry {
+  QString text;  ///< "Simulation: Restart", "B1/VISION_BALL_DIST"
+  QString kind;  ///< "Ctrl+R", "plot", "robot", "05:12.3"
+  std::function<void()> run;
+};
+
+class CommandPalette : public QDialog {
+  Q_OBJECT
+ public:
+  CommandPalette(std::vector<PaletteEntry> entries, QWidget* window);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void runCurrent();
+
+  std::vector<PaletteEntry> m_entries;
+  QLineEdit* m_words;
+  QListView* m_list;
+  QStandardItemModel* m_model;
+  WordsFilter* m_filter;
+};
+
+}  // namespace pitchboard::ui

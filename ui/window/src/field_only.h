@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The field alone on the whole screen, with the scoreboard above it: for a projector. Bars and
+// docks come back as they were. UI thread only; belongs to the window.
+
+#include <QByteArray>
+#include <QObject>
+#include <QPointer>
+
+class QAction;
+class QMainWindow;
+class QTimer;
+
+namespace pitchboard::ui {
+
+class Scoreboard;
+class SourceSwitch;
+
+class FieldOnly : public QObject {
+  Q_OBJECT
+ public:
+  FieldOnly(QMainWindow* window, SourceSwitch* source);
+  /// F11, checkable; Escape ends it as well.
+  QAction* action() const { return m_action; }
+  bool isOn() const { return m_on; }
+  void set(bool on);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void place();
+
+  QMainWindow* m_window;
+  SourceSwitch* m_source;
+  QAction* m_action;
+  QAction* m_end;
+  QTimer* m_timer;
+  Scoreboard* m_scoreboard = nullptr;
+  QByteArray m_layout;
+  Qt::WindowStates m_state;
+  bool m_on = false;
+};
+
+}  // namespace pitchboard::ui
