@@ -41,6 +41,12 @@ struct SimulatedMatch::Seat {
   std::optional<BridgeClaim> claim;  // given back after the segment is gone
   Blackboard board;
   std::vector<std::unique_ptr<SeatProcess>> processes;
+  std::size_t turn = 0;  ///< of `processes`, within a tick
+
+  /// One tick of all separate reference processes, in lock-step.
+  static void takeTurns(SimulatedMatch& match);
+  /// Its turn, ahead of waiting for it.
+  void giveIfReady(SimulatedMatch& match, SeatProcess& process);
 
   explicit Seat(Blackboard memory) : board(std::move(memory)) {}
 

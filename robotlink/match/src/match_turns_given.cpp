@@ -33,15 +33,20 @@ bool comesSoon(const ProcessStatus& status, const ProfileProcess& profile,
   }
 }
 
+bool isTeam(const SeatProcess& process) {
+  return process.profile.reference == "team";
+}
+
 }  // namespace
 
 void SimulatedMatch::runProcesses() {
+  if (m_turns && inLockStep()) Seat::takeTurns(*this);
   const std::uint64_t now = m_expectedTick;
   const link::Clock clock{static_cast<double>(now) / m_scenario.settings.tickRate};
   for (const auto& seat : m_seats) {
     for (const auto& process : seat->processes) {
       if (process->takesTurns()) {
-        inLockStep() ? runSeparate(*seat, *process) : runFreely(*seat, *process);
+        if (!inLockStep()) runFreely(*seat, *process);
       } else if (process->inside && now >= process->nextTick) {
         process->inside->step(seat->board, clock);
         process->nextTick = nextDueTick(process->period, now);
@@ -88,6 +93,48 @@ void SimulatedMatch::runFreely(Seat& seat, SeatProcess& process) {
   giveTurn(seat, process, false);
   process.given = false;
   process.nextTick = nextDueTick(process.period, m_expectedTick);
+}
+
+/// In lock-step: each robot's processes one behind the other, those of different robots side by
+/// side. What robots have of each other within a tick are team messages alone, so `team` has its
+/// turn robot by robot: the result is that of all turns one behind the other.
+void SimulatedMatch::Seat::takeTurns(SimulatedMatch& match) {
+  for (const auto& seat : match.m_seats) seat->turn = 0;
+  bool left = true;
+  while (left) {
+    left = false;
+    for (const auto& seat : match.m_seats) {
+      if (seat->turn >= seat->processes.size()) continue;
+      SeatProcess& process = *seat->processes[seat->turn];
+      if (process.takesTurns() && !isTeam(process)) seat->giveIfReady(match, process);
+    }
+    bool teamsDone = true;  // of all robots before this one
+    for (const auto& seat : match.m_seats) {
+      auto& processes = seat->processes;
+      if (seat->turn < processes.size() && (teamsDone || !isTeam(*processes[seat->turn]))) {
+        SeatProcess& process = *processes[seat->turn++];
+        if (process.takesTurns()) match.runSeparate(*seat, process);
+      }
+      left = left || seat->turn < processes.size();
+      teamsDone =
+          teamsDone && std::none_of(processes.begin() + static_cast<std::ptrdiff_t>(seat->turn),
+                                    processes.end(), [](const auto& one) { return isTeam(*one); });
+    }
+  }
+}
+
+/// Ahead of runSeparate(), which waits until it is done.
+void SimulatedMatch::Seat::giveIfReady(SimulatedMatch& match, SeatProcess& process) {
+  if (process.given || process.place < 0 ||
+      (process.known && match.m_expectedTick < process.nextTick)) {
+    return;
+  }
+  const ProcessStatus* status = match.m_processes->status(process.id);
+  if (!status || status->state != ProcessState::Running) return;
+  const auto period = match.m_turns->period(process.place);
+  if (period && match.m_turns->isDone(process.place) && match.dueNow(process, period)) {
+    match.giveTurn(*this, process, true);
+  }
 }
 
 /// In lock-step. Returns when the turn is done, or when it cannot be waited for any longer.

@@ -23,10 +23,10 @@ struct RobotVariables {
       localizationX, localizationY, localizationTheta, robotNumber;
   FloatVar imuEulerX, imuEulerY, imuEulerZ, imuGyroX, imuGyroY, imuGyroZ, imuAccelX, imuAccelY,
       imuAccelZ, visionBallDist, visionBallAngle, visionPanDeg, visionTiltDeg, localizationBelief;
-  std::array<FloatVar, 4> landmarkDeg;             ///< blue, red, yellow, purple
+  std::array<FloatVar, 4> landmarkDeg;  ///< blue, red, yellow, purple
   /// VISION_RBT01.. _DIST / _ANGLE; the published map ends at 11, which is nothing missing.
   std::array<FloatVar, 22> robotDist, robotAngle;
-  std::vector<std::string> missing;                ///< names that the catalog does not have
+  std::vector<std::string> missing;  ///< names that the catalog does not have
 };
 
 // How bridge and processes use them: an absent variable reads as `fallback` and is never written.

@@ -186,7 +186,7 @@ class SimulatedMatch {
   Scenario toScenario() const;
 
  private:
-  struct Seat;  // one robot's blackboard, claim and inline processes
+  struct Seat;   // one robot's blackboard, claim and inline processes
   struct Wish {  // who is to run for a robot
     RobotId id;
     std::string behaviour;
@@ -244,8 +244,8 @@ class SimulatedMatch {
   const VariableCatalog* m_catalog;
   RobotVariables m_variables;
   BlackboardBridge m_bridge;
-  BlackboardBridge m_extendedBridge;  // of robots whose decision knows the extension of the map
-  std::vector<ResolvedWrite> m_writes;         // in order of tick
+  BlackboardBridge m_extendedBridge;    // of robots whose decision knows the extension of the map
+  std::vector<ResolvedWrite> m_writes;  // in order of tick
   std::vector<std::unique_ptr<Seat>> m_seats;  // same order as the simulation's robots
   std::vector<sim::RobotCommand> m_commands;
   std::vector<sim::Percepts> m_percepts;
