@@ -19,6 +19,7 @@ DOCUMENTS = ["*.md", "docs/**/*.md"]
 FOREIGN_OPTIONS = {
     "--preset", "--build", "--target", "--install", "--prefix", "--output-on-failure", "--parallel",
     "--recursive", "--array", "--version", "--help", "--benchmark_filter", "--no-install-recommends", "--test-dir",
+    "--benchmark_repetitions", "--benchmark_enable_random_interleaving", "--cflags", "--libs",
 }
 SOURCES = (".h", ".cpp", ".py", ".sh", ".json", ".md", ".mjs", ".txt", ".cmake", ".supp", ".dict", ".svg",
            ".png", ".bin", ".mcap")
@@ -44,7 +45,7 @@ def own_options():
     """Every --option that our programs and scripts spell."""
     found = set()
     for name in FILES:
-        if name.startswith(("app/", "scripts/")) or name in ("run", "test"):
+        if name.startswith(("app/", "scripts/", "docs/examples/")) or name in ("run", "test"):
             if name.endswith((".bin", ".mcap", ".png")):
                 continue
             text = (ROOT / name).read_text(encoding="utf-8", errors="replace")

@@ -73,7 +73,7 @@ struct Crowd {
       s[i] = static_cast<float>(std::sin(yaw));
       weight[i] = static_cast<float>(random.uniform());
     }
-    FastNoise noise(3, 1, 9);
+    FastNoise noise(3, 1);
     for (auto* array : {&turn, &along, &across}) noise.fillNormal(array->data(), n);
   }
   particles::Poses poses() { return {x.data(), y.data(), c.data(), s.data(), n}; }
@@ -289,7 +289,7 @@ class TestMonteCarloLocalization : public QObject {
   void theNoiseIsNearlyNormal() {
     constexpr int n = 200'000;
     std::vector<float> values(static_cast<std::size_t>(particles::roomFor(n)));
-    FastNoise(1, 1, 1).fillNormal(values.data(), n);
+    FastNoise(1, 1).fillNormal(values.data(), n);
     double sum = 0.0, squares = 0.0, fourth = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       const auto v = static_cast<double>(values[i]);
@@ -303,7 +303,7 @@ class TestMonteCarloLocalization : public QObject {
     QVERIFY(std::abs(squares / n - 1.0) < 4.0 * std::sqrt(1.7 / n));
     QVERIFY(std::abs(fourth / n - 2.7) < 0.06);
     std::vector<float> other(values.size());
-    FastNoise(1, 2, 1).fillNormal(other.data(), n);
+    FastNoise(1, 2).fillNormal(other.data(), n);
     double together = 0.0;
     for (std::size_t i = 0; i < n; ++i) together += static_cast<double>(values[i] * other[i]);
     QVERIFY(std::abs(together / n) < 4.0 / std::sqrt(n));

@@ -2,8 +2,8 @@
 #pragma once
 
 // Many nearly normal numbers in little time, for the spread of particles, where the exact shape of
-// the bell does not matter. A pure function of (seed, robot, update, index), like CounterRandom,
-// whose block keys it.
+// the bell does not matter. A sequence that begins with (seed, robot) and belongs to one filter:
+// the same inputs give the same numbers, and no robot shifts those of another.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,9 @@ namespace pitchboard::link {
 
 class FastNoise {
  public:
-  FastNoise(std::uint64_t seed, int robot, std::uint64_t update) {
-    CounterRandom random(seed, robot, NoiseStream::Behaviour, update);
+  FastNoise(std::uint64_t seed, int robot) {
+    // A tick that no update has: the filter's other draws have keys of their own.
+    CounterRandom random(seed, robot, NoiseStream::Behaviour, ~std::uint64_t{0});
     // The finalizer of SplitMix64 makes the many words of the states from one draw.
     auto key = static_cast<std::uint64_t>(random.uniform() * 0x1p53) * 0x9E3779B97F4A7C15ULL;
     const auto next = [&key] {

@@ -10,7 +10,6 @@
 #include <base/random.h>
 #include <base/repeatable_math.h>
 
-#include "localization/fast_noise.h"
 #include "localization/monte_carlo_imu.h"
 
 namespace pitchboard::link {
@@ -100,7 +99,8 @@ MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
                  {m_halfLength, -m_halfWidth}}},
       m_imuZero(imuZero),
       m_seed(seed),
-      m_robot(robot) {
+      m_robot(robot),
+      m_noise(seed, robot) {
   const double lengthAll = 2 * (m_halfLength + m_border);
   const double widthAll = 2 * (m_halfWidth + m_border);
   // A huge field gets coarser cells rather than a huge table.
@@ -248,8 +248,7 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
   const auto rotation = static_cast<float>(
       input.inMotion ? p.turnSigma * time + p.walkShare * std::abs(turn) : p.restSigma * time);
 
-  FastNoise noise(m_seed, m_robot, m_updates++);
-  for (Array* one : {&m_d, &m_a, &m_b}) noise.fillNormal(one->data(), m_count);
+  for (Array* one : {&m_d, &m_a, &m_b}) m_noise.fillNormal(one->data(), m_count);
   particles::kernels().move(
       poses(),
       {static_cast<float>(forward), static_cast<float>(left), static_cast<float>(turn), walk,
@@ -347,8 +346,7 @@ void MonteCarloLocalization::resample(double resetShare) {
 void MonteCarloLocalization::regularize(int count) {
   const auto width =
       static_cast<float>(m_parameters.kernel * std::min(m_belief.sigma, widestKernel));
-  FastNoise noise(m_seed, m_robot, m_updates++);
-  for (Array* one : {&m_a, &m_b}) noise.fillNormal(one->data(), count);
+  for (Array* one : {&m_a, &m_b}) m_noise.fillNormal(one->data(), count);
   m_now.x.head(count) += width * m_a.head(count);
   m_now.y.head(count) += width * m_b.head(count);
 }
@@ -360,10 +358,10 @@ void MonteCarloLocalization::estimate() {
   particles::Mean mean = particles::kernels().meanOf(poses(), m_weight.data());
   const particles::Spread spread = particles::kernels().spreadAbout(
       poses(), m_weight.data(), m_a.data(), static_cast<float>(mean.x), static_cast<float>(mean.y));
+  const double variance = spread.variance / mean.weight;
   if (spread.farthest > clusterRadius * clusterRadius) strongestCluster(mean);
-  m_belief = {{{mean.x, mean.y}, repeatable::atan2(mean.sine, mean.cosine)},
-              std::sqrt(spread.variance),
-              m_count};
+  m_belief = {
+      {{mean.x, mean.y}, repeatable::atan2(mean.sine, mean.cosine)}, std::sqrt(variance), m_count};
 }
 
 void MonteCarloLocalization::strongestCluster(particles::Mean& mean) {

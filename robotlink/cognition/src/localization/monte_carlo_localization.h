@@ -31,6 +31,7 @@
 #include <base/result.h>
 #include <simcore/world/field.h>
 
+#include "localization/fast_noise.h"
 #include "localization/particle_kernels.h"
 
 namespace pitchboard {
@@ -156,6 +157,7 @@ class MonteCarloLocalization {
   ImuZero m_imuZero;
   std::uint64_t m_seed;
   int m_robot;
+  FastNoise m_noise;
   std::uint64_t m_updates = 0;
 
   int m_count = 0;

@@ -48,7 +48,7 @@ struct Mean {
 };
 
 struct Spread {
-  double variance = 0.0;  ///< weighted, of the distance
+  double variance = 0.0;  ///< sum of the weighted squares of the distances
   double farthest = 0.0;  ///< largest square of a distance
 };
 
