@@ -128,10 +128,13 @@ class TestOneMoment : public QObject {
   void aDoubleClickTakesItsClickBack() {
     Bench b;
     QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(20.0));
+    QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(25.0));
     QTest::mouseDClick(b.chart->surface(), Qt::LeftButton, {}, b.at(25.0));
     QVERIFY(std::abs(b.timeline.shownTime() - 20.0) < onePixel);
     QCOMPARE(b.time.range(), (telemetry::TimeRange{0.0, 30.0}));
     b.timeline.goLive();
+    QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(10.0));
+    QVERIFY(b.timeline.isLookingBack());
     QTest::mouseDClick(b.chart->surface(), Qt::LeftButton, {}, b.at(10.0));
     QVERIFY(!b.timeline.isLookingBack());
   }

@@ -11,9 +11,11 @@
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
 
+#include "../support/mouse_wheel.h"
 #include "chart_pane.h"
 #include "curve_dialog.h"
 #include "curve_template.h"
+#include "marks_model.h"
 #include "marks_panel.h"
 #include "plot_export.h"
 #include "plot_page.h"
@@ -206,12 +208,9 @@ class TestPlotWork : public QObject {
     QTRY_VERIFY(bar->maximum() > 300);
     // The wheel over the numbers beside the axis.
     QWidget* surface = b.dock->currentPage()->panes()[0]->surface();
-    const QPoint at(4, 10);
-    QWheelEvent wheel(at, surface->mapToGlobal(at), {}, {0, -240}, Qt::NoButton, {},
-                      Qt::NoScrollPhase, false);
     const telemetry::TimeRange range = b.time.range();
-    QApplication::sendEvent(surface, &wheel);
-    QVERIFY(bar->value() > 0);
+    turnWheel(surface, {4, 10}, -240);
+    QTRY_VERIFY(bar->value() > 0);
     QCOMPARE(b.time.range(), range);
   }
 

@@ -28,6 +28,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/mouse_wheel.h"
 #include "alarms.h"
 #include "menu_actions.h"
 #include "plot_page.h"
@@ -127,6 +128,8 @@ class TestWindowWork : public QObject {
     Studio s;
     s.play();
     const auto find = [&s](const QString& words) {
+      s.window.activateWindow();
+      QTRY_VERIFY(s.window.isActiveWindow());
       QTest::keyClick(&s.window, Qt::Key_K, Qt::ControlModifier);
       auto* line = s.find<QLineEdit>("paletteWords");
       QVERIFY(line);
@@ -312,11 +315,8 @@ class TestWindowWork : public QObject {
     QTRY_VERIFY(area->verticalScrollBar()->maximum() > 0);
     auto* slider = area->findChild<QSlider*>();
     const int value = slider->value();
-    const QPointF at = slider->rect().center();
-    QWheelEvent wheel(at, slider->mapToGlobal(at), {}, {0, -240}, Qt::NoButton, {},
-                      Qt::NoScrollPhase, false);
-    QApplication::sendEvent(slider, &wheel);
-    QVERIFY(area->verticalScrollBar()->value() > 0);
+    turnWheel(slider, slider->rect().center(), -240);
+    QTRY_VERIFY(area->verticalScrollBar()->value() > 0);
     QCOMPARE(slider->value(), value);
   }
 

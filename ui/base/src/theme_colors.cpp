@@ -133,8 +133,8 @@ QToolButton#changedOnly, QToolButton#favouritesOnly {
   border-color: @line; background: @button; }
 QToolButton#changedOnly:checked, QToolButton#favouritesOnly:checked {
   background: @row; border-color: @accent; }
-QToolButton#mode, QToolButton#live { border-color: @line; background: @button; padding: @4 @12; }
-QToolButton#mode:checked, QToolButton#live:checked { background: @fill; border-color: @fill; color: white; }
+QToolButton#mode, QToolButton#now { border-color: @line; background: @button; padding: @4 @12; }
+QToolButton#mode:checked, QToolButton#now:checked { background: @fill; border-color: @fill; color: white; }
 QToolButton::menu-indicator { image: none; }
 QStatusBar { border-top: 1px solid @edge; }
 QStatusBar::item { border: none; }

@@ -5,6 +5,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 #include <array>
 #include <functional>
@@ -73,7 +74,9 @@ class NoiseDock : public QScrollArea {
  protected:
   // Scrolling the panel must not change what happens to lie under the cursor.
   bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() != QEvent::Wheel || static_cast<QWidget*>(watched)->hasFocus()) {
+    // The area watches its own scroll bars with this filter, too.
+    if (event->type() != QEvent::Wheel || qobject_cast<QScrollBar*>(watched) != nullptr ||
+        static_cast<QWidget*>(watched)->hasFocus()) {
       return QScrollArea::eventFilter(watched, event);
     }
     event->ignore();

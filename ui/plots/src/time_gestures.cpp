@@ -50,6 +50,7 @@ bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
       return true;
     case QEvent::MouseButtonDblClick:
       if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return false;
+      m_drag = Drag::None;
       // Its first half was a click, and is taken back.
       if (m_before)
         m_time->requestMoment(*m_before);

@@ -3,13 +3,11 @@
 
 #include <QAbstractScrollArea>
 #include <QApplication>
-#include <QCloseEvent>
 #include <QDialog>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
-#include <QScreen>
 #include <QSettings>
 #include <QTimer>
 #include <QUndoGroup>
@@ -60,13 +58,9 @@
 
 namespace pitchboard::ui {
 namespace {
-// Raised when docks come or go in a way that older layouts cannot describe.
-constexpr int layoutVersion = 2;
-const QString geometryKey = QStringLiteral("window/geometry");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
 constexpr int mostMemory = 65536;
 const QString recentSessionsKey = QStringLiteral("sessions/recent");
-const QString layoutKey = QStringLiteral("window/layout");
 }  // namespace
 
 MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget* parent)
@@ -130,6 +124,13 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
     new LookingBackSign(m_timeline, canvas);
   }
   connectNotices();
+  connect(m_replay, &ReplayController::opened, this, [this] {
+    QStringList recent = recentSessions();
+    recent.removeAll(m_replay->path());
+    recent.prepend(m_replay->path());
+    constexpr qsizetype most = 8;
+    m_settings->setValue(recentSessionsKey, recent.mid(0, most));
+  });
   connect(m_source, &SourceSwitch::changed, this, [this] { m_selection->set({}); });
   const auto lock = [this] {
     m_controller->edits()->setLocked(m_source->kind() == SourceKind::Simulate &&
@@ -151,6 +152,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   auto* saving = new QTimer(this);
   connect(saving, &QTimer::timeout, this, &MainWindow::saveLayout);
   saving->start(saveMilliseconds);
+  nameForScreenReaders();
   m_field->setFocus();
 }
 
@@ -187,73 +189,6 @@ StudioParts MainWindow::parts() const {
   return {m_controller, m_source, m_selection, m_field,           m_time,
           m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
           m_recording,  m_live,   m_overlay,   m_compared};
-}
-
-// Each thing that can go wrong is a topic: what is right again takes its notice away.
-void MainWindow::connectNotices() {
-  static const QString match = QStringLiteral("match"), scenario = QStringLiteral("scenario"),
-                       live = QStringLiteral("live"), recording = QStringLiteral("recording"),
-                       locked = QStringLiteral("locked"), finished = QStringLiteral("finished");
-  const auto tell = [this](const QString& topic) {
-    return [this, topic](const QString& sentence) { m_notices->show(sentence, {}, {topic}); };
-  };
-  for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
-    connect(m_recording, said, m_notices, tell(recording));
-  }
-  connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
-  connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
-    m_notices->show(QStringLiteral("Saved: %1").arg(path),
-                    {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},
-                     {QStringLiteral("Close"), {}}},
-                    {recording, NoticeTone::Success});
-  });
-  connect(m_controller, &MatchController::errorOccurred, m_notices,
-          [this](const QString& sentence) {
-            m_notices->show(sentence, {}, {m_controller->edits()->isLocked() ? locked : match});
-          });
-  connect(m_controller, &MatchController::opened, m_notices, [this] {
-    if (m_controller->isOpen()) m_notices->settle(scenario);
-  });
-  connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
-    m_notices->settle(match);
-    m_notices->settle(finished);
-    m_toldFinished = false;
-  });
-  connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
-          [this] { m_notices->settle(locked); });
-  connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
-  connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
-  connect(m_controller, &MatchController::frameReceived, this,
-          [this](const FramePtr& frame) { tellFinished(*frame); });
-  connect(m_replay, &ReplayController::opened, this, [this] {
-    QStringList recent = recentSessions();
-    recent.removeAll(m_replay->path());
-    recent.prepend(m_replay->path());
-    constexpr qsizetype most = 8;
-    m_settings->setValue(recentSessionsKey, recent.mid(0, most));
-  });
-}
-
-// A match that stands still should not look as if it hung.
-void MainWindow::tellFinished(const link::MatchFrame& frame) {
-  if (!frame.finished) {
-    if (std::exchange(m_toldFinished, false)) m_notices->settle(QStringLiteral("finished"));
-    return;
-  }
-  if (std::exchange(m_toldFinished, true)) return;
-  m_notices->show(
-      QStringLiteral("The match is over, %1 : %2. Look back on the timeline, export it, or play it "
-                     "again.")
-          .arg(frame.snapshot.score.left)
-          .arg(frame.snapshot.score.right),
-      {{QStringLiteral("Play again"),
-        [this] {
-          m_controller->restart();
-          m_controller->setPaused(false);
-        }},
-       {QStringLiteral("Export…"), [this] { showExport(); }},
-       {QStringLiteral("Close"), {}}},
-      {QStringLiteral("finished"), NoticeTone::Success});
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -408,15 +343,6 @@ void MainWindow::makeDocks() {
   }
 }
 
-// A tab says the name already, and the timeline its times.
-void MainWindow::showTitles() {
-  for (std::size_t i = 0; i < m_docks.size(); ++i) {
-    QDockWidget* dock = m_docks[i];
-    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
-    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
-  }
-}
-
 void MainWindow::connectField() {
   connect(m_field, &FieldView::selectionChanged, m_selection, &RobotSelection::set);
   connect(m_selection, &RobotSelection::changed, m_field, &FieldView::select);
@@ -447,99 +373,8 @@ void MainWindow::connectField() {
   });
 }
 
-void MainWindow::restoreLayout() {
-  if (!restoreGeometry(m_settings->value(geometryKey).toByteArray())) {
-    const QSize room = screen()->availableSize();
-    resize(qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height()));
-  }
-  resetLayout();
-  const QByteArray saved = m_settings->value(layoutKey).toByteArray();
-  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) {
-    resetLayout();
-    m_notices->show(QStringLiteral(
-        "The layout of the last time cannot be used by this version: docks stand where they do at "
-        "the first start."));
-  }
-  m_savedLayout = saveState(layoutVersion);
-}
-
-// Kept while the studio runs: however it ends, the layout is there.
-void MainWindow::saveLayout() {
-  if (m_fieldOnly->isOn()) return;
-  const QByteArray now = saveState(layoutVersion);
-  m_settings->setValue(geometryKey, saveGeometry());
-  if (now == m_savedLayout) return;
-  m_savedLayout = now;
-  m_settings->setValue(layoutKey, now);
-}
-
-void MainWindow::showEvent(QShowEvent* event) {
-  QMainWindow::showEvent(event);
-  if (std::exchange(m_wasShown, true)) return;
-  // The frame has its size only when the desktop has drawn it.
-  QTimer::singleShot(0, this, [this] {
-    fitScreen();
-    for (QDockWidget* dock : m_docks) {
-      if (dock->isFloating() && dock->isVisible()) dock->raise();
-    }
-  });
-}
-
-// The first window must not be larger than what is there for it, frame included.
-void MainWindow::fitScreen() {
-  if (isMaximized() || isFullScreen()) return;
-  const QRect room = screen()->availableGeometry();
-  const QSize frame = frameGeometry().size() - size();
-  const QSize most = room.size() - frame;
-  if (width() > most.width() || height() > most.height()) resize(size().boundedTo(most));
-  QRect outer = frameGeometry();
-  if (outer.right() > room.right()) outer.moveRight(room.right());
-  if (outer.bottom() > room.bottom()) outer.moveBottom(room.bottom());
-  if (outer.left() < room.left()) outer.moveLeft(room.left());
-  if (outer.top() < room.top()) outer.moveTop(room.top());
-  if (outer.topLeft() != frameGeometry().topLeft()) move(outer.topLeft());
-}
-
-void MainWindow::resetLayout() {
-  const auto infos = studioDocks();
-  const auto isBottom = [&infos](std::size_t i) {
-    return infos[i].area == Qt::BottomDockWidgetArea;
-  };
-  // Rows of their own first: next to a tabbed dock a new one would become a tab.
-  QDockWidget* firstBottom = nullptr;
-  for (std::size_t i = 0; i < infos.size(); ++i) {
-    m_docks[i]->setFloating(false);
-    addDockWidget(infos[i].area, m_docks[i]);
-    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
-  }
-  for (std::size_t i = 0; i < infos.size(); ++i) {
-    if (infos[i].ownRow && firstBottom != nullptr) {
-      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
-    }
-  }
-  QDockWidget* bottom = firstBottom;
-  for (std::size_t i = 0; i < infos.size(); ++i) {
-    QDockWidget* dock = m_docks[i];
-    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
-      tabifyDockWidget(bottom, dock);
-      bottom = dock;
-    }
-    dock->setVisible(infos[i].shownAtFirst);
-    resizeDocks({dock}, {scaled(this, infos[i].extent)},
-                isBottom(i) ? Qt::Vertical : Qt::Horizontal);
-  }
-  if (firstBottom != nullptr) firstBottom->raise();
-}
-
 void MainWindow::offerToRemoveOrphans() {
   showOrphanNotice(m_notices, m_controller);
-}
-
-void MainWindow::closeEvent(QCloseEvent* event) {
-  m_fieldOnly->set(false);
-  saveLayout();
-  m_settings->setValue(layoutKey, saveState(layoutVersion));
-  QMainWindow::closeEvent(event);
 }
 
 }  // namespace pitchboard::ui

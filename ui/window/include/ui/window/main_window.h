@@ -104,6 +104,7 @@ class MainWindow : public QMainWindow {
   void connectField();
   void shutDown();
   void connectNotices();
+  void nameForScreenReaders();
   void saveLayout();
   void fitScreen();
   void tellFinished(const link::MatchFrame& frame);
@@ -132,6 +133,7 @@ class MainWindow : public QMainWindow {
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;
   QByteArray m_savedLayout;
+  QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;
   bool m_toldFinished = false;
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()

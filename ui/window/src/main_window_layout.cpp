@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the window and its docks stand, and how that is kept.
+#include <ui/window/main_window.h>
+
+#include <QAbstractButton>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QScreen>
+#include <QSettings>
+#include <QTimer>
+#include <utility>
+
+#include <ui/base/notice_bar.h>
+
+#include "dock_list.h"
+#include "dock_title.h"
+#include "field_only.h"
+
+namespace pitchboard::ui {
+namespace {
+// Raised when docks come or go in a way that older layouts cannot describe.
+constexpr int layoutVersion = 2;
+const QString geometryKey = QStringLiteral("window/geometry");
+const QString layoutKey = QStringLiteral("window/layout");
+}  // namespace
+
+// A tab says the name already, and the timeline its times.
+void MainWindow::showTitles() {
+  for (std::size_t i = 0; i < m_docks.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
+  }
+}
+
+void MainWindow::restoreLayout() {
+  if (!restoreGeometry(m_settings->value(geometryKey).toByteArray())) {
+    const QSize room = screen()->availableSize();
+    m_firstSize = {qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height())};
+    resize(m_firstSize);
+  }
+  resetLayout();
+  const QByteArray saved = m_settings->value(layoutKey).toByteArray();
+  if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) {
+    resetLayout();
+    m_notices->show(QStringLiteral(
+        "The layout of the last time cannot be used by this version: docks stand where they do at "
+        "the first start."));
+  }
+  m_savedLayout = saveState(layoutVersion);
+}
+
+// Kept while the studio runs: however it ends, the layout is there.
+void MainWindow::saveLayout() {
+  if (m_fieldOnly->isOn()) return;
+  const QByteArray now = saveState(layoutVersion);
+  m_settings->setValue(geometryKey, saveGeometry());
+  if (now == m_savedLayout) return;
+  m_savedLayout = now;
+  m_settings->setValue(layoutKey, now);
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (std::exchange(m_wasShown, true)) return;
+  // The frame has its size only when the desktop has drawn it.
+  QTimer::singleShot(0, this, [this] {
+    fitScreen();
+    for (QDockWidget* dock : m_docks) {
+      if (dock->isFloating() && dock->isVisible()) dock->raise();
+    }
+  });
+}
+
+// The first window must not be larger than what is there for it, frame included. A size that
+// somebody asked for is left alone.
+void MainWindow::fitScreen() {
+  if (size() != m_firstSize || isMaximized() || isFullScreen()) return;
+  const QRect room = screen()->availableGeometry();
+  const QSize frame = frameGeometry().size() - size();
+  const QSize most = room.size() - frame;
+  if (width() > most.width() || height() > most.height()) resize(size().boundedTo(most));
+  QRect outer = frameGeometry();
+  if (outer.right() > room.right()) outer.moveRight(room.right());
+  if (outer.bottom() > room.bottom()) outer.moveBottom(room.bottom());
+  if (outer.left() < room.left()) outer.moveLeft(room.left());
+  if (outer.top() < room.top()) outer.moveTop(room.top());
+  if (outer.topLeft() != frameGeometry().topLeft()) move(outer.topLeft());
+}
+
+void MainWindow::resetLayout() {
+  const auto infos = studioDocks();
+  const auto isBottom = [&infos](std::size_t i) {
+    return infos[i].area == Qt::BottomDockWidgetArea;
+  };
+  // Rows of their own first: next to a tabbed dock a new one would become a tab.
+  QDockWidget* firstBottom = nullptr;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    m_docks[i]->setFloating(false);
+    addDockWidget(infos[i].area, m_docks[i]);
+    if (isBottom(i) && !infos[i].ownRow && firstBottom == nullptr) firstBottom = m_docks[i];
+  }
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].ownRow && firstBottom != nullptr) {
+      splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
+    }
+  }
+  QDockWidget* bottom = firstBottom;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    QDockWidget* dock = m_docks[i];
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
+      tabifyDockWidget(bottom, dock);
+      bottom = dock;
+    }
+    dock->setVisible(infos[i].shownAtFirst);
+    // Tabs of one place have one height, that of the first.
+    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) continue;
+    resizeDocks({dock}, {scaled(this, infos[i].extent)},
+                isBottom(i) ? Qt::Vertical : Qt::Horizontal);
+  }
+  if (firstBottom != nullptr) firstBottom->raise();
+}
+
+// What the keyboard reaches can be said: by its own words, or by those of the dock it is in.
+void MainWindow::nameForScreenReaders() {
+  centralWidget()->setAccessibleName(QStringLiteral("Field"));
+  for (QWidget* each : findChildren<QWidget*>()) {
+    const auto* button = qobject_cast<QAbstractButton*>(each);
+    const bool said =
+        !each->accessibleName().isEmpty() || (button != nullptr && !button->text().isEmpty());
+    if (said || each->focusPolicy() == Qt::NoFocus) continue;
+    QString name = each->toolTip();
+    if (const auto* line = qobject_cast<QLineEdit*>(each)) name = line->placeholderText();
+    for (const QWidget* at = each; name.isEmpty() && at != nullptr; at = at->parentWidget()) {
+      if (const auto* dock = qobject_cast<const QDockWidget*>(at)) name = dock->windowTitle();
+      if (at == centralWidget()) name = at->accessibleName();
+    }
+    each->setAccessibleName(name);
+  }
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  m_fieldOnly->set(false);
+  saveLayout();
+  m_settings->setValue(layoutKey, saveState(layoutVersion));
+  QMainWindow::closeEvent(event);
+}
+
+}  // namespace pitchboard::ui
