@@ -73,6 +73,8 @@ class LiveObserver {
                             const telemetry::RefereeState&) {}
   /// A datagram of an allowed sender that was not used: it could not be decoded, or is no state.
   virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
+  /// A datagram on a robot's port whose sender is on no list, or that is of no team.
+  virtual void strangerHeard(const telemetry::DatagramView&) {}
   virtual void happened(const MatchEvent&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
@@ -80,6 +82,8 @@ class LiveObserver {
   virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
+  /// Other options are used from the next datagram on: teams, names, profile.
+  virtual void adopted(const LiveOptions& /*options*/) {}
   /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
   /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
   /// told at the same time.
