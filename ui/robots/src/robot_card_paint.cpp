@@ -112,7 +112,9 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.drawText(
       QRect(row.left(), row.top(), bar.left() - scaled(this, 6) - row.left(), row.height()),
       Qt::AlignRight | Qt::AlignVCenter,
-      numberText(m_state.battery->volts, 1) + QStringLiteral(" V"));
+      m_state.battery->volts > 0.0
+          ? numberText(m_state.battery->volts, 1) + QStringLiteral(" V")
+          : numberText(m_state.battery->fraction * 100.0, 0) + QStringLiteral(" %"));
   painter.setOpacity(1.0);
 }
 

@@ -12,6 +12,7 @@
 #include <QUndoGroup>
 
 #include <ui/field/field_view.h>
+#include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/plots/plot_menus.h>
 #include <ui/plots/plots_dock.h>
@@ -52,6 +53,7 @@ void StudioMenus::make() {
   makeEdit();
   makeView();
   makeSimulation();
+  makeLive();
   makeTimeline();
   makePlots();
   makeHelp();
@@ -163,10 +165,6 @@ void StudioMenus::makeView() {
   overlay->setToolTip(QStringLiteral("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
   QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
-  menu->addAction(QStringLiteral("Li&ve settings…"), &m_window,
-                  [window = &m_window, parts = m_parts] {
-                    showLiveSettings(parts.live, parts.settings, window);
-                  });
   QAction* day = menu->addAction(QStringLiteral("Times of &day in Live and Replay"));
   day->setObjectName(QStringLiteral("timesOfDay"));
   day->setCheckable(true);
@@ -186,6 +184,18 @@ void StudioMenus::makeView() {
   QObject::connect(full, &QAction::triggered, &m_window, [this_ = &m_window](bool on) {
     this_->setWindowState(this_->windowState().setFlag(Qt::WindowFullScreen, on));
   });
+}
+
+void StudioMenus::makeLive() {
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Live"));
+  menu->addAction(QStringLiteral("&Settings and teams…"), &m_window,
+                  [window = &m_window, parts = m_parts] {
+                    showLiveSettings(parts.live, parts.settings, window);
+                  });
+  menu->addAction(QStringLiteral("&Attach blackboard…"), &m_window,
+                  [window = &m_window, parts = m_parts] {
+                    showAttachDialog(parts.live, parts.settings, window);
+                  });
 }
 
 void StudioMenus::makeSimulation() {

@@ -45,6 +45,7 @@ class StudioMenus {
   void makeView();
   void makeThemes(QMenu* menu);
   void makeSimulation();
+  void makeLive();
   void makeTimeline();
   void makePlots();
   void makeHelp();
