@@ -37,11 +37,31 @@ while IFS=$'\t' read -r _ _ datagram; do
   printf '%s' "$datagram" > "$seeds/text/$((number += 1)).txt"
 done < tests/data/telemetry/telemetry_capture_1_robot_60s.txt
 
+# A message of each format, and behind the byte that chooses the format or the port.
+python3 - tests/data/team_messages.json "$seeds" <<'PYTHON'
+import json, pathlib, sys
+seeds = pathlib.Path(sys.argv[2])
+for place, message in enumerate(json.load(open(sys.argv[1], encoding="utf-8"))["messages"]):
+    data = bytes.fromhex(message["hex"]) if "hex" in message else message["text"].encode()
+    for first in range(24):
+        (seeds / "formats" / f"{place}-{first}").write_bytes(bytes([first]) + data)
+    for port in range(8):
+        (seeds / "live" / f"{place}-{port}").write_bytes(bytes([port]) + data)
+robot = {"number": 3, "slot": 0, "address": 167772161, "port": 5000, "last": 1000, "messages": 2,
+         "arrivals": [0, 1000], "values": [1, None], "words": ["1", ""], "errors": [0, 1],
+         "processes": [{"p": 0.9, "known": True, "since": 0}], "sequence": {"bits": 8, "newest": 3}}
+options = {"ourTeam": 12, "field": "spl", "teams": [{"setup": "{\"number\": 12}", "profile": ""}]}
+books = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
+         "referee": [{"at": 0, "address": 1, "port": 3838, "localPort": 3838, "base64": "UkdtZQ=="}]}
+(seeds / "books" / "one").write_text(json.dumps(books))
+PYTHON
+
 for target in "${targets[@]}"; do
   mkdir -p "$build/corpus/$target"
   length=2000
   [[ $target = profile || $target = experiment ]] && length=8000
   [ "$target" = session ] && length=16000
+  [ "$target" = books ] && length=16000
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     "$build/bin/fuzz_$target" -max_total_time="$seconds" -max_len=$length -timeout=5 -rss_limit_mb=1024 \
     -artifact_prefix="$build/findings/$target-" -dict=tests/fuzz/$target.dict \

@@ -205,6 +205,7 @@ Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOp
   for (const std::string& text : arguments.attached) {
     auto board = link::parseAttachedBoard(text);
     if (!board) return tl::unexpected<Error>(board.error());
+    std::erase_if(saved.boards, [&board](const auto& known) { return known.key == board->key; });
     saved.boards.push_back(std::move(*board));
   }
   for (std::size_t i = 0; i < arguments.teams.size(); ++i) {

@@ -41,9 +41,9 @@ struct Path {
 
   void check() {
     const TeamStatus status = monitor.status(now);
-    if (status.robots.size() > MonitorOptions::maxRobots) std::abort();
+    if (status.robots.size() > MonitorOptions::mostRobots(0)) std::abort();
     rows.report(status);
-    if (store->groups() > 2 * LiveRows::maxRobots) std::abort();
+    if (store->groups() > 2 * MonitorOptions::mostRobots(0)) std::abort();
     if (store->refusedRows() != 0) std::abort();
     if (store->memoryBytes() > budget + above) std::abort();
   }

@@ -12,6 +12,7 @@
 
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/attached_robots.h>
+#include <robotlink/session/recorded_frame.h>
 #include <telemetry/series/series_store.h>
 
 using namespace pitchboard;
@@ -121,6 +122,66 @@ class TestAttachedRobots : public QObject {
     QVERIFY(again.isReady);
     QTRY_VERIFY(robots.status().at(0).attached);
     QTRY_VERIFY(hasRobot() && frame.robots[0].board->localizationX == 100);
+  }
+
+  /// Looking back and Replay show it as it was seen.
+  void itsRowsMakeTheSameRobotAgain() {
+    const int key = freeKey(4);
+    const auto& published = VariableCatalog::published();
+    const auto word = [&published](const char* name) {
+      for (const Variable& variable : published.variables()) {
+        const int offset = variable.type == VariableType::Int ? 0 : SegmentLayout().floatOffset;
+        if (variable.name == name) return QString::number(variable.index + offset);
+      }
+      return QString();
+    };
+    Peer peer(key, 2048,
+              {word("LOCALIZATION_X") + "=600", word("LOCALIZATION_Y") + "=350",
+               word("LOCALIZATION_THETA") + "=90", word("VOLTAGE") + "=150",
+               word("VISION_WORKING") + "=1", word("DECISION_ACTION_A") + "=8",
+               word("VISION_BALL_DIST") + "=80.0", word("VISION_PAN_DEG") + "=10.0"});
+    QVERIFY2(peer.isReady, peer.process.readAllStandardError().constData());
+    const auto board = parseAttachedBoard(std::to_string(key) + ",robot=7,rate=100,team=yellow");
+    QVERIFY(board);
+    std::atomic<int> calls = 0;
+    AttachedRobots robots([&calls] { return 0.01 * ++calls; });
+    robots.set({*board});
+    auto store = std::make_shared<telemetry::SeriesStore>();
+    BoardRowKeeper keeper(store);
+    const auto take = [&] {
+      robots.takeRows([&](const auto& group, auto rows) { keeper.take(group, rows); });
+      return store->groups() == 1 && store->view(0)->rows() > 10;
+    };
+    QTRY_VERIFY(take());
+    MatchFrame seen;
+    robots.addTo(seen);
+    QCOMPARE(seen.robots.size(), std::size_t(1));
+    QCOMPARE(store->view(0)->info().name, std::string("Y7"));
+
+    FrameBackdrop backdrop;
+    backdrop.field = seen.field;
+    RecordedFrames recorded(backdrop);
+    const double last = store->view(0)->range()->end;
+    const auto again = recorded.attachedAt(*store, last);
+    QCOMPARE(again.size(), std::size_t(1));
+    const RobotFrame &then = seen.robots[0], &now = again[0];
+    QCOMPARE(now.id().value, then.id().value);
+    QCOMPARE(now.identity.name(), then.identity.name());
+    QCOMPARE(now.action, then.action);
+    QVERIFY(now.pose == then.pose);
+    QVERIFY(now.health.has_value());
+    QVERIFY(now.health->poseKnown && !now.health->timedOut);
+    QVERIFY(now.health->battery == then.health->battery);
+    QVERIFY(then.health->ball.has_value() && now.health->ball == then.health->ball);
+    QVERIFY(now.health->action == then.health->action);
+    QCOMPARE(now.health->rate, then.health->rate);
+    for (std::size_t i = 0; i < telemetry::processCount; ++i) {
+      QVERIFY(now.health->processes[i].state == then.health->processes[i].state);
+    }
+    // Ten seconds later nothing has come any more.
+    const auto later = recorded.attachedAt(*store, last + 10.0);
+    QCOMPARE(later.size(), std::size_t(1));
+    QVERIFY(later[0].health->timedOut);
   }
 
   void itIsNeverWritten() {

@@ -18,7 +18,7 @@ const WallTime zero{std::chrono::seconds(1'700'000'000)};
 struct Rig {
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
   TeamMonitor monitor;
-  LiveRows rows{store, {.zero = zero, .name = {}, .attributes = {}}};
+  LiveRows rows{store, {.zero = zero, .teams = 0, .name = {}, .attributes = {}}};
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
     DatagramView datagram;
@@ -232,7 +232,7 @@ class TestLiveRows : public QObject {
       rig.send(text + " OUT", i * 0.036);
       if (i % 28 == 0) rig.report(i * 0.036);
     }
-    QVERIFY(rig.store->groups() <= 2 * LiveRows::maxRobots);
+    QVERIFY(rig.store->groups() <= 2 * MonitorOptions::mostRobots(0));
     for (GroupId id = 0; id < rig.store->groups(); ++id) {
       QVERIFY(rig.store->view(id)->info().columns.size() <= LiveRows::maxColumns);
     }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Team setups: who is heard as whose robot, in which colour, under which name its curves stand.
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include <robotlink/live/live_books.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
@@ -87,6 +91,85 @@ class TestLiveTeams : public QObject {
     QVERIFY(found);
   }
 
+  /// An attached blackboard is the robot; who is heard beside it is told apart.
+  void attachedBlackboardsHaveTheNameOfASimulation() {
+    LiveOptions options = twoTeams();
+    AttachedBoard board;
+    board.key = 300;
+    AttachedBoard other = board;
+    other.key = 7000;
+    other.robot = 3;
+    QCOMPARE(boardNames({board, other}), (std::vector<std::string>{"B3", "B3 key 7000"}));
+    QCOMPARE(rowsOptions(options, start).name(3), std::string("B3"));
+    options.boards = {board};
+    QCOMPARE(rowsOptions(options, start).name(3), std::string("B3 heard"));
+    QCOMPARE(rowsOptions(options, start).name(1003), std::string("R3"));
+    for (const AttachedBoard& one : {board, other}) {
+      const auto again = parseAttachedBoard(attachedBoardText(one));
+      QVERIFY(again && *again == one);
+    }
+  }
+
+  void otherNamesAreUsedFromTheNextMessageOn() {
+    LiveOptions options = twoTeams();
+    TeamMonitor monitor(options.profile, monitorOptions(options));
+    auto store = std::make_shared<SeriesStore>();
+    LiveRows rows(store, rowsOptions(options, start));
+    const auto say = [&](double time) {
+      DatagramView datagram = from("10.0.0.3", 1243, words);
+      datagram.time += std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
+      QCOMPARE(monitor.take(datagram), TeamMonitor::Verdict::Used);
+      rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.usedSlot());
+    };
+    say(1.0);
+    options.team.teams[0].colour = TeamColor::Yellow;
+    rows.setOptions(rowsOptions(options, start));
+    say(2.0);
+    options.team.teams[0].colour = TeamColor::Blue;
+    rows.setOptions(rowsOptions(options, start));
+    say(3.0);
+    const auto count = [&store](const char* name) {
+      const auto group = store->findGroup(name);
+      return group ? store->view(*group)->rows() : std::size_t(0);
+    };
+    QCOMPARE(count("B3"), std::size_t(2));
+    QCOMPARE(count("Y3"), std::size_t(1));
+  }
+
+  void booksKeepTheSetups() {
+    const LiveOptions options = twoTeams();
+    const LiveBooks books(options);
+    const auto read = LiveBooks::read(books.text(options, 1.0, start), start);
+    QVERIFY2(read, read ? "" : read.error().text().c_str());
+    QVERIFY(read->options.team.teams == options.team.teams);
+    // As sessions of 0.3.0 have them.
+    const QJsonObject setup{{"name", "Guests"},
+                            {"number", 7},
+                            {"firstPort", 12000},
+                            {"lastPort", 12005},
+                            {"senders", QJsonArray{"10.0.1.0/24"}},
+                            {"profileName", "own.json"},
+                            {"attacksLeft", true},
+                            {"colour", "red"},
+                            {"robots", QJsonObject{{"3", "Ana"}}},
+                            {"profile", QString::fromStdString(profileText(publishedProfile()))}};
+    const QJsonObject kept{{"time", 1},
+                           {"robots", QString::fromStdString(books.monitor.robotsText(start))},
+                           {"options", QJsonObject{{"teams", QJsonArray{setup}}}}};
+    const std::string older = QJsonDocument(kept).toJson().toStdString();
+    const auto old = LiveBooks::read(older, start);
+    QVERIFY2(old, old ? "" : old.error().text().c_str());
+    QCOMPARE(old->options.team.teams.size(), std::size_t(1));
+    const TeamSetup& team = old->options.team.teams[0];
+    QCOMPARE(team.name, std::string("Guests"));
+    QCOMPARE(team.firstPort, 12000);
+    QCOMPARE(team.lastPort, 12005);
+    QVERIFY(team.attacksLeft && team.colour == TeamColor::Red);
+    QCOMPARE(team.senders, std::vector<std::string>{"10.0.1.0/24"});
+    QCOMPARE(team.robots.at(3), std::string("Ana"));
+    QVERIFY(team.profile == publishedProfile());
+  }
+
   void oneTeamKeepsItsNumbers() {
     LiveOptions options;
     options.team.teams = {setupOf(R"({"senders": ["10.0.0.0/24"]})")};
@@ -151,6 +234,29 @@ class TestLiveTeams : public QObject {
     const auto setup = loadTeamSetup(folder.filePath("team.json").toStdString());
     QVERIFY2(setup, setup ? "" : setup.error().text().c_str());
     QCOMPARE(setup->profile.name, std::string("own"));
+    QCOMPARE(setup->profileName, folder.filePath("own.json").toStdString());
+    // Saved beside the profile, the folder may be moved; elsewhere the whole path is needed.
+    const auto textOf = [](const QString& path) {
+      QFile file(path);
+      return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    };
+    QVERIFY(saveTeamSetup(*setup, folder.filePath("again.json").toStdString()));
+    QVERIFY(textOf(folder.filePath("again.json")).contains("\"own.json\""));
+    QTemporaryDir elsewhere;
+    QVERIFY(saveTeamSetup(*setup, elsewhere.filePath("far.json").toStdString()));
+    for (const QString& path : {folder.filePath("again.json"), elsewhere.filePath("far.json")}) {
+      const auto again = loadTeamSetup(path.toStdString());
+      QVERIFY2(again && *again == *setup, qPrintable(path));
+    }
+    QVERIFY(!saveTeamSetup(*setup, "/nonexistent/folder/team.json"));
+  }
+
+  void atMostSixteenTeams() {
+    std::vector<TeamSetup> teams(16);
+    QVERIFY(teamPorts(teams, 1240, 16, 3838));
+    teams.emplace_back();
+    const auto ports = teamPorts(teams, 1240, 16, 3838);
+    QVERIFY(!ports && ports.error().text().find("At most 16 teams") != std::string::npos);
   }
 };
 

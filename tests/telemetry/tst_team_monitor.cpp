@@ -262,8 +262,64 @@ class TestTeamMonitor : public QObject {
     for (int i = 1000; i < 3000; ++i) give(monitor, text(i), start, from(9));
     for (int i = 1; i <= 32; ++i) QCOMPARE(give(monitor, text(i), start), Verdict::Used);
     const TeamStatus team = monitor.status(start);
-    QCOMPARE(team.robots.size(), MonitorOptions::maxRobots);
+    QCOMPARE(team.robots.size(), MonitorOptions::mostRobots(0));
     QCOMPARE(team.refusedRobots, std::uint64_t(2000 - 32));
+  }
+
+  void eachTeamHasPlacesOfItsOwn() {
+    MonitorOptions options;
+    for (const int port : {12001, 12002, 12003}) {
+      TeamSetup& team = options.teams.emplace_back();
+      team.firstPort = team.lastPort = port;
+    }
+    TeamMonitor monitor({}, options);
+    const auto say = [&](int port, int robot, WallTime time) {
+      const std::string message = text(robot);
+      return monitor.take({time, from(1), static_cast<std::uint16_t>(port), false, message});
+    };
+    // Somebody makes up numbers in one team.
+    for (int i = 100; i < 300; ++i) say(12001, i, start);
+    for (const int port : {12001, 12002, 12003}) {
+      for (int i = 1; i <= 32; ++i) QCOMPARE(say(port, i, start), Verdict::Used);
+    }
+    const TeamStatus team = monitor.status(start);
+    QCOMPARE(team.robots.size(), std::size_t(3 * 32 + 32));
+    QCOMPARE(team.robots.size(), options.mostRobots());
+    QCOMPARE(team.refusedRobots, std::uint64_t(200 - 32));
+    // Two teams are left: the third one's robots are gone, the others stay.
+    options.teams.pop_back();
+    monitor.setOptions(options);
+    QCOMPARE(monitor.status(start).robots.size(), std::size_t(2 * 32 + 32));
+    options.teams.clear();
+    monitor.setOptions(options);
+    for (const RobotStatus& robot : monitor.status(start).robots) QVERIFY(robot.number < teamStep);
+  }
+
+  /// A battery of which only the share is sent, as % or from 0 to 1.
+  void aChargeIsABattery() {
+    for (const auto& [unit, sent] : {std::pair("%", "25"), std::pair("1", "0.25")}) {
+      Profile profile = publishedProfile();
+      profile.end.clear();
+      profile.fields = {{"n", FieldType::Int, "", "", FieldMeaning::Robot},
+                        {"B", FieldType::Float, unit, "", FieldMeaning::Charge}};
+      QVERIFY(validate(profile));
+      MonitorOptions options;
+      options.battery = usualBattery;
+      TeamMonitor monitor(profile, options);
+      QCOMPARE(give(monitor, std::string("3 ") + sent, start), Verdict::Used);
+      const RobotStatus robot = monitor.status(start).robots.at(0);
+      QCOMPARE(robot.value(FieldMeaning::Charge), std::optional(25.0));
+      QCOMPARE(robot.battery->fraction, 0.25);
+      QCOMPARE(robot.battery->volts, 0.0);
+      QVERIFY(robot.battery->low);  // as low as 16 V of five cells: 30 %
+      const std::string books = monitor.robotsText(start);
+      TeamMonitor again(profile, options);
+      QVERIFY(again.restoreRobots(books, start));
+      QVERIFY(again.status(start).robots.at(0).battery == robot.battery);
+      QCOMPARE(give(monitor, unit == std::string("%") ? "3 35" : "3 0.35", start + 1s),
+               Verdict::Used);
+      QVERIFY(!monitor.status(start + 1s).robots.at(0).battery->low);
+    }
   }
 
   void atMostSixtyFour() {

@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The settings of Live, the profile editor and the table of bad messages, by their widgets.
+#include <sys/ipc.h>
+#include <sys/shm.h>
+#include <unistd.h>
+
 #include <QAbstractItemModelTester>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSpinBox>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QtTest>
 
+#include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/sources/live_controller.h>
 
 #include "bad_messages_model.h"
+#include "live_rig.h"
 #include "network_chooser.h"
 #include "profile_editor.h"
+#include "teams_page.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -38,6 +47,19 @@ class TestLiveSettings : public QObject {
     template <class T>
     T* box(const char* name) {
       return dialog->findChild<T*>(QLatin1String(name));
+    }
+    void type(const char* name, const char* text) {
+      auto* edit = box<QLineEdit>(name);
+      edit->setText(QString::fromUtf8(text));
+      emit edit->textEdited(edit->text());
+    }
+    /// As a person does it: programs may fill the list.
+    void choose(const char* name, const char* text) {
+      auto* list = box<QComboBox>(name);
+      const int at = list->findText(QString::fromUtf8(text));
+      QVERIFY(at >= 0);
+      list->setCurrentIndex(at);
+      emit list->activated(at);
     }
     QString problem() {
       auto* label = box<QLabel>("liveProblem");
@@ -179,6 +201,171 @@ class TestLiveSettings : public QObject {
     QVERIFY(link::validate(live.options));
     QVERIFY(!live.problem.isEmpty());
     QCOMPARE(live.options.portBase, 1240);
+  }
+
+  void teamsAreEditedUsedAndKept() {
+    Dialog d;
+    QVERIFY(!d.box<QLineEdit>("teamName")->isEnabled());
+    const auto click = [&d](const char* name) {
+      d.box<QToolButton>(name)->click();  // its page may lie behind another one
+    };
+    click("addTeam");
+    d.type("teamName", "Guests");
+    d.box<QSpinBox>("teamNumber")->setValue(18);
+    d.box<QComboBox>("teamColour")->setCurrentText(QStringLiteral("red"));
+    d.box<QSpinBox>("teamFirstPort")->setValue(12321);
+    d.box<QSpinBox>("teamLastPort")->setValue(12325);
+    d.type("teamSenders", "192.168.18.0/24");
+    d.choose("teamProfile", "mitecom");
+    d.box<QComboBox>("teamAttacks")->setCurrentIndex(1);
+    d.type("teamRobots", "1 Ana, 3 Bo Li");
+    click("addTeam");
+    auto* list = d.box<QListWidget>("teams");
+    QCOMPARE(list->count(), 2);
+    QCOMPARE(list->item(0)->text(), QStringLiteral("Guests"));
+    QCOMPARE(d.box<QLineEdit>("teamName")->text(), QString());
+    QVERIFY2(d.dialog->apply(), qPrintable(d.problem()));
+
+    const auto expected = telemetry::parseTeamSetup(
+        R"({"name": "Guests", "number": 18, "colour": "red", "ports": [12321, 12325],
+            "senders": ["192.168.18.0/24"], "profile": "mitecom", "attacks": "left",
+            "robots": {"1": "Ana", "3": "Bo Li"}})",
+        "expected");
+    QVERIFY(expected);
+    const LiveSettings again = loadLiveSettings(d.settings);
+    QVERIFY2(again.problem.isEmpty(), qPrintable(again.problem));
+    for (const auto& teams : {d.live.options().team.teams, again.options.team.teams}) {
+      QCOMPARE(teams.size(), std::size_t(2));
+      QVERIFY(teams[0] == *expected);
+      QVERIFY(teams[1] == telemetry::TeamSetup());
+    }
+    // As a file, and back.
+    const QString path = d.folder.filePath(QStringLiteral("guests.json"));
+    auto* page = d.dialog->findChild<TeamsPage*>();
+    list->setCurrentRow(0);
+    QVERIFY(page->save(path));
+    QVERIFY(telemetry::loadTeamSetup(path.toStdString()) == *expected);
+    click("removeTeam");
+    QCOMPARE(list->count(), 1);
+    QVERIFY(page->load(path));
+    QCOMPARE(list->currentRow(), 1);
+    QCOMPARE(d.box<QSpinBox>("teamNumber")->value(), 18);
+    QCOMPARE(d.box<QLineEdit>("teamRobots")->text(), QStringLiteral("1 Ana, 3 Bo Li"));
+    QVERIFY(!page->load(QStringLiteral("/nonexistent.json")));
+  }
+
+  void mistakesInTeamsAreSaid() {
+    Dialog d;
+    d.box<QToolButton>("addTeam")->click();
+    const std::tuple<const char*, const char*, const char*> mistakes[] = {
+        {"teamSenders", "home", "home"},
+        {"teamRobots", "Ana", "numbers and names"},
+        {"teamRobots", "0 Ana", "numbers and names"}};
+    for (const auto& [box, typed, said] : mistakes) {
+      const QString before = d.box<QLineEdit>(box)->text();
+      d.type(box, typed);
+      QVERIFY(d.box<QLabel>("teamMessage")->text().contains(QLatin1String(said)));
+      QVERIFY(!d.dialog->apply());
+      QVERIFY2(d.problem().contains(QLatin1String(said)), qPrintable(d.problem()));
+      d.type(box, "");
+    }
+    d.box<QSpinBox>("teamFirstPort")->setValue(5000);
+    d.box<QSpinBox>("teamLastPort")->setValue(4000);
+    QVERIFY(!d.dialog->apply());
+    d.box<QSpinBox>("teamLastPort")->setValue(5100);
+    QVERIFY(!d.dialog->apply());
+    QVERIFY2(d.problem().contains(QStringLiteral("64")), qPrintable(d.problem()));
+    QVERIFY(d.live.options().team.teams.empty());
+  }
+
+  /// Before a setup is put to use it is seen what it makes of what arrives.
+  void whatArrivesIsShownAsTheTeamsWouldReadIt() {
+    Dialog d;
+    link::LiveOptions options = live_rig::options();
+    d.live.setOptions(options);
+    d.live.start();
+    QTRY_VERIFY(d.live.details().network.ports.size() > 16);
+    d.box<QTabWidget>("liveTabs")->setCurrentWidget(d.dialog->findChild<TeamsPage*>());
+    auto* table = d.box<QTableWidget>("teamPreview");
+    const auto cell = [table](int row, int column) {
+      const QTableWidgetItem* item = table->item(row, column);
+      return item == nullptr ? QString() : item->text();
+    };
+    const live_rig::Robot robot(options, 3);
+    // Without a setup: as Live reads it. (Sent again until the page looks.)
+    const auto isRead = [&] { return robot.say() && cell(0, 4).contains(QStringLiteral("X 270")); };
+    QTRY_VERIFY(isRead());
+    QCOMPARE(cell(0, 3), QStringLiteral("B3"));
+    QCOMPARE(cell(0, 0), QStringLiteral("127.0.0.1"));
+    QCOMPARE(cell(0, 1), QString::number(options.portBase + 3));
+    // Of another format: why it cannot be read, and what it could be.
+    d.box<QToolButton>("addTeam")->click();
+    d.type("teamName", "Ours");
+    d.choose("teamProfile", "upenn");
+    QTRY_VERIFY(cell(0, 4).contains(QStringLiteral("could be published")));
+    QCOMPARE(cell(0, 3), QStringLiteral("–"));
+    d.choose("teamProfile", "published");
+    d.box<QComboBox>("teamColour")->setCurrentText(QStringLiteral("red"));
+    d.type("teamRobots", "3 Ana");
+    QTRY_COMPARE(cell(0, 3), QStringLiteral("R3 Ana (Ours)"));
+    // Live does not listen to this port yet.
+    const int port = options.portBase + 19;
+    d.box<QSpinBox>("teamFirstPort")->setValue(port);
+    const TestSocket other;
+    const std::string message = telemetry::encode(live_rig::message(5));
+    const auto arrives = [&] {
+      return other.send(static_cast<std::uint16_t>(port), message) && table->rowCount() == 2 &&
+             cell(1, 3) == QStringLiteral("R5 (Ours)");
+    };
+    QTRY_VERIFY(arrives());
+    QVERIFY(cell(0, 4).contains(QStringLiteral("no team sends from there to this port")));
+    QVERIFY(d.live.options().team.teams.empty());
+  }
+
+  void aBlackboardOfThisComputerIsAttached() {
+    const int key = 0x5100'0000 + static_cast<int>(getpid() % 100'000) * 64;
+    const int segment = shmget(key, 2048, IPC_CREAT | IPC_EXCL | 0600);
+    QVERIFY(segment >= 0);
+    const auto remove = qScopeGuard([segment] { shmctl(segment, IPC_RMID, nullptr); });
+    QTemporaryDir folder;
+    QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
+    LiveController live;
+    live.setOptions(live_rig::options());
+    live.start();
+    AttachDialog dialog(&live, &settings, nullptr);
+    dialog.setAttribute(Qt::WA_DeleteOnClose, false);
+    dialog.show();
+    auto* segments = dialog.findChild<QTableWidget*>(QStringLiteral("segments"));
+    const auto found = segments->findItems(QString::number(key), Qt::MatchExactly);
+    QCOMPARE(found.size(), 1);
+    QCOMPARE(segments->item(found[0]->row(), 1)->text(), QStringLiteral("2048 bytes"));
+    QVERIFY(!segments->item(found[0]->row(), 2)->text().isEmpty());
+    segments->selectRow(found[0]->row());
+    QCOMPARE(dialog.findChild<QSpinBox*>(QStringLiteral("attachKey"))->value(), key);
+    dialog.findChild<QSpinBox*>(QStringLiteral("attachRobot"))->setValue(4);
+    dialog.findChild<QComboBox*>(QStringLiteral("attachTeam"))->setCurrentText("red");
+    QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("attach")), Qt::LeftButton);
+    QCOMPARE(live.options().boards.size(), std::size_t(1));
+    auto* attached = dialog.findChild<QTableWidget*>(QStringLiteral("attachedBoards"));
+    QCOMPARE(attached->item(0, 0)->text(), QStringLiteral("R4"));
+    QTRY_COMPARE(attached->item(0, 3)->text(), QStringLiteral("attached"));
+    const auto isShown = [&live] {
+      return live.frame() && live.frame()->robots.size() == 1 &&
+             live.frame()->robots[0].identity.name() == "R4";
+    };
+    QTRY_VERIFY(isShown());
+    const LiveSettings again = loadLiveSettings(settings);
+    QVERIFY2(again.problem.isEmpty(), qPrintable(again.problem));
+    QVERIFY(again.options.boards == live.options().boards);
+    attached->selectRow(0);
+    QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("detach")), Qt::LeftButton);
+    QVERIFY(live.options().boards.empty());
+    QVERIFY(loadLiveSettings(settings).options.boards.empty());
+    // One that is not there is said, and waited for.
+    dialog.findChild<QSpinBox*>(QStringLiteral("attachKey"))->setValue(key + 1);
+    QVERIFY(!dialog.attach());
+    QVERIFY(!dialog.findChild<QLabel*>(QStringLiteral("attachMessage"))->text().isEmpty());
+    QCOMPARE(live.options().boards.size(), std::size_t(1));
   }
 
   void theEditorAddsMovesRemovesAndSaves() {

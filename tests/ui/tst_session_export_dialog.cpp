@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Export through its dialog: from a session, and from memory.
 #include <QComboBox>
+#include <QDateTimeEdit>
 #include <QDesktopServices>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -193,6 +194,30 @@ class TestSessionExportDialog : public QObject {
     dialog->exportTo(s.folder.filePath(QStringLiteral("out.csv")));
     QCOMPARE(failed.size(), 1);
     QVERIFY(message(dialog).contains(QStringLiteral("ends before it begins")));
+  }
+
+  void theRangeIsTypedAsSecondsOrAsTimesOfDay() {
+    ExportSource source;
+    source.clock = QDateTime(QDate(2026, 7, 4), QTime(15, 0, 0, 250));
+    ExportDialog dialog(source, {10.0, 70.5}, nullptr, nullptr);
+    auto* begin = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("exportBegin"));
+    auto* end = dialog.findChild<QDoubleSpinBox*>(QStringLiteral("exportEnd"));
+    auto* from = dialog.findChild<QDateTimeEdit*>(QStringLiteral("exportBeginClock"));
+    auto* to = dialog.findChild<QDateTimeEdit*>(QStringLiteral("exportEndClock"));
+    QCOMPARE(from->text(), QStringLiteral("2026-07-04 15:00:10"));
+    QCOMPARE(to->text(), QStringLiteral("2026-07-04 15:01:10"));
+    // To look at a time does not change it.
+    QCOMPARE(begin->value(), 10.0);
+    QCOMPARE(end->value(), 70.5);
+    end->setValue(3600.0);
+    QCOMPARE(to->text(), QStringLiteral("2026-07-04 16:00:00"));
+    from->setDateTime(QDateTime(QDate(2026, 7, 4), QTime(15, 30)));
+    QCOMPARE(begin->value(), 1799.75);
+    QCOMPARE(end->value(), 3600.0);
+    // Without a time of day there is nothing to type it into.
+    ExportDialog without({}, {0.0, 1.0}, nullptr, nullptr);
+    without.show();
+    QVERIFY(!without.findChild<QDateTimeEdit*>(QStringLiteral("exportBeginClock"))->isVisible());
   }
 
   void robotsAndVariablesAreTicked() {

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include <base/system_reason.h>
+#include <robotlink/blackboard/segments.h>
 
 #include "blackboard_memory.h"
 
@@ -214,12 +215,18 @@ Result<Blackboard> SystemVSegments::open(int key, AttachMode mode) {
 }
 
 std::vector<SegmentInfo> SystemVSegments::list(int keyBase) {
-  std::vector<SegmentInfo> found = allSegments();
+  std::vector<SegmentInfo> found = segmentsOfThisComputer();
   std::erase_if(found, [keyBase](const SegmentInfo& info) {
     const long long offset = static_cast<long long>(info.key) - keyBase;
-    return info.key <= 0 || offset < keysPerRobot || offset > keysPerRobot * robotNumbers ||
+    return offset < keysPerRobot || offset > keysPerRobot * robotNumbers ||
            offset % keysPerRobot != 0;
   });
+  return found;
+}
+
+std::vector<SegmentInfo> segmentsOfThisComputer() {
+  std::vector<SegmentInfo> found = allSegments();
+  std::erase_if(found, [](const SegmentInfo& info) { return info.key <= 0; });
   std::sort(found.begin(), found.end(),
             [](const SegmentInfo& a, const SegmentInfo& b) { return a.key < b.key; });
   return found;

@@ -148,10 +148,10 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::SecondSender:
       return wordsAnd(event, "; this one is ");
     case Kind::BatteryLow:
-      return std::string(info(event.kind).words) +
-             (event.value ? ": " + std::to_string(*event.value / 10) + '.' +
-                                std::to_string(std::abs(*event.value) % 10) + " V"
-                          : std::string());
+      return wordsAnd(event, ": ") + (event.value
+                                          ? ": " + std::to_string(*event.value / 10) + '.' +
+                                                std::to_string(std::abs(*event.value) % 10) + " V"
+                                          : std::string());
     case Kind::ClockSet:
       return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
              std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";

@@ -4,20 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <utility>
 
+#include <base/lined_json.h>
 #include <robotlink/blackboard/system_v.h>
-#include <robotlink/frame/belief.h>
 #include <robotlink/live/board_columns.h>
-#include <simcore/world/published_frame.h>
+#include <robotlink/live/board_health.h>
+
+#include "board_map.h"
 
 namespace pitchboard::link {
 namespace {
@@ -25,129 +25,25 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto lookInterval = 100ms;        // is it still the segment of this key?
-constexpr std::size_t mostRows = 4096;      // waiting; older ones are lost, counted
-constexpr double flagMemory = 1.0;          // s, as in the frames of a running match
-constexpr int attachedStep = 65536 * 1000;  // ids that no robot and no second sender can have
-
-Error problem(std::string sentence, std::string_view part) {
-  return {ErrorCode::InvalidArgument, std::move(sentence), "--attach " + std::string(part)};
-}
-
-template <class Number>
-bool readNumber(std::string_view text, Number& out) {
-  const auto [stop, code] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return code == std::errc{} && stop == text.data() + text.size();
-}
-
-struct Map {
-  VariableCatalog catalog;
-  SegmentLayout layout;
-};
-
-Result<Map> mapOf(const AttachedBoard& board) {
-  SegmentLayout layout;
-  if (board.bytes != 0) layout.bytes = board.bytes;
-  const bool isPublished = board.catalogFile.empty();
-  Result<VariableCatalog> catalog = isPublished
-                                        ? Result<VariableCatalog>(VariableCatalog::published())
-                                        : VariableCatalog::fromFile(board.catalogFile, layout);
-  if (!catalog) return tl::unexpected(catalog.error());
-  if (board.bytes != 0 && layout.bytes != board.bytes) {
-    return failure(ErrorCode::Conflict,
-                   "says " + std::to_string(layout.bytes) + " bytes, but the size asked for is " +
-                       std::to_string(board.bytes),
-                   board.catalogFile);
-  }
-  for (const Variable& variable : catalog->variables()) {
-    const int offset = variable.type == VariableType::Int ? 0 : layout.floatOffset;
-    if (variable.index + offset < layout.words()) continue;
-    return failure(ErrorCode::Conflict,
-                   variable.name + " lies beyond the " + std::to_string(layout.bytes) +
-                       " bytes of the segment; give the catalog that belongs to it",
-                   isPublished ? "the published map" : board.catalogFile);
-  }
-  return Map{std::move(*catalog), layout};
-}
+constexpr auto lookInterval = 100ms;    // is it still the segment of this key?
+constexpr std::size_t mostRows = 4096;  // waiting; older ones are lost, counted
+constexpr double flagMemory = 1.0;      // s, as in the frames of a running match
 
 }  // namespace
 
-Result<AttachedBoard> parseAttachedBoard(std::string_view text) {
-  AttachedBoard board;
-  bool isFirst = true;
-  while (isFirst || !text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const std::string_view part = text.substr(0, comma);
-    text.remove_prefix(std::min(comma + 1, text.size()));
-    const std::size_t equals = part.find('=');
-    const std::string_view name = part.substr(0, equals);
-    const std::string_view value = equals == part.npos ? "" : part.substr(equals + 1);
-    bool good = false;
-    if (std::exchange(isFirst, false)) {
-      good = readNumber(part, board.key);
-    } else if (name == "catalog") {
-      board.catalogFile = value;
-      good = !value.empty();
-    } else if (name == "size") {
-      good = readNumber(value, board.bytes) && board.bytes > 0;
-    } else if (name == "robot") {
-      good = readNumber(value, board.robot) && board.robot > 0;
-    } else if (name == "rate") {
-      good = readNumber(value, board.rate);
-    } else if (name == "team") {
-      for (const TeamColorInfo& known : teamColors) {
-        if (known.name != value) continue;
-        board.team = known.color;
-        good = true;
-      }
-    }
-    if (!good) {
-      return tl::unexpected(
-          problem("is not understood; write KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R]"
-                  "[,team=COLOUR], such as 100,catalog=blackboard.h,robot=3",
-                  part));
-    }
-  }
-  if (const auto valid = validate(std::vector{board}); !valid) return tl::unexpected(valid.error());
-  return board;
-}
-
-Result<void> validate(const std::vector<AttachedBoard>& boards) {
-  std::set<int> keys;
-  for (const AttachedBoard& board : boards) {
-    const std::string key = std::to_string(board.key);
-    if (board.key <= 0) return tl::unexpected(problem("a key is a positive number", key));
-    if (!keys.insert(board.key).second) {
-      return tl::unexpected(problem("this key is attached twice", key));
-    }
-    if (!(board.rate >= AttachedBoard::slowest && board.rate <= AttachedBoard::fastest)) {
-      return tl::unexpected(problem("the rate must lie between 0.1 and 1000 a second", key));
-    }
-    if (board.robot < 0 || board.robot > 999) {
-      return tl::unexpected(problem("the number of a robot is from 1 to 999", key));
-    }
-    if (board.bytes % 4 != 0 || board.bytes > SegmentLayout::mostBytes) {
-      return tl::unexpected(problem("the size is a multiple of 4, at most 1 MiB", key));
-    }
-    if (const auto map = mapOf(board); !map) return tl::unexpected(map.error());
-  }
-  return {};
-}
-
 class AttachedRobots::Reader {
  public:
-  Reader(const AttachedBoard& board, Map map, std::function<double()> seconds)
+  Reader(const AttachedBoard& board, std::string name, BoardMap map,
+         std::function<double()> seconds)
       : m_board(board),
         m_map(std::move(map)),
         m_columns(m_map.catalog),
         m_seconds(std::move(seconds)) {
-    sim::RobotIdentity identity;
-    identity.team = board.team;
-    identity.number = board.number();
-    m_group = {identity.name() + " key " + std::to_string(board.key),
+    m_group = {std::move(name),
                m_columns.columns(),
                {{"key", std::to_string(board.key)},
                 {"attached", "1"},
+                {"rate", shortest(board.rate)},
                 {"robot", std::to_string(board.number())},
                 {"number", std::to_string(board.number())},
                 {"team", std::string(info(board.team).name)}}};
@@ -176,20 +72,24 @@ class AttachedRobots::Reader {
   void addTo(MatchFrame& frame) const {
     const std::lock_guard lock(m_mutex);
     if (m_newest.words.empty()) return;
+    const RobotId id = idOfBoard(m_board.number(),
+                                 [&frame](RobotId taken) { return frame.robot(taken) != nullptr; });
     RobotFrame& robot = frame.robots.emplace_back();
+    robot.identity.id = id;
     robot.identity.number = m_board.number();
     robot.identity.team = m_board.team;
-    robot.identity.id = RobotId{m_board.number() + attachedStep};
-    while (isTaken(frame, robot.identity.id)) robot.identity.id.value += 1000;
-    RobotHealth& health = robot.health.emplace();
-    const double age = std::max(0.0, m_seconds() - m_newest.time);
-    health.age =
-        std::chrono::duration_cast<telemetry::Duration>(std::chrono::duration<double>(age));
-    health.messages = m_status.samples;
-    health.rate = m_status.attached ? m_board.rate : 0.0;
-    health.timedOut = !m_status.attached;
-    robot.board = boardView(health.timedOut);
-    fillHealth(frame.field, robot, health);
+    BoardHeard heard;
+    heard.age = std::max(0.0, m_seconds() - m_newest.time);
+    heard.samples = m_status.samples;
+    heard.rate = m_board.rate;
+    heard.gone = !m_status.attached;
+    heard.poseKnown = m_wanted[LocX] && m_wanted[LocY];
+    heard.pose = {value(LocX), value(LocY), value(LocTheta)};
+    for (std::size_t i = 0; i < heard.hasFlag.size(); ++i) {
+      heard.hasFlag[i] = m_wanted[Control + i].has_value();
+    }
+    robot.board = boardView(heard.gone);
+    fillBoardHealth(frame.field, heard, robot);
   }
 
  private:
@@ -215,11 +115,6 @@ class AttachedRobots::Reader {
       "VISION_PAN_DEG",       "LOCALIZATION_X",  "LOCALIZATION_Y", "LOCALIZATION_THETA",
       "LOCALIZATION_RBT01_X", "CONTROL_WORKING", "VISION_WORKING", "LOCALIZATION_WORKING",
       "DECISION_WORKING",     "IMU_WORKING"};
-
-  static bool isTaken(const MatchFrame& frame, RobotId id) {
-    return std::count_if(frame.robots.begin(), frame.robots.end(),
-                         [id](const RobotFrame& robot) { return robot.id() == id; }) > 1;
-  }
 
   std::optional<std::size_t> columnNamed(std::string_view name) const {
     const auto& columns = m_columns.columns();
@@ -265,31 +160,6 @@ class AttachedRobots::Reader {
     view.decisionWorking = works(Decision);
     view.imuWorking = works(Imu);
     return view;
-  }
-
-  void fillHealth(const sim::FieldSpec& field, RobotFrame& robot, RobotHealth& health) const {
-    constexpr std::array<bool RobotBoardView::*, telemetry::processCount> works{
-        &RobotBoardView::controlWorking, &RobotBoardView::visionWorking,
-        &RobotBoardView::localizationWorking, &RobotBoardView::decisionWorking,
-        &RobotBoardView::imuWorking};
-    for (std::size_t i = 0; i < works.size(); ++i) {
-      if (health.timedOut || !m_wanted[Control + i]) continue;
-      health.processes[i].state = (*robot.board).*works[i] ? telemetry::ProcessState::Working
-                                                           : telemetry::ProcessState::Silent;
-    }
-    health.action = robot.board->actionA;
-    robot.action = robot.board->actionA;
-    if (robot.board->voltage > 0) {
-      health.battery = telemetry::batteryAt(robot.board->voltage / 10.0, telemetry::usualBattery);
-    }
-    health.poseKnown = m_wanted[LocX] && m_wanted[LocY];
-    if (!health.poseKnown) return;
-    robot.pose = sim::published_frame::studioFromLocalization(
-        field, {value(LocX), value(LocY), value(LocTheta)});
-    robot.headYaw = robot.pose.yaw;
-    if (robot.board->visionWorking && !robot.board->visionLost) {
-      health.ball = ballSeenFrom(robot.pose, value(BallDist), value(Pan), field);
-    }
   }
 
   void run(const std::stop_token& stop) {
@@ -360,7 +230,7 @@ class AttachedRobots::Reader {
   }
 
   const AttachedBoard m_board;
-  const Map m_map;
+  const BoardMap m_map;
   const BoardColumns m_columns;
   const std::function<double()> m_seconds;
   telemetry::GroupInfo m_group;
@@ -382,12 +252,18 @@ void AttachedRobots::set(const std::vector<AttachedBoard>& boards) {
   std::erase_if(m_readers, [&boards](const auto& reader) {
     return std::find(boards.begin(), boards.end(), reader->board()) == boards.end();
   });
-  for (const AttachedBoard& board : boards) {
-    const auto known = std::find_if(m_readers.begin(), m_readers.end(),
-                                    [&](const auto& reader) { return reader->board() == board; });
-    if (known != m_readers.end()) continue;
-    if (auto map = mapOf(board)) {
-      m_readers.push_back(std::make_unique<Reader>(board, std::move(*map), m_seconds));
+  const std::vector<std::string> names = boardNames(boards);
+  for (std::size_t i = 0; i < boards.size(); ++i) {
+    if (std::ranges::any_of(m_readers, [&](const auto& reader) {
+          return reader->board() == boards[i] && reader->group().name == names[i];
+        })) {
+      continue;
+    }
+    // One that goes on under another name begins anew.
+    std::erase_if(m_readers, [&](const auto& reader) { return reader->board() == boards[i]; });
+    if (auto map = mapOf(boards[i])) {
+      m_readers.push_back(
+          std::make_unique<Reader>(boards[i], names[i], std::move(*map), m_seconds));
     }
   }
 }

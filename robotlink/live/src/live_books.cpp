@@ -2,12 +2,12 @@
 #include <robotlink/live/live_books.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include <robotlink/live/live_teams.h>
 #include <telemetry/wire/base64.h>
+#include <telemetry/wire/lenient_json.h>
 
 #include "live_frame.h"
 
@@ -19,77 +19,41 @@ using telemetry::Duration;
 using telemetry::RefereeState;
 using telemetry::WallTime;
 
-const Json* member(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() || found->is_null() ? nullptr : &*found;
-}
-
-template <class T>
-T whole(const Json& object, const char* key, T fallback = {}) {
-  const Json* value = member(object, key);
-  if (value == nullptr || !value->is_number_integer()) return fallback;
-  if (value->is_number_unsigned()) {
-    const auto number = value->get<std::uint64_t>();
-    return std::in_range<T>(number) ? static_cast<T>(number) : fallback;
-  }
-  const auto number = value->get<std::int64_t>();
-  return std::in_range<T>(number) ? static_cast<T>(number) : fallback;
-}
-
-double number(const Json& object, const char* key, double fallback) {
-  const Json* value = member(object, key);
-  return value != nullptr && value->is_number() ? value->get<double>() : fallback;
-}
-
-std::string text(const Json& object, const char* key) {
-  const Json* value = member(object, key);
-  return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
-}
+namespace lenient = telemetry::lenient;
+using lenient::each;
+using lenient::flag;
+using lenient::member;
+using lenient::number;
+using lenient::whole;
 
 /// With the profile itself: a setup names only its file.
 Json teamJson(const telemetry::TeamSetup& team) {
-  Json json{{"name", team.name},
-            {"number", team.number},
-            {"firstPort", team.firstPort},
-            {"lastPort", team.lastPort},
-            {"senders", team.senders},
-            {"profileName", team.profileName},
-            {"profile", telemetry::profileText(team.profile)},
-            {"attacksLeft", team.attacksLeft}};
-  if (team.colour) json["colour"] = info(*team.colour).name;
-  for (const auto& [number, name] : team.robots) json["robots"][std::to_string(number)] = name;
-  return json;
+  return Json{{"setup", telemetry::teamSetupText(team)},
+              {"profile", telemetry::profileText(team.profile)}};
 }
 
-telemetry::TeamSetup teamFrom(const Json& json) {
-  telemetry::TeamSetup team;
-  team.name = text(json, "name");
-  team.number = whole<int>(json, "number");
-  team.firstPort = whole<int>(json, "firstPort");
-  team.lastPort = whole<int>(json, "lastPort");
-  team.profileName = text(json, "profileName");
-  if (auto profile = telemetry::parseProfile(text(json, "profile"), "profile")) {
-    team.profile = std::move(*profile);
+/// As 0.3.0 wrote it: members of their own in place of the setup's text.
+std::string olderSetup(const Json& json) {
+  Json setup = Json::object();
+  for (const char* key : {"name", "colour", "senders", "robots"}) {
+    if (const Json* value = member(json, key)) setup[key] = *value;
   }
-  team.colour = teamColour(text(json, "colour"));
-  const Json* left = member(json, "attacksLeft");
-  team.attacksLeft = left && left->is_boolean() && left->get<bool>();
-  if (const Json* senders = member(json, "senders"); senders && senders->is_array()) {
-    for (const Json& sender : *senders) {
-      if (sender.is_string()) team.senders.push_back(sender.get<std::string>());
-    }
+  if (const int number = whole<int>(json, "number"); number > 0) setup["number"] = number;
+  if (const int first = whole<int>(json, "firstPort"); first > 0) {
+    setup["ports"] = {first, whole<int>(json, "lastPort")};
   }
-  if (const Json* robots = member(json, "robots"); robots && robots->is_object()) {
-    for (const auto& [number, name] : robots->items()) {
-      int value = 0;
-      const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
-      if (read.ec == std::errc() && name.is_string() &&
-          team.robots.size() < telemetry::TeamSetup::maxRobots) {
-        team.robots[value] = name.get<std::string>();
-      }
-    }
-  }
-  return team;
+  setup["profile"] = lenient::text(json, "profileName");
+  if (flag(json, "attacksLeft")) setup["attacks"] = "left";
+  return setup.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<telemetry::TeamSetup> teamFrom(const Json& json) {
+  auto profile = telemetry::parseProfile(lenient::text(json, "profile"), "profile");
+  if (!profile) return std::nullopt;
+  std::string setup = lenient::text(json, "setup");
+  if (setup.empty()) setup = olderSetup(json);
+  auto team = telemetry::parseTeamSetup(setup, "setup", std::move(*profile));
+  return team ? std::optional(std::move(*team)) : std::nullopt;
 }
 
 Json optionsJson(const LiveOptions& options) {
@@ -115,32 +79,34 @@ Json optionsJson(const LiveOptions& options) {
 /// What is missing, or cannot be, keeps its default.
 LiveOptions optionsFrom(const Json& json) {
   LiveOptions options;
-  if (const std::string profile = text(json, "profile"); !profile.empty()) {
+  if (const std::string profile = lenient::text(json, "profile"); !profile.empty()) {
     if (auto read = telemetry::parseProfile(profile, "profile")) options.profile = *read;
   }
-  constexpr std::size_t mostTeams = 16;
-  if (const Json* teams = member(json, "teams"); teams && teams->is_array()) {
-    for (const Json& team : *teams) {
-      if (team.is_object() && options.team.teams.size() < mostTeams) {
-        options.team.teams.push_back(teamFrom(team));
-      }
-    }
-  }
-  if (auto field = sim::fieldByName(text(json, "field"))) options.field = *field;
+  each(json, "teams", telemetry::TeamSetup::mostTeams, [&](std::size_t, const Json& team) {
+    // A place without a team would give its robots to the next one.
+    auto read = team.is_object() ? teamFrom(team) : std::nullopt;
+    options.team.teams.push_back(read ? std::move(*read) : telemetry::TeamSetup{});
+  });
+  if (auto field = sim::fieldByName(lenient::text(json, "field"))) options.field = *field;
   options.ourTeam = whole<int>(json, "ourTeam");
   options.refereeVersion = whole<int>(json, "refereeVersion");
-  options.colour = teamColour(text(json, "colour")).value_or(options.colour);
-  const Json* byNumber = member(json, "colourByNumber");
-  options.colourByNumber = byNumber && byNumber->is_boolean() && byNumber->get<bool>();
+  options.colour = teamColour(lenient::text(json, "colour")).value_or(options.colour);
+  options.colourByNumber = flag(json, "colourByNumber");
   options.team.timeout = Duration(whole(json, "timeout", options.team.timeout.count()));
   options.team.duplicateWindow =
       Duration(whole(json, "duplicateWindow", options.team.duplicateWindow.count()));
   if (const Json* limits = member(json, "battery"); limits && limits->is_object()) {
-    telemetry::BatteryLimits& battery = options.team.battery;
+    telemetry::BatteryLimits battery = options.team.battery;
     battery.cells = std::clamp(whole(*limits, "cells", battery.cells), 0, 1000);
-    battery.fullPerCell = number(*limits, "full", battery.fullPerCell);
-    battery.lowPerCell = number(*limits, "low", battery.lowPerCell);
-    battery.emptyPerCell = number(*limits, "empty", battery.emptyPerCell);
+    battery.fullPerCell = number(*limits, "full").value_or(battery.fullPerCell);
+    battery.lowPerCell = number(*limits, "low").value_or(battery.lowPerCell);
+    battery.emptyPerCell = number(*limits, "empty").value_or(battery.emptyPerCell);
+    constexpr double least = 0.05, most = 100.0;  // V of a cell
+    const bool possible = battery.emptyPerCell >= 0.0 &&
+                          battery.lowPerCell > battery.emptyPerCell &&
+                          battery.fullPerCell > battery.lowPerCell &&
+                          battery.fullPerCell >= least && battery.fullPerCell <= most;
+    if (possible) options.team.battery = battery;
   }
   return options;
 }
@@ -242,40 +208,36 @@ std::string LiveBooks::text(const LiveOptions& options, double time, WallTime ze
 }
 
 Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
-  const Json json = Json::parse(
-      bytes, [](int depth, Json::parse_event_t, Json&) { return depth <= 8; }, false);
+  const Json json = lenient::parsed<Json>(bytes);
   const Json* options = json.is_object() ? member(json, "options") : nullptr;
   if (options == nullptr || !options->is_object()) {
     return failure(ErrorCode::ParseError, "This is no state of a live match.");
   }
   LiveOptions known = optionsFrom(*options);
   Read out{known, LiveBooks(known)};
-  if (auto done = out.books.monitor.restoreRobots(pitchboard::link::text(json, "robots"), zero);
-      !done) {
+  if (auto done = out.books.monitor.restoreRobots(lenient::text(json, "robots"), zero); !done) {
     return tl::unexpected(done.error());
   }
-  if (const Json* pages = member(json, "drawings"); pages && pages->is_array()) {
-    for (const Json& page : *pages) {
-      if (!page.is_object()) continue;
-      (void)out.books.drawings.take(pitchboard::link::text(page, "text"), number(page, "at", 0.0));
-    }
-  }
-  if (const Json* packets = member(json, "referee"); packets && packets->is_array()) {
-    for (const Json& packet : *packets) {
-      if (!packet.is_object()) continue;
-      const auto payload = telemetry::fromBase64(pitchboard::link::text(packet, "base64"));
-      if (!payload) continue;
-      const auto decoded = telemetry::decodeReferee(*payload);
-      if (!decoded) continue;
-      constexpr Duration century = std::chrono::hours(24 * 36'525);
-      const Duration at =
-          std::clamp(Duration(whole<std::int64_t>(packet, "at")), -century, century);
-      const telemetry::Sender sender{{whole<std::uint32_t>(packet, "address")},
-                                     whole<std::uint16_t>(packet, "port")};
-      out.books.takeReferee(*decoded, {zero + at, sender, whole<std::uint16_t>(packet, "localPort"),
-                                       false, *payload});
-    }
-  }
+  constexpr std::size_t mostPages =
+      telemetry::DrawingLimits::robots * telemetry::DrawingLimits::layers;
+  each(json, "drawings", mostPages, [&](std::size_t, const Json& page) {
+    if (!page.is_object()) return;
+    (void)out.books.drawings.take(lenient::text(page, "text"), number(page, "at", 0.0));
+  });
+  constexpr std::size_t mostPackets = telemetry::RefereeTracker::maxReplies + 3;
+  each(json, "referee", mostPackets, [&](std::size_t, const Json& packet) {
+    if (!packet.is_object()) return;
+    const auto payload = telemetry::fromBase64(lenient::text(packet, "base64"));
+    if (!payload) return;
+    const auto decoded = telemetry::decodeReferee(*payload);
+    if (!decoded) return;
+    constexpr Duration century = std::chrono::hours(24 * 36'525);
+    const Duration at = std::clamp(Duration(whole<std::int64_t>(packet, "at")), -century, century);
+    const telemetry::Sender sender{{whole<std::uint32_t>(packet, "address")},
+                                   whole<std::uint16_t>(packet, "port")};
+    out.books.takeReferee(
+        *decoded, {zero + at, sender, whole<std::uint16_t>(packet, "localPort"), false, *payload});
+  });
   return out;
 }
 

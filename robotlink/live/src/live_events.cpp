@@ -110,7 +110,11 @@ void LiveEvents::compareRobot(const RobotFrame& heard, double time, std::vector<
   if (health.battery && !health.timedOut) {
     low = health.battery->low || (low && health.battery->fraction < known.lowFraction + well);
     if (low && !known.batteryLow) {
-      say(Kind::BatteryLow, {}, static_cast<int>(std::lround(health.battery->volts * 10.0)));
+      if (health.battery->volts > 0.0) {
+        say(Kind::BatteryLow, {}, static_cast<int>(std::lround(health.battery->volts * 10.0)));
+      } else {
+        say(Kind::BatteryLow, std::to_string(std::lround(health.battery->fraction * 100.0)) + " %");
+      }
       known.lowFraction = health.battery->fraction;
     }
   }

@@ -22,15 +22,16 @@ struct HealthColumn {
   const char *name, *unit;
   double resolution;
 };
-constexpr std::array<HealthColumn, 9> healthColumns{{{"AGE", "s", 1.0 / 1024},
-                                                     {"RATE", "1/s", 1.0 / 1024},
-                                                     {"JITTER", "ms", 1.0 / 64},
-                                                     {"LOSS", "", 1.0 / 65536},
-                                                     {"LOST", "", 0.0},
-                                                     {"DUPLICATES", "", 0.0},
-                                                     {"LATE", "", 0.0},
-                                                     {"ERRORS", "", 0.0},
-                                                     {"VOLTS", "V", 1.0 / 1024}}};
+constexpr std::array<HealthColumn, 10> healthColumns{{{"AGE", "s", 1.0 / 1024},
+                                                      {"RATE", "1/s", 1.0 / 1024},
+                                                      {"JITTER", "ms", 1.0 / 64},
+                                                      {"LOSS", "", 1.0 / 65536},
+                                                      {"LOST", "", 0.0},
+                                                      {"DUPLICATES", "", 0.0},
+                                                      {"LATE", "", 0.0},
+                                                      {"ERRORS", "", 0.0},
+                                                      {"VOLTS", "V", 1.0 / 1024},
+                                                      {"CHARGE", "%", 1.0 / 256}}};
 
 std::array<double, healthColumns.size()> healthValues(const RobotStatus& robot) {
   const bool counts = robot.loss.has_value();
@@ -42,7 +43,8 @@ std::array<double, healthColumns.size()> healthValues(const RobotStatus& robot) 
           static_cast<double>(robot.duplicates),
           counts ? static_cast<double>(robot.late) : nothing,
           static_cast<double>(robot.errorCount),
-          robot.battery ? robot.battery->volts : nothing};
+          robot.battery && robot.battery->volts > 0.0 ? robot.battery->volts : nothing,
+          robot.battery && robot.battery->volts == 0.0 ? robot.battery->fraction * 100.0 : nothing};
 }
 
 GroupInfo linkGroup(const std::string& robot) {
@@ -70,10 +72,6 @@ ColumnInfo columnOf(const ProfileField& field) {
   return column;
 }
 
-bool isOrdinary(int number, int slot) {
-  return slot == 0 && number <= MonitorOptions::ordinaryRobots;
-}
-
 }  // namespace
 
 struct LiveRows::Robot {
@@ -99,6 +97,14 @@ LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options)
 
 LiveRows::~LiveRows() = default;
 
+void LiveRows::setOptions(LiveRowsOptions options) {
+  options.zero = m_options.zero;
+  m_options = std::move(options);
+  m_robots.clear();
+  // A group that is taken up again does not go back.
+  m_least = m_newest;
+}
+
 LiveRows::Robot* LiveRows::robotOf(int number, int slot, const Sender& sender) {
   const auto found = std::ranges::find_if(
       m_robots, [&](const Robot& robot) { return robot.number == number && robot.slot == slot; });
@@ -108,11 +114,12 @@ LiveRows::Robot* LiveRows::robotOf(int number, int slot, const Sender& sender) {
     if (moved) addGroups(*found);
     return &*found;
   }
+  const auto isOther = [this](int n, int s) { return !hasOwnPlace(n, s, m_options.teams); };
   const auto others = static_cast<std::size_t>(std::ranges::count_if(
-      m_robots, [](const Robot& robot) { return !isOrdinary(robot.number, robot.slot); }));
-  constexpr std::size_t mostOthers = maxRobots - std::size_t{MonitorOptions::ordinaryRobots};
-  if (!isOrdinary(number, slot) && others >= mostOthers) return nullptr;
+      m_robots, [&](const Robot& robot) { return isOther(robot.number, robot.slot); }));
+  if (isOther(number, slot) && others >= MonitorOptions::otherRobots) return nullptr;
   Robot robot;
+  robot.lastTime = robot.lastHealth = m_least;
   robot.number = number;
   robot.slot = slot;
   robot.sender = sender;
@@ -183,6 +190,7 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
   }
   // Of two ports the later message may be read first.
   robot->lastTime = std::max(robot->lastTime, timeOf(datagram.time));
+  m_newest = std::max(m_newest, robot->lastTime);
   m_sink->append(robot->group, {robot->lastTime, {}, robot->values});
 }
 
@@ -198,6 +206,7 @@ void LiveRows::report(const TeamStatus& status) {
     const bool due = now >= robot->lastHealth + healthPeriod - reportSlack;
     if (!due && heard.timedOut == wasTimedOut) continue;
     robot->lastHealth = std::max(robot->lastHealth, now);
+    m_newest = std::max(m_newest, robot->lastHealth);
     const auto values = healthValues(heard);
     m_sink->append(robot->link, {robot->lastHealth, {}, values});
   }

@@ -33,6 +33,11 @@ std::string nameOf(const LiveOptions& options, int robot) {
   sim::RobotIdentity identity;
   identity.team = colourOf(options, robot, options.colour, {});
   identity.number = number;
+  // What its own blackboard on this computer says has the name, and more columns.
+  const auto boards = boardNames(options.boards);
+  if (std::ranges::find(boards, identity.name()) != boards.end()) {
+    return identity.name() + " heard";
+  }
   // Two teams of one colour would have one name.
   const auto& teams = options.team.teams;
   const std::size_t place = telemetry::teamPlace(robot, teams.size());
@@ -105,6 +110,7 @@ std::string meaningAttribute(telemetry::FieldMeaning meaning) {
 telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, telemetry::WallTime zero) {
   telemetry::LiveRowsOptions made;
   made.zero = zero;
+  made.teams = options.team.teams.size();
   made.name = [options](int robot) { return nameOf(options, robot); };
   if (options.team.teams.empty()) return made;
   made.attributes = [options](int robot) {

@@ -91,6 +91,7 @@ struct LiveWatch::Impl {
     monitor.setOptions(monitorOptions(options));
     boards.set(options.boards);
     referee.setOptions(LiveBooks::refereeOptions(options));
+    for (const auto& observer : observers) observer->adopted(options);
     tellBooks();
     monitorProblem.clear();
     const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
@@ -151,7 +152,11 @@ struct LiveWatch::Impl {
         continue;
       }
       const auto verdict = books.takeRobot(datagram, arrival(datagram.time));
-      if (observers.empty() || verdict == TeamMonitor::Verdict::SenderRefused) continue;
+      if (verdict == TeamMonitor::Verdict::SenderRefused) {
+        for (const auto& observer : observers) observer->strangerHeard(datagram);
+        continue;
+      }
+      if (observers.empty()) continue;
       if (verdict != TeamMonitor::Verdict::Used) {
         unused(datagram);
       } else {

@@ -106,7 +106,7 @@ class Walk {
     robot.present += step;
     if (health.timedOut) return;
     out.seconds += step;
-    if (health.battery) {
+    if (health.battery && health.battery->volts > 0.0) {
       out.link->leastVolts =
           std::min(out.link->leastVolts.value_or(health.battery->volts), health.battery->volts);
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/session/live_recorder.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include <robotlink/frame/second_sender.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/session_events.h>
+#include <telemetry/wire/lenient_json.h>
 #include <telemetry/wire/referee_json.h>
 
 namespace pitchboard::link {
@@ -14,23 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
+using telemetry::lenient::flag;
+using telemetry::lenient::text;
 
 int whole(const Json& object, const char* key, int fallback = 0) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number_integer()) return fallback;
-  const auto value = found->get<std::int64_t>();
-  const bool fits =
-      value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
-  return fits ? static_cast<int>(value) : fallback;
-}
-
-bool flag(const Json& object, const char* key, bool fallback = false) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_boolean() ? found->get<bool>() : fallback;
+  return telemetry::lenient::whole<int>(object, key, fallback);
 }
 
 }  // namespace
@@ -60,8 +48,7 @@ std::string refereeToJson(const telemetry::RefereeState& packet, const RefereeVi
 }
 
 std::optional<RefereeView> refereeFromJson(std::string_view bytes) {
-  const Json json = Json::parse(
-      bytes, [](int depth, Json::parse_event_t, Json&) { return depth <= 8; }, false);
+  const Json json = telemetry::lenient::parsed<Json>(bytes);
   if (!json.is_object() || text(json, "stateName").empty()) return {};
   RefereeView r;
   r.version = whole(json, "version");
@@ -120,6 +107,7 @@ LiveRecorder::LiveRecorder(std::shared_ptr<telemetry::SessionWriter> writer,
                            telemetry::WallTime zero, const LiveOptions& live)
     : LiveRecords(live.refereePort),
       m_writer(std::move(writer)),
+      m_zero(zero),
       m_rows(m_writer, rowsOptions(live, zero)),
       m_boards(m_writer) {}
 
@@ -138,6 +126,10 @@ void LiveRecorder::keep(LiveRecord record) {
 
 void LiveRecorder::happened(const MatchEvent& event) {
   m_writer->append(sessionEvent(event));
+}
+
+void LiveRecorder::adopted(const LiveOptions& options) {
+  m_rows.setOptions(rowsOptions(options, m_zero));
 }
 
 void LiveRecorder::reported(const telemetry::TeamStatus& team) {

@@ -10,6 +10,8 @@
 #include <base/angles.h>
 #include <robotlink/frame/belief.h>
 #include <robotlink/frame/second_sender.h>
+#include <robotlink/live/attached_robots.h>
+#include <robotlink/live/board_health.h>
 #include <robotlink/live/live_rows.h>
 #include <robotlink/match/referee_packet.h>
 #include <robotlink/scenario/scenario.h>
@@ -149,15 +151,23 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SessionReader& session, doub
   if (!seen) return rowFrameAt(session, time);
   seen->serial = ++m_serial;
   // Robots that are this computer send nothing: their blackboards are rows.
-  const bool hasBoards = std::ranges::any_of(session.groups(), [](const auto& group) {
-    return attribute(group.info, "live") != "1" && attributeNumber(group.info, "robot") != 0;
-  });
+  const bool hasBoards = std::ranges::any_of(
+      session.groups(), [](const auto& group) { return attribute(group.info, "attached") == "1"; });
   if (hasBoards) {
     for (RobotFrame& robot : rowFrameAt(session, time).robots) {
-      if (!robot.health && !seen->robot(robot.id())) seen->robots.push_back(std::move(robot));
+      if (isAttached(robot.id())) seen->robots.push_back(std::move(robot));
     }
   }
   return std::move(*seen);
+}
+
+std::vector<RobotFrame> RecordedFrames::attachedAt(const telemetry::SeriesStore& rows,
+                                                   double time) {
+  std::vector<RobotFrame> out;
+  for (RobotFrame& robot : frameAt(rows, time).robots) {
+    if (isAttached(robot.id())) out.push_back(std::move(robot));
+  }
+  return out;
 }
 
 MatchFrame RecordedFrames::rowFrameAt(const telemetry::SessionReader& session, double time) {
@@ -305,8 +315,9 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
   const telemetry::GroupInfo& info = *m_groups[group];
   const telemetry::RowView row = m_rows[group].view();
 
-  const RobotId id = idOfSender(
-      l.robot.value, [&frame](RobotId wanted) { return frame.robot(wanted) != nullptr; });
+  const auto isTaken = [&frame](RobotId wanted) { return frame.robot(wanted) != nullptr; };
+  RobotId id = idOfSender(l.robot.value, isTaken);
+  if (l.attached) id = idOfBoard(l.robot.value, isTaken);
   RobotFrame& robot = frame.robots.emplace_back();
   robot.ownName = attribute(info, "name");
   RobotBoardView& board = robot.board.emplace();
@@ -349,6 +360,27 @@ void RecordedFrames::addRobot(std::size_t group, double time, Flags& flags, Matc
                       counter(l.falls.readOr(row, 0.0)), counter(l.unknownActions.readOr(row, 0.0)),
                       l.lastUnknown.readInt(row)};
   if (l.live) addHealth(group, time, frame.field, robot);
+  if (l.attached) addBoardHealth(group, time, frame.field, robot);
+}
+
+/// As Live showed a robot that was its own computer.
+void RecordedFrames::addBoardHealth(std::size_t group, double time, const sim::FieldSpec& field,
+                                    RobotFrame& robot) {
+  const Layout& l = layoutOf(group);
+  const telemetry::RowView row = m_rows[group].view();
+  const std::string_view rate = attribute(*m_groups[group], "rate");
+  BoardHeard heard;
+  heard.rate = AttachedBoard().rate;  // sessions of 0.3 do not say it
+  std::from_chars(rate.data(), rate.data() + rate.size(), heard.rate);
+  heard.age = std::clamp(time - row.time, 0.0, longestAge);
+  heard.gone = heard.age > std::max(1.0, 2.0 / std::max(heard.rate, AttachedBoard::slowest));
+  heard.poseKnown = l.locX.present() && l.locY.present();
+  heard.pose = {l.locX.readOr(row, 0.0), l.locY.readOr(row, 0.0), l.locTheta.readOr(row, 0.0)};
+  for (std::size_t f = 0; f < Layout::flagCount; ++f) {
+    heard.hasFlag[f] = l.flags[f].present();
+    if (heard.gone) (*robot.board).*flagMembers[f] = false;
+  }
+  fillBoardHealth(field, heard, robot);
 }
 
 /// Where a live robot's health stands at this moment.

@@ -22,6 +22,7 @@ struct RecordedFrames::Layout {
   Layout(const telemetry::GroupInfo& group, const telemetry::Profile* profile)
       : columns(group.columns.size()),
         live(attribute(group, "live") == "1"),
+        attached(!live && attribute(group, "attached") == "1"),
         robot{attributeNumber(group, live ? "number" : "robot")},
         isMatch(robot.value == 0 && findSlot(group, {"BALL_X"}).present()) {
     if (isMatch) {
@@ -106,6 +107,7 @@ struct RecordedFrames::Layout {
 
   std::size_t columns;
   bool live;
+  bool attached;  ///< a blackboard of the computer that recorded
   RobotId robot;
   bool isMatch;
   RowSlot tick, ballX, ballY, ballVx, ballVy, clock, clockRunning, scoreLeft, scoreRight, tickTime;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <telemetry/wire/base64.h>
+#include <telemetry/wire/lenient_json.h>
 
 #include "session_format.h"
 
@@ -24,10 +25,8 @@ std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Discarded instead of an exception; deep nesting is refused, because destroying it recurses.
 Json parse(std::string_view text) {
-  return Json::parse(
-      text, [](int depth, Json::parse_event_t, Json&) { return depth <= 16; }, false);
+  return lenient::parsed<Json>(text, 16);
 }
 
 template <class Names>
@@ -42,16 +41,8 @@ std::optional<std::uint8_t> place(const Names& names, const Json& object, const 
   return std::nullopt;
 }
 
-std::string text(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-std::optional<double> number(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number()) return std::nullopt;
-  return found->get<double>();
-}
+using lenient::number;
+using lenient::text;
 
 std::optional<int> asWhole(const Json& value) {
   if (!value.is_number_integer()) return std::nullopt;

@@ -2,30 +2,16 @@
 #include <telemetry/session/session_writer.h>
 
 #include <algorithm>
-#include <condition_variable>
-#include <deque>
 #include <filesystem>
-#include <mutex>
-#include <optional>
-#include <thread>
-#include <vector>
 
-#include <telemetry/mcap/mcap_writer.h>
-
-#include "session_format.h"
-#include "session_summary.h"
-#include "write_rate.h"
+#include "session_writer_impl.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A step back that is smaller than this is disorder on the way here and moves nothing.
 constexpr std::uint64_t smallStepBack = 50'000'000;    // ns
 constexpr std::uint64_t gapBetweenPasses = 1'000'000;  // ns
-constexpr std::size_t mostSpareChunks = 4;
-constexpr std::uint16_t mostChannels = 60'000;
 
 std::optional<std::uint64_t> freeSpaceBeside(const std::string& path) {
   std::error_code problem;
@@ -34,66 +20,7 @@ std::optional<std::uint64_t> freeSpaceBeside(const std::string& path) {
   return problem ? std::nullopt : std::optional<std::uint64_t>(space.available);
 }
 
-struct Attachment {
-  std::uint64_t time;
-  std::string name, mediaType, data;
-};
-
 }  // namespace
-
-struct SessionWriter::Impl {
-  std::string path;
-  SessionInfo info;
-  SessionWriterOptions options;
-  std::optional<McapWriter> file;  ///< of the writing thread once it runs
-  std::thread thread;
-
-  struct Group {
-    GroupInfo info;
-    session::RowLayout layout;
-    std::string suffix;  ///< of its topic, when another group has the same one
-    std::uint16_t channel = 0;
-    std::uint32_t sequence = 0;
-    std::uint64_t lastLog = 0;
-    SummaryBuilder summary;
-    std::uint16_t summaryChannel = 0;  ///< 0: there is no part yet
-    std::uint32_t summaries = 0;
-  };
-
-  mutable std::mutex mutex;  ///< of everything below
-  std::condition_variable wake, room;
-  std::deque<McapChunk> full;
-  McapChunk current;
-  McapChunk sparse;  ///< events and log lines: who lists them need not read the rows
-  std::vector<McapChunk> spare;
-  std::deque<Attachment> attachments;
-  std::size_t waiting = 0;  ///< bytes in `full`, and what the writing thread has in hand
-  bool stop = false;
-  std::vector<Group> groups;
-  struct Stream {
-    std::uint16_t channel = 0;
-    std::uint32_t sequence = 0;
-  };
-  std::array<Stream, sessionStreamCount> streams{};
-  std::uint16_t channels = 0, schemas = 0;
-  std::uint64_t shift = 0;  ///< ns; how far the file's times are ahead of the source's
-  std::optional<std::uint64_t> firstLog;
-  std::uint64_t lastLog = 0;
-  SessionStatus state;
-  std::optional<Clock::time_point> writingSince;  ///< the writing thread has not come back since
-  bool ended = false;                             ///< `file` is not to be asked any more
-  std::optional<Error> error;
-
-  void run();
-  void write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files);
-  bool hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes);
-  void closeCurrent();
-  bool isEmpty() const { return current.empty() && sparse.empty(); }
-  std::size_t openBytes() const { return current.bytes() + sparse.bytes(); }
-  std::uint16_t addChannel(McapChunk& to, const McapSchema& schema, McapChannel channel);
-  void keep(Group& group, const SummaryPart& part);
-  void note(std::uint64_t log);
-};
 
 SessionWriter::SessionWriter(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 
@@ -128,146 +55,6 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::string& 
   return writer;
 }
 
-void SessionWriter::Impl::run() {
-  auto next = Clock::now() + options.chunkInterval;
-  WriteRate rate;
-  std::unique_lock lock(mutex);
-  for (;;) {
-    wake.wait_until(lock, next, [this] { return stop || !full.empty() || !attachments.empty(); });
-    const bool last = stop;
-    if ((last || Clock::now() >= next) && !isEmpty()) closeCurrent();
-    std::deque<McapChunk> chunks;
-    std::deque<Attachment> files;
-    chunks.swap(full);
-    files.swap(attachments);
-    if (isEmpty() || Clock::now() >= next) next = Clock::now() + options.chunkInterval;
-    writingSince = Clock::now();
-    lock.unlock();
-    if (!error) write(chunks, files);
-    const auto room_ = options.freeSpace();
-    lock.lock();
-    writingSince.reset();
-    state.freeBytes = room_;
-    waiting = 0;
-    for (const McapChunk& chunk : full) waiting += chunk.bytes();
-    for (const Attachment& file_ : attachments) waiting += file_.data.size();
-    for (McapChunk& chunk : chunks) {
-      if (spare.size() >= mostSpareChunks) break;
-      chunk.clear();
-      spare.push_back(std::move(chunk));
-    }
-    state.bytes = file->bytes();
-    rate.note(std::chrono::duration<double>(Clock::now().time_since_epoch()).count(), state.bytes);
-    state.bytesPerSecond = rate.bytesPerSecond();
-    room.notify_all();
-    if (last || error) break;
-  }
-  ended = true;
-  lock.unlock();
-  auto finished = file->finish();
-  lock.lock();
-  if (!finished && !error) error = finished.error();
-  state.bytes = file->bytes();
-  state.recording = false;
-  if (error) {
-    state.problem =
-        "Recording stopped. " + error->message + " What was recorded until then is in the file.";
-  }
-  full.clear();
-  current.clear();
-  sparse.clear();
-  attachments.clear();
-  room.notify_all();
-}
-
-void SessionWriter::Impl::write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files) {
-  Result<void> done;
-  for (const Attachment& attachment : files) {
-    if (done) {
-      done = file->attach(attachment.time, attachment.time, attachment.name, attachment.mediaType,
-                          attachment.data);
-    }
-  }
-  if (done && !files.empty()) done = file->sync();
-  for (const McapChunk& chunk : chunks) {
-    if (done) done = file->writeChunk(chunk);
-  }
-  if (done) return;
-  const std::lock_guard lock(mutex);
-  error = done.error();
-  state.recording = false;
-}
-
-/// Needs the lock; may let go of it while it waits.
-bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
-  if (stop || error) return false;
-  const auto fits = [&] { return waiting + openBytes() + bytes <= options.queueBytes; };
-  if (!fits() && options.waitWhenFull && bytes <= options.queueBytes) {
-    if (!isEmpty()) closeCurrent();
-    wake.notify_one();
-    room.wait(lock, [&] { return fits() || stop || error; });
-    if (stop || error) return false;
-  }
-  if (fits()) return true;
-  ++state.dropped;
-  return false;
-}
-
-void SessionWriter::Impl::closeCurrent() {
-  for (McapChunk* open : {&current, &sparse}) {
-    if (open->empty()) continue;
-    waiting += open->bytes();
-    full.push_back(std::move(*open));
-    if (spare.empty()) {
-      *open = McapChunk();
-    } else {
-      *open = std::move(spare.back());
-      spare.pop_back();
-    }
-  }
-}
-
-/// A chunk of its own: who draws a whole day reads these chunks and no others.
-void SessionWriter::Impl::keep(Group& group, const SummaryPart& part) {
-  if (group.summaryChannel == 0 && channels >= mostChannels) return;
-  McapChunk chunk;
-  if (group.summaryChannel == 0) {
-    group.summaryChannel = ++channels;
-    const std::string topic = session::rowTopic(group.info) + group.suffix;
-    chunk.add(McapChannel{group.summaryChannel,
-                          0,
-                          topic + "/summary",
-                          std::string(session::summaryEncoding),
-                          {{std::string(session::summaryKey), topic}}});
-  }
-  const std::string bytes = session::summaryBytes(part);
-  chunk.add(
-      McapMessage{group.summaryChannel, group.summaries++, group.lastLog, group.lastLog, bytes});
-  waiting += chunk.bytes();
-  full.push_back(std::move(chunk));
-  wake.notify_one();
-}
-
-std::uint16_t SessionWriter::Impl::addChannel(McapChunk& to, const McapSchema& schema,
-                                              McapChannel channel) {
-  McapSchema numbered = schema;
-  numbered.id = ++schemas;
-  channel.id = ++channels;
-  channel.schema = numbered.id;
-  to.add(numbered);
-  to.add(channel);
-  return channel.id;
-}
-
-void SessionWriter::Impl::note(std::uint64_t log) {
-  if (!firstLog) firstLog = log;
-  lastLog = std::max(lastLog, log);
-  state.seconds = static_cast<double>(lastLog - *firstLog) * 1e-9;
-  if (openBytes() < options.chunkBytes) return;
-  closeCurrent();
-  wake.notify_one();
-}
-
 GroupId SessionWriter::addGroup(const GroupInfo& info) {
   Impl& impl = *m_impl;
   const std::lock_guard lock(impl.mutex);
@@ -281,7 +68,7 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
                     .layout = session::RowLayout(info),
                     .suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string(),
                     .summary = SummaryBuilder(info)};
-  if (!impl.stop && !impl.error && impl.channels < mostChannels) {
+  if (!impl.stop && !impl.error && impl.channels < Impl::mostChannels) {
     const std::string& suffix = group.suffix;
     group.channel = impl.addChannel(
         impl.current,
@@ -375,7 +162,7 @@ SessionStatus SessionWriter::status() const {
   if (m_impl->ended) return status;
   status.owedSeconds = m_impl->file->owedSeconds();
   if (m_impl->writingSince) {
-    const std::chrono::duration<double> writing = Clock::now() - *m_impl->writingSince;
+    const std::chrono::duration<double> writing = Impl::Clock::now() - *m_impl->writingSince;
     status.owedSeconds = std::max(status.owedSeconds, writing.count());
   }
   return status;

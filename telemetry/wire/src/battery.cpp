@@ -11,9 +11,10 @@ Battery batteryAt(double volts, const BatteryLimits& limits, double highest) {
   battery.volts = volts;
   // A cell just charged may stand a little above full.
   const double most = limits.fullPerCell * 1.02;
-  battery.cells = limits.cells > 0
-                      ? limits.cells
-                      : std::max(1, static_cast<int>(std::ceil(std::min(highest, 1000.0) / most)));
+  battery.cells =
+      limits.cells > 0
+          ? limits.cells
+          : std::max(1, static_cast<int>(std::ceil(std::clamp(highest, 0.0, 1000.0) / most)));
   const double perCell = volts / battery.cells;
   battery.low = perCell < limits.lowPerCell;
   battery.fraction = std::clamp(

@@ -12,11 +12,11 @@
 namespace pitchboard::telemetry::profile_words {
 
 inline constexpr std::array<std::string_view, fieldMeaningCount> meanings{
-    "none",         "robot",         "x",          "y",       "theta",
-    "belief",       "ball-distance", "ball-angle", "control", "vision",
-    "localization", "decision",      "imu",        "action",  "yaw",
-    "voltage",      "sequence",      "team",       "ball-x",  "ball-y",
-    "ball-field-x", "ball-field-y",  "ball-seen",  "ball-age"};
+    "none",         "robot",         "x",          "y",        "theta",
+    "belief",       "ball-distance", "ball-angle", "control",  "vision",
+    "localization", "decision",      "imu",        "action",   "yaw",
+    "voltage",      "sequence",      "team",       "ball-x",   "ball-y",
+    "ball-field-x", "ball-field-y",  "ball-seen",  "ball-age", "charge"};
 inline constexpr std::array<std::string_view, 4> types{"int", "float", "flag", "text"};
 inline constexpr std::array<std::string_view, messageFormatCount> formats{
     "words", "key=value", "json", "lua", "binary", "mitecom", "hulks", "cit-brains", "protobuf"};

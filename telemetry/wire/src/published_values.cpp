@@ -13,7 +13,7 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t noPlace = std::numeric_limits<std::size_t>::max();
-constexpr double perMetre = 100.0, perVolt = 10.0;
+constexpr double perMetre = 100.0, perVolt = 10.0, percent = 100.0;
 // Beyond it no field ends; what was sent stays in the message's own columns.
 constexpr double farAway = 1e6;
 
@@ -57,7 +57,7 @@ struct Published {
   std::string_view unit;
   std::string_view category;
 };
-constexpr std::array<Published, 12> publishedTable{
+constexpr std::array<Published, 13> publishedTable{
     {{FieldMeaning::X, Kind::Length, "LOCALIZATION_X", "cm", "Localization"},
      {FieldMeaning::Y, Kind::Length, "LOCALIZATION_Y", "cm", "Localization"},
      {FieldMeaning::Theta, Kind::Angle, "LOCALIZATION_THETA", "°", "Localization"},
@@ -65,6 +65,7 @@ constexpr std::array<Published, 12> publishedTable{
      {FieldMeaning::BallDistance, Kind::Length, "VISION_BALL_DIST", "cm", "Vision"},
      {FieldMeaning::BallAngle, Kind::Angle, "VISION_PAN_DEG", "°", "Vision"},
      {FieldMeaning::Voltage, Kind::Voltage, "VOLTAGE", "0.1 V", "Robot"},
+     {FieldMeaning::Charge, Kind::Share, "CHARGE", "%", "Robot"},
      {FieldMeaning::BallX, Kind::Length, {}, {}, {}},
      {FieldMeaning::BallY, Kind::Length, {}, {}, {}},
      {FieldMeaning::BallFieldX, Kind::Length, {}, {}, {}},
@@ -297,6 +298,8 @@ double PublishedValues::published(std::span<const double> values, FieldMeaning m
       return sent(values, meaning) * perMetre;
     case FieldMeaning::Voltage:
       return sent(values, meaning) * perVolt;
+    case FieldMeaning::Charge:
+      return sent(values, meaning) * percent;
     case FieldMeaning::BallDistance:
     case FieldMeaning::BallAngle: {
       double distance = missing, bearing = missing;

@@ -22,6 +22,16 @@ Duration since(WallTime now, WallTime then) {
   return std::max(now - then, Duration::zero());
 }
 
+/// Of a robot that says how full it is, 0 to 1.
+Battery batteryOf(double fraction, double volts, const BatteryLimits& limits) {
+  Battery battery;
+  battery.volts = volts;
+  battery.fraction = std::clamp(fraction, 0.0, 1.0);
+  battery.low = battery.fraction < (limits.lowPerCell - limits.emptyPerCell) /
+                                       (limits.fullPerCell - limits.emptyPerCell);
+  return battery;
+}
+
 int counterBits(const Profile& profile) {
   const auto counter = profile.indexOf(FieldMeaning::Sequence);
   return counter ? profile.fields[*counter].bits : 0;
@@ -32,7 +42,7 @@ int counterBits(const Profile& profile) {
 TeamMonitor::TeamMonitor(Profile profile, MonitorOptions options)
     : m_options(std::move(options)), m_profile(std::move(profile)) {
   makeRouter();
-  m_robots.reserve(MonitorOptions::maxRobots);
+  m_robots.reserve(m_options.mostRobots());
 }
 TeamMonitor::~TeamMonitor() = default;
 TeamMonitor::TeamMonitor(TeamMonitor&&) noexcept = default;
@@ -53,7 +63,18 @@ void TeamMonitor::setProfile(Profile profile) {
 }
 
 void TeamMonitor::setOptions(MonitorOptions options) {
+  const std::size_t before = m_options.teams.size();
   m_options = std::move(options);
+  const std::size_t now = m_options.teams.size();
+  if (now != before) {
+    // A number says less, or other things, with another count of teams.
+    const bool same = (now > 1) == (before > 1);
+    std::erase_if(m_robots, [&](const Robot& robot) {
+      return same ? teamPlace(robot.number, before) >= std::max(now, std::size_t{1})
+                  : robot.number >= teamStep;
+    });
+    m_robots.reserve(m_options.mostRobots());
+  }
   makeRouter();
 }
 
@@ -88,20 +109,16 @@ TeamMonitor::Robot* TeamMonitor::newRobot(int number, WallTime time) {
     return robot.number == number && robot.slot == slot;
   };
   while (std::any_of(m_robots.begin(), m_robots.end(), taken)) ++slot;
-  const auto isOrdinary = [](int n, int s) {
-    return s == 0 && n <= MonitorOptions::ordinaryRobots;
-  };
+  const std::size_t teams = m_options.teams.size();
   Robot* place = nullptr;
-  if (!isOrdinary(number, slot)) {
+  if (!hasOwnPlace(number, slot, teams)) {
     std::size_t others = 0;
     for (Robot& robot : m_robots) {
-      if (isOrdinary(robot.number, robot.slot)) continue;
+      if (hasOwnPlace(robot.number, robot.slot, teams)) continue;
       ++others;
       if (place == nullptr || robot.last < place->last) place = &robot;
     }
-    constexpr std::size_t most =
-        MonitorOptions::maxRobots - std::size_t{MonitorOptions::ordinaryRobots};
-    if (others < most) {
+    if (others < MonitorOptions::otherRobots) {
       place = nullptr;
     } else if (since(time, place->last) < m_options.timeout) {
       return nullptr;
@@ -130,6 +147,7 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   other->arrivals.add(moved.last);
   other->processes = moved.processes;
   other->volts = moved.volts;
+  other->charge = moved.charge;
   other->highestVolts = moved.highestVolts;
   other->decoder = moved.decoder;
   other->values = moved.values;
@@ -272,6 +290,9 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
     robot.volts = *tenths / 10.0;
     robot.highestVolts = std::max(robot.highestVolts, *robot.volts);
   }
+  if (const auto percent = m_decoder->value(m_decoded, FieldMeaning::Charge)) {
+    robot.charge = *percent / 100.0;
+  }
   robot.decoder = m_decoder;
   robot.values.assign(m_decoded.values.begin(),
                       m_decoded.values.begin() + static_cast<std::ptrdiff_t>(m_decoded.count));
@@ -313,6 +334,9 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
     out.state = process.filter.working() ? ProcessState::Working : ProcessState::Silent;
   }
   if (robot.volts) status.battery = batteryAt(*robot.volts, m_options.battery, robot.highestVolts);
+  if (robot.charge) {
+    status.battery = batteryOf(*robot.charge, robot.volts.value_or(0.0), m_options.battery);
+  }
   status.decoder = robot.decoder;
   status.values = robot.values;
   status.words = robot.words;

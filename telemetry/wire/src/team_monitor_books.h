@@ -27,6 +27,7 @@ struct TeamMonitor::Robot {
   std::array<Process, processCount> processes{};
   std::optional<double> volts;
   double highestVolts = 0.0;
+  std::optional<double> charge;  ///< 0 to 1
   std::size_t lastHash = 0;
   WallTime lastHashTime{};
   std::shared_ptr<const TextDecoder> decoder;

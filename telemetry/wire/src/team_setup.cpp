@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include <base/file_target.h>
 #include <base/lined_json.h>
 #include <base/read_file.h>
 #include <telemetry/wire/udp_receiver.h>
@@ -14,11 +15,14 @@
 namespace pitchboard::telemetry {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t maxFileBytes = 256 * 1024, longestText = 60, mostSenders = 64;
 constexpr int highestPort = 65535, highestTeam = 65535;
 constexpr std::array<std::string_view, 2> directions{"right", "left"};
+constexpr std::array<std::string_view, 8> setupKeys{"name",    "number",  "colour",  "ports",
+                                                    "senders", "profile", "attacks", "robots"};
 
 std::vector<std::string_view> colourNames() {
   std::vector<std::string_view> names;
@@ -78,20 +82,13 @@ void readRobots(JsonReport& report, const JsonObject& top, TeamSetup& setup) {
   }
 }
 
-}  // namespace
-
-std::string TeamSetup::title() const {
-  if (!name.empty()) return name;
-  return number > 0 ? "Team " + std::to_string(number) : std::string("Team");
+bool isBuiltIn(const std::string& profile) {
+  const auto known = builtInProfiles();
+  return std::find(known.begin(), known.end(), profile) != known.end();
 }
 
-Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file) {
-  JsonReport report(file);
-  const auto root = parseJson(text, report, maxFileBytes);
-  if (!root) return tl::unexpected(report.error());
-  const JsonObject top(
-      report, *root, "",
-      {"name", "number", "colour", "ports", "senders", "profile", "attacks", "robots"});
+/// All but the profile itself.
+TeamSetup readSetup(JsonReport& report, const JsonObject& top) {
   TeamSetup setup;
   setup.name = top.text("name", {}, longestText);
   setup.number = top.integer("number", 0, 0, highestTeam);
@@ -104,14 +101,38 @@ Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file)
   setup.attacksLeft = top.choice("attacks", directions, "direction").value_or(0) == 1;
   readRobots(report, top, setup);
   setup.profileName = top.text("profile", setup.profileName, 4096);
+  return setup;
+}
+
+}  // namespace
+
+std::string TeamSetup::title() const {
+  if (!name.empty()) return name;
+  return number > 0 ? "Team " + std::to_string(number) : std::string("Team");
+}
+
+Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file, Profile profile) {
+  JsonReport report(file);
+  const auto root = parseJson(text, report, maxFileBytes);
+  if (!root) return tl::unexpected(report.error());
+  TeamSetup setup = readSetup(report, JsonObject(report, *root, "", setupKeys));
   if (report.failed()) return tl::unexpected(report.error());
-  const auto known = builtInProfiles();
+  setup.profile = std::move(profile);
+  return setup;
+}
+
+Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file) {
+  JsonReport report(file);
+  const auto root = parseJson(text, report, maxFileBytes);
+  if (!root) return tl::unexpected(report.error());
+  const JsonObject top(report, *root, "", setupKeys);
+  TeamSetup setup = readSetup(report, top);
+  if (report.failed()) return tl::unexpected(report.error());
   std::string from = setup.profileName;
-  if (std::find(known.begin(), known.end(), from) == known.end()) {
-    from = (std::filesystem::path(file).parent_path() / from).string();
-  }
+  if (!isBuiltIn(from)) from = (fs::path(file).parent_path() / from).string();
   auto profile = loadProfile(from);
   if (!profile && profile.error().code == ErrorCode::NotFound) {
+    const auto known = builtInProfiles();
     const std::vector<std::string_view> choices(known.begin(), known.end());
     top.fail("profile",
              profile.error().text() + "; " + unknownName("profile", setup.profileName, choices));
@@ -125,7 +146,22 @@ Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file)
 Result<TeamSetup> loadTeamSetup(const std::string& path) {
   const auto text = readFile(path, maxFileBytes, "The team setup");
   if (!text) return tl::unexpected(text.error());
-  return parseTeamSetup(*text, path);
+  auto setup = parseTeamSetup(*text, path);
+  if (setup && !isBuiltIn(setup->profileName)) {
+    setup->profileName =
+        fs::absolute(fs::path(path).parent_path() / setup->profileName).lexically_normal().string();
+  }
+  return setup;
+}
+
+Result<void> saveTeamSetup(const TeamSetup& setup, const std::string& path) {
+  TeamSetup written = setup;
+  const fs::path profile(setup.profileName);
+  if (!isBuiltIn(setup.profileName) && profile.is_absolute() &&
+      profile.parent_path() == fs::absolute(path).lexically_normal().parent_path()) {
+    written.profileName = profile.filename().string();
+  }
+  return writeFile(path, teamSetupText(written), IfExists::Replace);
 }
 
 std::string teamSetupText(const TeamSetup& setup) {
@@ -146,6 +182,11 @@ Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams
   const auto usual = livePorts(base, count, referee);
   const auto hasNone = [](const TeamSetup& team) { return team.firstPort == 0; };
   if (!usual || teams.empty()) return usual;
+  if (teams.size() > TeamSetup::mostTeams) {
+    return failure(ErrorCode::InvalidArgument,
+                   "At most " + std::to_string(TeamSetup::mostTeams) +
+                       " teams can be heard at one time; leave some out.");
+  }
   std::vector<std::uint16_t> ports;
   if (std::any_of(teams.begin(), teams.end(), hasNone)) ports = *usual;
   for (const TeamSetup& team : teams) {

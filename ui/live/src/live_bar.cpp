@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QTimer>
 #include <QToolButton>
+#include <algorithm>
 
 #include <ui/base/theme.h>
 #include <ui/live/live_settings_dialog.h>
@@ -91,17 +92,31 @@ void LiveBar::showTeams() {
   };
   QList<Entry> wanted{{QStringLiteral("Our team: choose"), 0}};
   const int ours = m_live->options().ourTeam;
+  // Packets have numbers; setups know the names.
+  const std::vector<telemetry::TeamSetup>& setups = m_live->options().team.teams;
+  const auto nameOf = [&setups](int number) {
+    const auto known = std::ranges::find(setups, number, &telemetry::TeamSetup::number);
+    return known == setups.end() || known->name.empty()
+               ? QStringLiteral("Team %1").arg(number)
+               : QStringLiteral("%1, team %2").arg(QString::fromStdString(known->name)).arg(number);
+  };
   const FramePtr frame = m_live->frame();
   if (frame && frame->referee) {
     for (const link::RefereeTeamView& team : frame->referee->teams) {
       wanted.append(
-          {QStringLiteral("Team %1 (%2)").arg(team.number).arg(QString::fromStdString(team.colour)),
+          {QStringLiteral("%1 (%2)").arg(nameOf(team.number), QString::fromStdString(team.colour)),
            team.number});
+    }
+  } else {
+    for (const telemetry::TeamSetup& setup : setups) {
+      if (setup.number > 0 && setup.number != ours) {
+        wanted.append({nameOf(setup.number), setup.number});
+      }
     }
   }
   const auto isOurs = [ours](const Entry& entry) { return entry.number == ours; };
   if (std::none_of(wanted.begin(), wanted.end(), isOurs)) {
-    wanted.append({QStringLiteral("Team %1 (not in this game)").arg(ours), ours});
+    wanted.append({QStringLiteral("%1 (not in this game)").arg(nameOf(ours)), ours});
   }
   QList<Entry> shown;
   for (int i = 0; i < m_team->count(); ++i) {

@@ -22,6 +22,7 @@
 
 #include "network_chooser.h"
 #include "profile_editor.h"
+#include "teams_page.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -48,7 +49,10 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   setWindowTitle(QStringLiteral("Live settings"));
   setAttribute(Qt::WA_DeleteOnClose);
   auto* tabs = new QTabWidget(this);
+  tabs->setObjectName(QStringLiteral("liveTabs"));
   tabs->addTab(makeNetwork(), QStringLiteral("Network"));
+  m_teams = new TeamsPage(live, this);
+  tabs->addTab(m_teams, QStringLiteral("Teams"));
   tabs->addTab(makeRobots(), QStringLiteral("Robots"));
   tabs->addTab(makeReferee(), QStringLiteral("Referee"));
   tabs->addTab(makeMessages(), QStringLiteral("Messages"));
@@ -68,7 +72,7 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   column->addWidget(tabs);
   column->addWidget(m_problem);
   column->addWidget(buttons);
-  resize(scaled(this, 460), scaled(this, 380));
+  resize(scaled(this, 680), scaled(this, 480));
   adopt();
 }
 
@@ -254,6 +258,7 @@ void LiveSettingsDialog::adopt() {
     address = QString::fromStdString(frame->referee->sender).section(QLatin1Char(':'), 0, 0);
   }
   m_monitorAddress->setText(o.monitor ? QString::fromStdString(o.monitor->text()) : address);
+  m_teams->setTeams(o.team.teams);
   m_profile = o.profile;
   m_profileFile = saved.profileFile;
   showProfile();
@@ -345,6 +350,9 @@ bool LiveSettingsDialog::read(LiveSettings& live) {
     if (!referee) return fail(QStringLiteral("Referee at: %1").arg(words(referee.error())));
     o.monitor = *referee;
   }
+  auto teams = m_teams->teams();
+  if (!teams) return fail(QStringLiteral("Teams: %1").arg(words(teams.error())));
+  o.team.teams = std::move(*teams);
   o.profile = m_profile;
   live.profileFile = m_profileFile;
   if (const auto good = link::validate(o); !good) return fail(words(good.error()));

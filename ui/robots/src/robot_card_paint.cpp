@@ -154,7 +154,9 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
   painter.drawText(voltsRect(), Qt::AlignRight | Qt::AlignVCenter,
-                   numberText(m_state.battery->volts, 1) + QStringLiteral(" V"));
+                   m_state.battery->volts > 0.0
+                       ? numberText(m_state.battery->volts, 1) + QStringLiteral(" V")
+                       : numberText(m_state.battery->fraction * 100.0, 0) + QStringLiteral(" %"));
   painter.setOpacity(1.0);
 }
 

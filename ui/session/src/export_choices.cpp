@@ -2,8 +2,10 @@
 // What can be chosen in the export dialog: robots, variables, lines, the time of day.
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDateTimeEdit>
 #include <QDesktopServices>
 #include <QFileInfo>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QTemporaryDir>
 #include <QToolButton>
@@ -37,8 +39,24 @@ void ExportDialog::makeChoices() {
   m_between->addItem(QStringLiteral("Interpolate"), true);
   m_clock->setObjectName(QStringLiteral("exportClock"));
   m_clock->setChecked(m_source.clock.has_value());
-  m_when->setObjectName(QStringLiteral("exportWhen"));
-  m_when->setForegroundRole(QPalette::PlaceholderText);
+  auto* times = new QHBoxLayout(m_when);
+  times->setContentsMargins(0, 0, 0, 0);
+  times->addWidget(m_beginClock, 1);
+  times->addWidget(new QLabel(QStringLiteral("to"), m_when));
+  times->addWidget(m_endClock, 1);
+  m_beginClock->setObjectName(QStringLiteral("exportBeginClock"));
+  m_endClock->setObjectName(QStringLiteral("exportEndClock"));
+  const std::pair<QDateTimeEdit*, NumberBox*> pairs[] = {{m_beginClock, m_begin},
+                                                         {m_endClock, m_end}};
+  for (const auto& [clock, box] : pairs) {
+    clock->setDisplayFormat(QStringLiteral("yyyy-MM-dd HH:mm:ss"));
+    connect(clock, &QDateTimeEdit::dateTimeChanged, this,
+            [this, seconds = box](const QDateTime& time) {
+              // A change of the seconds comes back here rounded.
+              if (!m_source.clock || m_showingClock) return;
+              seconds->setValue(static_cast<double>(m_source.clock->msecsTo(time)) / 1000.0);
+            });
+  }
   m_open->setText(QStringLiteral("Open"));
   m_open->setObjectName(QStringLiteral("exportOpen"));
   m_show->setText(QStringLiteral("Show in folder"));
@@ -55,14 +73,13 @@ void ExportDialog::makeChoices() {
   showClock();
 }
 
-// People think in the time of day; the boxes are in seconds of the session.
+// People think in the time of day; a session counts seconds. Either can be typed.
 void ExportDialog::showClock() {
   if (!m_source.clock) return;
-  const auto text = [this](double seconds) {
-    return m_source.clock->addMSecs(qRound64(seconds * 1000.0))
-        .toString(QStringLiteral("yyyy-MM-dd HH:mm:ss"));
-  };
-  m_when->setText(QStringLiteral("%1 to %2").arg(text(m_begin->value()), text(m_end->value())));
+  m_showingClock = true;
+  m_beginClock->setDateTime(m_source.clock->addMSecs(qRound64(m_begin->value() * 1000.0)));
+  m_endClock->setDateTime(m_source.clock->addMSecs(qRound64(m_end->value() * 1000.0)));
+  m_showingClock = false;
 }
 
 /// False: it has said what is missing.

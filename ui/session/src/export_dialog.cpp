@@ -4,6 +4,7 @@
 #include <QBuffer>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDateTimeEdit>
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
@@ -54,7 +55,9 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
       m_format(new QComboBox(this)),
       m_begin(new NumberBox(this)),
       m_end(new NumberBox(this)),
-      m_when(new QLabel(this)),
+      m_when(new QWidget(this)),
+      m_beginClock(new QDateTimeEdit(m_when)),
+      m_endClock(new QDateTimeEdit(m_when)),
       m_robots(new CheckList(groupNames(m_source), QStringLiteral("Filter, e.g. B1"), this)),
       m_variables(
           new CheckList(variableNames(m_source), QStringLiteral("Filter, e.g. VISION"), this)),
@@ -102,7 +105,7 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_rows->addRow(QStringLiteral("Form"), m_format);
   m_rows->addRow(QStringLiteral("From"), m_begin);
   m_rows->addRow(QStringLiteral("To"), m_end);
-  m_rows->addRow(QString(), m_when);
+  m_rows->addRow(QStringLiteral("Time of day"), m_when);
   m_rows->addRow(QStringLiteral("Robots"), m_robots);
   m_rows->addRow(QStringLiteral("Variables"), m_variables);
   m_rows->addRow(QStringLiteral("Lines"), m_lines);

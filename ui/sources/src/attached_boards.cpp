@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/attached_boards.h>
 
+#include <algorithm>
+
+#include <robotlink/live/attached_robots.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
 
@@ -25,6 +28,16 @@ Result<std::unique_ptr<link::BoardSampler>> AttachedBoards::start(int key, doubl
   }
   link::BoardSamplerOptions options;
   options.rate = rate;
+  // As in Live, unless a robot of the match has the name.
+  link::AttachedBoard board;
+  board.key = key;
+  options.group = link::boardNames({board}).front();
+  const auto& robots = m_controller->scenario().robots;
+  if (std::ranges::any_of(robots, [&options](const auto& robot) {
+        return robot.identity.name() == options.group;
+      })) {
+    options.group += " key " + std::to_string(key);
+  }
   return link::BoardSampler::start(key, std::move(rows), options, m_controller->catalog());
 }
 

@@ -15,7 +15,7 @@ class RowKeeper : public link::LiveObserver {
  public:
   RowKeeper(std::shared_ptr<telemetry::SeriesStore> store, const link::LiveOptions& options,
             telemetry::WallTime zero)
-      : m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
+      : m_zero(zero), m_rows(store, link::rowsOptions(options, zero)), m_boards(store) {}
   void heard(RobotId id, double, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder,
              const telemetry::DecodedText& decoded) override {
@@ -28,6 +28,9 @@ class RowKeeper : public link::LiveObserver {
     m_boards.take(group, rows);
   }
   void reported(const telemetry::TeamStatus& status) override { m_rows.report(status); }
+  void adopted(const link::LiveOptions& options) override {
+    m_rows.setOptions(link::rowsOptions(options, m_zero));
+  }
   /// Any thread.
   telemetry::LiveRows::Refused refused() const {
     return {m_refusedRows.load(std::memory_order_relaxed),
@@ -35,6 +38,7 @@ class RowKeeper : public link::LiveObserver {
   }
 
  private:
+  const telemetry::WallTime m_zero;
   telemetry::LiveRows m_rows;
   link::BoardRowKeeper m_boards;
   std::atomic<std::uint64_t> m_refusedRows = 0, m_refusedValues = 0;
@@ -120,12 +124,21 @@ void LiveController::keepRows() {
   m_watch->observe(m_rows);
   m_memory = std::make_shared<link::LiveMemory>(m_options.refereePort);
   m_moments = std::make_unique<link::LiveMoments>();
+  link::FrameBackdrop backdrop;
+  backdrop.field = m_options.field;
+  m_boardFrames = std::make_unique<link::RecordedFrames>(backdrop);
   m_watch->observe(m_memory);
 }
 
 FramePtr LiveController::frameAt(double time) const {
   if (!m_memory) return nullptr;
   auto frame = m_moments->frameAt(*m_memory, time);
+  if (frame && m_series && !m_options.boards.empty()) {
+    // Robots that are this computer send nothing: their blackboards are rows.
+    for (link::RobotFrame& robot : m_boardFrames->attachedAt(*m_series, time)) {
+      frame->robots.push_back(std::move(robot));
+    }
+  }
   return frame ? std::make_shared<link::MatchFrame>(std::move(*frame)) : nullptr;
 }
 

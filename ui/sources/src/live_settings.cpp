@@ -86,12 +86,29 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
       live.profileFile.clear();
     }
   }
+  for (const QString& setup : settings.value(prefix + QLatin1String("teams")).toStringList()) {
+    // The names of profiles that are files are whole paths.
+    if (auto team = telemetry::parseTeamSetup(setup.toStdString(), "Saved team")) {
+      o.team.teams.push_back(std::move(*team));
+    } else {
+      complain(team.error());
+    }
+  }
+  for (const QString& written : settings.value(prefix + QLatin1String("boards")).toStringList()) {
+    if (auto board = link::parseAttachedBoard(written.toStdString())) {
+      o.boards.push_back(std::move(*board));
+    } else {
+      complain(board.error());
+    }
+  }
   if (const auto good = link::validate(o); !good) {
     complain(good.error());
     const link::LiveOptions usual;
     o.portBase = usual.portBase;
     o.robots = usual.robots;
     o.refereePort = usual.refereePort;
+    o.team.teams.clear();
+    o.boards.clear();
   }
   return live;
 }
@@ -118,6 +135,20 @@ void saveLiveSettings(QSettings& settings, const LiveSettings& live) {
   put("refereeVersion", o.refereeVersion);
   put("monitorAddress", live.monitorAddress);
   put("profileFile", live.profileFile);
+  QStringList teams;
+  for (const telemetry::TeamSetup& team : o.team.teams) {
+    teams << QString::fromStdString(telemetry::teamSetupText(team));
+  }
+  put("teams", teams);
+  saveAttachedBoards(settings, o.boards);
+}
+
+void saveAttachedBoards(QSettings& settings, const std::vector<link::AttachedBoard>& boards) {
+  QStringList written;
+  for (const link::AttachedBoard& board : boards) {
+    written << QString::fromStdString(link::attachedBoardText(board));
+  }
+  settings.setValue(prefix + QLatin1String("boards"), written);
 }
 
 }  // namespace pitchboard::ui

@@ -13,6 +13,7 @@
 
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
+#include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/plots/plot_menus.h>
 #include <ui/plots/plots_dock.h>
@@ -79,6 +80,7 @@ void StudioMenus::make() {
   makeView();
   makeRobots();
   makeSimulation();
+  makeLive();
   makeTimeline();
   makePlots();
   makeHelp();
@@ -201,10 +203,6 @@ void StudioMenus::makeView() {
   overlay->setToolTip(QStringLiteral("Simulated and heard robots side by side, matched by number"));
   QObject::connect(overlay, &QAction::toggled, m_parts.overlay, &LiveOverlay::setOn);
   QObject::connect(m_parts.overlay, &LiveOverlay::switched, overlay, &QAction::setChecked);
-  menu->addAction(QStringLiteral("Li&ve settings…"), &m_window,
-                  [window = &m_window, parts = m_parts] {
-                    showLiveSettings(parts.live, parts.settings, window);
-                  });
   QAction* day = menu->addAction(QStringLiteral("Times of &day in Live and Replay"));
   day->setObjectName(QStringLiteral("timesOfDay"));
   day->setCheckable(true);
@@ -239,6 +237,18 @@ void StudioMenus::makeRobots() {
                      if (auto* cards = window->findChild<RobotsDock*>())
                        cards->addCardActions(*menu);
                    });
+}
+
+void StudioMenus::makeLive() {
+  QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Live"));
+  menu->addAction(QStringLiteral("&Settings and teams…"), &m_window,
+                  [window = &m_window, parts = m_parts] {
+                    showLiveSettings(parts.live, parts.settings, window);
+                  });
+  menu->addAction(QStringLiteral("&Attach blackboard…"), &m_window,
+                  [window = &m_window, parts = m_parts] {
+                    showAttachDialog(parts.live, parts.settings, window);
+                  });
 }
 
 void StudioMenus::makeSimulation() {

@@ -50,6 +50,7 @@ class StudioMenus {
   void makeThemes(QMenu* menu);
   void makeRobots();
   void makeSimulation();
+  void makeLive();
   void makeTimeline();
   void makePlots();
   void makeHelp();

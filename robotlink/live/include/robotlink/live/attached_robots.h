@@ -35,8 +35,14 @@ struct AttachedBoard {
 
 /// "100,catalog=FILE,size=4096,robot=3,rate=100,team=red". Errors name the part.
 Result<AttachedBoard> parseAttachedBoard(std::string_view text);
+/// Text that parseAttachedBoard() reads back, if the catalog's path has no comma.
+std::string attachedBoardText(const AttachedBoard& board);
 /// Refuses a number out of range, two boards of one key, and a catalog that cannot be read.
 Result<void> validate(const std::vector<AttachedBoard>& boards);
+
+/// Names of their groups of rows, as a simulation would call the robots ("B3"); of two with one
+/// name the second one has its key behind it.
+std::vector<std::string> boardNames(const std::vector<AttachedBoard>& boards);
 
 struct BoardRow {
   double time = 0.0;  ///< s, as AttachedRobots was told

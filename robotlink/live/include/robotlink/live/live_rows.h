@@ -4,12 +4,14 @@
 // What live robots send as rows. Each robot has two groups: "Robot 3" has one row for each message
 // that was used, with its own time and the profile's fields as columns, and nothing else; "Robot 3
 // link" says about once a second how well it is heard (AGE s, RATE 1/s, JITTER ms, LOSS share,
-// LOST, DUPLICATES, LATE, ERRORS counts, VOLTS V), until it has timed out. A value that says "not
-// seen" (ProfileField::absent) is a hole. A longer message or an edited profile adds columns behind
-// the others. Times are seconds since `zero`. What is kept is bounded by the limits below.
+// LOST, DUPLICATES, LATE, ERRORS counts, VOLTS V, CHARGE %), until it has timed out. A value that
+// says "not seen" (ProfileField::absent) is a hole. A longer message or an edited profile adds
+// columns behind the others. Times are seconds since `zero`. What is kept is bounded by the limits
+// below.
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -24,7 +26,8 @@ namespace pitchboard::telemetry {
 inline constexpr const char* linkCategory = "Link";
 
 struct LiveRowsOptions {
-  WallTime zero{};  ///< the moment that counts as 0 s
+  WallTime zero{};        ///< the moment that counts as 0 s
+  std::size_t teams = 0;  ///< setups: how robots are numbered
   /// Name of the group of a robot with this number; empty function: "Robot 3".
   std::function<std::string(int number)> name;
   /// Further attributes of its group; empty function: none.
@@ -36,19 +39,20 @@ struct LiveRowsOptions {
 /// program that uses the number at the same time is "Robot 3 (2)".
 class LiveRows {
  public:
-  static constexpr std::size_t maxRobots = MonitorOptions::maxRobots;
   static constexpr std::size_t maxColumns = 200;  ///< of a robot, over all its profiles
   static constexpr std::size_t maxExtras = 32;    ///< fields of a message beyond its profile
 
   /// What the limits kept out since the beginning.
   struct Refused {
-    std::uint64_t rows = 0;    ///< of robots beyond the 64th
+    std::uint64_t rows = 0;    ///< of robots beyond MonitorOptions::mostRobots()
     std::uint64_t values = 0;  ///< in fields beyond the limits
   };
 
   explicit LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options = {});
   ~LiveRows();
 
+  /// Names, teams and attributes from now on; `zero` stays. Rows so far stay under their names.
+  void setOptions(LiveRowsOptions options);
   /// After TeamMonitor::take() said Used: one row. `slot`: TeamMonitor::usedSlot().
   void take(const DatagramView& datagram, const DecodedText& decoded, const TextDecoder& decoder,
             int slot);
@@ -66,6 +70,8 @@ class LiveRows {
   std::shared_ptr<RowSink> m_sink;
   LiveRowsOptions m_options;
   std::vector<Robot> m_robots;
+  double m_newest = -std::numeric_limits<double>::infinity();  // time of a row
+  double m_least = m_newest;                                   // of rows to come
   Refused m_refused;
 };
 

@@ -31,7 +31,8 @@ std::string ownNameOf(const LiveOptions& options, int robot);
 std::string meaningAttribute(telemetry::FieldMeaning meaning);
 
 /// Names and attributes of the groups of rows. With teams, or where the messages have blackboard
-/// variables, a robot is called as in a simulation ("B3"), else "Robot 3".
+/// variables, a robot is called as in a simulation ("B3"), else "Robot 3"; "B3 heard" where an
+/// attached blackboard is B3.
 telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, telemetry::WallTime zero);
 
 }  // namespace pitchboard::link

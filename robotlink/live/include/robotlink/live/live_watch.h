@@ -74,6 +74,8 @@ class LiveObserver {
   /// A datagram of an allowed sender that gave no values: it could not be decoded, is no state, or
   /// only draws.
   virtual void unusedHeard(double /*time*/, const telemetry::DatagramView&) {}
+  /// A datagram on a robot's port whose sender is on no list, or that is of no team.
+  virtual void strangerHeard(const telemetry::DatagramView&) {}
   virtual void happened(const MatchEvent&) {}
   /// How everybody is heard, a few times a second.
   virtual void reported(const telemetry::TeamStatus&) {}
@@ -81,6 +83,8 @@ class LiveObserver {
   virtual void sampled(const telemetry::GroupInfo& /*group*/, std::span<const BoardRow>) {}
   /// Whenever a frame was made.
   virtual void frameMade(const MatchFrame&) {}
+  /// Other options are used from the next datagram on: teams, names, profile.
+  virtual void adopted(const LiveOptions& /*options*/) {}
   /// Everything that is known at this moment (LiveBooks::text): at once, on the observing thread,
   /// then every 15 s and whenever options have changed or everything was forgotten. Nothing else is
   /// told at the same time.

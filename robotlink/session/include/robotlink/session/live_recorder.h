@@ -42,6 +42,7 @@ class LiveRecorder : public LiveRecords {
   void heard(RobotId id, double time, const telemetry::DatagramView& datagram,
              const telemetry::TextDecoder& decoder, const telemetry::DecodedText& decoded) override;
   void happened(const MatchEvent& event) override;
+  void adopted(const LiveOptions& options) override;
   void reported(const telemetry::TeamStatus& team) override;
   void sampled(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) override {
     m_boards.take(group, rows);
@@ -64,6 +65,7 @@ class LiveRecorder : public LiveRecords {
                const LiveOptions& live);
 
   std::shared_ptr<telemetry::SessionWriter> m_writer;
+  const telemetry::WallTime m_zero;
   telemetry::LiveRows m_rows;
   BoardRowKeeper m_boards;
 };

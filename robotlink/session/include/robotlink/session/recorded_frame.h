@@ -47,6 +47,8 @@ class RecordedFrames {
   /// of an older one the frame is made of rows, which do not say all.
   MatchFrame frameAt(const telemetry::SeriesStore& rows, double time);
   MatchFrame frameAt(const telemetry::SessionReader& session, double time);
+  /// Of the first one only the robots whose blackboard was read on this computer.
+  std::vector<RobotFrame> attachedAt(const telemetry::SeriesStore& rows, double time);
 
  private:
   struct Layout;
@@ -61,6 +63,8 @@ class RecordedFrames {
   void addRobot(std::size_t group, double time, Flags& flags, MatchFrame& frame);
   std::optional<std::size_t> linkGroupOf(const telemetry::GroupInfo& robot) const;
   void addHealth(std::size_t group, double time, const sim::FieldSpec& field, RobotFrame& robot);
+  void addBoardHealth(std::size_t group, double time, const sim::FieldSpec& field,
+                      RobotFrame& robot);
 
   FrameBackdrop m_backdrop;
   LiveMoments m_live;

@@ -18,9 +18,9 @@ struct BatteryLimits {
 inline constexpr BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
 
 struct Battery {
-  double volts = 0.0;
+  double volts = 0.0;  ///< 0: the robot says only how full it is
   int cells = 0;
-  double fraction = 0.0;  ///< 0 empty, 1 full, linear in the voltage
+  double fraction = 0.0;  ///< 0 empty, 1 full; linear in the voltage, if known
   bool low = false;
   bool operator==(const Battery&) const = default;
 };

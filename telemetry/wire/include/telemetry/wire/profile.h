@@ -82,9 +82,10 @@ enum class FieldMeaning : std::uint8_t {
   BallFieldX,
   BallFieldY,  ///< in the frame of x and y
   BallSeen,    ///< 0 or less: the rest of the ball means nothing
-  BallAge      ///< less than 0: never seen
+  BallAge,     ///< less than 0: never seen
+  Charge       ///< how full the battery is
 };
-inline constexpr std::size_t fieldMeaningCount = 24;
+inline constexpr std::size_t fieldMeaningCount = 25;
 
 /// "robot", "ball-distance", ...: as written in a profile.
 std::string_view meaningName(FieldMeaning meaning);

@@ -6,6 +6,7 @@
 // so that ten seconds of silence are tested in no time. Memory is bounded by the limits below; what
 // they refuse is counted.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,9 +25,14 @@
 namespace pitchboard::telemetry {
 
 struct MonitorOptions {
-  static constexpr std::size_t maxRobots = 64;
-  /// Numbers 1 to 32 always find room; higher ones and second senders share the other places.
+  /// Numbers 1 to 32 of each team always find room; all higher ones and second senders share the
+  /// other places.
   static constexpr int ordinaryRobots = 32;
+  static constexpr std::size_t otherRobots = 32;
+  static constexpr std::size_t mostRobots(std::size_t teams) {
+    return std::max(teams, std::size_t{1}) * ordinaryRobots + otherRobots;
+  }
+  std::size_t mostRobots() const { return mostRobots(teams.size()); }
   Duration timeout = std::chrono::seconds(10);
   /// The same bytes from the same robot within this time are one message delivered twice. (Later
   /// they may well be a robot that stands still.)
@@ -36,6 +42,11 @@ struct MonitorOptions {
   std::vector<TeamSetup> teams;  ///< empty: one team, of the profile
   Surroundings field;
 };
+
+/// This robot (its number over all teams, and its slot) need not share its place.
+constexpr bool hasOwnPlace(int robot, int slot, std::size_t teams) {
+  return slot == 0 && numberInTeam(robot, teams) <= MonitorOptions::ordinaryRobots;
+}
 
 /// One robot at one moment: a value that may cross threads.
 struct RobotStatus : LinkHealth {
@@ -66,7 +77,7 @@ struct TeamStatus {
   std::vector<SenderStatus> senders;  ///< the first 64 addresses
   std::uint64_t datagrams = 0;
   std::uint64_t refusedByFilter = 0;  ///< from senders that are not on the list
-  std::uint64_t refusedRobots = 0;    ///< of robots beyond the 64th
+  std::uint64_t refusedRobots = 0;    ///< of robots beyond MonitorOptions::mostRobots()
   ErrorTally errors;                  ///< of everybody together
 };
 
@@ -98,6 +109,7 @@ class TeamMonitor {
 
   /// From now on messages are read in this order; health and counters stay.
   void setProfile(Profile profile);
+  /// Robots of teams that are no more are forgotten.
   void setOptions(MonitorOptions options);
   const TextDecoder& decoder() const { return *m_decoder; }
   const MonitorOptions& options() const { return m_options; }

@@ -21,12 +21,13 @@ namespace pitchboard::telemetry {
 
 struct TeamSetup {
   static constexpr std::size_t maxRobots = 64;
-  std::string name;                       ///< empty: title() has the number
-  int number = 0;                         ///< the referee's; 0: not known
-  std::optional<TeamColor> colour;        ///< nothing: Live chooses
-  int firstPort = 0, lastPort = 0;        ///< 0: Live's own ports
-  std::vector<std::string> senders;       ///< addresses and networks; empty: everybody
-  std::string profileName = "published";  ///< as written: a name, or a file beside the setup
+  static constexpr std::size_t mostTeams = 16;  ///< that are heard at one time
+  std::string name;                             ///< empty: title() has the number
+  int number = 0;                               ///< the referee's; 0: not known
+  std::optional<TeamColor> colour;              ///< nothing: Live chooses
+  int firstPort = 0, lastPort = 0;              ///< 0: Live's own ports
+  std::vector<std::string> senders;             ///< addresses and networks; empty: everybody
+  std::string profileName = "published";        ///< a built-in one, or a file (beside the setup)
   Profile profile = publishedProfile();
   bool attacksLeft = false;           ///< plays towards the left goal
   std::map<int, std::string> robots;  ///< names by number
@@ -39,12 +40,18 @@ struct TeamSetup {
 /// Reads a setup; `file` is for messages, and its folder is where profiles are looked for. Errors
 /// as parseProfile(); those of the profile name its own file.
 Result<TeamSetup> parseTeamSetup(std::string_view json, const std::string& file);
+/// The name of a profile that is a file becomes its whole path.
 Result<TeamSetup> loadTeamSetup(const std::string& path);
+/// A profile in the same folder is named without it. In place of an old file; errors as
+/// writeFile().
+Result<void> saveTeamSetup(const TeamSetup& setup, const std::string& path);
+/// The same with a profile that is known already: its name in the setup is only a name.
+Result<TeamSetup> parseTeamSetup(std::string_view json, const std::string& file, Profile profile);
 /// Text that parseTeamSetup() reads back to the same value.
 std::string teamSetupText(const TeamSetup& setup);
 
 /// The ports of the teams; those of Live (livePorts()) where a team names none, and always the
-/// referee's. Errors as livePorts().
+/// referee's. Errors as livePorts(), and InvalidArgument for more than mostTeams.
 Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams, int base,
                                              int count, int referee);
 

@@ -20,6 +20,7 @@ namespace pitchboard::ui {
 class LiveController;
 class NetworkChooser;
 class NumberBox;
+class TeamsPage;
 
 class LiveSettingsDialog : public QDialog {
   Q_OBJECT
@@ -54,6 +55,7 @@ class LiveSettingsDialog : public QDialog {
   QCheckBox* m_monitor;
   QLineEdit* m_monitorAddress;
   QLabel *m_profileName, *m_problem;
+  TeamsPage* m_teams;
   telemetry::Profile m_profile;
   QString m_profileFile;
 };

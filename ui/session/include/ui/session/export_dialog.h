@@ -22,6 +22,7 @@
 
 class QCheckBox;
 class QComboBox;
+class QDateTimeEdit;
 class QDialogButtonBox;
 class QFormLayout;
 class QLabel;
@@ -89,7 +90,8 @@ class ExportDialog : public QDialog {
   QComboBox* m_format;
   NumberBox* m_begin;
   NumberBox* m_end;
-  QLabel* m_when;
+  QWidget* m_when;  // the range as times of day
+  QDateTimeEdit *m_beginClock, *m_endClock;
   CheckList* m_robots;
   CheckList* m_variables;
   NumberBox* m_lines;
@@ -108,6 +110,7 @@ class ExportDialog : public QDialog {
   std::unique_ptr<QTemporaryDir> m_memory;  // holds the session that is written from memory
   std::unique_ptr<VideoExport> m_video;
   bool m_writing = false;
+  bool m_showingClock = false;
   std::atomic<bool> m_cancelled = false;
   UiQueue m_toUi;
   Workers m_worker;

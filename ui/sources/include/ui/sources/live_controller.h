@@ -11,6 +11,7 @@
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_watch.h>
 #include <robotlink/session/live_memory.h>
+#include <robotlink/session/recorded_frame.h>
 #include <ui/base/ui_queue.h>
 #include <ui/sources/frame_source.h>
 
@@ -82,6 +83,7 @@ class LiveController : public FrameSource {
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<link::LiveMemory> m_memory;
   std::unique_ptr<link::LiveMoments> m_moments;
+  std::unique_ptr<link::RecordedFrames> m_boardFrames;
   std::shared_ptr<RowKeeper> m_rows;
   std::shared_ptr<telemetry::SeriesStore> m_series;
 };

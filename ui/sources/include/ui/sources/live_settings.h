@@ -22,6 +22,8 @@ struct LiveSettings {
 
 LiveSettings loadLiveSettings(const QSettings& settings);
 void saveLiveSettings(QSettings& settings, const LiveSettings& live);
+/// Of the settings only the robots that are this computer.
+void saveAttachedBoards(QSettings& settings, const std::vector<link::AttachedBoard>& boards);
 
 /// Reads "192.168.0.7, 192.168.1.0/24". Error InvalidArgument names the part that is wrong.
 Result<telemetry::SenderFilter> sendersFromText(const QString& text);

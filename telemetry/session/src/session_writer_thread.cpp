@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thread of a SessionWriter: closes chunks, compresses and writes them.
+#include <algorithm>
+
+#include "session_writer_impl.h"
+#include "write_rate.h"
+
+namespace pitchboard::telemetry {
+namespace {
+
+constexpr std::size_t mostSpareChunks = 4;
+
+}  // namespace
+
+void SessionWriter::Impl::run() {
+  auto next = Clock::now() + options.chunkInterval;
+  WriteRate rate;
+  std::unique_lock lock(mutex);
+  for (;;) {
+    wake.wait_until(lock, next, [this] { return stop || !full.empty() || !attachments.empty(); });
+    const bool last = stop;
+    if ((last || Clock::now() >= next) && !isEmpty()) closeCurrent();
+    std::deque<McapChunk> chunks;
+    std::deque<Attachment> files;
+    chunks.swap(full);
+    files.swap(attachments);
+    if (isEmpty() || Clock::now() >= next) next = Clock::now() + options.chunkInterval;
+    writingSince = Clock::now();
+    lock.unlock();
+    if (!error) write(chunks, files);
+    const auto room_ = options.freeSpace();
+    lock.lock();
+    writingSince.reset();
+    state.freeBytes = room_;
+    waiting = 0;
+    for (const McapChunk& chunk : full) waiting += chunk.bytes();
+    for (const Attachment& file_ : attachments) waiting += file_.data.size();
+    for (McapChunk& chunk : chunks) {
+      if (spare.size() >= mostSpareChunks) break;
+      chunk.clear();
+      spare.push_back(std::move(chunk));
+    }
+    state.bytes = file->bytes();
+    rate.note(std::chrono::duration<double>(Clock::now().time_since_epoch()).count(), state.bytes);
+    state.bytesPerSecond = rate.bytesPerSecond();
+    room.notify_all();
+    if (last || error) break;
+  }
+  ended = true;
+  lock.unlock();
+  auto finished = file->finish();
+  lock.lock();
+  if (!finished && !error) fail(finished.error());
+  state.bytes = file->bytes();
+  state.recording = false;
+  full.clear();
+  current.clear();
+  sparse.clear();
+  attachments.clear();
+  room.notify_all();
+}
+
+void SessionWriter::Impl::write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files) {
+  Result<void> done;
+  for (const Attachment& attachment : files) {
+    if (done) {
+      done = file->attach(attachment.time, attachment.time, attachment.name, attachment.mediaType,
+                          attachment.data);
+    }
+  }
+  if (done && !files.empty()) done = file->sync();
+  for (const McapChunk& chunk : chunks) {
+    if (done) done = file->writeChunk(chunk);
+  }
+  if (done) return;
+  const std::lock_guard lock(mutex);
+  fail(done.error());
+}
+
+/// Needs the lock. Who sees that it stopped sees why.
+void SessionWriter::Impl::fail(const Error& why) {
+  error = why;
+  state.recording = false;
+  state.problem =
+      "Recording stopped. " + why.message + " What was recorded until then is in the file.";
+}
+
+/// Needs the lock; may let go of it while it waits.
+bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
+  if (stop || error) return false;
+  const auto fits = [&] { return waiting + openBytes() + bytes <= options.queueBytes; };
+  if (!fits() && options.waitWhenFull && bytes <= options.queueBytes) {
+    if (!isEmpty()) closeCurrent();
+    wake.notify_one();
+    room.wait(lock, [&] { return fits() || stop || error; });
+    if (stop || error) return false;
+  }
+  if (fits()) return true;
+  ++state.dropped;
+  return false;
+}
+
+void SessionWriter::Impl::closeCurrent() {
+  for (McapChunk* open : {&current, &sparse}) {
+    if (open->empty()) continue;
+    waiting += open->bytes();
+    full.push_back(std::move(*open));
+    if (spare.empty()) {
+      *open = McapChunk();
+    } else {
+      *open = std::move(spare.back());
+      spare.pop_back();
+    }
+  }
+}
+
+/// A chunk of its own: who draws a whole day reads these chunks and no others.
+void SessionWriter::Impl::keep(Group& group, const SummaryPart& part) {
+  if (group.summaryChannel == 0 && channels >= mostChannels) return;
+  McapChunk chunk;
+  if (group.summaryChannel == 0) {
+    group.summaryChannel = ++channels;
+    const std::string topic = session::rowTopic(group.info) + group.suffix;
+    chunk.add(McapChannel{group.summaryChannel,
+                          0,
+                          topic + "/summary",
+                          std::string(session::summaryEncoding),
+                          {{std::string(session::summaryKey), topic}}});
+  }
+  const std::string bytes = session::summaryBytes(part);
+  chunk.add(
+      McapMessage{group.summaryChannel, group.summaries++, group.lastLog, group.lastLog, bytes});
+  waiting += chunk.bytes();
+  full.push_back(std::move(chunk));
+  wake.notify_one();
+}
+
+std::uint16_t SessionWriter::Impl::addChannel(McapChunk& to, const McapSchema& schema,
+                                              McapChannel channel) {
+  McapSchema numbered = schema;
+  numbered.id = ++schemas;
+  channel.id = ++channels;
+  channel.schema = numbered.id;
+  to.add(numbered);
+  to.add(channel);
+  return channel.id;
+}
+
+void SessionWriter::Impl::note(std::uint64_t log) {
+  if (!firstLog) firstLog = log;
+  lastLog = std::max(lastLog, log);
+  state.seconds = static_cast<double>(lastLog - *firstLog) * 1e-9;
+  if (openBytes() < options.chunkBytes) return;
+  closeCurrent();
+  wake.notify_one();
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any bytes as datagrams of a live match of several teams, the whole way: team, format, books,
+// rows, frame; and what a session keeps of it reads back as the same. The first byte chooses port
+// and sender.
+#include <cstdlib>
+
+#include <robotlink/frame/second_sender.h>
+#include <robotlink/live/live_books.h>
+#include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_teams.h>
+#include <telemetry/series/series_store.h>
+
+using namespace pitchboard;
+using namespace pitchboard::telemetry;
+
+namespace {
+
+constexpr std::size_t budget = std::size_t{16} << 20;
+/// The newest rows of each group and what one block more takes, for every group there can be.
+constexpr std::size_t above = std::size_t{256} << 20;
+constexpr int firstPort = 12000, refereePort = 3838;
+
+link::LiveOptions optionsOfMatch() {
+  link::LiveOptions options;
+  int port = firstPort;
+  for (const char* profile :
+       {"published", "mitecom", "robocup", "rhoban", "upenn", "spl", "hulks"}) {
+    TeamSetup& team = options.team.teams.emplace_back();
+    team.number = 12 + port - firstPort;
+    team.firstPort = team.lastPort = port++;
+    team.profileName = profile;
+    team.profile = *loadProfile(profile);
+  }
+  return options;
+}
+
+struct Match {
+  WallTime zero{std::chrono::seconds(1'700'000'000)};
+  WallTime now = zero;
+  link::LiveOptions options = optionsOfMatch();
+  link::LiveBooks books{options};
+  std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>(SeriesOptions{budget});
+  LiveRows rows{store, link::rowsOptions(options, zero)};
+
+  void take(unsigned char where, std::string_view payload) {
+    now += std::chrono::milliseconds(100);
+    const Sender sender{{0x0a000000U + where / 8U}, 5000};
+    const auto teams = static_cast<int>(options.team.teams.size());
+    const int place = where % 8;
+    const int port = place < teams ? firstPort + place : refereePort;
+    const DatagramView datagram{now, sender, static_cast<std::uint16_t>(port), false, payload};
+    if (port == refereePort) {
+      if (const auto packet = decodeReferee(payload)) books.takeReferee(*packet, datagram);
+      return;
+    }
+    if (books.monitor.take(datagram) != TeamMonitor::Verdict::Used) return;
+    const DecodedText& decoded = books.monitor.decoded();
+    const std::size_t all = options.team.teams.size();
+    if (teamPlace(decoded.robot, all) != static_cast<std::size_t>(place)) std::abort();
+    rows.take(datagram, decoded, books.monitor.decoder(), books.monitor.usedSlot());
+  }
+
+  void check() {
+    const TeamStatus status = books.monitor.status(now);
+    if (status.robots.size() > options.team.mostRobots()) std::abort();
+    rows.report(status);
+    if (store->refusedRows() != 0 || store->memoryBytes() > budget + above) std::abort();
+    const double time = secondsOf(now - zero);
+    (void)books.frame(options, status, time);
+    const std::string text = books.text(options, time, zero);
+    const auto again = link::LiveBooks::read(text, zero);
+    if (!again) std::abort();
+    if (!(again->options.team.teams == options.team.teams)) std::abort();
+    if (again->books.monitor.status(now).robots.size() != status.robots.size()) std::abort();
+    if (again->books.text(again->options, time, zero) != text) std::abort();
+  }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  static Match match;
+  if (size == 0) return 0;
+  match.take(data[0], {reinterpret_cast<const char*>(data) + 1, size - 1});
+  // All of it is a large value: now and then is enough.
+  static unsigned rounds = 0;
+  if (++rounds % 64 == 0) match.check();
+  return 0;
+}

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/live/attach_dialog.h>
+
+#include <pwd.h>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSettings>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <robotlink/blackboard/segments.h>
+#include <ui/base/number_box.h>
+#include <ui/base/table_style.h>
+#include <ui/base/theme.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/live_settings.h>
+
+namespace pitchboard::ui {
+namespace {
+
+const QString fromFile = QStringLiteral("from a file…");
+
+QString userName(uid_t user) {
+  const passwd* known = getpwuid(user);
+  return known == nullptr ? QStringLiteral("user %1").arg(user)
+                          : QString::fromLocal8Bit(known->pw_name);
+}
+
+QTableWidget* makeTable(QWidget* parent, const char* name, const QStringList& columns) {
+  auto* table = new QTableWidget(0, static_cast<int>(columns.size()), parent);
+  table->setObjectName(QLatin1String(name));
+  table->setHorizontalHeaderLabels(columns);
+  styleTable(table);
+  table->setSelectionMode(QAbstractItemView::SingleSelection);
+  return table;
+}
+
+void setTexts(QTableWidget* table, int row, const QStringList& texts) {
+  for (int column = 0; column < texts.size(); ++column) {
+    QTableWidgetItem* item = table->item(row, column);
+    if (item == nullptr) table->setItem(row, column, item = new QTableWidgetItem);
+    item->setText(texts[column]);
+    item->setToolTip(texts[column]);
+  }
+}
+
+}  // namespace
+
+AttachDialog::AttachDialog(LiveController* live, QSettings* settings, QWidget* parent)
+    : QDialog(parent), m_live(live), m_settings(settings) {
+  constexpr int refreshMilliseconds = 1000;
+  setObjectName(QStringLiteral("attachDialog"));
+  setWindowTitle(QStringLiteral("Attach blackboard"));
+  setAttribute(Qt::WA_DeleteOnClose);
+  auto* about = new QLabel(
+      QStringLiteral("On the computer of a robot its blackboard is shown in Live as it is, without "
+                     "messages. It is only read."),
+      this);
+  about->setWordWrap(true);
+  m_segments = makeTable(this, "segments",
+                         {QStringLiteral("Key"), QStringLiteral("Size"), QStringLiteral("Owner"),
+                          QStringLiteral("Attached by"), QStringLiteral("What")});
+  connect(m_segments, &QTableWidget::itemSelectionChanged, this, &AttachDialog::choose);
+  connect(m_segments, &QTableWidget::itemDoubleClicked, this, [this] { attach(); });
+  m_attached = makeTable(this, "attachedBoards",
+                         {QStringLiteral("Robot"), QStringLiteral("Key"), QStringLiteral("Samples"),
+                          QStringLiteral("State")});
+  m_attached->setMaximumHeight(scaled(this, 110));
+  m_message = new QLabel(this);
+  m_message->setObjectName(QStringLiteral("attachMessage"));
+  m_message->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  m_attach = buttons->addButton(QStringLiteral("Attach"), QDialogButtonBox::ActionRole);
+  m_attach->setObjectName(QStringLiteral("attach"));
+  m_detach = buttons->addButton(QStringLiteral("Detach"), QDialogButtonBox::ActionRole);
+  m_detach->setObjectName(QStringLiteral("detach"));
+  connect(m_attach, &QPushButton::clicked, this, &AttachDialog::attach);
+  connect(m_detach, &QPushButton::clicked, this, &AttachDialog::detach);
+  connect(m_attached, &QTableWidget::itemSelectionChanged, this,
+          [this] { m_detach->setEnabled(m_attached->currentRow() >= 0); });
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* column = new QVBoxLayout(this);
+  column->addWidget(about);
+  column->addWidget(new QLabel(QStringLiteral("Segments of this computer"), this));
+  column->addWidget(m_segments, 1);
+  column->addWidget(makeForm());
+  column->addWidget(new QLabel(QStringLiteral("Attached"), this));
+  column->addWidget(m_attached);
+  column->addWidget(m_message);
+  column->addWidget(buttons);
+  resize(scaled(this, 560), scaled(this, 540));
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] {
+    if (isVisible()) refresh();
+  });
+  timer->start(refreshMilliseconds);
+  refresh();
+}
+
+QWidget* AttachDialog::makeForm() {
+  auto* widget = new QWidget(this);
+  auto* form = new QFormLayout(widget);
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  m_key = new QSpinBox(widget);
+  m_key->setObjectName(QStringLiteral("attachKey"));
+  m_key->setRange(1, 2147483647);
+  m_key->setValue(link::AttachedBoard().key);
+  m_key->setToolTip(QStringLiteral("A segment that is not there yet is taken up when it comes"));
+  m_robot = new QSpinBox(widget);
+  m_robot->setObjectName(QStringLiteral("attachRobot"));
+  m_robot->setRange(0, 999);
+  m_robot->setSpecialValueText(QStringLiteral("as the key says"));
+  m_team = new QComboBox(widget);
+  m_team->setObjectName(QStringLiteral("attachTeam"));
+  for (const TeamColorInfo& colour : teamColors) {
+    m_team->addItem(
+        QString::fromUtf8(colour.name.data(), static_cast<qsizetype>(colour.name.size())),
+        static_cast<int>(colour.color));
+  }
+  auto* robot = new QHBoxLayout;
+  robot->addWidget(m_key, 1);
+  robot->addWidget(new QLabel(QStringLiteral("Robot"), widget));
+  robot->addWidget(m_robot, 1);
+  robot->addWidget(m_team, 1);
+  form->addRow(QStringLiteral("Key"), robot);
+  m_catalog = new QComboBox(widget);
+  m_catalog->setObjectName(QStringLiteral("attachCatalog"));
+  m_catalog->addItem(QStringLiteral("published map"), QString());
+  m_catalog->addItem(fromFile);
+  m_catalog->setToolTip(
+      QStringLiteral("Names and places of its variables: a blackboard.h, SharedMemory.py or JSON"));
+  connect(m_catalog, &QComboBox::activated, this, &AttachDialog::chooseCatalog);
+  m_rate = new NumberBox(widget);
+  m_rate->setObjectName(QStringLiteral("attachRate"));
+  m_rate->setRange(link::AttachedBoard::slowest, link::AttachedBoard::fastest);
+  m_rate->setDecimals(1);
+  m_rate->setValue(link::AttachedBoard().rate);
+  m_rate->setSuffix(QStringLiteral(" a second"));
+  auto* variables = new QHBoxLayout;
+  variables->addWidget(m_catalog, 1);
+  variables->addWidget(new QLabel(QStringLiteral("Samples"), widget));
+  variables->addWidget(m_rate, 1);
+  form->addRow(QStringLiteral("Catalog"), variables);
+  return widget;
+}
+
+void AttachDialog::refresh() {
+  listSegments();
+  listAttached();
+}
+
+void AttachDialog::listSegments() {
+  const auto segments = link::segmentsOfThisComputer();
+  const QSignalBlocker quiet(m_segments);
+  m_segments->setRowCount(static_cast<int>(segments.size()));
+  for (int row = 0; row < m_segments->rowCount(); ++row) {
+    const link::SegmentInfo& info = segments[static_cast<std::size_t>(row)];
+    setTexts(m_segments, row,
+             {QString::number(info.key), QStringLiteral("%1 bytes").arg(info.bytes),
+              userName(info.owner),
+              info.attached == 1 ? QStringLiteral("1 process")
+                                 : QStringLiteral("%1 processes").arg(info.attached),
+              info.blackboardSized ? QStringLiteral("size of a published blackboard")
+                                   : QStringLiteral("needs its own catalog")});
+    m_segments->item(row, 0)->setData(Qt::UserRole, info.key);
+  }
+}
+
+void AttachDialog::listAttached() {
+  const std::vector<link::AttachedBoard>& boards = m_live->options().boards;
+  const std::vector<std::string> names = link::boardNames(boards);
+  const auto all = m_live->details().boards;
+  m_attached->setRowCount(static_cast<int>(boards.size()));
+  for (int row = 0; row < m_attached->rowCount(); ++row) {
+    const auto place = static_cast<std::size_t>(row);
+    const auto status = std::ranges::find_if(
+        all, [&](const link::AttachedStatus& one) { return one.board.key == boards[place].key; });
+    const bool known = status != all.end();
+    setTexts(m_attached, row,
+             {QString::fromStdString(names[place]), QString::number(boards[place].key),
+              known ? QString::number(status->samples) : QString(),
+              !m_live->isListening()      ? QStringLiteral("Live is not listening")
+              : known && status->attached ? QStringLiteral("attached")
+              : known                     ? QString::fromStdString(status->problem)
+                                          : QString()});
+    m_attached->item(row, 0)->setData(Qt::UserRole, boards[place].key);
+  }
+  m_detach->setEnabled(m_attached->currentRow() >= 0);
+}
+
+void AttachDialog::choose() {
+  const QTableWidgetItem* item = m_segments->item(m_segments->currentRow(), 0);
+  if (item != nullptr) m_key->setValue(item->data(Qt::UserRole).toInt());
+}
+
+void AttachDialog::chooseCatalog(int index) {
+  if (m_catalog->itemText(index) != fromFile) return;
+  m_catalog->setCurrentIndex(0);
+  auto* ask = new QFileDialog(this, QStringLiteral("Catalog of variables"), {},
+                              QStringLiteral("Catalogs (*.h *.py *.json);;All files (*)"));
+  ask->setAttribute(Qt::WA_DeleteOnClose);
+  ask->setFileMode(QFileDialog::ExistingFile);
+  connect(ask, &QFileDialog::fileSelected, this, [this](const QString& file) {
+    const int place = m_catalog->count() - 1;
+    m_catalog->insertItem(place, QFileInfo(file).fileName(), file);
+    m_catalog->setItemData(place, file, Qt::ToolTipRole);
+    m_catalog->setCurrentIndex(place);
+  });
+  ask->open();
+}
+
+bool AttachDialog::attach() {
+  link::AttachedBoard board;
+  board.key = m_key->value();
+  board.robot = m_robot->value();
+  board.team = static_cast<TeamColor>(m_team->currentData().toInt());
+  board.catalogFile = m_catalog->currentData().toString().toStdString();
+  board.rate = m_rate->value();
+  std::vector<link::AttachedBoard> boards = m_live->options().boards;
+  std::erase_if(boards, [&board](const auto& known) { return known.key == board.key; });
+  boards.push_back(board);
+  if (const auto good = link::validate(boards); !good) {
+    return say(QString::fromStdString(good.error().message), true);
+  }
+  // Whether it is there and of its catalog's size: said now, tried again later.
+  const auto view = link::SegmentView::attach(board.key);
+  use(boards);
+  if (!view) return say(QString::fromStdString(view.error().text()), true);
+  return say({}, false);
+}
+
+void AttachDialog::detach() {
+  const QTableWidgetItem* item = m_attached->item(m_attached->currentRow(), 0);
+  if (item == nullptr) return;
+  const int key = item->data(Qt::UserRole).toInt();
+  std::vector<link::AttachedBoard> boards = m_live->options().boards;
+  std::erase_if(boards, [key](const auto& known) { return known.key == key; });
+  use(boards);
+  say({}, false);
+}
+
+void AttachDialog::use(const std::vector<link::AttachedBoard>& boards) {
+  link::LiveOptions options = m_live->options();
+  options.boards = boards;
+  m_live->setOptions(options);
+  if (m_settings != nullptr) saveAttachedBoards(*m_settings, boards);
+  refresh();
+}
+
+bool AttachDialog::say(const QString& sentence, bool bad) {
+  QPalette colours = palette();
+  colours.setColor(QPalette::WindowText, bad ? theme().errorText : theme().secondaryText);
+  m_message->setPalette(colours);
+  m_message->setText(sentence);
+  return !bad;
+}
+
+void showAttachDialog(LiveController* live, QSettings* settings, QWidget* window) {
+  auto* dialog = window->findChild<AttachDialog*>();
+  if (dialog == nullptr) dialog = new AttachDialog(live, settings, window);
+  dialog->show();
+  dialog->raise();
+  dialog->activateWindow();
+}
+
+}  // namespace pitchboard::ui

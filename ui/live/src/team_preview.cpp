@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "team_preview.h"
+
+#include <QStringList>
+
+#include <robotlink/live/live_teams.h>
+
+namespace pitchboard::ui {
+namespace {
+
+using telemetry::DecodedText;
+using telemetry::TextDecoder;
+
+constexpr std::size_t mostFields = 12;  // more do not fit into a line
+
+QString text(std::string_view words) {
+  return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+}
+
+QString valuesOf(const TextDecoder& decoder, const DecodedText& decoded) {
+  QStringList parts;
+  const auto& fields = decoder.profile().fields;
+  for (std::size_t i = 0; i < decoded.count && parts.size() < qsizetype{mostFields}; ++i) {
+    if (i < fields.size() && fields[i].meaning == telemetry::FieldMeaning::Robot) continue;
+    const QString name = QString::fromStdString(decoder.name(i));
+    if (decoded.has(i)) {
+      const QString unit = i < fields.size() ? QString::fromStdString(fields[i].unit) : QString();
+      parts << QStringLiteral("%1 %2%3").arg(name, QString::number(decoded.values[i], 'g', 6),
+                                             unit.isEmpty() ? QString() : QLatin1Char(' ') + unit);
+    } else if (!decoded.words[i].empty()) {
+      parts << name + QLatin1Char(' ') +
+                   QString::fromStdString(telemetry::printable(decoded.words[i], 24));
+    }
+  }
+  return parts.join(QStringLiteral(", "));
+}
+
+/// Names of the formats that can be read as.
+QString knownFormats(const Arrival& arrival, std::span<const KnownFormat> known) {
+  QStringList names;
+  DecodedText decoded;
+  for (const KnownFormat& format : known) {
+    format.decoder->decode(arrival.view(), decoded);
+    if (decoded.errors.empty() && decoded.robot > 0) names << format.name;
+  }
+  return names.isEmpty() ? QString()
+                         : QStringLiteral("; could be %1").arg(names.join(QStringLiteral(" or ")));
+}
+
+QString robotText(const link::LiveOptions& options, int robot) {
+  sim::RobotIdentity identity;
+  identity.number = telemetry::numberInTeam(robot, options.team.teams.size());
+  identity.team = link::colourOf(options, robot, options.colour, {});
+  QString words = QString::fromStdString(identity.name());
+  const std::string own = link::ownNameOf(options, robot);
+  if (!own.empty()) words += QLatin1Char(' ') + QString::fromStdString(own);
+  if (const auto* team = telemetry::teamOf(robot, options.team.teams)) {
+    words += QStringLiteral(" (%1)").arg(QString::fromStdString(team->title()));
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
+                                  const link::LiveOptions& options,
+                                  std::span<const KnownFormat> known) {
+  const telemetry::TeamRouter router(options.profile, options.team.teams,
+                                     link::surroundingsOf(options.field));
+  std::vector<PreviewRow> rows;
+  DecodedText decoded;
+  for (const Arrival& arrival : arrivals) {
+    PreviewRow& row = rows.emplace_back();
+    row.sender = QString::fromStdString(arrival.sender.address.text());
+    row.port = arrival.localPort;
+    row.messages = arrival.count;
+    const bool listed = options.team.senders.allows(arrival.sender.address);
+    const auto decoder = listed ? router.decode(arrival.view(), decoded) : nullptr;
+    if (decoder && decoded.accepted()) {
+      row.used = true;
+      row.robot = robotText(options, decoded.robot);
+      row.says = valuesOf(*decoder, decoded);
+      continue;
+    }
+    row.robot = QStringLiteral("–");
+    QStringList why;
+    for (std::size_t i = 0; decoder && i < telemetry::textErrorCount; ++i) {
+      const auto error = static_cast<telemetry::TextError>(i);
+      if (decoded.errors.has(error)) why << text(telemetry::errorWords(error));
+    }
+    if (!listed) why << QStringLiteral("its address is not on the list of senders");
+    if (listed && !decoder) why << QStringLiteral("no team sends from there to this port");
+    row.says = why.join(QStringLiteral(", ")) + knownFormats(arrival, known) +
+               QStringLiteral(": ") +
+               QString::fromStdString(telemetry::printable(arrival.payload, 60));
+  }
+  return rows;
+}
+
+}  // namespace pitchboard::ui

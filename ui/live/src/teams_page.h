@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The team setups of Live (docs/LIVE.md, "Team setups") as a form, and below it what arrives, as
+// these setups would read it, before they are put to use. Qt owns it. UI thread only.
+
+#include <QWidget>
+#include <vector>
+
+#include <telemetry/wire/team_setup.h>
+
+#include "arrivals.h"
+#include "team_preview.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QSpinBox;
+class QTableWidget;
+class QToolButton;
+
+namespace pitchboard::ui {
+
+class TeamsPage : public QWidget {
+  Q_OBJECT
+ public:
+  TeamsPage(LiveController* live, QWidget* parent);
+
+  void setTeams(const std::vector<telemetry::TeamSetup>& teams);
+  /// Errors name the team and what is wrong.
+  Result<std::vector<telemetry::TeamSetup>> teams() const;
+  /// Adds the setup of a file, and shows it.
+  Result<void> load(const QString& path);
+  Result<void> save(const QString& path) const;
+
+ private:
+  /// As it is typed; text that is no setup yet stays text.
+  struct Draft {
+    telemetry::TeamSetup setup;
+    QString senders, robots;
+  };
+  static Draft draftOf(const telemetry::TeamSetup& setup);
+  static Result<telemetry::TeamSetup> setupOf(const Draft& draft);
+
+  /// Of the list's row; null: none is chosen.
+  const Draft* current() const;
+  Draft* current();
+  QLayout* makeList();
+  QWidget* makeForm();
+  void fillProfiles();
+  void add(Draft draft);
+  void show(int place);
+  void take();
+  void name(int place);
+  void chooseProfile(int index);
+  void ask(bool save);
+  void preview();
+  void say(const QString& sentence, bool bad);
+
+  LiveController* m_live;
+  Arrivals m_arrivals;
+  std::vector<KnownFormat> m_known;  ///< the built-in profiles
+  std::vector<Draft> m_drafts;
+  bool m_filling = false;
+  QListWidget* m_list;
+  QToolButton *m_remove, *m_save;
+  QWidget* m_form;
+  QLineEdit *m_name, *m_senders, *m_names;
+  QSpinBox *m_number, *m_firstPort, *m_lastPort;
+  QComboBox *m_colour, *m_profile, *m_attacks;
+  QTableWidget* m_table;
+  QLabel* m_message;
+};
+
+}  // namespace pitchboard::ui
