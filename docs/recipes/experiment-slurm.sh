@@ -9,7 +9,7 @@
 #SBATCH --cpus-per-task=1
 #SBATCH --mem=500M
 #SBATCH --time=01:00:00
-#SBATCH --signal=TERM@60
+#SBATCH --signal=B:TERM@60
 set -euo pipefail
 experiment=$1 dir=$2
 exec "${PITCHBOARD_CLI:-pitchboard-cli}" experiment "$experiment" \

@@ -87,7 +87,7 @@ sed 's/"runs": 6/"runs": 400/; s/"record": \[2\],//; s/"duration": 5/"duration":
   short.json > long.json
 "$PITCHBOARD_CLI" experiment long.json --out long --jobs 2 > interrupted.txt 2>&1 &
 pid=$!
-while kill -0 $pid 2> /dev/null && [ "$(wc -l < long/runs.jsonl 2> /dev/null || echo 0)" -lt 3 ]; do :; done
+while kill -0 $pid 2> /dev/null && [ "$({ wc -l < long/runs.jsonl; } 2> /dev/null || echo 0)" -lt 3 ]; do :; done
 kill -INT $pid
 wait $pid
 code=$?

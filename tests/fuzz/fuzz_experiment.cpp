@@ -16,8 +16,8 @@ using namespace pitchboard::link;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (text.starts_with("{\"run\"")) {
-    static const Experiment small = *experimentFromJson(
-        R"({"version": 1, "scenario": {"version": 1}, "runs": 9})", "small");
+    static const Experiment small =
+        *experimentFromJson(R"({"version": 1, "scenario": {"version": 1}, "runs": 9})", "small");
     const std::size_t metrics = metricsOf(small).size();
     if (const auto result = resultFromLine(text, small, metrics)) {
       const std::string line = lineOf(*result);

@@ -222,7 +222,7 @@ Result<LiveBooks::Read> LiveBooks::read(std::string_view bytes, WallTime zero) {
       telemetry::DrawingLimits::robots * telemetry::DrawingLimits::layers;
   each(json, "drawings", mostPages, [&](std::size_t, const Json& page) {
     if (!page.is_object()) return;
-    (void)out.books.drawings.take(lenient::text(page, "text"), number(page, "at", 0.0));
+    (void)out.books.drawings.take(lenient::text(page, "text"), number(page, "at").value_or(0.0));
   });
   constexpr std::size_t mostPackets = telemetry::RefereeTracker::maxReplies + 3;
   each(json, "referee", mostPackets, [&](std::size_t, const Json& packet) {
