@@ -36,10 +36,11 @@ def main():
     parser.add_argument("--rate", type=float, default=2000, help="messages a second")
     parser.add_argument("--robots", type=int, default=64000, help="different numbers")
     parser.add_argument("--port-base", type=int, required=True)
+    parser.add_argument("--wait", type=float, default=3, help="seconds until the program listens")
     parser.add_argument("program", nargs="+")
     options = parser.parse_args()
     program = subprocess.Popen(options.program)
-    time.sleep(3)  # it says in ways of its own when it listens
+    time.sleep(options.wait)  # it says in ways of its own when it listens
     before = memory(program.pid, "VmRSS")
     sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     rng = random.Random(1)
