@@ -96,7 +96,13 @@ Pose Supporter::kickOff(const WorldModel& world) {
   constexpr double forgets = 5.0, settles = 1.0;  // s; until all have told that they support
   const double x = -0.25 * world.field().length, y = 0.22 * world.field().width;
   const std::array<Point, mostTeamMates + 1> places{{{x, y}, {x, -y}, {x, 0.0}, {x - 1.0, 0.0}}};
-  if (world.now() - m_placeAsked > forgets) m_placeBegan = world.now();
+  const auto supporters =
+      std::count_if(world.mates().begin(), world.mates().end(),
+                    [](const auto& mate) { return mate && mate->intention == Intention::Support; });
+  if (world.now() - m_placeAsked > forgets || supporters != m_supporters) {
+    m_placeBegan = world.now();
+    m_supporters = supporters;
+  }
   if (world.now() - m_placeBegan < settles) m_place = freePlace(world, places);
   m_placeAsked = world.now();
   return {places[m_place], 0.0};

@@ -66,6 +66,7 @@ class Supporter : public Striker {
  private:
   static std::size_t freePlace(const WorldModel& world, std::span<const Point> places);
   std::size_t m_place = 0;                          // for the kick-off
+  std::ptrdiff_t m_supporters = 0;                  // beside this one
   double m_placeAsked = -1e9, m_placeBegan = -1e9;  // s
 };
 
