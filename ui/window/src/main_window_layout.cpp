@@ -55,7 +55,11 @@ void MainWindow::restoreLayout() {
 void MainWindow::saveLayout() {
   if (m_fieldOnly->isOn()) return;
   const QByteArray now = saveState(layoutVersion);
-  m_settings->setValue(geometryKey, saveGeometry());
+  const QByteArray where = saveGeometry();
+  // A file that is written again and again is a disk that is busy.
+  if (m_settings->value(geometryKey).toByteArray() != where) {
+    m_settings->setValue(geometryKey, where);
+  }
   if (now == m_savedLayout) return;
   m_savedLayout = now;
   m_settings->setValue(layoutKey, now);
