@@ -30,7 +30,7 @@ QList<SourceFile> filesNamed(const QStringList& names) {
 }
 
 const QList<SourceFile>& sources() {
-  static const QList<SourceFile> files = filesNamed({"*.h", "*.cpp"});
+  static const QList<SourceFile> files = filesNamed({"*.h", "*.cpp", "*.inc"});
   return files;
 }
 

@@ -7,6 +7,7 @@
 #include <pitchboard_sim.h>
 #include <robotlink/capi/worlds.h>
 
+#include <bit>
 #include <cmath>
 #include <thread>
 

@@ -124,7 +124,9 @@ class TestWorldLines : public QObject {
     row("a name and a text", R"({"do":"create","scenario":"match","text":"{}"})",
         "a name or a text");
     row("no such scenario", R"({"do":"create","scenario":"no-such"})", "no-such");
-    row("a text that is no scenario", R"({"do":"create","text":"{\"robots\":1}"})", "robots");
+    // moc loses its way in a raw text with \".
+    row("a text that is no scenario", "{\"do\":\"create\",\"text\":\"{\\\"robots\\\":1}\"}",
+        "robots");
     row("too many worlds", R"({"do":"create","worlds":100000})", "worlds");
     row("no such physics", R"({"do":"create","physics":"chaos"})", "chaos");
     row("bytes that are no text", "{\"do\":\"\xff\xfe\"}", "");

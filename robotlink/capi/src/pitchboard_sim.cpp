@@ -3,11 +3,19 @@
 // sentence. No exception passes.
 #include <pitchboard_sim.h>
 
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <exception>
+#include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include <robotlink/capi/worlds.h>
 

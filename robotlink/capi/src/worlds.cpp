@@ -2,6 +2,7 @@
 #include <robotlink/capi/worlds.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
