@@ -108,6 +108,27 @@ class TestPlotCurves : public QObject {
     QTRY_VERIFY(endIsOne());
   }
 
+  /// The source is put back and is further than before when somebody looks again.
+  void anAbandonedFutureIsNotKept() {
+    PlotBench bench;
+    bench.source.fill("B1", 4.0);
+    PlotFeed feed(&bench.source, &bench.time);
+    Curve curve(derivedOf(CurveKind::Derivative));
+    QCOMPARE(allOf(curve, feed, 241).size(), std::size_t(241));
+    const telemetry::GroupId group = *bench.source.store->findGroup("B1");
+    for (int i = 60; i <= 300; ++i) {
+      bench.source.append(group, i / 60.0, 0, 0.0, 90.0 - (i - 60) * 3.0);
+    }
+    const auto isNew = [&] {
+      feed.refresh();
+      curve.update(feed);
+      if (!curve.view() || curve.view().group->rows() != 301) return false;
+      const auto then = curve.view().group->at(curve.view().column, 3.0);
+      return then && std::abs(then->value + 180.0) < 1e-6;
+    };
+    QTRY_VERIFY(isNew());
+  }
+
   void expressionsThatCannotWorkSaySo_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("says");

@@ -10,8 +10,10 @@
 
 #include "chart_pane.h"
 #include "compared_item.h"
+#include "lane_pane.h"
 #include "session_rig.h"
 #include "timeline_strip.h"
+#include "xy_pane.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -147,6 +149,56 @@ class TestSessionCompare : public QObject {
     QTRY_VERIFY(first(pane->comparedTraces().front()) > 12.9);
     s.window.compared()->stop();
     QTRY_VERIFY(std::isnan(low(pane->comparedTraces())));
+  }
+
+  /// Computed curves, lanes and one variable over another, too.
+  void everyKindOfPlotHasItsCurves() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QVERIFY(!path.isEmpty());
+    auto* plots = s.window.findChild<PlotsDock*>();
+    PaneSpec chart, lane, xy;
+    chart.curves << variableCurve("B1/TRUE_X");
+    chart.curves[0].kind = CurveKind::Derivative;
+    lane.kind = PaneKind::Lane;
+    lane.curves << variableCurve("B1/DECISION_ACTION_A");
+    xy.kind = PaneKind::Xy;
+    xy.curves << variableCurve("B1/TRUE_X");
+    xy.curves[0].inputs << "B1/TRUE_Y";
+    plots->setLayoutSpec({{PageSpec{"one", {chart, lane, xy}}}, 0});
+    s.window.compared()->open(path);
+    QTRY_VERIFY(s.window.compared()->isOn());
+    s.window.timeline()->seek(12.0);
+    plots->time()->setRange({10.5, 14.5});
+    const auto* charts = plots->findChild<ChartPane*>();
+    const auto* lanes = plots->findChild<LanePane*>();
+    const auto* paths = plots->findChild<XyPane*>();
+    QVERIFY(charts && lanes && paths);
+    // The same match: everything lies on each other.
+    const auto same = [&] {
+      return !charts->comparedTraces().empty() && charts->comparedTraces()[0].any &&
+             charts->comparedTraces()[0].low == charts->traces()[0].low &&
+             charts->comparedTraces()[0].high == charts->traces()[0].high &&
+             !lanes->stretches(0).empty() && lanes->comparedStretches(0) == lanes->stretches(0) &&
+             !paths->points()[0].empty() && paths->comparedPoints() == paths->points();
+    };
+    QTRY_VERIFY(same());
+    // Moved by 3 s: what stands at 13.5 s is what was there at 10.5 s.
+    const QPointF first = paths->points()[0].front();
+    s.window.compared()->setOffset(3.0);
+    plots->time()->setRange({13.5, 14.5});
+    const auto moved = [&] {
+      return !paths->comparedPoints()[0].empty() && paths->comparedPoints()[0].front() == first;
+    };
+    QTRY_VERIFY(moved());
+    QVERIFY(lanes->comparedStretches(0).front().begin >= 13.5);
+    s.window.compared()->stop();
+    const auto gone = [&] {
+      return lanes->comparedStretches(0).empty() && paths->comparedPoints()[0].empty() &&
+             !charts->comparedTraces()[0].any;
+    };
+    QTRY_VERIFY(gone());
   }
 
   void itIsMovedByHand() {

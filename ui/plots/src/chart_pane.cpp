@@ -19,10 +19,6 @@ namespace {
 constexpr int pixelsPerValueStep = 18;  // px of the mock
 constexpr int lowestChart = 64;         // lower ones cannot be read: the plots scroll instead
 
-QColor mixed(const QColor& a, const QColor& b, double share) {
-  const auto part = [share](int x, int y) { return qRound(x + (y - x) * share); };
-  return {part(a.red(), b.red()), part(a.green(), b.green()), part(a.blue(), b.blue())};
-}
 }  // namespace
 
 ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
@@ -168,15 +164,13 @@ ChartPane::Extent ChartPane::extent(bool right) const {
   return all;
 }
 
-/// Of the variables that the compared session has too; curves that are computed have none.
+/// Where the compared session has the variables.
 void ChartPane::traceCompared(telemetry::TimeRange range, int columns) {
   m_comparedTraces.clear();
   m_comparedTraces.resize(m_curves.size());
   const double offset = m_feed->comparedOffset();
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
-    const CurveSpec& spec = m_curves[i].spec();
-    if (spec.kind != CurveKind::Variable || spec.inputs.isEmpty()) continue;
-    const ColumnView view = m_feed->compared(spec.inputs.front());
+    const ColumnView view = m_curves[i].compared(*m_feed);
     if (!view) continue;
     CurveTrace& trace = m_comparedTraces[i];
     trace = traceOf(view, {range.begin - offset, range.end - offset}, columns);
@@ -215,8 +209,9 @@ void ChartPane::shape() {
     // Thinner and paler than the curve beside it; the same hue says which one it belongs to.
     Shape& other = m_comparedShapes[i];
     other.look = m_shapes[i].look;
-    other.look.color = mixed(m_shapes[i].look.color, palette().color(QPalette::Base), 0.5);
-    other.look.width = m_shapes[i].look.width * 0.66;
+    other.look.color =
+        mixedColor(m_shapes[i].look.color, palette().color(QPalette::Base), comparedPaleness);
+    other.look.width = m_shapes[i].look.width * comparedWidth;
     other.lines = polylines(m_comparedTraces[i], m_shapedFor, values(i),
                             other.look.style == CurveStyle::Steps);
   }

@@ -23,6 +23,7 @@ void Curve::setSpec(const CurveSpec& spec) {
   if (sameData && (m_derived || spec.kind == CurveKind::Variable)) return;
   m_view = m_ordinate = {};
   m_derived.reset();
+  m_comparedDerived.reset();
   if (spec.kind != CurveKind::Variable) m_derived = std::make_unique<DerivedSeries>(spec);
 }
 
@@ -30,7 +31,7 @@ void Curve::update(PlotFeed& feed) {
   m_note.clear();
   m_faulty = false;
   if (m_derived) {
-    m_derived->update(feed);
+    m_derived->update([&feed](const QString& name) { return feed.find(name); }, feed.generation());
     m_view = m_derived->view();
     m_note = m_derived->note();
     m_faulty = m_derived->isFaulty();
@@ -45,8 +46,25 @@ void Curve::update(PlotFeed& feed) {
   }
 }
 
+ColumnView Curve::compared(PlotFeed& feed) {
+  if (m_spec.kind == CurveKind::Variable) return feed.compared(m_spec.inputs.value(0));
+  if (!feed.hasCompared()) {
+    m_comparedDerived.reset();
+    return {};
+  }
+  if (!m_comparedDerived) m_comparedDerived = std::make_unique<DerivedSeries>(m_spec);
+  m_comparedDerived->update([&feed](const QString& name) { return feed.compared(name); },
+                            feed.comparedGeneration());
+  return m_comparedDerived->view();
+}
+
+ColumnView Curve::comparedOrdinate(const PlotFeed& feed) const {
+  return m_spec.inputs.size() > 1 ? feed.compared(m_spec.inputs[1]) : ColumnView{};
+}
+
 bool Curve::isWorking() const {
-  return m_derived && m_derived->isWorking();
+  return (m_derived && m_derived->isWorking()) ||
+         (m_comparedDerived && m_comparedDerived->isWorking());
 }
 
 QString Curve::unit() const {

@@ -38,6 +38,9 @@ class Curve {
   const ColumnView& view() const { return m_view; }
   /// Xy: the second input, over view().
   const ColumnView& ordinate() const { return m_ordinate; }
+  /// The same curve of the compared session, at the times of there; nothing when it has none.
+  ColumnView compared(PlotFeed& feed);
+  ColumnView comparedOrdinate(const PlotFeed& feed) const;
 
   QString name() const { return curveName(m_spec); }
   QString unit() const;
@@ -55,12 +58,15 @@ class Curve {
   ColumnView m_ordinate;
   QString m_note;
   bool m_faulty = false;
-  std::unique_ptr<DerivedSeries> m_derived;
+  std::unique_ptr<DerivedSeries> m_derived, m_comparedDerived;
 };
 
 /// Curves of the mock, then four more; each has a shade for either theme.
 QColor curveColor(int number);
 inline constexpr int curveColors = 8;
+/// A curve of the compared session beside its own: so much paler and so thin.
+inline constexpr double comparedPaleness = 0.5, comparedWidth = 0.66;
+QColor mixedColor(const QColor& a, const QColor& b, double share);
 /// Ground of a stretch of a lane: walking, turning, stopping, kicking and gait have theirs.
 QColor laneColor(const QString& word, int code);
 

@@ -26,6 +26,11 @@ constexpr std::array<Shades, 5> lanes{{{"#3f5872", "#bcd4ee"},
 
 }  // namespace
 
+QColor mixedColor(const QColor& a, const QColor& b, double share) {
+  const auto part = [share](int x, int y) { return qRound(x + (y - x) * share); };
+  return {part(a.red(), b.red()), part(a.green(), b.green()), part(a.blue(), b.blue())};
+}
+
 QColor curveColor(int number) {
   static constexpr std::array<Shades, curveColors> curves{{{"#6fb1f2", "#2b74c9"},
                                                            {"#e8a25c", "#c96f16"},

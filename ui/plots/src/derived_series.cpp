@@ -23,6 +23,7 @@ constexpr std::size_t rowsAtOnce = 1 << 16;
 constexpr std::size_t memoryBudget = std::size_t{256} << 20;  // bytes of one derived curve
 // An input that is silent for longer is not waited for; its last value holds.
 constexpr double longestWait = 1.0;  // s
+constexpr std::size_t tailRows = 64;
 
 /// One row of inputs to one value; the first input's time is the row's.
 using Step = std::function<double(double time, std::span<const double> values)>;
@@ -95,11 +96,13 @@ struct DerivedSeries::Work {
   telemetry::GroupId group = 0;
   std::atomic<bool> running = false;
   std::atomic<bool> cancelled = false;
-  double done = -infinity;  ///< time of the newest row computed
+  double done = -infinity;   ///< time of the newest row computed
+  std::vector<Sample> tail;  ///< of the first input: the last ones that were used
   quint64 generation = 0;
   bool behind = false;
 
   void run(const std::vector<ColumnView>& views, double until);
+  bool isRewritten(const ColumnView& view) const;
 };
 
 void DerivedSeries::Work::run(const std::vector<ColumnView>& views, double until) {
@@ -132,7 +135,20 @@ void DerivedSeries::Work::run(const std::vector<ColumnView>& views, double until
       store.append(group, {sample.time, {}, std::span(&value, 1)});
     }
     done = times.back().time;
+    const double from = times[times.size() - std::min(times.size(), tailRows)].time;
+    // Where only every 256th row is at hand, another look may find others.
+    if (!views[0].group->samples(views[0].column, {from, done}, tail)) tail.clear();
   }
+}
+
+/// The source was put back and has come further than before since: these rows are others.
+bool DerivedSeries::Work::isRewritten(const ColumnView& view) const {
+  if (tail.empty()) return false;
+  std::vector<Sample> now;
+  if (!view.group->samples(view.column, {tail.front().time, done}, now)) return false;
+  return !std::ranges::equal(now, tail, [](const Sample& a, const Sample& b) {
+    return a.time == b.time && (a.value == b.value || (std::isnan(a.value) && std::isnan(b.value)));
+  });
 }
 
 DerivedSeries::DerivedSeries(const CurveSpec& spec) : m_work(std::make_shared<Work>()) {
@@ -159,13 +175,13 @@ bool DerivedSeries::isWorking() const {
   return !isFaulty() && (m_work->running || m_work->behind);
 }
 
-void DerivedSeries::update(PlotFeed& feed) {
+void DerivedSeries::update(const Lookup& find, quint64 generation) {
   m_note = m_work->fault;
   if (isFaulty()) return;
   std::vector<ColumnView> views;
   QStringList missing;
   for (const QString& input : m_work->inputs) {
-    views.push_back(feed.find(input));
+    views.push_back(find(input));
     if (!views.back()) missing << input;
   }
   if (!missing.isEmpty()) {
@@ -175,15 +191,16 @@ void DerivedSeries::update(PlotFeed& feed) {
     const auto range = views[i].group->range();
     return range ? range->end : -infinity;
   };
-  const bool stale = m_work->generation != feed.generation();
-  const bool wentBack = !m_work->running && missing.isEmpty() && newest(0) < m_work->done;
+  const bool stale = m_work->generation != generation;
+  const bool wentBack = !m_work->running && missing.isEmpty() &&
+                        (newest(0) < m_work->done || m_work->isRewritten(views[0]));
   if (stale || wentBack) {
     // Another source, or one that was put back: nothing computed so far holds.
     m_work->cancelled = true;
     auto fresh = std::make_shared<Work>();
     fresh->spec = m_work->spec;
     fresh->inputs = m_work->inputs;
-    fresh->generation = feed.generation();
+    fresh->generation = generation;
     m_work = fresh;
   }
   if (!missing.isEmpty() || m_work->running) return;

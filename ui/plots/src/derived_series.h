@@ -5,6 +5,7 @@
 // once, and kept in a series store of its own, so that drawing and statistics treat it like any
 // other column. UI thread only.
 
+#include <functional>
 #include <memory>
 
 #include <ui/plots/plot_layout.h>
@@ -20,8 +21,11 @@ class DerivedSeries {
   DerivedSeries(const DerivedSeries&) = delete;
   DerivedSeries& operator=(const DerivedSeries&) = delete;
 
-  /// Starts work on what is new; never waits for it. Looks its inputs up in the feed.
-  void update(PlotFeed& feed);
+  /// Gives the rows of a variable, or nothing.
+  using Lookup = std::function<ColumnView(const QString&)>;
+  /// Starts work on what is new; never waits for it. With another generation nothing that was found
+  /// before holds.
+  void update(const Lookup& find, quint64 generation);
   /// What is ready; nothing while an input is missing or the description is wrong.
   ColumnView view() const;
   /// A sentence for the legend when there is nothing to see.

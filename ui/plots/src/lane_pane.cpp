@@ -18,6 +18,7 @@ namespace {
 constexpr int nameHeight = 14;  // px of the mock
 constexpr int laneHeight = 18;
 constexpr int gap = 4;
+constexpr int comparedHeight = 5;  // at the foot of its lane
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool same(double a, double b) {
@@ -138,8 +139,16 @@ void LanePane::draw() {
   const TimeAxis axis = timeAxis();
   const int columns = std::max(1, static_cast<int>(axis.width * devicePixelRatioF()));
   m_stretches.clear();
-  for (const Curve& curve : m_curves) {
+  m_comparedStretches.clear();
+  const double offset = m_feed->comparedOffset();
+  for (Curve& curve : m_curves) {
     m_stretches.push_back(laneStretches(curve.view(), axis.shown, columns));
+    m_comparedStretches.push_back(laneStretches(
+        curve.compared(*m_feed), {axis.shown.begin - offset, axis.shown.end - offset}, columns));
+    for (LaneStretch& stretch : m_comparedStretches.back()) {
+      stretch.begin += offset;
+      stretch.end += offset;
+    }
   }
   m_lanes->update();
 }
@@ -187,6 +196,18 @@ void LanePane::paintLanes(QPainter& painter) const {
         painter.drawText(
             box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
             painter.fontMetrics().elidedText(word, Qt::ElideRight, static_cast<int>(room)));
+      }
+    }
+    if (i < m_comparedStretches.size()) {
+      const double band = scaled(this, comparedHeight);
+      for (const LaneStretch& stretch : m_comparedStretches[i]) {
+        const double from = std::max(axis.pixel(stretch.begin), axis.left);
+        const double to = std::min(axis.pixel(stretch.end), axis.right());
+        if (to <= from) continue;
+        const QRectF box(from, y + height - band, to - from, band);
+        painter.fillRect(box, colors.view);
+        painter.fillRect(box.adjusted(1, 1, 0, 0),
+                         laneColor(curve.codeText(stretch.value), static_cast<int>(stretch.value)));
       }
     }
     y += static_cast<int>(height) + scaled(this, gap);

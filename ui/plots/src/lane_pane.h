@@ -31,6 +31,10 @@ class LanePane : public PlotPane {
   void setBoxTool(bool on) override;
   /// Of the lane at this place, in the order of curves().
   const std::vector<LaneStretch>& stretches(std::size_t lane) const { return m_stretches[lane]; }
+  /// The same of the compared session, at the times of what is shown: a band at the lane's foot.
+  const std::vector<LaneStretch>& comparedStretches(std::size_t lane) const {
+    return m_comparedStretches[lane];
+  }
 
  protected:
   void draw() override;
@@ -44,7 +48,7 @@ class LanePane : public PlotPane {
 
   Lanes* m_lanes;
   TimeGestures* m_gestures;
-  std::vector<std::vector<LaneStretch>> m_stretches;
+  std::vector<std::vector<LaneStretch>> m_stretches, m_comparedStretches;
 };
 
 }  // namespace pitchboard::ui

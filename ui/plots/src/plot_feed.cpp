@@ -157,6 +157,7 @@ ColumnView PlotFeed::find(const QString& name) {
 
 void PlotFeed::setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
                            const QString& caption) {
+  if (rows != m_compared) ++m_comparedGeneration;
   m_compared = std::move(rows);
   m_comparedOffset = offset;
   m_comparedCaption = caption;

@@ -66,6 +66,9 @@ class PlotFeed : public QObject {
                    const QString& caption);
   /// The same variable there, at the times of there; nothing when it has none.
   ColumnView compared(const QString& name) const;
+  bool hasCompared() const { return m_compared != nullptr; }
+  /// Grows when another session is compared; 0: none ever was.
+  quint64 comparedGeneration() const { return m_comparedGeneration; }
   double comparedOffset() const { return m_comparedOffset; }
   const QString& comparedCaption() const { return m_comparedCaption; }
 
@@ -93,6 +96,7 @@ class PlotFeed : public QObject {
   bool m_missed = false;  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;
+  quint64 m_comparedGeneration = 0;
   double m_comparedOffset = 0.0;
   QString m_comparedCaption;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;

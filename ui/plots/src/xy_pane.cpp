@@ -132,13 +132,19 @@ void XyPane::draw() {
   m_points.clear();
   ValueLimits x{INFINITY, -INFINITY}, y{INFINITY, -INFINITY};
   QString xTitle, yTitle;
-  for (const Curve& curve : m_curves) {
-    m_points.push_back(
-        xyPoints(curve.view(), curve.ordinate(), m_feed->time()->range(), mostPoints));
-    for (const QPointF& point : m_points.back()) {
-      if (!isFinite(point)) continue;
-      x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
-      y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
+  const telemetry::TimeRange range = m_feed->time()->range();
+  const double offset = m_feed->comparedOffset();
+  m_comparedPoints.clear();
+  for (Curve& curve : m_curves) {
+    m_points.push_back(xyPoints(curve.view(), curve.ordinate(), range, mostPoints));
+    m_comparedPoints.push_back(xyPoints(curve.compared(*m_feed), curve.comparedOrdinate(*m_feed),
+                                        {range.begin - offset, range.end - offset}, mostPoints));
+    for (const auto* points : {&m_points.back(), &m_comparedPoints.back()}) {
+      for (const QPointF& point : *points) {
+        if (!isFinite(point)) continue;
+        x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
+        y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
+      }
     }
     if (xTitle.isEmpty()) {
       xTitle = curveName(variableCurve(curve.spec().inputs.value(0)));
@@ -165,41 +171,56 @@ QPointF XyPane::toValue(const QPointF& view) const {
           m_y.low + (area.bottom() - view.y()) / area.height() * (m_y.high - m_y.low)};
 }
 
+QLineSeries* XyPane::nextLine(std::size_t& used) {
+  if (used == m_lines.size()) {
+    removeMarkers();  // series lie in the order in which they came
+    m_lines.push_back(new QLineSeries);
+    m_chart->addSeries(m_lines.back());
+  }
+  return m_lines[used++];
+}
+
+void XyPane::showCurve(const CurveSpec& spec, const QColor& color, double width,
+                       const std::vector<QPointF>& points, std::size_t& used) {
+  const auto stretches =
+      spec.style == CurveStyle::Points ? std::nullopt : stretchesOf(points, mostStretches);
+  if (stretches) {
+    const QPen pen(color, points.size() > manyPoints ? 0.0 : width);
+    for (const QList<QPointF>& stretch : *stretches) {
+      QLineSeries* line = nextLine(used);
+      line->setPen(pen);
+      line->setPointsVisible(false);
+      line->setLightMarker({});
+      line->replace(stretch);
+    }
+    return;
+  }
+  QList<QPointF> finite;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(finite), isFinite);
+  QLineSeries* dots = nextLine(used);
+  dots->setPen(Qt::NoPen);
+  dots->setPointsVisible(true);
+  dots->setMarkerSize(2 * width);
+  dots->setLightMarker(dot(color, 2 * width, devicePixelRatioF()));
+  dots->replace(finite);
+}
+
 void XyPane::showCurves() {
   std::size_t used = 0;
-  const auto next = [&]() -> QLineSeries* {
-    if (used == m_lines.size()) {
-      removeMarkers();  // series lie in the order in which they came
-      m_lines.push_back(new QLineSeries);
-      m_chart->addSeries(m_lines.back());
-    }
-    return m_lines[used++];
+  const auto widthOf = [this](const CurveSpec& spec) {
+    return spec.width * scaled(this, 100) / 100.0;
   };
+  // Below what is shown, thinner and paler.
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    if (m_comparedPoints[i].empty()) continue;
+    const CurveSpec& spec = m_curves[i].spec();
+    const QColor color =
+        mixedColor(m_curves[i].color(), palette().color(QPalette::Base), comparedPaleness);
+    showCurve(spec, color, widthOf(spec) * comparedWidth, m_comparedPoints[i], used);
+  }
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
     const CurveSpec& spec = m_curves[i].spec();
-    const QColor color = m_curves[i].color();
-    const double width = spec.width * scaled(this, 100) / 100.0;
-    const auto stretches =
-        spec.style == CurveStyle::Points ? std::nullopt : stretchesOf(m_points[i], mostStretches);
-    if (stretches) {
-      const QPen pen(color, m_points[i].size() > manyPoints ? 0.0 : width);
-      for (const QList<QPointF>& stretch : *stretches) {
-        QLineSeries* line = next();
-        line->setPen(pen);
-        line->setPointsVisible(false);
-        line->setLightMarker({});
-        line->replace(stretch);
-      }
-      continue;
-    }
-    QList<QPointF> points;
-    std::copy_if(m_points[i].begin(), m_points[i].end(), std::back_inserter(points), isFinite);
-    QLineSeries* dots = next();
-    dots->setPen(Qt::NoPen);
-    dots->setPointsVisible(true);
-    dots->setMarkerSize(2 * width);
-    dots->setLightMarker(dot(color, 2 * width, devicePixelRatioF()));
-    dots->replace(points);
+    showCurve(spec, m_curves[i].color(), widthOf(spec), m_points[i], used);
   }
   for (std::size_t i = 0; i < m_lines.size(); ++i) m_lines[i]->setVisible(i < used);
 }

@@ -32,6 +32,8 @@ class XyPane : public PlotPane {
   QWidget* surface() const override;
   bool isOverTime() const override { return false; }
   const std::vector<std::vector<QPointF>>& points() const { return m_points; }
+  /// The same of the compared session, of the time that stands beside what is shown.
+  const std::vector<std::vector<QPointF>>& comparedPoints() const { return m_comparedPoints; }
   ValueLimits xLimits() const;
   ValueLimits yLimits() const;
   void extendMenu(QMenu* menu) override;
@@ -43,6 +45,9 @@ class XyPane : public PlotPane {
 
  private:
   void showCurves();
+  void showCurve(const CurveSpec& spec, const QColor& color, double width,
+                 const std::vector<QPointF>& points, std::size_t& used);
+  QLineSeries* nextLine(std::size_t& used);
   void showMarkers();
   void removeMarkers();
   QPointF toValue(const QPointF& view) const;
@@ -51,7 +56,7 @@ class XyPane : public PlotPane {
   ValueChart* m_chart;
   std::vector<QLineSeries*> m_lines;       // owned by the chart; the first ones are in use
   std::vector<QScatterSeries*> m_markers;  // one for each curve, above the lines
-  std::vector<std::vector<QPointF>> m_points;
+  std::vector<std::vector<QPointF>> m_points, m_comparedPoints;
   bool m_fits = true;    // limits follow the points
   ValueLimits m_x, m_y;  // when they do not
   QPointF m_last;
