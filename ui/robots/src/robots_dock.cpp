@@ -201,7 +201,9 @@ void RobotsDock::follow(RobotCard* card, const QPoint& at) {
     return;
   }
   unsetCursor();
-  showDropMark(placeAt(card, at));
+  const qsizetype place = placeAt(card, at);
+  if (cards().indexOf(card) != place) moveCard(card->state().id, place);
+  showDropMark(place);
 }
 
 /// The place that the card would have in the list, among the others.
@@ -235,11 +237,7 @@ void RobotsDock::drop(RobotCard* card, const QPoint& at) {
   m_dropMark->hide();
   const RobotId id = card->state().id;
   if (m_floating.count(id) != 0) return;
-  if (viewport()->rect().contains(viewport()->mapFromGlobal(at))) {
-    const qsizetype place = placeAt(card, at);
-    if (cards().indexOf(card) != place) moveCard(id, place);
-    return;
-  }
+  if (viewport()->rect().contains(viewport()->mapFromGlobal(at))) return;
   floatCard(id);
   floating(id)->move(at);
 }
