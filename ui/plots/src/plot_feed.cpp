@@ -114,7 +114,7 @@ ColumnView PlotFeed::named(const QString& name) {
   if (!curve.rows) return find(curve.spec.inputs.value(0));
   if (!curve.updated) {
     curve.updated = curve.inWork = true;
-    curve.rows->update(*this);
+    curve.rows->update([this](const QString& input) { return find(input); }, m_generation);
     curve.inWork = false;
   }
   return curve.rows->view();
