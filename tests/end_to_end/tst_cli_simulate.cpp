@@ -120,13 +120,13 @@ class TestCliSimulate : public QObject {
                   {"simulate", "--scenario", "one-robot", "--cognition", "external", "--json",
                    "--duration", "600", "--key-base", QString::number(base)});
     QVERIFY(process.waitForStarted());
-    // The segment is there, and besides the simulator the four robot processes are attached to it.
+    // The segment is there, and besides the simulator the five robot processes are attached to it.
     const auto attached = [&] {
       const int id = ::shmget(base + 100, 0, 0);
       shmid_ds info{};
       return id >= 0 && ::shmctl(id, IPC_STAT, &info) == 0 ? static_cast<int>(info.shm_nattch) : -1;
     };
-    QTRY_COMPARE_WITH_TIMEOUT(attached(), 5, 20000);
+    QTRY_COMPARE_WITH_TIMEOUT(attached(), 6, 20000);
     ::kill(static_cast<pid_t>(process.processId()), SIGTERM);
     QVERIFY(process.waitForFinished(10000));
     QCOMPARE(process.exitCode(), 0);

@@ -160,9 +160,9 @@ class TestUnchangedProcess : public QObject {
       return status.open(QIODevice::ReadOnly) ? status.readAll().split(')').last().trimmed().left(1)
                                               : QByteArray();
     };
-    QTRY_COMPARE(state(), QByteArray("T"));
+    QTRY_COMPARE_WITH_TIMEOUT(state(), QByteArray("T"), 30'000);
     (*runner)->setPaused(false);
-    QTRY_COMPARE(state(), QByteArray("S"));
+    QTRY_COMPARE_WITH_TIMEOUT(state(), QByteArray("S"), 30'000);
     runner->reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }

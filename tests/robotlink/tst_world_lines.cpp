@@ -125,8 +125,8 @@ class TestWorldLines : public QObject {
         "a name or a text");
     row("no such scenario", R"({"do":"create","scenario":"no-such"})", "no-such");
     // moc loses its way in a raw text with \".
-    row("a text that is no scenario", "{\"do\":\"create\",\"text\":\"{\\\"robots\\\":1}\"}",
-        "robots");
+    row("a text that is no scenario",
+        "{\"do\":\"create\",\"text\":\"{\\\"version\\\":1,\\\"robots\\\":1}\"}", "robots");
     row("too many worlds", R"({"do":"create","worlds":100000})", "worlds");
     row("no such physics", R"({"do":"create","physics":"chaos"})", "chaos");
     row("bytes that are no text", "{\"do\":\"\xff\xfe\"}", "");

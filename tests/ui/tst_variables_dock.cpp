@@ -626,7 +626,7 @@ class TestVariablesDock : public QObject {
     QTest::mouseClick(attach, Qt::LeftButton);
     QVERIFY2(bench.message().startsWith(QStringLiteral("Not attached")),
              qPrintable(bench.message()));
-    const QString group = QStringLiteral("key %1").arg(key);
+    const QString group = QStringLiteral("B%1").arg(key / 100);  // as published: 100 n is robot n
     {
       auto board = link::SystemVSegments::open(key, link::AttachMode::AttachOrCreate);
       QVERIFY(board);

@@ -82,7 +82,7 @@ typedef enum pb_array {
 
 /** Of the library that is running; compare with PB_API_VERSION. */
 PB_API int32_t pb_api_version(void);
-/** "0.3.0"; never null. */
+/** "0.4.0"; never null. */
 PB_API const char* pb_version(void);
 /** The sentence of this thread's last call that failed; empty after one that worked. Never null; it
  *  stands until the thread's next call. */

@@ -16,8 +16,17 @@ AttachedBoards::AttachedBoards(MatchController* controller, QObject* parent)
 
 AttachedBoards::~AttachedBoards() = default;
 
-QString AttachedBoards::groupName(int key) {
-  return QStringLiteral("key %1").arg(key);
+// As in Live, unless a robot of the match has the name.
+QString AttachedBoards::groupName(int key) const {
+  link::AttachedBoard board;
+  board.key = key;
+  std::string name = link::boardNames({board}).front();
+  const auto& robots = m_controller->scenario().robots;
+  if (std::ranges::any_of(robots,
+                          [&name](const auto& robot) { return robot.identity.name() == name; })) {
+    name += " key " + std::to_string(key);
+  }
+  return QString::fromStdString(name);
 }
 
 Result<std::unique_ptr<link::BoardSampler>> AttachedBoards::start(int key, double rate) const {
@@ -28,16 +37,7 @@ Result<std::unique_ptr<link::BoardSampler>> AttachedBoards::start(int key, doubl
   }
   link::BoardSamplerOptions options;
   options.rate = rate;
-  // As in Live, unless a robot of the match has the name.
-  link::AttachedBoard board;
-  board.key = key;
-  options.group = link::boardNames({board}).front();
-  const auto& robots = m_controller->scenario().robots;
-  if (std::ranges::any_of(robots, [&options](const auto& robot) {
-        return robot.identity.name() == options.group;
-      })) {
-    options.group += " key " + std::to_string(key);
-  }
+  options.group = groupName(key).toStdString();
   return link::BoardSampler::start(key, std::move(rows), options, m_controller->catalog());
 }
 

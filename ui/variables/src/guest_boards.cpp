@@ -36,12 +36,12 @@ bool GuestBoards::contains(int key) const {
 
 void GuestBoards::detach(int key) {
   m_boards->detach(key);
-  m_model->setNote(AttachedBoards::groupName(key), {QStringLiteral("detached"), {}, 0.0});
+  m_model->setNote(m_boards->groupName(key), {QStringLiteral("detached"), {}, 0.0});
 }
 
 void GuestBoards::refresh() {
   for (const auto& [key, status] : m_boards->status()) {
-    const QString group = AttachedBoards::groupName(key);
+    const QString group = m_boards->groupName(key);
     m_model->setNote(group,
                      {status.attached ? QString() : QStringLiteral("removed, waiting"),
                       status.missed == 0 ? QString()

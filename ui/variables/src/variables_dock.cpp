@@ -228,8 +228,8 @@ class VariablesDock : public QWidget {
     if (attributes.count("attached") != 0) {
       const int key = QString::fromStdString(attributes.at("key")).toInt();
       if (m_guests->contains(key)) {
-        menu->addAction(QStringLiteral("Detach %1").arg(AttachedBoards::groupName(key)), this,
-                        [this, key] { m_guests->detach(key); });
+        menu->addAction(QStringLiteral("Detach %1").arg(QString::fromStdString(group->info().name)),
+                        this, [this, key] { m_guests->detach(key); });
       }
     }
     if (menu->isEmpty())

@@ -27,7 +27,8 @@ class AttachedBoards : public QObject {
   bool contains(int key) const { return m_boards.count(key) != 0; }
   /// Of every attached board, by key. A board that waits for a match or for its segment says so.
   std::map<int, link::BoardSamplerStatus> status() const;
-  static QString groupName(int key);
+  /// Of its rows, in the match that there is.
+  QString groupName(int key) const;
 
  signals:
   void changed();
