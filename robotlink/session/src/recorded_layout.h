@@ -16,6 +16,8 @@
 
 namespace pitchboard::link {
 
+constexpr double timeTolerance = 1e-6;  // s; files keep whole nanoseconds
+
 /// Where one group keeps what frames need.
 struct RecordedFrames::Layout {
   static constexpr std::size_t flagCount = 5;
