@@ -234,6 +234,57 @@ class TestRobotsPlay : public QObject {
     QVERIFY(touching < 0.05);
   }
 
+  // Whoever is in the team: supporters share no place, one stands on each side.
+  void supportersTakeAPlaceEach_data() {
+    QTest::addColumn<QStringList>("team");
+    QTest::newRow("no striker") << QStringList{"keeper", "supporter", "supporter", "idle"};
+    QTest::newRow("three") << QStringList{"keeper", "supporter", "supporter", "supporter"};
+    QTest::newRow("with a striker") << QStringList{"keeper", "supporter", "supporter", "striker"};
+    QTest::newRow("four") << QStringList{"supporter", "supporter", "supporter", "supporter"};
+  }
+  void supportersTakeAPlaceEach() {
+    QFETCH(QStringList, team);
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      Scenario scenario = soccerMatch("paper", seed).value();
+      scenario.robots.resize(1);
+      const ScenarioRobot model = scenario.robots[0];
+      scenario.robots.clear();
+      for (int i = 0; i < 4; ++i) {
+        ScenarioRobot robot = model;
+        robot.identity = {RobotId{i + 1}, TeamColor::Blue, i + 1, false};
+        // All on one side of the field.
+        robot.pose = {{-3.8 + 0.3 * i, 1.0 + 0.4 * ((i * 7 + static_cast<int>(seed)) % 4)}, 0.0};
+        robot.behaviour = team[i].toStdString();
+        scenario.robots.push_back(robot);
+      }
+      scenario.writes = {{RobotId{}, "COM_REFEREE", 11.0, 0.0}};
+      auto match = make(scenario, 500).value();
+      run(match, 60);
+      int left = 0, right = 0;
+      const sim::Snapshot now = match.simulation().snapshot();
+      for (std::size_t a = 0; a < now.robots.size(); ++a) {
+        const Point at = now.robots[a].pose.position;
+        // Who stands idle may stand next to a place.
+        if (team[static_cast<int>(a)] != "supporter") continue;
+        left += at.y > 0.7;
+        right += at.y < -0.7;
+        for (std::size_t b = a + 1; b < now.robots.size(); ++b) {
+          if (team[static_cast<int>(b)] != "supporter") continue;
+          const double apart = distance(at, now.robots[b].pose.position);
+          QVERIFY2(apart > 0.5, qPrintable(QString("seed %1: %2 and %3 are %4 m apart")
+                                               .arg(seed)
+                                               .arg(a + 1)
+                                               .arg(b + 1)
+                                               .arg(apart)));
+        }
+      }
+      QVERIFY2(
+          left == 1 && right == 1,
+          qPrintable(
+              QString("seed %1: %2 on the left, %3 on the right").arg(seed).arg(left).arg(right)));
+    }
+  }
+
   void sameSeedSameMatch() {
     const auto hash = [](std::uint64_t seed) {
       auto match = make(soccerMatch("realistic", seed).value(), 500).value();

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A person referees a simulated match: buttons, keys, undo, the scoreboard, formations.
+#include <QCheckBox>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTableWidget>
+#include <QTemporaryDir>
 #include <QUndoStack>
 #include <QtTest>
 
 #include <robotlink/scenario/scenario.h>
+#include <robotlink/session/match_recorder.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/referee/refereeing_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
+#include <ui/sources/replay_controller.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -46,6 +52,26 @@ struct Desk {
   std::unique_ptr<QWidget> dock;
   QStringList errors;
 };
+
+void sameScoreboard(const link::MatchFrame& now, const link::MatchFrame& past) {
+  QCOMPARE(past.origin, link::FrameOrigin::Recorded);
+  QVERIFY(past.referee.has_value());
+  const ScoreboardState was = scoreboardOf(now), seen = scoreboardOf(past);
+  QVERIFY(!was.penalties.isEmpty());
+  QCOMPARE(seen.penalties, was.penalties);
+  QCOMPARE(seen.clock, was.clock);
+  QCOMPARE(seen.left, 0);
+  QCOMPARE(seen.right, 1);
+  QCOMPARE(seen.leftName, was.leftName);
+  QCOMPARE(past.referee->state, now.referee->state);
+  QCOMPARE(past.referee->kickOffTeam, now.referee->kickOffTeam);
+  QCOMPARE(past.referee->secondaryTime, now.referee->secondaryTime);
+  QCOMPARE(past.referee->version, now.referee->version);
+  for (std::size_t side = 0; side < 2; ++side) {
+    QCOMPARE(past.referee->teams[side].players.size(), now.referee->teams[side].players.size());
+    QCOMPARE(past.referee->teams[side].playersLeft, now.referee->teams[side].playersLeft);
+  }
+}
 
 }  // namespace
 
@@ -103,6 +129,161 @@ class TestRefereeingDock : public QObject {
     QCOMPARE(scoreboardOf(desk.frame()).penalties, QString("B2 30"));
     desk.controller.edits()->undoStack()->undo();
     QTRY_COMPARE(robots->item(1, 1)->text(), QString());
+  }
+
+  void cardsAndSubstitutes() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    auto* robots = desk.dock->findChild<QTableWidget*>("refereeRobots");
+    QTRY_COMPARE(robots->rowCount(), 6);
+    const auto cards = [robots](int row) { return robots->item(row, 3)->text(); };
+    const auto penalty = [robots](int row) { return robots->item(row, 1)->text(); };
+    robots->selectRow(2);
+    desk.press("Warn");
+    QTRY_COMPARE(cards(2), QString("warned"));
+    desk.press("Yellow");
+    QTRY_COMPARE(cards(2), QString("warned, yellow"));
+    desk.press("Red");
+    QTRY_COMPARE(cards(2), QString("warned, yellow, red"));
+    QTRY_COMPARE(penalty(2), QString("sent off"));
+    QUndoStack* undo = desk.controller.edits()->undoStack();
+    undo->undo();
+    QTRY_COMPARE(cards(2), QString("warned, yellow"));
+    QTRY_COMPARE(penalty(2), QString());
+    // Two at once are one step.
+    const int before = undo->index();
+    robots->setRangeSelected({3, 0, 4, 3}, true);
+    robots->setRangeSelected({2, 0, 2, 3}, false);
+    desk.press("Take off");
+    QTRY_COMPARE(penalty(3), QString("substitute"));
+    QTRY_COMPARE(penalty(4), QString("substitute"));
+    QCOMPARE(undo->index(), before + 1);
+    QCOMPARE(penalty(2), QString());
+    desk.press("Pardon");
+    QTRY_COMPARE(penalty(3), QString());
+    QTRY_COMPARE(penalty(4), QString());
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  void theBallGoesWhereTheRefereeWants() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    auto* x = desk.dock->findChild<QDoubleSpinBox*>("refereeBallX");
+    auto* y = desk.dock->findChild<QDoubleSpinBox*>("refereeBallY");
+    x->selectAll();
+    QTest::keyClicks(x, "1,5");  // a comma is understood
+    y->selectAll();
+    QTest::keyClicks(y, "-2");
+    desk.press("Place");
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{1.5, -2.0}));
+    desk.press("To centre");
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{0, 0}));
+    desk.controller.edits()->undoStack()->undo();
+    QTRY_COMPARE(desk.frame().snapshot.ball, (Point{1.5, -2.0}));
+  }
+
+  // Every call that has a key, by its key, in the order of a match.
+  void everyStateByItsKey() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    desk.dock->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(desk.dock.get()));
+    const auto press = [&desk](Qt::Key key) {
+      QTest::keyClick(desk.dock.get(), key, Qt::ControlModifier | Qt::AltModifier);
+    };
+    const auto says = [&desk](const char* setPlay) {
+      return desk.frame().referee->setPlay == setPlay;
+    };
+    press(Qt::Key_3);  // blue kicks off
+    press(Qt::Key_R);
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    press(Qt::Key_S);
+    QTRY_COMPARE(desk.state(), QString("SET"));
+    press(Qt::Key_P);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    press(Qt::Key_X);
+    QTRY_VERIFY(desk.frame().referee->stopped);
+    press(Qt::Key_G);
+    QTRY_VERIFY(!desk.frame().referee->stopped);
+    press(Qt::Key_K);
+    QTRY_VERIFY(says("direct free kick"));
+    for (int step = 0; step < 3; ++step) press(Qt::Key_N);
+    QTRY_VERIFY(says(""));
+    press(Qt::Key_D);
+    QTRY_COMPARE(desk.state(), QString("READY"));
+    press(Qt::Key_S);
+    press(Qt::Key_P);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    press(Qt::Key_2);
+    QTRY_COMPARE(desk.frame().snapshot.score.right, 1);
+    press(Qt::Key_S);
+    press(Qt::Key_P);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    press(Qt::Key_F);
+    QTRY_COMPARE(desk.state(), QString("FINISHED"));
+    press(Qt::Key_I);
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    QVERIFY(!desk.frame().referee->firstHalf);
+    QVERIFY2(desk.errors.isEmpty(), qPrintable(desk.errors.join('\n')));
+  }
+
+  void aFormationComesWithItsSetPlay() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    for (const char* state : {"READY", "SET", "PLAYING"}) desk.press(state);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    auto* formation = desk.dock->findChild<QComboBox*>("refereeFormation");
+    formation->setCurrentIndex(formation->findText("Corner kick"));
+    auto* with = desk.dock->findChild<QCheckBox*>("refereeAsSetPlay");
+    QTest::mouseClick(with, Qt::LeftButton, {}, QPoint(8, with->height() / 2));
+    QVERIFY(with->isChecked());
+    const int before = desk.controller.edits()->undoStack()->count();
+    for (QPushButton* load : desk.dock->findChildren<QPushButton*>()) {
+      if (load->text() == "Right attacks") QTest::mouseClick(load, Qt::LeftButton);
+    }
+    QTRY_COMPARE(desk.frame().referee->setPlay, std::string("corner kick"));
+    QCOMPARE(desk.frame().referee->performingTeam, desk.frame().referee->teams[1].number);
+    QCOMPARE(desk.controller.edits()->undoStack()->count(), before + 1);
+    desk.controller.edits()->undoStack()->undo();
+    QTRY_COMPARE(desk.frame().referee->setPlay, std::string());
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  // What was shown is shown again when a person looks back, and from a recording.
+  void thePastShowsTheScoreboard() {
+    QTemporaryDir folder;
+    const std::string path = folder.filePath("refereed.mcap").toStdString();
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    const auto recorder =
+        link::MatchRecorder::create(path, desk.controller.scenario(), desk.controller.catalog(),
+                                    desk.controller.memory()->sampler(), {})
+            .value();
+    desk.controller.observe(recorder);
+    for (const char* state : {"READY", "SET", "PLAYING"}) desk.press(state);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    auto* robots = desk.dock->findChild<QTableWidget*>("refereeRobots");
+    robots->selectRow(1);
+    desk.press("Penalise");
+    desk.press("Goal Red");
+    QTRY_COMPARE(desk.frame().snapshot.score.right, 1);
+    desk.controller.stepOnce();
+    QTRY_VERIFY(desk.frame().snapshot.tick > 0);
+    const FramePtr now = desk.controller.frame();
+    FramePtr past;
+    QTRY_VERIFY((past = desk.controller.frameAt(now->snapshot.time)));
+    sameScoreboard(*now, *past);
+    if (QTest::currentTestFailed()) return;
+
+    desk.controller.stopObserving(recorder);
+    QVERIFY(recorder->finish());
+    ReplayController replay;
+    QSignalSpy opened(&replay, &ReplayController::opened);
+    replay.open(QString::fromStdString(path));
+    QTRY_COMPARE(opened.count(), 1);
+    FramePtr replayed;
+    QTRY_VERIFY((replayed = replay.frameAt(now->snapshot.time)));
+    sameScoreboard(*now, *replayed);
   }
 
   void formationsAreOneStep() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <base/angles.h>
 #include <base/repeatable_math.h>
@@ -103,9 +104,45 @@ Pose Supporter::kickOff(const WorldModel& world) {
     m_placeBegan = world.now();
     m_supporters = supporters;
   }
-  if (world.now() - m_placeBegan < settles) m_place = freePlace(world, places);
+  if (world.now() - m_placeBegan < settles) {
+    m_place = freePlace(world, places);
+  } else if (mateHolds(world, places[m_place])) {
+    m_place = nearestNotHeld(world, {places.data(), placesFor(m_supporters)}, m_place);
+  }
   m_placeAsked = world.now();
   return {places[m_place], 0.0};
+}
+
+/// As many places as supporters; two take the sides.
+std::size_t Supporter::placesFor(std::ptrdiff_t mates) {
+  return std::max<std::size_t>(2, static_cast<std::size_t>(mates) + 1);
+}
+
+/// Two whose beliefs differed chose the same place: who is there later gives way.
+bool Supporter::mateHolds(const WorldModel& world, const Point& place) {
+  constexpr double there = 0.6, asNear = 0.15;  // m
+  const Point own = world.pose().position;
+  return std::any_of(world.mates().begin(), world.mates().end(), [&](const auto& mate) {
+    if (!mate || mate->intention != Intention::Support) return false;
+    const double way = distance(mate->position, place);
+    const double farther = distance(own, place) - way;  // this robot, than the mate
+    // Both as near: the one on the left stays, whoever asks.
+    const bool stays = farther > asNear || (farther > -asNear && mate->position.y > own.y);
+    return way < there && stays;
+  });
+}
+
+std::size_t Supporter::nearestNotHeld(const WorldModel& world, std::span<const Point> places,
+                                      std::size_t otherwise) {
+  std::size_t nearest = otherwise;
+  double least = 1e9;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double way = distance(world.pose().position, places[i]);
+    if (way >= least || mateHolds(world, places[i])) continue;
+    nearest = i;
+    least = way;
+  }
+  return nearest;
 }
 
 std::size_t Supporter::freePlace(const WorldModel& world, std::span<const Point> places) {
@@ -113,9 +150,8 @@ std::size_t Supporter::freePlace(const WorldModel& world, std::span<const Point>
   for (const auto& mate : world.mates()) {
     if (mate && mate->intention == Intention::Support) supporters.push_back(mate->position);
   }
-  // As many places as supporters; two take the sides.
-  std::vector<std::size_t> free;
-  for (std::size_t i = 0; i < std::max<std::size_t>(2, supporters.size()); ++i) free.push_back(i);
+  std::vector<std::size_t> free(placesFor(std::ssize(supporters) - 1));
+  std::iota(free.begin(), free.end(), std::size_t{0});
   std::vector<bool> placed(supporters.size(), false);
   while (true) {
     std::size_t who = 0, where = 0;

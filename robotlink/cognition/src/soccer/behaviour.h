@@ -64,7 +64,11 @@ class Supporter : public Striker {
   bool takesBall(const WorldModel& world, const Point& ball) const override;
 
  private:
+  static std::size_t placesFor(std::ptrdiff_t mates);
   static std::size_t freePlace(const WorldModel& world, std::span<const Point> places);
+  static bool mateHolds(const WorldModel& world, const Point& place);
+  static std::size_t nearestNotHeld(const WorldModel& world, std::span<const Point> places,
+                                    std::size_t otherwise);
   std::size_t m_place = 0;                          // for the kick-off
   std::ptrdiff_t m_supporters = 0;                  // beside this one
   double m_placeAsked = -1e9, m_placeBegan = -1e9;  // s

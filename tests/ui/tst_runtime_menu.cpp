@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who runs for a robot, chosen with the mouse: my program as its decision, and my robot among
+// reference robots.
+#include <QDialogButtonBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QtTest>
+
+#include <robotlink/blackboard/system_v.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/robot_menus.h>
+
+#include "../support/segment_keys.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestRuntimeMenu : public QObject {
+  Q_OBJECT
+  const int m_base = testKeyBase();
+
+  link::MatchOptions options() const {
+    link::MatchOptions made;
+    made.cognition = link::Cognition::External;
+    made.keyBase = m_base;
+    made.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    return made;
+  }
+
+  /// A program of a team: says its key and which build it is, then thinks.
+  static void build(const QString& path, const char* words) {
+    const QString fresh = path + QStringLiteral(".new");
+    QFile file(fresh);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(QByteArray("#!/bin/sh\necho \"") + words + " $1\"\nexec sleep 600\n");
+    file.setPermissions(file.permissions() | QFile::ExeOwner);
+    file.close();
+    QFile::remove(path);
+    QVERIFY(QFile::rename(fresh, path));
+  }
+
+  static std::vector<link::ProcessStatus> processesOf(const MatchController& controller,
+                                                      int robot) {
+    const FramePtr frame = controller.frame();
+    const link::RobotFrame* seen = frame ? frame->robot(RobotId{robot}) : nullptr;
+    if (!seen) return {};
+    const auto all = seen->processes();
+    return {all.begin(), all.end()};
+  }
+  static link::ProcessStatus decisionOf(const MatchController& controller, int robot) {
+    for (const link::ProcessStatus& one : processesOf(controller, robot)) {
+      if (one.name == "decision") return one;
+    }
+    return {};
+  }
+
+  // Opens the robot's menu and clicks the entry of Runtime that begins like this.
+  static void choose(MatchController& controller, int robot, const QString& starts) {
+    QWidget window;
+    window.show();
+    QMenu menu(&window);
+    addRuntimeMenu(&menu, &controller, {RobotId{robot}});
+    QCOMPARE(menu.actions().size(), 1);
+    QMenu* runtime = menu.actions().front()->menu();
+    runtime->popup(QPoint(20, 20));
+    QVERIFY(QTest::qWaitForWindowExposed(runtime));
+    for (QAction* action : runtime->actions()) {
+      if (!action->text().startsWith(starts)) continue;
+      QTest::mouseClick(runtime, Qt::LeftButton, {}, runtime->actionGeometry(action).center());
+      return;
+    }
+    QFAIL(qPrintable(starts));
+  }
+
+ private slots:
+  void initTestCase() { QApplication::setAttribute(Qt::AA_DontUseNativeDialogs); }
+  void cleanup() {
+    for (int n = 1; n <= 6; ++n) removeSegment(m_base + 100 * n);
+  }
+
+  void myProgramAsDecision() {
+    QTemporaryDir folder;
+    const QString program = folder.filePath(QStringLiteral("decide"));
+    build(program, "first");
+    MatchController controller(options());
+    QStringList errors;
+    QObject::connect(&controller, &MatchController::errorOccurred, &controller,
+                     [&errors](const QString& sentence) { errors << sentence; });
+    controller.open(link::loadScenario("match-3v3").value());
+    QTRY_VERIFY_WITH_TIMEOUT(decisionOf(controller, 1).pid > 0, 30'000);
+    QVERIFY(!decisionOf(controller, 1).foreign);
+
+    // The menu opens the dialog and waits for it.
+    bool typed = false;
+    QTimer answer;
+    QObject::connect(&answer, &QTimer::timeout, &controller, [&] {
+      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+      if (!dialog) return;
+      answer.stop();
+      auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+      auto* buttons = dialog->findChild<QDialogButtonBox*>();
+      if (!name || !buttons) return dialog->reject();
+      // Pasted: letter by letter the completion of paths would join in.
+      name->setText(program);
+      typed = true;
+      QTest::mouseClick(buttons->button(QDialogButtonBox::Open), Qt::LeftButton);
+      if (dialog->isVisible()) dialog->reject();
+    });
+    answer.start(20);
+    choose(controller, 1, QStringLiteral("Run my program"));
+    QVERIFY(typed);
+    const auto says = [&](const QString& words) {
+      const link::ProcessStatus now = decisionOf(controller, 1);
+      const std::string wanted =
+          (words + QLatin1Char(' ') + QString::number(m_base + 100)).toStdString();
+      return now.foreign && now.state == link::ProcessState::Running && !now.lastLines.empty() &&
+             now.lastLines.back() == wanted;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("first")), 30'000);
+    // It is watched: what runs beside it is ours and stays, planning is not.
+    std::vector<std::string> names;
+    for (const link::ProcessStatus& one : processesOf(controller, 1)) names.push_back(one.name);
+    QCOMPARE(names,
+             (std::vector<std::string>{"localization", "team", "decision", "communication"}));
+    // Built again: it starts again.
+    const pid_t before = decisionOf(controller, 1).pid;
+    build(program, "second");
+    QTRY_VERIFY_WITH_TIMEOUT(says(QStringLiteral("second")), 30'000);
+    QVERIFY(decisionOf(controller, 1).pid != before);
+    QVERIFY2(errors.isEmpty(), qPrintable(errors.join(QLatin1Char('\n'))));
+  }
+
+  void myRobotAmongReferenceRobots() {
+    MatchController controller(options());
+    controller.open(link::loadScenario("match-3v3").value());
+    QTRY_VERIFY_WITH_TIMEOUT(decisionOf(controller, 6).pid > 0, 30'000);
+    choose(controller, 2, QStringLiteral("My robot among"));
+    QTRY_VERIFY_WITH_TIMEOUT(processesOf(controller, 2).empty(), 30'000);
+    for (const int other : {1, 3, 4, 5, 6}) {
+      QTRY_VERIFY_WITH_TIMEOUT(decisionOf(controller, other).pid > 0, 30'000);
+    }
+    // Its blackboard is there for a program that I start.
+    QVERIFY(link::SystemVSegments::open(m_base + 200, link::AttachMode::AttachOnly));
+  }
+};
+
+QTEST_MAIN(TestRuntimeMenu)
+#include "tst_runtime_menu.moc"
