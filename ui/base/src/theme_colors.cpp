@@ -125,6 +125,7 @@ QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radiu
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
 QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
+QToolBar#plotTools { padding: @2 @4; spacing: 0; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
@@ -142,6 +143,13 @@ QDockWidget > QWidget { border: none; }
 QTabBar#docks::tab, QMainWindow > QTabBar::tab {
   padding: @4 @12; border: 1px solid transparent; border-top: 2px solid transparent;
   color: @secondary; background: transparent; }
+QTabBar::tab { padding: @3 @12; border: 1px solid transparent;
+  border-bottom: 2px solid transparent; color: @secondary; background: transparent; }
+QTabBar::tab:selected { color: @text; border-bottom-color: @accent; }
+QTabBar::tab:hover:!selected { color: @text; }
+QTabWidget::pane { border: none; border-top: 1px solid @line; }
+QProgressBar { background: @view; border: 1px solid @line; border-radius: 3px; text-align: center; }
+QProgressBar::chunk { background: @fill; border-radius: 2px; }
 QMainWindow > QTabBar::tab:selected {
   color: @text; background: @view; border-color: @line; border-top: 2px solid @accent;
   border-bottom-color: @view; }

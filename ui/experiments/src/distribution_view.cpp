@@ -6,6 +6,7 @@
 #include <QChartView>
 #include <QComboBox>
 #include <QEvent>
+#include <QGraphicsLayout>
 #include <QLegend>
 #include <QLineSeries>
 #include <QSignalBlocker>
@@ -37,12 +38,13 @@ DistributionView::DistributionView(QWidget* parent)
   m_view->setFrameShape(QFrame::NoFrame);
   m_metric->setObjectName(QStringLiteral("experimentMetric"));
   m_metric->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  m_metric->setAccessibleName(QStringLiteral("Metric"));
   m_chart->setMargins({});
+  m_chart->layout()->setContentsMargins(0, 0, 0, 0);
+  m_chart->legend()->setAlignment(Qt::AlignRight);
   m_chart->setBackgroundRoundness(0);
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, scaled(this, 4), 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(m_metric, 0, Qt::AlignLeft);
+  layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(m_view, 1);
   connect(m_metric, &QComboBox::currentIndexChanged, this, [this] { draw(); });
   draw();
@@ -54,13 +56,14 @@ void DistributionView::show(const PlayedPtr& played) {
   {
     const QSignalBlocker blocker(m_metric);
     m_metric->clear();
+    int usual = 0;
     if (played) {
       for (const std::size_t m : link::tellingMetrics(played->summary)) {
         const link::MetricInfo& metric = played->summary.metrics[m];
-        if (!metric.rate) m_metric->addItem(QString::fromStdString(metric.name), qulonglong(m));
+        if (!metric.rate) m_metric->addItem(QString::fromStdString(metric.title), qulonglong(m));
+        if (metric.name == "walked_m") usual = m_metric->count() - 1;
       }
     }
-    const int usual = m_metric->findText(QStringLiteral("walked_m"));
     const int same = m_metric->findText(before);
     m_metric->setCurrentIndex(std::max({0, same >= 0 ? same : usual}));
   }

@@ -97,7 +97,7 @@ void ResultsModel::fill() {
     case Kind::Runs:
       m_heads = {"Run", "Condition", "Seed"};
       m_metrics = telling;
-      for (const std::size_t m : m_metrics) m_heads.append(qs(s.metrics[m].name));
+      for (const std::size_t m : m_metrics) m_heads.append(title(s.metrics[m]));
       for (std::size_t number = 1; number <= m_played->experiment.allRuns(); ++number) {
         const link::RunPlace place = link::placeOf(m_played->experiment, number);
         if (m_played->table.conditions[place.condition].played[place.index])

@@ -27,6 +27,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
   button->setDefaultAction(action);
   button->setAutoRaise(true);
   button->setIconSize(QSize(scaled(parent, 16), scaled(parent, 16)));
+  button->setFixedHeight(scaled(parent, 24));  // eight of them fit the dock's first height
   button->setFont(themeFont(TypeRole::Secondary));
   if (action->icon().isNull()) button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   if (action->menu() != nullptr) button->setPopupMode(QToolButton::InstantPopup);
