@@ -125,7 +125,7 @@ QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radiu
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
 QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
-QToolBar#plotTools { padding: @2 @4; spacing: 0; }
+QToolBar#plotTools { padding: @2 @4; spacing: 1px; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
@@ -169,6 +169,8 @@ QLineEdit#variablesFilter { background: @view; color: @text;
   border: 1px solid @line; border-radius: 3px; padding: @2 @4; }
 QDockWidget QDoubleSpinBox:focus, QDockWidget QSpinBox:focus, QLineEdit#logFilter:focus,
 QLineEdit#variablesFilter:focus { border-color: @accent; }
+QDockWidget QDoubleSpinBox::up-button, QDockWidget QDoubleSpinBox::down-button,
+QDockWidget QSpinBox::up-button, QDockWidget QSpinBox::down-button { width: 0; border: none; }
 QTableView::item { padding: 0 @5; border: none; }
 QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;

@@ -8,6 +8,7 @@
 #include <QEvent>
 #include <QGraphicsLayout>
 #include <QLegend>
+#include <QLegendMarker>
 #include <QLineSeries>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -115,10 +116,17 @@ void DistributionView::draw() {
     area->setBrush(fill);
     area->setName(QString::fromStdString(s.conditions[c].name));
     m_chart->addSeries(area);
+    for (QLegendMarker* marker : m_chart->legend()->markers(area)) {
+      marker->setBrush(colourOf(c));
+      marker->setPen(Qt::NoPen);
+    }
   }
-  const auto axis = [&](double from, double to, const QString& title, Qt::Alignment side) {
+  const auto axis = [&](double from, double to, int ticks, const QString& title,
+                        Qt::Alignment side) {
     auto* one = new QValueAxis;
     one->setRange(from, to);
+    one->setTickCount(ticks);
+    one->applyNiceNumbers();
     one->setTitleText(title);
     one->setTitleBrush(theme().secondaryText);
     one->setTitleFont(themeFont(TypeRole::Secondary));
@@ -131,10 +139,10 @@ void DistributionView::draw() {
     for (QAbstractSeries* series : m_chart->series()) series->attachAxis(one);
   };
   const link::MetricInfo& info = s.metrics[metric];
-  axis(low, high,
+  axis(low, high, 9,
        QString::fromStdString(info.unit.empty() ? info.title : info.title + ", " + info.unit),
        Qt::AlignBottom);
-  axis(0.0, top * 1.05, QStringLiteral("% of the runs"), Qt::AlignLeft);
+  axis(0.0, top * 1.05, 6, QStringLiteral("% of the runs"), Qt::AlignLeft);
 }
 
 }  // namespace pitchboard::ui

@@ -54,7 +54,8 @@ void ResultsModel::fill() {
   const std::vector<std::size_t> telling = link::tellingMetrics(s);
   switch (m_kind) {
     case Kind::Measured:
-      m_heads = {"Metric", "Condition", "n", "Mean", "95 % of the mean", "SD", "Median", "95 %"};
+      m_heads = {"Metric",           "Condition", "n",      "Mean",
+                 "95 % of the mean", "SD",        "Median", "95th percentile"};
       for (const std::size_t m : telling) {
         for (const link::ConditionSummary& condition : s.conditions) {
           const link::Summary& one = condition.metrics[m];

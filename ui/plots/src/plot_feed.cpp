@@ -89,6 +89,7 @@ void PlotFeed::findKeepers() {
   if (now == m_keepers) return;
   m_keepers = std::move(now);
   ++m_looks;
+  ++m_generation;  // drawn anew in a match that is paused, too
 }
 
 // A robot that is heard for the first time says nothing new of the others: their derived curves
