@@ -14,6 +14,7 @@
 #include <QStatusBar>
 #include <QTableView>
 #include <QTemporaryDir>
+#include <QToolBar>
 #include <QToolButton>
 #include <QUndoStack>
 #include <QtTest>
@@ -32,6 +33,7 @@
 #include "alarms.h"
 #include "menu_actions.h"
 #include "plot_page.h"
+#include "plot_pane.h"
 #include "scoreboard.h"
 
 using namespace pitchboard;
@@ -318,6 +320,55 @@ class TestWindowWork : public QObject {
     turnWheel(slider, slider->rect().center(), -240);
     QTRY_VERIFY(area->verticalScrollBar()->value() > 0);
     QCOMPARE(slider->value(), value);
+  }
+
+  // Three panels below each other at the right showed a few rows each; among tabs, what the menu
+  // opens was behind the others.
+  void aPanelThatWasAskedForIsInFront() {
+    Studio s;
+    s.play();
+    const auto inFront = [&s](const char* name) {
+      const auto* dock = s.find<QDockWidget>(name);
+      const QWidget* seen = s.window.childAt(dock->mapTo(&s.window, dock->rect().center()));
+      return seen != nullptr && dock->isAncestorOf(seen);
+    };
+    QVERIFY(inFront("variables") && inFront("plots"));
+    s.menuAction(QStringLiteral("Experiments"))->trigger();
+    QTRY_VERIFY(inFront("experiments") && !inFront("plots"));
+    for (const char* name : {"refereeing", "referee"}) {
+      s.find<QDockWidget>(name)->toggleViewAction()->trigger();
+      QTRY_VERIFY2(inFront(name), name);
+      QVERIFY2(!inFront("variables"), name);
+      QVERIFY(s.find<QDockWidget>(name)->height() > s.window.height() / 3);
+    }
+  }
+
+  void allToolsOfThePlotsAreSeen() {
+    Studio s;
+    s.play();
+    auto* tools = s.find<QToolBar>("plotTools");
+    int seen = 0;
+    for (const auto* button : tools->findChildren<QToolButton*>()) {
+      if (button->objectName() == QStringLiteral("qt_toolbar_ext_button")) continue;
+      QVERIFY2(button->isVisible() && tools->rect().contains(button->geometry()),
+               qPrintable(button->toolTip()));
+      ++seen;
+    }
+    QCOMPARE(seen, 8);
+  }
+
+  // B1 keeps the goal there and sees no ball for minutes.
+  void theFirstPlotIsNotTheKeepers() {
+    Studio s;
+    s.controller.open(link::loadScenario("match").value(), true);
+    const auto* plots = s.window.findChild<PlotsDock*>();
+    const auto inputs = [plots] {
+      const auto& curves = plots->currentPage()->panes()[0]->curves();
+      return curves.empty() ? QStringList() : curves[0].spec().inputs;
+    };
+    QTRY_COMPARE(inputs(), QStringList(QStringLiteral("B2/VISION_BALL_DIST")));
+    s.controller.edits()->setBehaviour({RobotId{2}}, QStringLiteral("keeper"));
+    QTRY_COMPARE(inputs(), QStringList(QStringLiteral("B3/VISION_BALL_DIST")));
   }
 
   void chosenEventsRaiseAnAlarm() {

@@ -125,6 +125,7 @@ QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radiu
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
 QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
+QToolBar#plotTools { padding: @2 @4; spacing: 1px; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
@@ -142,6 +143,13 @@ QDockWidget > QWidget { border: none; }
 QTabBar#docks::tab, QMainWindow > QTabBar::tab {
   padding: @4 @12; border: 1px solid transparent; border-top: 2px solid transparent;
   color: @secondary; background: transparent; }
+QTabBar::tab { padding: @3 @12; border: 1px solid transparent;
+  border-bottom: 2px solid transparent; color: @secondary; background: transparent; }
+QTabBar::tab:selected { color: @text; border-bottom-color: @accent; }
+QTabBar::tab:hover:!selected { color: @text; }
+QTabWidget::pane { border: none; border-top: 1px solid @line; }
+QProgressBar { background: @view; border: 1px solid @line; border-radius: 3px; text-align: center; }
+QProgressBar::chunk { background: @fill; border-radius: 2px; }
 QMainWindow > QTabBar::tab:selected {
   color: @text; background: @view; border-color: @line; border-top: 2px solid @accent;
   border-bottom-color: @view; }
@@ -161,6 +169,8 @@ QLineEdit#variablesFilter { background: @view; color: @text;
   border: 1px solid @line; border-radius: 3px; padding: @2 @4; }
 QDockWidget QDoubleSpinBox:focus, QDockWidget QSpinBox:focus, QLineEdit#logFilter:focus,
 QLineEdit#variablesFilter:focus { border-color: @accent; }
+QDockWidget QDoubleSpinBox::up-button, QDockWidget QDoubleSpinBox::down-button,
+QDockWidget QSpinBox::up-button, QDockWidget QSpinBox::down-button { width: 0; border: none; }
 QTableView::item { padding: 0 @5; border: none; }
 QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;

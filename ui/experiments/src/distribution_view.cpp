@@ -6,7 +6,9 @@
 #include <QChartView>
 #include <QComboBox>
 #include <QEvent>
+#include <QGraphicsLayout>
 #include <QLegend>
+#include <QLegendMarker>
 #include <QLineSeries>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -37,12 +39,13 @@ DistributionView::DistributionView(QWidget* parent)
   m_view->setFrameShape(QFrame::NoFrame);
   m_metric->setObjectName(QStringLiteral("experimentMetric"));
   m_metric->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  m_metric->setAccessibleName(QStringLiteral("Metric"));
   m_chart->setMargins({});
+  m_chart->layout()->setContentsMargins(0, 0, 0, 0);
+  m_chart->legend()->setAlignment(Qt::AlignRight);
   m_chart->setBackgroundRoundness(0);
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, scaled(this, 4), 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(m_metric, 0, Qt::AlignLeft);
+  layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(m_view, 1);
   connect(m_metric, &QComboBox::currentIndexChanged, this, [this] { draw(); });
   draw();
@@ -54,13 +57,14 @@ void DistributionView::show(const PlayedPtr& played) {
   {
     const QSignalBlocker blocker(m_metric);
     m_metric->clear();
+    int usual = 0;
     if (played) {
       for (const std::size_t m : link::tellingMetrics(played->summary)) {
         const link::MetricInfo& metric = played->summary.metrics[m];
-        if (!metric.rate) m_metric->addItem(QString::fromStdString(metric.name), qulonglong(m));
+        if (!metric.rate) m_metric->addItem(QString::fromStdString(metric.title), qulonglong(m));
+        if (metric.name == "walked_m") usual = m_metric->count() - 1;
       }
     }
-    const int usual = m_metric->findText(QStringLiteral("walked_m"));
     const int same = m_metric->findText(before);
     m_metric->setCurrentIndex(std::max({0, same >= 0 ? same : usual}));
   }
@@ -112,10 +116,17 @@ void DistributionView::draw() {
     area->setBrush(fill);
     area->setName(QString::fromStdString(s.conditions[c].name));
     m_chart->addSeries(area);
+    for (QLegendMarker* marker : m_chart->legend()->markers(area)) {
+      marker->setBrush(colourOf(c));
+      marker->setPen(Qt::NoPen);
+    }
   }
-  const auto axis = [&](double from, double to, const QString& title, Qt::Alignment side) {
+  const auto axis = [&](double from, double to, int ticks, const QString& title,
+                        Qt::Alignment side) {
     auto* one = new QValueAxis;
     one->setRange(from, to);
+    one->setTickCount(ticks);
+    one->applyNiceNumbers();
     one->setTitleText(title);
     one->setTitleBrush(theme().secondaryText);
     one->setTitleFont(themeFont(TypeRole::Secondary));
@@ -128,10 +139,10 @@ void DistributionView::draw() {
     for (QAbstractSeries* series : m_chart->series()) series->attachAxis(one);
   };
   const link::MetricInfo& info = s.metrics[metric];
-  axis(low, high,
+  axis(low, high, 9,
        QString::fromStdString(info.unit.empty() ? info.title : info.title + ", " + info.unit),
        Qt::AlignBottom);
-  axis(0.0, top * 1.05, QStringLiteral("% of the runs"), Qt::AlignLeft);
+  axis(0.0, top * 1.05, 6, QStringLiteral("% of the runs"), Qt::AlignLeft);
 }
 
 }  // namespace pitchboard::ui

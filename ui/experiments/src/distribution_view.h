@@ -17,6 +17,8 @@ class DistributionView : public QWidget {
  public:
   explicit DistributionView(QWidget* parent);
   void show(const PlayedPtr& played);
+  /// Chooses the metric; stands where the owner puts it.
+  QComboBox* chooser() const { return m_metric; }
 
  protected:
   void changeEvent(QEvent* event) override;

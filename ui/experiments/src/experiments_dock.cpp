@@ -7,6 +7,7 @@
 #include <QFontDatabase>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
@@ -39,6 +40,21 @@ QString folderOfExperiments() {
          QStringLiteral("/experiments");
 }
 
+// A sentence longer than the dock is wide ends with dots; resting the mouse on it tells the rest.
+class OneLine : public QLabel {
+ public:
+  using QLabel::QLabel;
+
+ protected:
+  void paintEvent(QPaintEvent* /*event*/) override {
+    QPainter painter(this);
+    const QRect room = contentsRect();
+    painter.setPen(palette().color(QPalette::WindowText));
+    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+  }
+};
+
 class ExperimentsDock : public QWidget {
  public:
   ExperimentsDock(ReplayController* replay, QWidget* parent)
@@ -48,9 +64,9 @@ class ExperimentsDock : public QWidget {
         m_choice(new QComboBox(this)),
         m_runs(new QSpinBox(this)),
         m_start(new QPushButton(QStringLiteral("Start"), this)),
-        m_report(new QToolButton(this)),
+        m_report(new QPushButton(QStringLiteral("Report"), this)),
         m_progress(new QProgressBar(this)),
-        m_words(new QLabel(this)),
+        m_words(new OneLine(this)),
         m_tabs(new QTabWidget(this)),
         m_text(new QPlainTextEdit(this)),
         m_condition(new QComboBox(this)),
@@ -94,22 +110,20 @@ class ExperimentsDock : public QWidget {
     connect(save, &QToolButton::clicked, this, [this] { askAndSave(); });
     m_runs->setObjectName(QStringLiteral("experimentRuns"));
     m_runs->setRange(1, mostRuns);
+    m_runs->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_runs->setSuffix(QStringLiteral(" runs"));
     m_runs->setToolTip(QStringLiteral("Runs of each condition"));
     m_start->setObjectName(QStringLiteral("experimentStart"));
     connect(m_start, &QPushButton::clicked, this, [this] { startOrCancel(); });
-    m_report->setIcon(themedIcon(QStringLiteral("text-html")));
     m_report->setToolTip(QStringLiteral("Open the report in a browser"));
     m_report->setEnabled(false);
-    connect(m_report, &QToolButton::clicked, this, [this] {
+    connect(m_report, &QPushButton::clicked, this, [this] {
       QDesktopServices::openUrl(
           QUrl::fromLocalFile(m_shown->folder + QStringLiteral("/report.html")));
     });
     m_progress->setTextVisible(false);
-    m_progress->setMaximumWidth(scaled(this, 140));
+    m_progress->setFixedSize(scaled(this, 140), scaled(this, 8));
     m_words->setObjectName(QStringLiteral("experimentWords"));
-    m_words->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    m_words->setMinimumWidth(scaled(this, 40));
     m_words->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* row = new QHBoxLayout;
     const int gap = scaled(this, 4);
@@ -128,6 +142,8 @@ class ExperimentsDock : public QWidget {
     m_words->setContentsMargins(gap, 0, gap, gap);
     layout->addWidget(m_words);
     layout->addWidget(m_tabs, 1);
+    // Less shows no field and no axis.
+    setMinimumHeight(scaled(this, 264));
   }
 
   QTableView* addTable(ResultsModel::Kind kind, const QString& title, const QString& name) {
@@ -169,26 +185,35 @@ class ExperimentsDock : public QWidget {
     });
     connect(m_runsTable->selectionModel(), &QItemSelectionModel::selectionChanged, this,
             [this] { highlight(); });
-    auto* page = new QWidget(this);
-    auto* layout = new QVBoxLayout(page);
-    layout->setContentsMargins(0, scaled(this, 4), 0, 0);
-    layout->setSpacing(scaled(this, 4));
     m_condition->setObjectName(QStringLiteral("experimentCondition"));
+    m_condition->setAccessibleName(QStringLiteral("Condition"));
     m_condition->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-    layout->addWidget(m_condition, 0, Qt::AlignLeft);
-    layout->addWidget(m_ways, 1);
     connect(m_condition, &QComboBox::currentIndexChanged, this, [this](int index) {
       if (index < 0 || !m_shown) return;
       m_ways->show(m_shown, static_cast<std::size_t>(index));
       highlight();
     });
-    m_tabs->addTab(page, QStringLiteral("Ways"));
+    m_tabs->addTab(m_ways, QStringLiteral("Ways"));
     m_tabs->addTab(m_distribution, QStringLiteral("Distribution"));
+    // Beside the tabs, because height is what field and chart lack.
+    auto* choices = new QWidget(this);
+    auto* row = new QHBoxLayout(choices);
+    row->setContentsMargins(0, scaled(this, 2), scaled(this, 4), scaled(this, 2));
+    row->addWidget(m_condition);
+    row->addWidget(m_distribution->chooser());
+    m_tabs->setCornerWidget(choices);
+    connect(m_tabs, &QTabWidget::currentChanged, this, [this] { showChoices(); });
+    showChoices();
   }
 
   std::size_t numberOf(const QModelIndex& index) const {
     const auto* proxy = static_cast<const QSortFilterProxyModel*>(m_runsTable->model());
     return m_models.back()->runNumber(proxy->mapToSource(index).row());
+  }
+
+  void showChoices() {
+    m_condition->setVisible(m_tabs->currentWidget() == m_ways && m_shown);
+    m_distribution->chooser()->setVisible(m_tabs->currentWidget() == m_distribution && m_shown);
   }
 
   void highlight() {
@@ -288,6 +313,7 @@ class ExperimentsDock : public QWidget {
       runs += condition.runs;
     }
     m_distribution->show(played);
+    showChoices();
     const bool complete = runs == played->experiment.allRuns();
     m_report->setEnabled(complete);
     const auto& checks = played->summary.assertions;
@@ -311,7 +337,7 @@ class ExperimentsDock : public QWidget {
   QComboBox* m_choice;
   QSpinBox* m_runs;
   QPushButton* m_start;
-  QToolButton* m_report;
+  QPushButton* m_report;
   QProgressBar* m_progress;
   QLabel* m_words;
   QTabWidget* m_tabs;

@@ -54,7 +54,8 @@ void ResultsModel::fill() {
   const std::vector<std::size_t> telling = link::tellingMetrics(s);
   switch (m_kind) {
     case Kind::Measured:
-      m_heads = {"Metric", "Condition", "n", "Mean", "95 % of the mean", "SD", "Median", "95 %"};
+      m_heads = {"Metric",           "Condition", "n",      "Mean",
+                 "95 % of the mean", "SD",        "Median", "95th percentile"};
       for (const std::size_t m : telling) {
         for (const link::ConditionSummary& condition : s.conditions) {
           const link::Summary& one = condition.metrics[m];
@@ -97,7 +98,7 @@ void ResultsModel::fill() {
     case Kind::Runs:
       m_heads = {"Run", "Condition", "Seed"};
       m_metrics = telling;
-      for (const std::size_t m : m_metrics) m_heads.append(qs(s.metrics[m].name));
+      for (const std::size_t m : m_metrics) m_heads.append(title(s.metrics[m]));
       for (std::size_t number = 1; number <= m_played->experiment.allRuns(); ++number) {
         const link::RunPlace place = link::placeOf(m_played->experiment, number);
         if (m_played->table.conditions[place.condition].played[place.index])

@@ -42,7 +42,10 @@ void Curve::update(PlotFeed& feed) {
   m_ordinate = two ? feed.find(m_spec.inputs[1]) : ColumnView{};
   if (two && !m_ordinate) m_view = {};
   if (!m_view) {
-    m_note = QStringLiteral("waiting for %1").arg(m_spec.inputs.join(QStringLiteral(", ")));
+    QString names = m_spec.inputs.join(QStringLiteral(", "));
+    // Words of a description that stands for a robot's curve; nobody chose that one by name.
+    names.remove(QStringLiteral("first/")).remove(QStringLiteral("each/"));
+    m_note = QStringLiteral("waiting for %1").arg(names);
   }
 }
 

@@ -67,7 +67,12 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
     every = every || group == eachGroup;
   }
   if (columns.isEmpty()) return {curve};
-  const QStringList groups = feed.groupsWith(columns);
+  QStringList groups = feed.groupsWith(columns);
+  // Of a keeper there is little to see.
+  if (!every) {
+    std::stable_partition(groups.begin(), groups.end(),
+                          [&](const QString& group) { return !feed.keepers().contains(group); });
+  }
   QList<CurveSpec> all;
   for (const QString& group : groups) {
     if (all.size() == (every ? mostCurves : 1)) break;

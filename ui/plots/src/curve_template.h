@@ -2,8 +2,8 @@
 #pragma once
 
 // Descriptions of curves that stand for one curve of every robot (`each/NAME`, `each.NAME` in an
-// expression) or of the first robot (`first`): so a layout survives another number of robots. Plain
-// values.
+// expression) or of the first robot that is not a keeper (`first`; of a keeper where there are only
+// keepers): so a layout survives another number of robots. Plain values.
 
 #include <QStringList>
 

@@ -4,6 +4,8 @@
 #include <QTimer>
 #include <algorithm>
 
+#include <robotlink/frame/match_frame.h>
+#include <ui/base/robot_words.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/linked_time.h>
 
@@ -13,6 +15,7 @@ namespace pitchboard::ui {
 namespace {
 
 const QString curvePrefix = QStringLiteral("curve/");
+constexpr std::string_view keeperBehaviour = "keeper";
 
 /// `GROUP/COLUMN`.
 std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, const QString& name) {
@@ -67,10 +70,26 @@ void PlotFeed::refresh() {
     ++m_looks;
     lookAgain();
   }
+  findKeepers();
   m_views.clear();
   for (auto& [name, curve] : m_named) curve.updated = false;
   m_time->setData(m_store ? m_store->range() : std::nullopt);
   emit refreshed();
+}
+
+void PlotFeed::findKeepers() {
+  const FramePtr frame = m_source->frame();
+  if (!frame) return;
+  QStringList now;
+  for (const link::RobotFrame& robot : frame->robots) {
+    if (robot.board && robot.board->behaviour == keeperBehaviour) {
+      now << robotName(robot.identity);
+    }
+  }
+  if (now == m_keepers) return;
+  m_keepers = std::move(now);
+  ++m_looks;
+  ++m_generation;  // drawn anew in a match that is paused, too
 }
 
 // A robot that is heard for the first time says nothing new of the others: their derived curves

@@ -48,6 +48,8 @@ class PlotFeed : public QObject {
   void setNamedCurves(const std::map<QString, CurveSpec>& curves);
   /// Groups that have all of these columns, in the source's order.
   QStringList groupsWith(const QStringList& columns) const;
+  /// Groups of the robots that keep a goal now.
+  const QStringList& keepers() const { return m_keepers; }
   /// Every variable there is, `GROUP/COLUMN`.
   QStringList names() const;
   /// Wall clock at second 0, where the source has one (Live): then times are written as time of
@@ -58,7 +60,7 @@ class PlotFeed : public QObject {
   QString timeText(double time, int decimals) const;
   /// Grows when variables came or went: what find() said before is void.
   quint64 generation() const { return m_generation; }
-  /// Grows when there are other groups or columns: what groupsWith() said before is void.
+  /// Grows when there are other groups, columns or keepers: what groupsWith() said before is void.
   quint64 looks() const { return m_looks; }
 
   /// Rows of a second session, whose second 0 is at `offset` (s); null: none.
@@ -85,6 +87,7 @@ class PlotFeed : public QObject {
   ColumnView named(const QString& name);
   void forget();
   void lookAgain();
+  void findKeepers();
 
   FrameSource* m_source;
   LinkedTime* m_time;
@@ -93,6 +96,7 @@ class PlotFeed : public QObject {
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;
   quint64 m_looks = 1;
+  QStringList m_keepers;
   bool m_missed = false;  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The tool strip of the plots.
 #include <QAction>
+#include <QLayout>
 #include <QMenu>
 #include <QTabWidget>
 #include <QToolBar>
@@ -27,6 +28,7 @@ QToolButton* toolButton(QAction* action, QWidget* parent) {
   button->setDefaultAction(action);
   button->setAutoRaise(true);
   button->setIconSize(QSize(scaled(parent, 16), scaled(parent, 16)));
+  button->setFixedHeight(scaled(parent, 24));  // eight of them fit the dock's first height
   button->setFont(themeFont(TypeRole::Secondary));
   if (action->icon().isNull()) button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   if (action->menu() != nullptr) button->setPopupMode(QToolButton::InstantPopup);
@@ -40,6 +42,7 @@ QToolBar* PlotsDock::makeTools() {
   auto* tools = new QToolBar(QStringLiteral("Tools of the plots"), this);
   tools->setOrientation(Qt::Vertical);
   tools->setObjectName(QStringLiteral("plotTools"));
+  tools->layout()->setSpacing(1);  // the sheet's, which was asked before it had its name
   tools->setIconSize(QSize(scaled(this, 16), scaled(this, 16)));
   LinkedTime* time = m_context.time;
 

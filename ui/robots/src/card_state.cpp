@@ -60,6 +60,7 @@ void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int acti
   if (card.batteryLow()) {
     card.tagKind = TagKind::Error;
     card.tag = QStringLiteral("battery low");
+    card.tagIsBattery = true;
   } else if (fallen) {
     card.tagKind = TagKind::Warning;
     card.tag = QStringLiteral("fallen");

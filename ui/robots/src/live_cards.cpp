@@ -71,6 +71,7 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
             .arg(silent->seconds));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
+    card.tagIsBattery = true;
   }
 }
 

@@ -82,7 +82,7 @@ QSize RobotCard::minimumSizeHint() const {
 bool RobotCard::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
-    const bool alarm = m_state.tagKind != TagKind::None;
+    const bool alarm = showsTag();
     QString tip;
     if (alarm && tagRect().contains(help->pos())) {
       tip = m_state.tag;

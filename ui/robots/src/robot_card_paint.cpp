@@ -65,8 +65,11 @@ QRect RobotCard::tagRect() const {
   if (m_collapsed) {
     const QRect row = rowRect(0);
     const int left = lampRect(0).left() - scaled(this, 4);
-    const int right =
-        m_state.battery && m_parts.battery ? voltsRect().left() : chevronRect().left();
+    int right = chevronRect().left();
+    if (m_state.battery && m_parts.battery) {
+      // A tag that is cut off says nothing: it may lie where the volts are, the bar stays.
+      right = left + wanted < voltsRect().left() ? voltsRect().left() : batteryRect().left();
+    }
     return {left, row.top(), std::min(wanted, right - left - scaled(this, 2)), row.height()};
   }
   const QRect row = rowRect(1);
@@ -77,12 +80,17 @@ QRect RobotCard::tagRect() const {
   return {row.right() - wide + 1, row.top(), wide, row.height()};
 }
 
+bool RobotCard::showsTag() const {
+  const bool saidByBar = m_collapsed && m_state.tagIsBattery && m_parts.battery;
+  return m_state.tagKind != TagKind::None && !saidByBar;
+}
+
 void RobotCard::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   paintFrame(painter);
   paintHead(painter);
-  const bool alarm = m_state.tagKind != TagKind::None;
+  const bool alarm = showsTag();
   if (!m_collapsed || !alarm) paintLamps(painter);
   if (alarm) paintTag(painter);
   if (m_collapsed) return;
@@ -151,6 +159,10 @@ void RobotCard::paintHead(QPainter& painter) const {
   QRectF inside = QRectF(bar).adjusted(2, 2, -2, -2);
   inside.setWidth(inside.width() * m_state.battery->fraction);
   painter.fillRect(inside, color);
+  if (m_collapsed && showsTag() && tagRect().right() > voltsRect().left()) {
+    painter.setOpacity(1.0);
+    return;
+  }
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
   painter.drawText(voltsRect(), Qt::AlignRight | Qt::AlignVCenter,

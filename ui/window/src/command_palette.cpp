@@ -22,6 +22,9 @@ constexpr int kindRole = Qt::UserRole + 1;  // stands at the right
 class EntryDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    return {QStyledItemDelegate::sizeHint(option, index).width(), scaled(option.widget, 22)};
+  }
   void paint(QPainter* painter, const QStyleOptionViewItem& option,
              const QModelIndex& index) const override {
     QStyledItemDelegate::paint(painter, option, index);
@@ -37,7 +40,7 @@ class EntryDelegate : public QStyledItemDelegate {
 }  // namespace
 
 CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* window)
-    : QDialog(window),
+    : QDialog(window, Qt::Dialog | Qt::FramelessWindowHint),
       m_entries(std::move(entries)),
       m_words(new QLineEdit(this)),
       m_list(new QListView(this)),
@@ -50,10 +53,12 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   m_words->setPlaceholderText(QStringLiteral("Words of an action, a variable, a robot, an event"));
   m_words->setAccessibleName(m_words->placeholderText());
   for (std::size_t i = 0; i < m_entries.size(); ++i) {
-    auto* item = new QStandardItem(m_entries[i].text);
+    // Menus write keys of the field behind a tab.
+    const QString& text = m_entries[i].text;
+    auto* item = new QStandardItem(text.section(QLatin1Char('\t'), 0, 0));
     item->setEditable(false);
     item->setData(static_cast<int>(i), entryRole);
-    item->setData(m_entries[i].kind, kindRole);
+    item->setData(m_entries[i].kind + text.section(QLatin1Char('\t'), 1), kindRole);
     m_model->appendRow(item);
   }
   m_filter->setSourceModel(m_model);
@@ -66,6 +71,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   auto* column = new QVBoxLayout(this);
   const int gap = scaled(this, 8);
   column->setContentsMargins(gap, gap, gap, gap);
+  m_list->setFrameShape(QFrame::NoFrame);
   column->setSpacing(gap);
   column->addWidget(m_words);
   column->addWidget(m_list, 1);
@@ -95,6 +101,18 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
     }
   }
   return QDialog::eventFilter(watched, event);
+}
+
+// No title: what it is for stands in the empty line, and Escape or a click outside ends it.
+void CommandPalette::paintEvent(QPaintEvent* /*event*/) {
+  QPainter painter(this);
+  painter.setPen(theme().outerEdge);
+  painter.drawRect(rect().adjusted(0, 0, -1, -1));
+}
+
+void CommandPalette::changeEvent(QEvent* event) {
+  QDialog::changeEvent(event);
+  if (event->type() == QEvent::ActivationChange && !isActiveWindow() && isVisible()) close();
 }
 
 void CommandPalette::runCurrent() {

@@ -87,7 +87,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_undo->setActiveStack(controller->edits()->undoStack());
   setWindowTitle(QStringLiteral("Pitchboard"));
   setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks | GroupedDragging);
-  setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
+  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   setContextMenuPolicy(Qt::PreventContextMenu);
 
   auto* centre = new QWidget(this);

@@ -9,6 +9,8 @@
 #include <QScreen>
 #include <QSettings>
 #include <QTimer>
+#include <algorithm>
+#include <map>
 #include <utility>
 
 #include <ui/base/notice_bar.h>
@@ -29,7 +31,10 @@ const QString layoutKey = QStringLiteral("window/layout");
 void MainWindow::showTitles() {
   for (std::size_t i = 0; i < m_docks.size(); ++i) {
     QDockWidget* dock = m_docks[i];
-    const bool says = studioDocks()[i].ownRow || !tabifiedDockWidgets(dock).isEmpty();
+    const QList<QDockWidget*> beside = tabifiedDockWidgets(dock);
+    const bool tabs = std::any_of(beside.begin(), beside.end(),
+                                  [](const QDockWidget* other) { return !other->isHidden(); });
+    const bool says = studioDocks()[i].ownRow || tabs;
     static_cast<DockTitle*>(dock->titleBarWidget())->setFolded(!dock->isFloating() && says);
   }
 }
@@ -68,13 +73,19 @@ void MainWindow::saveLayout() {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   if (std::exchange(m_wasShown, true)) return;
-  // The frame has its size only when the desktop has drawn it.
   QTimer::singleShot(0, this, [this] {
     fitScreen();
     for (QDockWidget* dock : m_docks) {
       if (dock->isFloating() && dock->isVisible()) dock->raise();
     }
   });
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() != QEvent::ActivationChange || !isActiveWindow()) return;
+  // The desktop has put its frame around the window by now; when it was shown, it had not.
+  if (!std::exchange(m_wasActive, true)) QTimer::singleShot(0, this, &MainWindow::fitScreen);
 }
 
 // The first window must not be larger than what is there for it, frame included. A size that
@@ -110,16 +121,20 @@ void MainWindow::resetLayout() {
       splitDockWidget(firstBottom, m_docks[i], Qt::Vertical);
     }
   }
-  QDockWidget* bottom = firstBottom;
+  // One below the other, three docks at the right would show a few rows each.
+  std::map<Qt::DockWidgetArea, QDockWidget*> lastTab;
   for (std::size_t i = 0; i < infos.size(); ++i) {
     QDockWidget* dock = m_docks[i];
-    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) {
-      tabifyDockWidget(bottom, dock);
-      bottom = dock;
+    bool isFirst = true;
+    if (!infos[i].ownRow) {
+      QDockWidget*& last = lastTab[infos[i].area];
+      isFirst = last == nullptr;
+      if (!isFirst) tabifyDockWidget(last, dock);
+      last = dock;
     }
     dock->setVisible(infos[i].shownAtFirst);
-    // Tabs of one place have one height, that of the first.
-    if (isBottom(i) && !infos[i].ownRow && dock != firstBottom) continue;
+    // Tabs of one place have one size, that of the first.
+    if (!isFirst) continue;
     resizeDocks({dock}, {scaled(this, infos[i].extent)},
                 isBottom(i) ? Qt::Vertical : Qt::Horizontal);
   }

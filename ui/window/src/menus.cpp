@@ -190,7 +190,14 @@ void StudioMenus::makeThemes(QMenu* menu) {
 
 void StudioMenus::makeView() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&View"));
-  for (QDockWidget* dock : m_context.docks) menu->addAction(dock->toggleViewAction());
+  for (QDockWidget* dock : m_context.docks) {
+    QAction* action = dock->toggleViewAction();
+    menu->addAction(action);
+    // Among tabs, what was just asked for is in front.
+    QObject::connect(action, &QAction::triggered, dock, [dock](bool on) {
+      if (on) dock->raise();
+    });
+  }
   menu->addSeparator();
   QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));
   for (QAction* action : m_parts.field->layerActions()) layers->addAction(action);

@@ -44,6 +44,7 @@ struct CardState {
   std::array<Lamp, lampCount> lamps;
   QString tag;
   TagKind tagKind = TagKind::None;
+  bool tagIsBattery = false;  ///< volts and bar, which are red, say the same
   QString action;
   QString detail;  ///< age of the tick and distance walked; or how it is heard
   QString detailTip;

@@ -68,6 +68,7 @@ class RobotCard : public QFrame {
   QRect batteryRect() const;
   QRect voltsRect() const;
   QRect tagRect() const;
+  bool showsTag() const;
   void collapse(bool collapsed);
   QString lampTip(int lamp) const;
   QString headTip() const;

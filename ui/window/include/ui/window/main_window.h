@@ -94,6 +94,7 @@ class MainWindow : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   StudioParts parts() const;
@@ -135,6 +136,7 @@ class MainWindow : public QMainWindow {
   QByteArray m_savedLayout;
   QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;
+  bool m_wasActive = false;
   bool m_toldFinished = false;
   std::vector<QDockWidget*> m_docks;  // order of studioDocks()
 };
