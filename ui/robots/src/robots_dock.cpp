@@ -108,6 +108,7 @@ void RobotsDock::showCards(const std::vector<CardState>& states) {
     }
     delete m_cards[id];
     m_cards.erase(id);
+    m_byHand.erase(id);
     if (const auto window = m_floating.find(id); window != m_floating.end()) {
       window->second->deleteLater();
       m_floating.erase(window);
