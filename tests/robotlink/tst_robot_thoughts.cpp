@@ -246,9 +246,10 @@ class TestRobotThoughts : public QObject {
       return first && first->cloud && first->path && second && second->cloud && second->path;
     };
     QTRY_VERIFY_WITH_TIMEOUT(complete(), 20000);
-    const auto frame = runner->latest();
-    QVERIFY(of(*frame, 1)->cloudAge < 1.0);
-    QVERIFY(of(*frame, 1)->cloud->particles.size() > 100);
+    // A filter that has seen nothing yet has no particles.
+    const auto spread = [&] { return of(*runner->latest(), 1)->cloud->particles.size() > 100; };
+    QTRY_VERIFY_WITH_TIMEOUT(spread(), 20000);
+    QVERIFY(of(*runner->latest(), 1)->cloudAge < 1.0);
   }
 };
 
