@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/session/session_export.h>
+#include <telemetry/session/session_time.h>
 
 #include <unistd.h>
 #include <cstdio>
@@ -22,12 +23,37 @@ constexpr const char* reportFormat = "report";
 
 struct Options {
   std::string file, format = "csv-wide", output;
-  std::optional<double> from, to;
+  std::string from, until;
   std::vector<std::string> robots, variables;
   bool rowsOnly = false, clock = false, interpolate = false;
   double rate = 10.0;
   bool progress = false;
 };
+
+struct Part {
+  std::optional<double> from, until;
+};
+
+Result<Part> partOf(const SessionReader& session, const Options& options) {
+  Part part;
+  const auto read = [&session](const char* option, const std::string& text, TimeRange range,
+                               std::optional<double>& to) -> Result<void> {
+    if (text.empty()) return {};
+    auto time = sessionTime(text, session.info().start, range);
+    if (!time) return failure(time.error().code, option + (": " + time.error().message));
+    to = *time;
+    return {};
+  };
+  TimeRange all = session.range().value_or(TimeRange{});
+  if (auto from = read("--from", options.from, all, part.from); !from) {
+    return tl::unexpected(from.error());
+  }
+  all.begin = part.from.value_or(all.begin);  // from 23:59 until 00:01 is two minutes
+  if (auto until = read("--until", options.until, all, part.until); !until) {
+    return tl::unexpected(until.error());
+  }
+  return part;
+}
 
 int run(const Options& options) {
   const bool asReport = options.format == reportFormat;
@@ -37,22 +63,25 @@ int run(const Options& options) {
   if (*format == ExportFormat::Mcap && options.output.empty()) {
     return reportError({ErrorCode::InvalidArgument, "A session needs a file; add -o FILE.", {}});
   }
-  ExportSelection selection;
-  selection.range.begin = options.from.value_or(selection.range.begin);
-  selection.range.end = options.to.value_or(selection.range.end);
-  if (const auto good = checkRange(selection.range); !good) return reportError(good.error());
   const InterruptGuard signals;
   Progress progress("exporting", options.progress);
   McapReaderOptions reading;
   reading.progress = [](double) { return !interrupted; };
   const auto session = SessionReader::open(options.file, reading);
   if (!session) return reportError(session.error());
+  const auto part = partOf(*session, options);
+  if (!part) return reportError(part.error());
+  ExportSelection selection;
+  selection.range.begin = part->from.value_or(selection.range.begin);
+  selection.range.end = part->until.value_or(selection.range.end);
+  if (const auto good = checkRange(selection.range); !good) return reportError(good.error());
   if (asReport || asPicture) {
-    const auto done = asReport ? exportReport(*session, selection.range, options.output)
-                               : exportPictures(*session,
-                                                {options.format, options.from, options.to,
-                                                 options.rate, options.output},
-                                                std::ref(progress));
+    const auto done =
+        asReport
+            ? exportReport(*session, selection.range, options.output)
+            : exportPictures(
+                  *session, {options.format, part->from, part->until, options.rate, options.output},
+                  std::ref(progress));
     for (const std::string& note : session->notes())
       std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
@@ -98,6 +127,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli export live.mcap --to csv-even --rate 5 --robots 'Robot 1' "
       "--clock\n"
       "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap\n"
+      "          pitchboard-cli export live.mcap --to mcap --from 14:03:20 --until 14:05 -o "
+      "goal.mcap\n"
       "          pitchboard-cli export match.mcap --to mp4 --from 60 --until 90 -o goal.mp4");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
   command
@@ -108,8 +139,9 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
                    "and videos need ffmpeg)")
       ->type_name("FORMAT")
       ->capture_default_str();
-  command->add_option("--from", options->from, "First second")->type_name("T");
-  command->add_option("--until", options->to, "Last second")->type_name("T");
+  command->add_option("--from", options->from, std::string("Begin: ") + sessionTimeForms)
+      ->type_name("T");
+  command->add_option("--until", options->until, "End, in the same ways")->type_name("T");
   command->add_option("--robots", options->robots, "Only these, e.g. B1,R2 or match")
       ->type_name("NAMES")
       ->delimiter(',');

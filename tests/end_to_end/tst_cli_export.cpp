@@ -2,10 +2,12 @@
 // What `export` makes besides tables of all rows: even times, times of day, pictures and videos.
 #include <QtTest>
 
+#include <QDateTime>
 #include <QImage>
 #include <QRegularExpression>
 #include <QStandardPaths>
 #include <QXmlStreamReader>
+#include <cmath>
 
 #include "../support/program_run.h"
 
@@ -52,6 +54,41 @@ class TestCliExport : public QObject {
       QVERIFY2(form.match(QString::fromLatin1(line)).hasMatch(), line.constData());
     }
     QCOMPARE(cli({"export", m_session, "--to", "csv-even", "--rate", "0"}).exitCode, 2);
+  }
+
+  /// The clock that the table prints says where the part begins and ends.
+  void aPartIsChosenByTimesOfDay() {
+    const auto table = [this](const QStringList& part) {
+      const ProgramRun run = cli(QStringList{"export", m_session, "--to", "csv-wide", "--robots",
+                                             "match", "--variables", "BALL_X", "--clock"} +
+                                 part);
+      return run.exitCode == 0 ? run.out.trimmed().split('\n').mid(1) : QList{run.err};
+    };
+    const QList<QByteArray> all = table({});
+    QVERIFY(all.size() > 200);
+    const auto clockOf = [](const QByteArray& line) {
+      return QString::fromLatin1(line.split(',').value(1));
+    };
+    const QString from = clockOf(all[60]), until = clockOf(all[180]);
+    const auto first = [](const QList<QByteArray>& lines, qsizetype at) {
+      return lines.value(at < 0 ? lines.size() + at : at).split(',').value(0).toDouble();
+    };
+    // Milliseconds are printed, and rows are 16 apart.
+    const auto check = [&](const QString& a, const QString& b) {
+      const QList<QByteArray> part = table({"--from", a, "--until", b});
+      QVERIFY2(std::abs(first(part, 0) - first(all, 60)) < 0.02, part[0].constData());
+      QVERIFY2(std::abs(first(part, -1) - first(all, 180)) < 0.02, part[0].constData());
+    };
+    check(from, until);
+    check(from.mid(11), until.mid(11));  // without the day
+    const auto local = [](const QString& clock) {
+      return QDateTime::fromString(clock, Qt::ISODateWithMs).toLocalTime().toString("HH:mm:ss.zzz");
+    };
+    check(local(from), local(until));
+    const ProgramRun wrong = cli({"export", m_session, "--from", "14:99"});
+    QCOMPARE(wrong.exitCode, 2);
+    QVERIFY2(wrong.err.contains("--from: \"14:99\" is no time; write seconds"), wrong.err);
+    QCOMPARE(cli({"export", m_session, "--from", until, "--until", from}).exitCode, 2);
   }
 
   void aPictureAsSvg() {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a robot's text datagram, all the way: the decoder, the team's book-keeping, the
-// rows.
+// rows. And the same bytes as a moment of a session that somebody typed.
+#include <cmath>
 #include <cstdlib>
 
 #include <robotlink/live/live_rows.h>
 #include <telemetry/series/series_store.h>
+#include <telemetry/session/session_time.h>
 
 using namespace pitchboard::telemetry;
 
@@ -53,7 +55,10 @@ struct Path {
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   static Path path;
-  path.take({reinterpret_cast<const char*>(data), size});
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  path.take(text);
+  const auto moment = sessionTime(text, WallTime{std::chrono::seconds(1'700'000'000)}, {0.0, 60.0});
+  if (moment && !std::isfinite(*moment)) std::abort();
   // The whole status is a large value: now and then is enough.
   static unsigned rounds = 0;
   if (++rounds % 64 == 0) path.check();

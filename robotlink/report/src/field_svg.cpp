@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/report/field_svg.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <vector>
 
 #include <robotlink/frame/belief.h>
+#include <robotlink/frame/drawing_origin.h>
+#include <robotlink/report/report_page.h>
 
 #include "report_charts.h"
 
@@ -46,6 +51,18 @@ class Drawing {
     for (const Point& point : points) m_body += n(100 * point.x) + ',' + n(-100 * point.y) + ' ';
     m_body += "\" fill=\"none\" stroke-linejoin=\"round\" " + style + "/>";
   }
+  void closed(std::span<const Point> points, const std::string& style) {
+    m_body += "<polygon points=\"";
+    for (const Point& point : points) m_body += n(100 * point.x) + ',' + n(-100 * point.y) + ' ';
+    m_body += "\" stroke-linejoin=\"round\" " + style + "/>";
+  }
+  /// With an edge of its own, so that it can be read on grass and on robots.
+  void label(const Point& at, const std::string& words, const std::string& style) {
+    m_body += "<text x=\"" + n(100 * at.x) + "\" y=\"" + n(-100 * at.y) +
+              "\" dy=\"4\" text-anchor=\"middle\" font-family=\"DejaVu Sans, sans-serif\" "
+              "font-size=\"12\" font-weight=\"700\" paint-order=\"stroke\" stroke-width=\"3\" " +
+              style + ">" + escaped(words) + "</text>";
+  }
   std::string document() const {
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + n(-m_halfWidth) + ' ' +
            n(-m_halfHeight) + ' ' + n(2 * m_halfWidth) + ' ' + n(2 * m_halfHeight) + "\">" +
@@ -83,6 +100,98 @@ void drawField(Drawing& d, const sim::FieldSpec& f) {
   }
 }
 
+struct Ink {
+  std::string colour = {};  // of SVG
+  double opacity = 1.0;
+  bool isDark = false;
+  std::string as(const char* paint, double share = 1.0) const {
+    return std::string(paint) + "=\"" + colour + "\" " + paint + "-opacity=\"" +
+           fixed(opacity * share, 2) + "\" ";
+  }
+};
+
+Ink inkOf(const telemetry::DrawingShape& shape, const char* team) {
+  if (!shape.colour)
+    return {team, 1.0, team == teamFill[static_cast<std::size_t>(TeamColor::Black)]};
+  const std::uint32_t c = *shape.colour, red = c >> 16 & 255U, green = c >> 8 & 255U,
+                      blue = c & 255U;
+  std::array<char, 16> hex{};
+  std::snprintf(hex.data(), hex.size(), "#%06x", c & 0xffffffU);
+  return {hex.data(), static_cast<double>(c >> 24) / 255.0,
+          11 * red + 16 * green + 5 * blue < 32 * 90};
+}
+
+/// One pixel of the screen is drawn as one centimetre: a field fills a window at about that scale.
+void drawShape(Drawing& d, const telemetry::DrawingShape& shape, const Pose& origin,
+               const Ink& ink) {
+  using telemetry::ShapeKind;
+  constexpr double headLength_cm = 11.0, headWidth_cm = 4.5, pointRadius_cm = 3.0, fillShare = 0.35;
+  std::vector<Point> points;
+  points.reserve(shape.points.size());
+  const double c = std::cos(origin.yaw), s = std::sin(origin.yaw);
+  for (const Point& p : shape.points) {
+    points.push_back(
+        {origin.position.x + c * p.x - s * p.y, origin.position.y + s * p.x + c * p.y});
+  }
+  if (points.empty()) return;
+  const std::string stroke =
+      ink.as("stroke") + "stroke-linecap=\"round\" stroke-width=\"" + fixed(shape.width, 1) + "\" ";
+  const std::string filled = ink.as("fill", fillShare) + stroke;
+  const std::string empty = "fill=\"none\" " + stroke;
+  switch (shape.kind) {
+    case ShapeKind::Line:
+      return d.way(points, stroke);
+    case ShapeKind::Arrow: {
+      const Point tip = points.back(), before = points[points.size() - 2];
+      const double length = distance(before, tip);
+      if (length < 0.01) return d.way(points, stroke);
+      const double aheadX = (tip.x - before.x) / length, aheadY = (tip.y - before.y) / length;
+      const auto behind = [&](double back, double aside) {
+        return Point{tip.x - aheadX * back - aheadY * aside,
+                     tip.y - aheadY * back + aheadX * aside};
+      };
+      const double head = std::min((headLength_cm + shape.width) / 100, length);
+      const double wide = (headWidth_cm + shape.width / 2) * head / (headLength_cm + shape.width);
+      points.back() = behind(0.8 * head, 0.0);
+      d.way(points, stroke);
+      const std::array triangle{tip, behind(head, wide), behind(head, -wide)};
+      return d.closed(triangle, ink.as("fill"));
+    }
+    case ShapeKind::Circle:
+      return d.circle(points.front(), 100 * shape.radius, empty);
+    case ShapeKind::Disc:
+      return d.circle(points.front(), 100 * shape.radius, filled);
+    case ShapeKind::Polygon:
+      return d.closed(points, empty);
+    case ShapeKind::Area:
+      return d.closed(points, filled);
+    case ShapeKind::Point:
+      return d.circle(points.front(), std::max(pointRadius_cm, shape.width), ink.as("fill"));
+    case ShapeKind::Text:
+      return d.label(points.front(), shape.text,
+                     ink.as("fill") + (ink.isDark ? "stroke=\"#ffffff\"" : "stroke=\"#141a16\""));
+  }
+}
+
+const char* fillOf(const RobotFrame& robot) {
+  return teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
+}
+
+/// What the robots' programs drew, as the studio shows it with all of its layers.
+void drawDrawings(Drawing& d, const MatchFrame& frame) {
+  for (const telemetry::RobotDrawings& drawn : frame.drawings) {
+    const RobotFrame* robot = frame.robot(RobotId{drawn.robot});
+    const char* team = robot ? fillOf(*robot) : teamFill.front();
+    for (const auto& layer : drawn.layers) {
+      const auto origin = drawingOrigin(layer->frame, robot, frame.field);
+      if (!origin) continue;
+      for (const telemetry::DrawingShape& shape : layer->shapes) {
+        drawShape(d, shape, *origin, inkOf(shape, team));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::string fieldSvg(const MatchFrame& frame) {
@@ -90,7 +199,7 @@ std::string fieldSvg(const MatchFrame& frame) {
   drawField(d, frame.field);
   for (const RobotFrame& robot : frame.robots) {
     if (!robot.poseKnown()) continue;
-    const char* fill = teamFill[static_cast<std::size_t>(robot.identity.team) % teamFill.size()];
+    const char* fill = fillOf(robot);
     const double radius_m = robot.radius > 0.0 ? robot.radius : frame.field.robotRadius;
     const double radius = 100 * radius_m;
     const std::string stroke = std::string("stroke=\"") + fill + "\" stroke-width=\"3\"";
@@ -112,6 +221,7 @@ std::string fieldSvg(const MatchFrame& frame) {
     d.circle(frame.snapshot.ball, 100 * frame.field.ballRadius,
              std::string("fill=\"") + ballColour + "\" stroke=\"#1b1d20\" stroke-width=\"1.5\"");
   }
+  drawDrawings(d, frame);
   return d.document();
 }
 

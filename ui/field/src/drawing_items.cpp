@@ -8,14 +8,13 @@
 #include <cmath>
 #include <optional>
 
-#include <robotlink/frame/belief.h>
+#include <robotlink/frame/drawing_origin.h>
 #include <robotlink/frame/match_frame.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 namespace {
 
-using telemetry::DrawingFrame;
 using telemetry::DrawingShape;
 using telemetry::ShapeKind;
 
@@ -29,15 +28,6 @@ const QFont& textFont() {
 
 QString textOf(const DrawingShape& shape) {
   return QString::fromStdString(shape.text);
-}
-
-/// From where a layer counts; nothing for what nobody knows.
-std::optional<Pose> originOf(DrawingFrame frame, const link::RobotFrame* robot,
-                             const sim::FieldSpec& field) {
-  if (frame == DrawingFrame::Field) return Pose{};
-  if (robot == nullptr || !robot->poseKnown()) return std::nullopt;
-  if (frame == DrawingFrame::Belief) return link::perceivingPose(field, *robot);
-  return robot->pose;
 }
 
 }  // namespace
@@ -168,7 +158,7 @@ void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotId
     }
     const link::RobotFrame* robot = frame->robot(id);
     for (const auto& layer : drawn.layers) {
-      const auto origin = originOf(layer->frame, robot, frame->field);
+      const auto origin = link::drawingOrigin(layer->frame, robot, frame->field);
       if (!origin || !m_style->drawings.shows(drawn.robot, layer->name)) continue;
       const std::pair key(drawn.robot, layer->name);
       auto kept = before.extract(key);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A plain drawing of a frame, for reports made without a display: field, robots, ball, and what the
-// robots believe as dashed circles. (The studio draws its own pictures.)
+// A plain drawing of a frame, for reports made without a display: field, robots, ball, what the
+// robots believe as dashed circles, and what their programs drew. (The studio draws its own
+// pictures.)
 
 #include <span>
 #include <string>

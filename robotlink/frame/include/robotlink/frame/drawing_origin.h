@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// From where a layer that a robot's program drew counts its metres: one answer for the studio's
+// field and for pictures made without a screen. A pure function.
+
+#include <optional>
+
+#include <robotlink/frame/match_frame.h>
+
+namespace pitchboard::link {
+
+/// In the studio's frame. `robot` may be null: it is not on the field. Nothing for what nobody
+/// knows.
+std::optional<Pose> drawingOrigin(telemetry::DrawingFrame frame, const RobotFrame* robot,
+                                  const sim::FieldSpec& field);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/session/session_time.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <optional>
+
+namespace pitchboard::telemetry {
+namespace {
+
+using std::chrono::floor;
+using std::chrono::seconds;
+
+/// Takes what it reads off the front.
+class Words {
+ public:
+  explicit Words(std::string_view text) : m_text(text) {}
+  bool take(char c) {
+    if (m_text.empty() || m_text.front() != c) return false;
+    m_text.remove_prefix(1);
+    return true;
+  }
+  /// Exactly so many digits.
+  std::optional<int> number(std::size_t digits) {
+    int value = 0;
+    if (m_text.size() < digits) return std::nullopt;
+    const char* const end = m_text.data() + digits;
+    const auto [stop, error] = std::from_chars(m_text.data(), end, value);
+    if (error != std::errc() || stop != end || value < 0) return std::nullopt;
+    m_text.remove_prefix(digits);
+    return value;
+  }
+  /// What is behind the point, s.
+  std::optional<double> fraction() {
+    double value = 0.0;
+    const std::string text =
+        "0." + std::string(m_text.substr(0, m_text.find_first_not_of("0123456789")));
+    if (text.size() == 2) return std::nullopt;
+    (void)std::from_chars(text.data(), text.data() + text.size(), value);
+    m_text.remove_prefix(text.size() - 2);
+    return value;
+  }
+  bool atEnd() const { return m_text.empty(); }
+
+ private:
+  std::string_view m_text;
+};
+
+struct Moment {
+  std::optional<std::array<int, 3>> day;  // year, month, day
+  int hour = 0, minute = 0, second = 0;
+  double fraction = 0.0;
+  bool utc = false;
+};
+
+std::optional<Moment> parsed(std::string_view text) {
+  Moment moment;
+  Words words(text);
+  if (text.size() > 10 && text[4] == '-') {
+    const auto year = words.number(4);
+    if (!year || !words.take('-')) return std::nullopt;
+    const auto month = words.number(2);
+    if (!month || !words.take('-')) return std::nullopt;
+    const auto day = words.number(2);
+    if (!day || (!words.take('T') && !words.take(' '))) return std::nullopt;
+    const std::chrono::year_month_day date{std::chrono::year(*year),
+                                           std::chrono::month(static_cast<unsigned>(*month)),
+                                           std::chrono::day(static_cast<unsigned>(*day))};
+    if (!date.ok()) return std::nullopt;
+    moment.day = {*year, *month, *day};
+  }
+  const auto hour = words.number(2);
+  if (!hour || *hour > 23 || !words.take(':')) return std::nullopt;
+  const auto minute = words.number(2);
+  if (!minute || *minute > 59) return std::nullopt;
+  moment.hour = *hour;
+  moment.minute = *minute;
+  if (words.take(':')) {
+    const auto second = words.number(2);
+    if (!second || *second > 59) return std::nullopt;
+    moment.second = *second;
+    if (words.take('.')) {
+      const auto fraction = words.fraction();
+      if (!fraction) return std::nullopt;
+      moment.fraction = *fraction;
+    }
+  }
+  moment.utc = words.take('Z');
+  return words.atEnd() ? std::optional(moment) : std::nullopt;
+}
+
+/// Seconds since 1970.
+double wallOf(const Moment& moment, const std::tm& day) {
+  std::tm parts{};
+  parts.tm_year = day.tm_year;
+  parts.tm_mon = day.tm_mon;
+  parts.tm_mday = day.tm_mday;  // may be one before or behind the month
+  parts.tm_hour = moment.hour;
+  parts.tm_min = moment.minute;
+  parts.tm_sec = moment.second;
+  parts.tm_isdst = -1;
+  const std::time_t whole = moment.utc ? timegm(&parts) : mktime(&parts);
+  return static_cast<double>(whole) + moment.fraction;
+}
+
+double secondsAt(WallTime start, double wall) {
+  // The whole seconds apart from the rest: a double holds no nanoseconds since 1970.
+  const auto whole = floor<seconds>(start);
+  const double rest = std::chrono::duration<double>(start - whole).count();
+  return wall - static_cast<double>(whole.time_since_epoch().count()) - rest;
+}
+
+}  // namespace
+
+Result<double> sessionTime(std::string_view text, WallTime start, TimeRange range) {
+  double plain = 0.0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), plain);
+  if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(plain)) {
+    return plain;
+  }
+  const auto moment = parsed(text);
+  if (!moment) {
+    return failure(ErrorCode::InvalidArgument, '"' + std::string(text.substr(0, 40)) +
+                                                   "\" is no time; write " + sessionTimeForms);
+  }
+  if (start.time_since_epoch().count() <= 0) {
+    return failure(ErrorCode::InvalidArgument,
+                   "this session does not say when it was recorded; write seconds of the session");
+  }
+  std::tm day{};
+  if (moment->day) {
+    day.tm_year = (*moment->day)[0] - 1900;
+    day.tm_mon = (*moment->day)[1] - 1;
+    day.tm_mday = (*moment->day)[2];
+    return secondsAt(start, wallOf(*moment, day));
+  }
+  const double begin = std::floor(std::clamp(range.begin, -1e9, 1e9));
+  const auto first = static_cast<std::time_t>(floor<seconds>(start).time_since_epoch().count() +
+                                              static_cast<std::int64_t>(begin));
+  if ((moment->utc ? gmtime_r(&first, &day) : localtime_r(&first, &day)) == nullptr) {
+    return failure(ErrorCode::SystemError, "the time zone of this computer cannot be used");
+  }
+  const auto away = [range](double time) {
+    return std::max({0.0, range.begin - time, time - range.end});
+  };
+  std::array<double, 3> days{};
+  for (std::size_t i = 0; i < days.size(); ++i) {
+    std::tm one = day;
+    one.tm_mday += static_cast<int>(i) - 1;
+    days[i] = secondsAt(start, wallOf(*moment, one));
+  }
+  return *std::ranges::min_element(days, {}, away);
+}
+
+}  // namespace pitchboard::telemetry
