@@ -128,8 +128,11 @@ class TestSessionAttached : public QObject {
     if (!a.health || !b.health) return QStringLiteral("no health");
     for (link::RobotFrame* robot : {&a, &b}) {
       link::RobotHealth& health = *robot->health;
-      health.age = health.jitter = health.rate = 0.0;
-      health.messages = health.bytes = 0;
+      health.age = {};
+      health.jitter = {};
+      health.rate = {};
+      health.messages = {};
+      health.bytes = {};
       for (auto& process : health.processes) process.since = {};
     }
     return link::difference(a, b);
