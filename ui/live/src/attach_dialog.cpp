@@ -172,6 +172,15 @@ void AttachDialog::listSegments() {
                                    : QStringLiteral("needs its own catalog")});
     m_segments->item(row, 0)->setData(Qt::UserRole, info.key);
   }
+  const bool isNote = m_message->property("note").toBool();
+  if (segments.empty() && m_message->text().isEmpty()) {
+    say(QStringLiteral("No program of this computer has shared memory now. Start the robot's "
+                       "processes, or type the key: it is taken up when it comes."),
+        false);
+    m_message->setProperty("note", true);
+  } else if (!segments.empty() && isNote) {
+    say({}, false);
+  }
 }
 
 void AttachDialog::listAttached() {
@@ -259,6 +268,7 @@ bool AttachDialog::say(const QString& sentence, bool bad) {
   QPalette colours = palette();
   colours.setColor(QPalette::WindowText, bad ? theme().errorText : theme().secondaryText);
   m_message->setPalette(colours);
+  m_message->setProperty("note", false);
   m_message->setText(sentence);
   return !bad;
 }

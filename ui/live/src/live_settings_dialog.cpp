@@ -72,7 +72,7 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   column->addWidget(tabs);
   column->addWidget(m_problem);
   column->addWidget(buttons);
-  resize(scaled(this, 680), scaled(this, 480));
+  resize(scaled(this, 760), scaled(this, 580));
   adopt();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/live/referee_dock.h>
 
+#include <QHeaderView>
 #include <QLabel>
 #include <QStackedWidget>
 #include <QTableView>
@@ -80,10 +81,11 @@ class RefereeDock : public QStackedWidget {
                                         : QStringLiteral("refereeRightPlayers"));
     team.table->setModel(team.model);
     styleTable(team.table);
-    constexpr int widths[] = {64, 132, 44, 72};
-    for (int column = 0; column < 4; ++column) {
-      team.table->setColumnWidth(column, scaled(this, widths[column]));
-    }
+    // All of it fits beside the field; what is longest gives way.
+    QHeaderView* head = team.table->horizontalHeader();
+    head->setStretchLastSection(false);
+    head->setSectionResizeMode(QHeaderView::ResizeToContents);
+    head->setSectionResizeMode(RefereeModel::State, QHeaderView::Stretch);
     return team;
   }
 
@@ -102,6 +104,8 @@ class RefereeDock : public QStackedWidget {
     for (std::size_t i = 0; i < m_teams.size(); ++i) {
       m_teams[i].name->setText(refereeTeamText(view.teams[i], view.ourTeam));
       m_teams[i].model->update(view.teams[i], view.replies);
+      // Robots answer the referee, who tells it in monitor mode only.
+      m_teams[i].table->setColumnHidden(RefereeModel::Robot, view.replies.empty());
     }
     setCurrentWidget(m_page);
   }

@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
-#include <QRegularExpression>
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QTimer>
@@ -35,28 +34,6 @@ QIcon swatch(TeamColor colour) {
   return pixels;
 }
 
-QString namesText(const std::map<int, std::string>& robots) {
-  QStringList parts;
-  for (const auto& [number, name] : robots) {
-    parts << QStringLiteral("%1 %2").arg(number).arg(QString::fromStdString(name));
-  }
-  return parts.join(QStringLiteral(", "));
-}
-
-/// "1 Ana, 3 Bo"; nothing where a part is not of this form.
-std::optional<std::map<int, std::string>> namesFrom(const QString& typed) {
-  static const QRegularExpression form(QStringLiteral("^(\\d{1,3})\\s*[:=]?\\s+(\\S.*)$"));
-  std::map<int, std::string> names;
-  for (const QString& part : typed.split(QLatin1Char(','), Qt::SkipEmptyParts)) {
-    if (part.trimmed().isEmpty()) continue;
-    const auto match = form.match(part.trimmed());
-    const int number = match.captured(1).toInt();
-    if (!match.hasMatch() || number < 1) return std::nullopt;
-    names[number] = match.captured(2).toStdString();
-  }
-  return names;
-}
-
 }  // namespace
 
 TeamsPage::TeamsPage(LiveController* live, QWidget* parent)
@@ -80,7 +57,7 @@ TeamsPage::TeamsPage(LiveController* live, QWidget* parent)
                                       QStringLiteral("Messages"), QStringLiteral("Robot"),
                                       QStringLiteral("Says")});
   styleTable(m_table);
-  const int widths[] = {110, 55, 70, 150};
+  const int widths[] = {110, 55, 84, 150};
   for (int column = 0; column < 4; ++column) {
     m_table->setColumnWidth(column, scaled(this, widths[column]));
   }
@@ -208,37 +185,6 @@ QWidget* TeamsPage::makeForm() {
   return widget;
 }
 
-TeamsPage::Draft TeamsPage::draftOf(const telemetry::TeamSetup& setup) {
-  Draft draft{setup, {}, namesText(setup.robots)};
-  QStringList senders;
-  for (const std::string& sender : setup.senders) senders << QString::fromStdString(sender);
-  draft.senders = senders.join(QStringLiteral(", "));
-  return draft;
-}
-
-Result<telemetry::TeamSetup> TeamsPage::setupOf(const Draft& draft) {
-  telemetry::TeamSetup setup = draft.setup;
-  static const QRegularExpression between(QStringLiteral("[,;\\s]+"));
-  setup.senders.clear();
-  for (const QString& part : draft.senders.split(between, Qt::SkipEmptyParts)) {
-    setup.senders.push_back(part.toStdString());
-  }
-  const auto names = namesFrom(draft.robots);
-  if (!names) {
-    return failure(ErrorCode::InvalidArgument,
-                   "Robots are written as numbers and names: 1 Ana, 2 Bo", setup.title());
-  }
-  setup.robots = *names;
-  if (setup.firstPort == 0) setup.lastPort = 0;
-  if (setup.firstPort > 0 && setup.lastPort == 0) setup.lastPort = setup.firstPort;
-  if (setup.lastPort < setup.firstPort) {
-    return failure(ErrorCode::InvalidArgument,
-                   "The last port lies before the first one; exchange them.", setup.title());
-  }
-  // What a file of it would be told.
-  return telemetry::parseTeamSetup(telemetry::teamSetupText(setup), setup.title(), setup.profile);
-}
-
 void TeamsPage::setTeams(const std::vector<telemetry::TeamSetup>& teams) {
   m_drafts.clear();
   m_list->clear();
@@ -249,7 +195,7 @@ void TeamsPage::setTeams(const std::vector<telemetry::TeamSetup>& teams) {
 
 Result<std::vector<telemetry::TeamSetup>> TeamsPage::teams() const {
   std::vector<telemetry::TeamSetup> all;
-  for (const Draft& draft : m_drafts) {
+  for (const TeamDraft& draft : m_drafts) {
     auto setup = setupOf(draft);
     if (!setup) return tl::unexpected(setup.error());
     all.push_back(std::move(*setup));
@@ -257,7 +203,7 @@ Result<std::vector<telemetry::TeamSetup>> TeamsPage::teams() const {
   return all;
 }
 
-void TeamsPage::add(Draft draft) {
+void TeamsPage::add(TeamDraft draft) {
   if (m_drafts.size() >= telemetry::TeamSetup::mostTeams) {
     return say(QStringLiteral("At most %1 teams can be heard at one time; remove one first.")
                    .arg(telemetry::TeamSetup::mostTeams),
@@ -283,7 +229,7 @@ void TeamsPage::show(int place) {
   m_remove->setEnabled(any);
   m_save->setEnabled(any);
   m_filling = true;
-  const Draft draft =
+  const TeamDraft draft =
       any ? m_drafts[static_cast<std::size_t>(place)] : draftOf(telemetry::TeamSetup());
   const telemetry::TeamSetup& setup = draft.setup;
   m_name->setText(QString::fromStdString(setup.name));
@@ -299,19 +245,15 @@ void TeamsPage::show(int place) {
   fillProfiles();
 }
 
-const TeamsPage::Draft* TeamsPage::current() const {
+TeamDraft* TeamsPage::current() {
   const int row = m_list->currentRow();
   return row >= 0 && static_cast<std::size_t>(row) < m_drafts.size()
              ? &m_drafts[static_cast<std::size_t>(row)]
              : nullptr;
 }
 
-TeamsPage::Draft* TeamsPage::current() {
-  return const_cast<Draft*>(std::as_const(*this).current());
-}
-
 void TeamsPage::fillProfiles() {
-  const Draft* draft = current();
+  const TeamDraft* draft = current();
   const std::string chosen = draft != nullptr ? draft->setup.profileName : "published";
   m_profile->clear();
   for (const std::string& name : telemetry::builtInProfiles()) {
@@ -331,7 +273,7 @@ void TeamsPage::fillProfiles() {
 void TeamsPage::chooseProfile(int index) {
   const auto use = [this](const QString& name) {
     auto profile = telemetry::loadProfile(name.toStdString());
-    Draft* draft = current();
+    TeamDraft* draft = current();
     if (draft == nullptr) return;
     if (profile) {
       draft->setup.profile = std::move(*profile);
@@ -354,7 +296,7 @@ void TeamsPage::chooseProfile(int index) {
 }
 
 void TeamsPage::take() {
-  Draft* draft = current();
+  TeamDraft* draft = current();
   if (m_filling || draft == nullptr) return;
   telemetry::TeamSetup& setup = draft->setup;
   setup.name = m_name->text().trimmed().toStdString();
@@ -382,8 +324,8 @@ Result<void> TeamsPage::load(const QString& path) {
   return {};
 }
 
-Result<void> TeamsPage::save(const QString& path) const {
-  const Draft* draft = current();
+Result<void> TeamsPage::save(const QString& path) {
+  const TeamDraft* draft = current();
   if (draft == nullptr) return failure(ErrorCode::NotFound, "No team is chosen.");
   const auto setup = setupOf(*draft);
   if (!setup) return tl::unexpected(setup.error());
@@ -407,7 +349,7 @@ void TeamsPage::ask(bool save) {
 void TeamsPage::preview() {
   std::vector<telemetry::TeamSetup> setups;
   std::vector<std::uint16_t> ports;
-  for (const Draft& draft : m_drafts) {
+  for (const TeamDraft& draft : m_drafts) {
     const auto setup = setupOf(draft);
     // What cannot be read yet keeps its place.
     setups.push_back(setup ? *setup : draft.setup);

@@ -10,6 +10,7 @@
 #include <telemetry/wire/team_setup.h>
 
 #include "arrivals.h"
+#include "team_draft.h"
 #include "team_preview.h"
 
 class QComboBox;
@@ -32,24 +33,15 @@ class TeamsPage : public QWidget {
   Result<std::vector<telemetry::TeamSetup>> teams() const;
   /// Adds the setup of a file, and shows it.
   Result<void> load(const QString& path);
-  Result<void> save(const QString& path) const;
+  Result<void> save(const QString& path);
 
  private:
-  /// As it is typed; text that is no setup yet stays text.
-  struct Draft {
-    telemetry::TeamSetup setup;
-    QString senders, robots;
-  };
-  static Draft draftOf(const telemetry::TeamSetup& setup);
-  static Result<telemetry::TeamSetup> setupOf(const Draft& draft);
-
   /// Of the list's row; null: none is chosen.
-  const Draft* current() const;
-  Draft* current();
+  TeamDraft* current();
   QLayout* makeList();
   QWidget* makeForm();
   void fillProfiles();
-  void add(Draft draft);
+  void add(TeamDraft draft);
   void show(int place);
   void take();
   void name(int place);
@@ -61,7 +53,7 @@ class TeamsPage : public QWidget {
   LiveController* m_live;
   Arrivals m_arrivals;
   std::vector<KnownFormat> m_known;  ///< the built-in profiles
-  std::vector<Draft> m_drafts;
+  std::vector<TeamDraft> m_drafts;
   bool m_filling = false;
   QListWidget* m_list;
   QToolButton *m_remove, *m_save;
