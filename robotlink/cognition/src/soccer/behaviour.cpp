@@ -21,7 +21,9 @@ Choice Behaviour::choose(const WorldModel& world) {
         choice.search = true;
         return choice;
       }
-      break;
+      // Standing it may see the same two corners for ever, and they do not say where it is.
+      m_search.restart();
+      return {acts::turnRight, Intention::Idle, {}, true};
     case Referee::Silent:
     case Referee::Stop:
     case Referee::Set:
