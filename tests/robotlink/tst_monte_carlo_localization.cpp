@@ -103,8 +103,12 @@ std::vector<std::uint64_t> all(const particles::Kernels& k, int n) {
   k.fillNormal(lanes, crowd.along.data(), n);
   k.move(crowd.poses(), someWay, crowd.turn.data(), crowd.along.data(), crowd.across.data());
   k.weighBearing(crowd.poses(), crowd.weight.data(), 4.5F, 3.0F, 0.8F, 0.6F, someTrust);
-  k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
-                 {{0.6F, -0.8F}, {0.8F, 0.6F}, 2, true}, {8.0F, 0.05F});
+  for (const int count : {1, 2}) {
+    for (const bool bothWays : {false, true}) {
+      add(k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
+                         {{0.6F, -0.8F}, {0.8F, 0.6F}, count, bothWays}, {8.0F, 0.05F}));
+    }
+  }
   add(k.sum(crowd.weight.data(), n));
   add(k.sumOfSquares(crowd.weight.data(), n));
   const particles::Mean mean = k.meanOf(crowd.poses(), crowd.weight.data());
@@ -113,8 +117,7 @@ std::vector<std::uint64_t> all(const particles::Kernels& k, int n) {
   for (const auto& one : {mean, near}) {
     for (const double value : {one.weight, one.x, one.y, one.cosine, one.sine}) add(value);
   }
-  const particles::Spread spread =
-      k.spreadAbout(crowd.poses(), crowd.weight.data(), crowd.scratch.data(), 0.1F, 0.2F);
+  const particles::Spread spread = k.spreadAbout(crowd.poses(), crowd.weight.data(), 0.1F, 0.2F);
   add(spread.variance);
   add(spread.farthest);
   k.cellsOf(crowd.poses(), {5.2F, 3.7F, 3.3F, 36, 26}, crowd.cells.data());
@@ -250,8 +253,14 @@ class TestMonteCarloLocalization : public QObject {
     QVERIFY(std::abs(filter.belief().sigma - 0.1 * std::sqrt(2.0)) < 0.01);
   }
 
+  void widerRegistersGiveTheSameBits_data() {
+    QTest::addColumn<int>("width");
+    QTest::newRow("wide") << static_cast<int>(particles::Width::Wide);
+    QTest::newRow("widest") << static_cast<int>(particles::Width::Widest);
+  }
   void widerRegistersGiveTheSameBits() {
-    const particles::Kernels* wide = particles::kernelsOf(particles::Width::Wide);
+    QFETCH(int, width);
+    const particles::Kernels* wide = particles::kernelsOf(static_cast<particles::Width>(width));
     if (!wide) QSKIP("this processor or compiler has no wider registers");
     for (const int n : {1, 7, 8, 16, 203, 500}) {
       QCOMPARE(all(*wide, n), all(*particles::kernelsOf(particles::Width::Narrow), n));
@@ -280,10 +289,30 @@ class TestMonteCarloLocalization : public QObject {
     }
     const particles::Mean mean = k.meanOf(crowd.poses(), crowd.weight.data());
     QVERIFY(std::abs(mean.weight - sum) < 1e-4 && std::abs(mean.x - x / sum) < 1e-4);
-    // The yaw weighs each against the others: the mean weight stays.
-    k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
-                   {{1.0F, 0.0F}, {0.0F, 0.0F}, 1, false}, {8.0F, 0.05F});
-    QVERIFY(std::abs(k.sum(crowd.weight.data(), n) - sum) < 1e-4 * sum);
+    const particles::Spread spread = k.spreadAbout(crowd.poses(), crowd.weight.data(), 1.0F, 0.0F);
+    double variance = 0.0, farthest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double dx = static_cast<double>(crowd.x[i]) - 1.0, dy = static_cast<double>(crowd.y[i]);
+      variance += crowd.weightOf(static_cast<int>(i)) * (dx * dx + dy * dy);
+      farthest = std::max(farthest, dx * dx + dy * dy);
+    }
+    QVERIFY(std::abs(spread.variance - variance) < 1e-3 * variance);
+    QVERIFY(std::abs(spread.farthest - farthest) < 1e-5 * farthest);
+    // The yaw weighs each against the others; what the weights were worth before is told.
+    const Crowd unweighed = crowd;
+    const double told = k.weighHeading(crowd.poses(), crowd.weight.data(), crowd.scratch.data(),
+                                       {{1.0F, 0.0F}, {0.0F, 0.0F}, 1, false}, {8.0F, 0.05F});
+    QVERIFY(std::abs(told - sum) < 1e-4 * sum);
+    QVERIFY(std::abs(k.sum(crowd.weight.data(), n) - 1.0) < 1e-5);
+    double all = 0.0;
+    const auto likely = [&unweighed](std::size_t i) {
+      return static_cast<double>(unweighed.weight[i]) *
+             (0.05 + 0.95 * std::exp(8.0 * (static_cast<double>(unweighed.c[i]) - 1.0)));
+    };
+    for (std::size_t i = 0; i < n; ++i) all += likely(i);
+    for (std::size_t i = 0; i < n; ++i) {
+      QVERIFY(std::abs(crowd.weightOf(static_cast<int>(i)) - likely(i) / all) < 1e-6);
+    }
   }
 
   void theNoiseIsNearlyNormal() {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/many_draws.h>
 #include <base/random.h>
 
 #include <QtTest>
 #include <cmath>
 #include <set>
+
+#include "draw_loops.h"
 
 using namespace pitchboard;
 
@@ -73,6 +76,52 @@ class TestRandom : public QObject {
     }
     QVERIFY(std::abs(sum / draws - 3.0) < 5 * 2.0 / std::sqrt(draws));
     QVERIFY(std::abs(std::sqrt(squares / draws) - 2.0) < 5 * 2.0 / std::sqrt(2.0 * draws));
+  }
+
+  // Whatever is drawn in which order, and however many robots there are.
+  void manyDrawsAreTheDrawsOfEach() {
+    ManyDraws many;
+    for (int robots = 1; robots <= 22; ++robots) {
+      std::vector<int> numbers;
+      for (int i = 0; i < robots; ++i) numbers.push_back(3 * i + 1);
+      for (std::uint64_t tick = (1ULL << 33) - 50; tick < (1ULL << 33) + 50; ++tick) {
+        const std::uint64_t seed = 0x123456789ABCDEF0ULL + tick;
+        const int count = 1 + static_cast<int>(tick % 7);
+        many.make(seed, NoiseStream::BallVision, tick, numbers, count);
+        for (int i = 0; i < robots; ++i) {
+          auto draws = many.of(static_cast<std::size_t>(i));
+          CounterRandom one(seed, numbers[static_cast<std::size_t>(i)], NoiseStream::BallVision,
+                            tick);
+          QCOMPARE(draws.normal(4.0, 0.0), one.normal(4.0, 0.0));
+          for (int k = 0; k < count; ++k) {
+            if ((tick + static_cast<std::uint64_t>(k)) % 3 == 0)
+              QCOMPARE(draws.uniform(), one.uniform());
+            else
+              QCOMPARE(draws.normal(0.5, 2.0), one.normal(0.5, 2.0));
+          }
+        }
+      }
+    }
+  }
+
+  void widerRegistersGiveTheSameBits() {
+    const draws::Loops* wide = draws::loopsOf(draws::Width::Wide);
+    if (!wide) QSKIP("this processor or compiler has no wider registers");
+    const draws::Loops& narrow = *draws::loopsOf(draws::Width::Narrow);
+    constexpr std::size_t counters = 101;
+    std::vector<std::uint32_t> high(counters), robot(counters);
+    for (std::size_t i = 0; i < counters; ++i) {
+      high[i] = static_cast<std::uint32_t>(i * i);
+      robot[i] = static_cast<std::uint32_t>(i + 1);
+    }
+    const auto all = [&](const draws::Loops& loops) {
+      std::vector<double> values(4 * counters);
+      double* const normals = values.data() + 2 * counters;
+      loops.fillWholes({77, 8, 2}, high.data(), robot.data(), values.data(), counters);
+      loops.fillNormals(values.data(), normals, 2 * counters);
+      return values;
+    };
+    QCOMPARE(all(*wide), all(narrow));
   }
 
   void noSigmaDrawsNothing() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/angles.h>
 #include <base/random.h>
 #include <base/repeatable_math.h>
 #include <sleef.h>
@@ -6,7 +7,9 @@
 #include <QtTest>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <vector>
 
 using namespace pitchboard;
 
@@ -62,6 +65,22 @@ class TestRepeatableMath : public QObject {
     QCOMPARE(bits(repeatable::atan2(1.0, 2.0)), bits(0x1.dac670561bb50p-2));
     QCOMPARE(bits(repeatable::exp(1.0)), bits(0x1.5bf0a8b14576ap+1));
     QCOMPARE(bits(repeatable::log(10.0)), bits(0x1.26bb1bbb55515p+1));
+  }
+
+  void wrappedAnglesAreRemainders() {
+    constexpr double pi = std::numbers::pi;
+    std::vector<double> angles{0.0, -0.0, pi, -pi, 2 * pi, -2 * pi, 3 * pi, -3 * pi, 9.0, -9.0};
+    for (const double edge : std::vector<double>(angles)) {
+      angles.push_back(std::nextafter(edge, 100.0));
+      angles.push_back(std::nextafter(edge, -100.0));
+    }
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> any(-20.0, 20.0);
+    for (int i = 0; i < 100000; ++i) angles.push_back(any(random));
+    for (const double angle : angles) {
+      const double rest = std::remainder(angle, 2 * pi);
+      QCOMPARE(bits(wrapToPi(angle)), bits(rest <= -pi ? pi : rest));
+    }
   }
 
   // The quantile behind a normal draw is the inverse of the normal law, which the C library has.

@@ -170,12 +170,14 @@ struct MotionNoise {
   double forward = 0.0, sideways = 0.0, turn = 0.0;
 };
 
+bool isNoisy(const NoiseParameters& noise) {
+  return noise.forward != 0.0 || noise.sideways != 0.0 || noise.rotation != 0.0;
+}
+
 MotionNoise drawNoise(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
-  if (!tick.state.robots[index].inMotion) return {};
-  if (noise.forward == 0.0 && noise.sideways == 0.0 && noise.rotation == 0.0) return {};
-  CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Motion,
-                       tick.world.tick);
+  if (!tick.state.robots[index].inMotion || !isNoisy(noise)) return {};
+  ManyDraws::Draws random = tick.draws.motion.of(index);
   // One statement each: the published order is rotation, forward, sideways.
   MotionNoise drawn;
   drawn.turn = random.normal(0.0, noise.rotation * tick.sqrtFrames);
@@ -214,6 +216,10 @@ void setMotion(Tick& tick, std::size_t index) {
 bool liesOnFront(const RigidRobot& robot) {
   return robot.posture == Posture::OnFront ||
          (robot.posture == Posture::GettingUp && robot.action == getUpFromFront);
+}
+
+void drawMotion(Tick& tick) {
+  tick.draw(tick.draws.motion, NoiseStream::Motion, 3, isNoisy);
 }
 
 void stepControl(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

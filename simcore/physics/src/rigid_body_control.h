@@ -18,6 +18,9 @@ inline constexpr double lyingTime = 0.5;
 /// published law has no end, so that a kick at the far side of the field would stop a rolling ball.
 inline constexpr double leastKickForce = 0.05;
 
+/// Draws the noise of all robots' motion in this tick, before the first stepControl().
+void drawMotion(Tick& tick);
+
 /// Selects the action as the published state machine does (PUBLISHED_EXACT.md "Control"), kicks,
 /// changes the speeds within the gait's acceleration and turns the robot; leaves the velocity that
 /// it asks for in its Motion. Fills percept.control.

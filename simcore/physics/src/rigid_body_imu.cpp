@@ -3,8 +3,6 @@
 
 #include <numbers>
 
-#include <base/random.h>
-
 #include "rigid_body_control.h"
 
 namespace pitchboard::sim::rigid {
@@ -15,11 +13,14 @@ struct YawErrors {
   double white = 0.0;
 };
 
+bool isNoisy(const NoiseParameters& noise) {
+  return noise.imuWhite != 0.0 || noise.imuDrift != 0.0;
+}
+
 YawErrors drawErrors(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
-  if (noise.imuWhite == 0.0 && noise.imuDrift == 0.0) return {};
-  CounterRandom random(tick.settings().seed, tick.world.robots[index].id.value, NoiseStream::Imu,
-                       tick.world.tick);
+  if (!isNoisy(noise)) return {};
+  ManyDraws::Draws random = tick.draws.imu.of(index);
   YawErrors errors;
   errors.drift = random.normal(0.0, noise.imuDrift * tick.sqrtFrames);
   errors.white = random.normal(0.0, noise.imuWhite);
@@ -27,6 +28,10 @@ YawErrors drawErrors(const Tick& tick, std::size_t index) {
 }
 
 }  // namespace
+
+void drawImu(Tick& tick) {
+  tick.draw(tick.draws.imu, NoiseStream::Imu, 2, isNoisy);
+}
 
 void stepImu(Tick& tick, std::size_t index, const RobotCommand& command, ImuPercept& percept) {
   RigidRobot& robot = tick.state.robots[index];

@@ -12,6 +12,9 @@ namespace pitchboard::sim::rigid {
 /// m/s² in one g.
 inline constexpr double gravity = 9.80665;
 
+/// Draws the noise of all robots' IMUs in this tick, before the first stepImu().
+void drawImu(Tick& tick);
+
 /// Fills percept.imu. Yaw in (−π, π], relative to 180° for robots whose IMU starts there and to the
 /// last reset; gyro in rad/s; accelerometer in g (what it feels: +1 upwards at rest), x forward and
 /// y left. A robot on its front has a pitch of +90° and x = +1 g, on its back −90° and −1 g: the

@@ -46,6 +46,7 @@ class RigidBodyModel final : public PhysicsModel {
     const double dt = tick.dt;
     const std::size_t robots = tick.state.robots.size();
     m_motions.resize(robots);
+    rigid::drawMotion(tick);
     for (std::size_t i = 0; i < robots; ++i) {
       percepts[i] = Percepts{};
       rigid::stepControl(tick, i, commands[i], percepts[i]);
@@ -67,6 +68,8 @@ class RigidBodyModel final : public PhysicsModel {
              std::span<Percepts> percepts) override {
     std::vector<Event> none;  // senses report nothing
     rigid::Tick tick = tickOf(world, none);
+    rigid::drawImu(tick);
+    rigid::drawVision(tick);
     for (std::size_t i = 0; i < tick.state.robots.size(); ++i) {
       rigid::stepImu(tick, i, commands[i], percepts[i].imu);
       rigid::stepVision(tick, i, commands[i], percepts[i]);
@@ -132,12 +135,18 @@ class RigidBodyModel final : public PhysicsModel {
  private:
   rigid::Tick tickOf(WorldState& world, std::vector<Event>& events) {
     const double frames = published_frame::framesPerSecond / world.settings.tickRate;
-    return {
-        world, stateOf(world), m_motions, events, 1.0 / world.settings.tickRate, std::sqrt(frames)};
+    return {world,
+            stateOf(world),
+            m_motions,
+            events,
+            m_draws,
+            1.0 / world.settings.tickRate,
+            std::sqrt(frames)};
   }
 
   // Scratch of a tick; see rigid_body_tick.h.
   std::vector<rigid::Motion> m_motions;
+  rigid::Noise m_draws;
   rigid::Collisions m_collisions;
 };
 

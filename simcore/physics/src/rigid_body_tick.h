@@ -11,9 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include <base/angles.h>
+#include <base/many_draws.h>
 #include <base/repeatable_math.h>
 #include <simcore/world/ball_way.h>
 #include <simcore/world/event.h>
@@ -51,12 +52,19 @@ struct Motion {
   Velocity impulse;       ///< N·s received from contacts in this tick
 };
 
+/// What noise all robots have in this tick, stream by stream; made where the stream is used first.
+struct Noise {
+  std::vector<int> robots;  ///< their numbers
+  ManyDraws motion, imu, ball;
+};
+
 /// The tick that is being computed.
 struct Tick {
   WorldState& world;
   RigidBodyState& state;
   std::vector<Motion>& motions;
   std::vector<Event>& events;
+  Noise& draws;
   double dt = 0.0;          ///< s
   double sqrtFrames = 0.0;  ///< root of the tick in 1/60 s: scales noise given per 1/60 s
   BallWay ball = {};        ///< set by the collisions
@@ -66,17 +74,25 @@ struct Tick {
   const NoiseParameters& noise(std::size_t robot) const {
     return settings().noise.ofModel ? model(robot).noise : settings().noise;
   }
+  /// Fills `stream` when the noise of some robot wants it.
+  template <class Wants>
+  void draw(ManyDraws& stream, NoiseStream name, int count, const Wants& wants) const {
+    const std::size_t robots = world.robots.size();
+    bool any = false;
+    for (std::size_t i = 0; i < robots && !any; ++i) any = wants(noise(i));
+    if (!any) return;
+    draws.robots.resize(robots);
+    for (std::size_t i = 0; i < robots; ++i) draws.robots[i] = world.robots[i].id.value;
+    stream.make(settings().seed, name, world.tick, draws.robots, count);
+  }
   void report(EventKind kind, std::size_t robot, int value = 0) {
     events.push_back({kind, world.tick, world.robots[robot].id, value});
   }
 };
 
-/// The same direction in (−π, π], never −0, quick for angles that already lie there.
+/// The same direction in (−π, π], never −0.
 inline double wrapped(double angle) {
-  constexpr double pi = std::numbers::pi;
-  if (angle > -pi && angle <= pi) return angle + 0.0;
-  const double rest = std::remainder(angle, 2.0 * pi);
-  return rest <= -pi ? pi : rest + 0.0;
+  return wrapToPi(angle) + 0.0;
 }
 
 }  // namespace pitchboard::sim::rigid

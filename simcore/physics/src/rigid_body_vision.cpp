@@ -107,14 +107,16 @@ void search(const Tick& tick, std::size_t index, RigidRobot& robot) {
   robot.panRight = robot.headYaw > 0.0;
 }
 
+bool isNoisy(const NoiseParameters& noise) {
+  return noise.missedDetection != 0.0 || noise.visionDistance != 0.0 || noise.visionBearing != 0.0;
+}
+
 std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, const Image& image) {
   const auto seen = image.inView(image.ball(), tick.settings().field.ballRadius);
   if (!seen) return {};
   const NoiseParameters& noise = tick.noise(index);
-  if (noise.missedDetection == 0.0 && noise.visionDistance == 0.0 && noise.visionBearing == 0.0) {
-    return seen;
-  }
-  CounterRandom random = randomOf(tick, index, NoiseStream::BallVision);
+  if (!isNoisy(noise)) return seen;
+  ManyDraws::Draws random = tick.draws.ball.of(index);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
       std::max(0.0, random.normal(seen->distance, noise.visionDistance * seen->distance));
@@ -225,6 +227,10 @@ std::size_t longestDelay(const WorldState& world) {
     longest = std::max(longest, delayTicks(world, i));
   }
   return longest;
+}
+
+void drawVision(Tick& tick) {
+  tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, isNoisy);
 }
 
 void stepVision(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

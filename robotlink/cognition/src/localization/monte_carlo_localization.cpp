@@ -188,19 +188,18 @@ void MonteCarloLocalization::update(const LocalizationInput& input) {
   } else {
     move(input);
   }
-  const int seen = weigh(input);
-
-  const double sum = particles::kernels().sum(m_weight.data(), m_count);
-  if (!(sum > std::numeric_limits<float>::min())) {
-    makeAllAlike();  // no particle explains what is seen: nothing is known any more
-  } else {
-    particles::kernels().scale(m_weight.data(), m_count, static_cast<float>(1.0 / sum));
-  }
+  double sum = 0.0;
+  const int seen = weigh(input, sum);
+  // When no particle explains what is seen, nothing is known any more.
+  if (!(sum > particles::leastSum)) makeAllAlike();
 
   m_resetShare = 0.0;
   if (seen > 0) {
     // The mean weight of one bearing, so that it does not depend on how many were seen.
-    const double mean = repeatable::pow(std::max(sum, 1e-12), 1.0 / seen);
+    const double likely = std::max(sum, 1e-12);
+    const double mean = seen == 1   ? likely
+                        : seen == 2 ? std::sqrt(likely)
+                                    : repeatable::pow(likely, 1.0 / seen);
     if (m_slow == 0.0) m_slow = m_fast = mean;
     m_slow += std::min(1.0, m_parameters.slowRate * m_sinceBearing) * (mean - m_slow);
     m_fast += std::min(1.0, m_parameters.fastRate * m_sinceBearing) * (mean - m_fast);
@@ -257,7 +256,7 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
       m_d.data(), m_a.data(), m_b.data());
 }
 
-int MonteCarloLocalization::weigh(const LocalizationInput& input) {
+int MonteCarloLocalization::weigh(const LocalizationInput& input, double& sum) {
   const double sigma = m_parameters.bearingSigma;
   const particles::Likelihood likelihood{static_cast<float>(1.0 / (sigma * sigma)),
                                          static_cast<float>(m_parameters.outlierShare)};
@@ -271,11 +270,16 @@ int MonteCarloLocalization::weigh(const LocalizationInput& input) {
                                       static_cast<float>(bearing.cos),
                                       static_cast<float>(bearing.sin), likelihood);
   }
-  if (usable(input.imuYaw)) weighImu(*input.imuYaw);
+  if (usable(input.imuYaw)) {
+    sum = weighImu(*input.imuYaw);
+  } else {
+    sum = particles::kernels().sum(m_weight.data(), m_count);
+    particles::kernels().scale(m_weight.data(), m_count, static_cast<float>(1.0 / sum));
+  }
   return seen;
 }
 
-void MonteCarloLocalization::weighImu(double yaw) {
+double MonteCarloLocalization::weighImu(double yaw) {
   const double offset = m_imuZero == ImuZero::Left ? pi : 0.0;
   particles::Headings headings{};
   const auto add = [&headings](double heading) {
@@ -289,8 +293,7 @@ void MonteCarloLocalization::weighImu(double yaw) {
   // Not knowing where the IMU's zero is, yaw and yaw + 180 degrees are equally likely.
   headings.bothWays = m_imuZero == ImuZero::Unknown;
   const double sigma = m_parameters.imuSigma;
-  // A mean weight of 1, so that the yaw does not enter that of the bearings.
-  particles::kernels().weighHeading(
+  return particles::kernels().weighHeading(
       poses(), m_weight.data(), m_a.data(), headings,
       {static_cast<float>(1.0 / (sigma * sigma)), static_cast<float>(imuOutliers)});
 }
@@ -357,7 +360,7 @@ void MonteCarloLocalization::regularize(int count) {
 void MonteCarloLocalization::estimate() {
   particles::Mean mean = particles::kernels().meanOf(poses(), m_weight.data());
   const particles::Spread spread = particles::kernels().spreadAbout(
-      poses(), m_weight.data(), m_a.data(), static_cast<float>(mean.x), static_cast<float>(mean.y));
+      poses(), m_weight.data(), static_cast<float>(mean.x), static_cast<float>(mean.y));
   const double variance = spread.variance / mean.weight;
   if (spread.farthest > clusterRadius * clusterRadius) strongestCluster(mean);
   m_belief = {

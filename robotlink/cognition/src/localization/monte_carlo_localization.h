@@ -137,8 +137,9 @@ class MonteCarloLocalization {
                          ImuZero imuZero, std::uint64_t seed, int robot);
   void spread(const LocalizationInput& input);
   void move(const LocalizationInput& input);
-  int weigh(const LocalizationInput& input);
-  void weighImu(double yaw);
+  /// How many corners were seen; `sum`: of the weights before the yaw entered and all became 1.
+  int weigh(const LocalizationInput& input, double& sum);
+  double weighImu(double yaw);
   void resample(double resetShare);
   void regularize(int count);
   int wantedParticles();

@@ -18,6 +18,9 @@ constexpr int roomFor(int n) {
   return (n + block - 1) / block * block;
 }
 
+/// Weights that add up to less say nothing.
+inline constexpr double leastSum = 1e-30;
+
 /// Where they stand: arrays of n.
 struct Poses {
   float* x;
@@ -72,9 +75,10 @@ struct Kernels {
   /// heading.
   void (*weighBearing)(const Poses& poses, float* weight, float x, float y, float cosine,
                        float sine, const Likelihood& likelihood);
-  /// The same for the yaw, but with a mean weight of 1.
-  void (*weighHeading)(const Poses& poses, float* weight, float* scratch, const Headings& headings,
-                       const Likelihood& likelihood);
+  /// The same for the yaw; then the weights add up to 1. Gives the sum that they had before, so
+  /// that the yaw does not enter it; what is below leastSum cannot be trusted, nor what came of it.
+  double (*weighHeading)(const Poses& poses, float* weight, float* scratch,
+                         const Headings& headings, const Likelihood& likelihood);
   double (*sum)(const float* values, int n);
   double (*sumOfSquares)(const float* values, int n);
   void (*scale)(float* values, int n, float factor);
@@ -82,15 +86,15 @@ struct Kernels {
   /// The same of those within `reach` of (x, y).
   Mean (*meanNear)(const Poses& poses, const float* weight, float* scratch, float x, float y,
                    float reach);
-  Spread (*spreadAbout)(const Poses& poses, const float* weight, float* scratch, float x, float y);
+  Spread (*spreadAbout)(const Poses& poses, const float* weight, float x, float y);
   void (*cellsOf)(const Poses& poses, const Grid& grid, std::int32_t* cells);
   /// Nearly normal numbers: each is the sum of the four bytes of a random one (Irwin-Hall: mean 0,
   /// variance 1, nothing beyond +-3.46, 1021 steps).
   void (*fillNormal)(NoiseLanes& lanes, float* out, int n);
 };
 
-enum class Width { Narrow, Wide };
-/// Null where this processor or compiler has no wider registers. Both give the same bits.
+enum class Width { Narrow, Wide, Widest };
+/// Null where this processor or compiler has no such registers. All give the same bits.
 const Kernels* kernelsOf(Width width);
 /// The widest there are.
 const Kernels& kernels();

@@ -21,7 +21,9 @@ Choice Behaviour::choose(const WorldModel& world) {
         choice.search = true;
         return choice;
       }
-      break;
+      // Standing it may see the same two corners for ever, and they do not say where it is.
+      m_search.restart();
+      return {acts::turnRight, Intention::Idle, {}, true};
     case Referee::Silent:
     case Referee::Stop:
     case Referee::Set:
@@ -110,7 +112,24 @@ Pose Supporter::kickOff(const WorldModel& world) {
     m_place = nearestNotHeld(world, {places.data(), placesFor(m_supporters)}, m_place);
   }
   m_placeAsked = world.now();
-  return {places[m_place], 0.0};
+  return {besideStanding(world, places[m_place]), 0.0};
+}
+
+/// Who does not take part stays where it is: beside it, not against it.
+Point Supporter::besideStanding(const WorldModel& world, Point place) {
+  const double least = 2.0 * world.field().robotRadius + 0.2;  // m
+  for (const auto& mate : world.mates()) {
+    const bool stands =
+        mate && (mate->intention == Intention::None || mate->intention == Intention::Idle);
+    const double away = stands ? distance(place, mate->position) : least;
+    if (away >= least) continue;
+    // Away from it; from exactly the same place towards the own goal.
+    const Point to =
+        away > 0.0 ? Point{(place.x - mate->position.x) / away, (place.y - mate->position.y) / away}
+                   : Point{-1.0, 0.0};
+    place = {mate->position.x + least * to.x, mate->position.y + least * to.y};
+  }
+  return place;
 }
 
 /// As many places as supporters; two take the sides.

@@ -69,6 +69,7 @@ class Supporter : public Striker {
   static bool mateHolds(const WorldModel& world, const Point& place);
   static std::size_t nearestNotHeld(const WorldModel& world, std::span<const Point> places,
                                     std::size_t otherwise);
+  static Point besideStanding(const WorldModel& world, Point place);
   std::size_t m_place = 0;                          // for the kick-off
   std::ptrdiff_t m_supporters = 0;                  // beside this one
   double m_placeAsked = -1e9, m_placeBegan = -1e9;  // s

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "draw_loops.h"
+
+#include <Random123/philox.h>
+
+#include "normal_quantile.h"
+
+namespace pitchboard::draws {
+namespace {
+
+/// The upper 53 of 64 bits; conversions from signed words are what processors can do in vectors.
+inline double whole(std::uint32_t upper, std::uint32_t lower) {
+  return (static_cast<double>(static_cast<std::int32_t>(upper ^ 0x80000000U)) + 0x1p31) * 0x1p21 +
+         static_cast<double>(static_cast<std::int32_t>(lower >> 11));
+}
+
+}  // namespace
+
+// What every processor of the kind has.
+namespace narrow {
+#include "draw_loops.inc"
+}  // namespace narrow
+
+// Twice as wide. It has no fused multiply-add: the same operations, the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PITCHBOARD_WIDE_DRAWS
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace wide {
+#include "draw_loops.inc"
+}  // namespace wide
+#pragma GCC pop_options
+#endif
+
+const Loops* loopsOf(Width width) {
+  if (width == Width::Narrow) return &narrow::all;
+#ifdef PITCHBOARD_WIDE_DRAWS
+  if (__builtin_cpu_supports("avx2")) return &wide::all;
+#endif
+  return nullptr;
+}
+
+const Loops& loops() {
+  static const Loops& best = loopsOf(Width::Wide) ? *loopsOf(Width::Wide) : *loopsOf(Width::Narrow);
+  return best;
+}
+
+}  // namespace pitchboard::draws

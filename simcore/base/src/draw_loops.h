@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The loops behind ManyDraws, once for each width of the processor's registers. All give the same
+// bits. Pure functions on arrays of the caller.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pitchboard::draws {
+
+/// What all counters of a call have in common.
+struct Key {
+  std::uint64_t seed;
+  std::uint32_t tickLow, stream;
+};
+
+struct Loops {
+  /// Philox4x32-10 for n counters, which differ in two of their words: of each two whole numbers of
+  /// 53 random bits.
+  void (*fillWholes)(const Key& key, const std::uint32_t* high, const std::uint32_t* robot,
+                     double* wholes, std::size_t n);
+  /// The quantiles of n whole numbers, right in the middle of the normal law only.
+  void (*fillNormals)(const double* wholes, double* normals, std::size_t n);
+};
+
+enum class Width { Narrow, Wide };
+/// Null where this processor or compiler has no such registers.
+const Loops* loopsOf(Width width);
+/// The widest there are.
+const Loops& loops();
+
+/// In the middle of its step, so that it is neither 0 nor 1.
+inline double inside(double whole) {
+  return (whole + 0.5) * 0x1.0p-53;
+}
+
+}  // namespace pitchboard::draws

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <base/many_draws.h>
+
+#include "draw_loops.h"
+#include "normal_quantile.h"
+
+namespace pitchboard {
+
+double ManyDraws::Draws::uniform() {
+  ++m_normals;
+  return *m_wholes++ * 0x1.0p-53;
+}
+
+double ManyDraws::Draws::normal(double mean, double sigma) {
+  if (sigma == 0.0) return mean;
+  const double p = draws::inside(*m_wholes++), q = p - 0.5;
+  const double middle = *m_normals++;
+  return mean + sigma * (quantile::isMiddle(q) ? middle : quantile::away(p, q));
+}
+
+void ManyDraws::make(std::uint64_t seed, NoiseStream stream, std::uint64_t tick,
+                     std::span<const int> robots, int count) {
+  const auto blocks = (static_cast<std::size_t>(count) + 1) / 2;
+  const std::size_t counters = robots.size() * blocks;
+  m_stride = 2 * blocks;
+  if (m_high.size() < counters) {
+    m_high.resize(counters);
+    m_robot.resize(counters);
+    m_wholes.resize(2 * counters);
+    m_normals.resize(2 * counters);
+  }
+  // As CounterRandom counts.
+  const std::uint32_t high = static_cast<std::uint32_t>(tick >> 32) << 16;
+  for (std::size_t i = 0, k = 0; i < robots.size(); ++i) {
+    for (std::size_t block = 0; block < blocks; ++block, ++k) {
+      m_high[k] = high + static_cast<std::uint32_t>(block);
+      m_robot[k] = static_cast<std::uint32_t>(robots[i]);
+    }
+  }
+  draws::loops().fillWholes(
+      {seed, static_cast<std::uint32_t>(tick), static_cast<std::uint32_t>(stream)}, m_high.data(),
+      m_robot.data(), m_wholes.data(), counters);
+  draws::loops().fillNormals(m_wholes.data(), m_normals.data(), 2 * counters);
+}
+
+}  // namespace pitchboard
