@@ -46,6 +46,7 @@ expect 1 "FAILED  as the scenario: success_rate == 1 (success_rate = 0)" experim
 grep -q '<failure message="success_rate = 0"/>' bad/junit.xml || fail "junit.xml tells no failure"
 mkdir cases && cp bad.json short.json cases
 expect 1 "2 tests, 2 assertions, 1 failed" test cases --junit all.xml
+expect 0 "5 tests, 21 assertions, 0 failed" test
 python3 -c 'import xml.etree.ElementTree as t
 r = t.parse("all.xml").getroot()
 assert [s.get("failures") for s in r] == ["1", "0"], [s.attrib for s in r]' || fail "all.xml"
@@ -58,6 +59,23 @@ for name in ("walked_m", "displacement_m", "kicks"):
     assert abs(statistics.fmean(values) - summary[name]["mean"]) < 1e-12, name
     assert abs(statistics.stdev(values) - summary[name]["sd"]) < 1e-9, name
     assert abs(statistics.median(values) - summary[name]["median"]) < 1e-12, name
+PY
+
+# A hundred times the runs need next to no more memory: 8 bytes for each figure of a run.
+sed 's/"duration": 5/"duration": 0.1/; s/"record": \[2\],//; s/time_s == 5/time_s > 0/' short.json > tiny.json
+python3 - << 'PY' || fail "memory grows with the number of runs"
+import os
+def peak_megabytes(runs):
+    cli = os.environ["PITCHBOARD_CLI"]
+    out = os.open("/dev/null", os.O_WRONLY)
+    child = os.posix_spawn(cli, [cli, "experiment", "tiny.json", "--out", "tiny-%d" % runs, "--runs",
+                                 str(runs), "--jobs", "2"], os.environ,
+                           file_actions=[(os.POSIX_SPAWN_DUP2, out, 1), (os.POSIX_SPAWN_DUP2, out, 2)])
+    _, status, use = os.wait4(child, 0)
+    assert status == 0, status
+    return use.ru_maxrss / 1024
+few, many = peak_megabytes(50), peak_megabytes(5000)
+assert many < few + 8, (few, many)
 PY
 
 # GNU parallel gives the same bytes as one program.
