@@ -19,7 +19,7 @@ pitchboard::Result<Profile> profileOf(const QByteArray& top, const QByteArray& f
 }
 
 struct Read {
-  Read(const TextDecoder& by, const QByteArray& message) : decoder(by) {
+  Read(const TextDecoder& by, const QByteArray& bytes) : decoder(by), message(bytes) {
     decoder.decode({message.data(), static_cast<std::size_t>(message.size())}, decoded);
   }
   double at(const char* name) const {
@@ -30,6 +30,7 @@ struct Read {
     return qInf();
   }
   const TextDecoder& decoder;
+  const QByteArray message;  // words of what was decoded point into it
   DecodedText decoded;
 };
 
