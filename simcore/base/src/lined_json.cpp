@@ -173,7 +173,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       level.node.items.push_back(std::move(node));
     } else {
       node.line = level.keyLine;
-      level.node.members.emplace_back(std::move(level.key), std::move(node));
+      level.node.members.push_back({std::move(level.key), std::move(node)});
     }
     return true;
   }

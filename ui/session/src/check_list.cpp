@@ -12,7 +12,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int listHeight = 92;  // px of the mock
+constexpr int listHeight = 92;  // px of the mock, at least
 
 }  // namespace
 
@@ -25,7 +25,7 @@ CheckList::CheckList(const QStringList& names, const QString& placeholder, QWidg
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     item->setCheckState(Qt::Checked);
   }
-  m_list->setFixedHeight(scaled(this, listHeight));
+  m_list->setMinimumHeight(scaled(this, listHeight));
   m_list->setUniformItemSizes(true);
   auto* row = new QHBoxLayout;
   row->addWidget(m_filter, 1);

@@ -19,6 +19,8 @@
 
 namespace pitchboard {
 
+struct JsonMember;
+
 struct JsonNode {
   enum class Kind { Null, Boolean, Number, Text, Array, Object };
 
@@ -29,9 +31,16 @@ struct JsonNode {
   std::optional<std::uint64_t> whole;  ///< exact value of a number written without sign and point
   std::string text;
   std::vector<JsonNode> items;
-  std::vector<std::pair<std::string, JsonNode>> members;  ///< in the order of the file
+  std::vector<JsonMember> members;  ///< in the order of the file
 
   const JsonNode* find(std::string_view key) const;
+};
+
+/// A type of its own: a std::pair with the node that holds it cannot be made complete by every
+/// compiler.
+struct JsonMember {
+  std::string key;
+  JsonNode value;
 };
 
 /// Where complaints go. `source` is the name of the file.
@@ -78,7 +87,7 @@ class JsonObject {
       : JsonObject(report, node, std::move(path), std::span(keys.begin(), keys.size())) {}
 
   const JsonNode* find(std::string_view key) const { return m_node->find(key); }
-  std::span<const std::pair<std::string, JsonNode>> members() const { return m_node->members; }
+  std::span<const JsonMember> members() const { return m_node->members; }
   int line() const { return m_node->line; }
   const std::string& path() const { return m_path; }
   std::string pathOf(std::string_view key) const;
