@@ -119,7 +119,7 @@ class TestSeparateMatch : public QObject {
     runner->stepOnce();
     QTRY_VERIFY(playedTo(2));
     for (const auto& [speed, tick] :
-         std::map<double, std::uint64_t>{{0.1, 4}, {1.0, 40}, {5.0, 200}}) {
+         std::map<double, std::uint64_t>{{0.1, 4}, {1.0, 40}, {5.0, 200}, {20.0, 500}}) {
       runner->setSpeed(speed);
       runner->setPaused(false);
       QTRY_VERIFY_WITH_TIMEOUT(playedTo(tick), 60'000);

@@ -61,6 +61,33 @@ class TestLogAndProcesses : public QObject {
     QCOMPARE(filter.rowCount(), 2);
   }
 
+  void startLinesAreFoldedAndLevelsChosen() {
+    LogModel model;
+    LogFilter filter;
+    filter.setSourceModel(&model);
+    const QAbstractItemModelTester tester(&filter, Mode::QtTest);
+    model.append({{0, "B1 decision", "reading the map", LogLevel::Debug},
+                  {1, "B1 decision", "the ball is lost"},
+                  {1, "B1 decision", "voltage is low", LogLevel::Warning},
+                  {2, "B1 decision", "no blackboard", LogLevel::Error}});
+    const auto shown = [&filter] {
+      QStringList texts;
+      for (int row = 0; row < filter.rowCount(); ++row) {
+        texts << filter.index(row, LogModel::Text).data().toString().section(' ', -1);
+      }
+      return texts.join(' ');
+    };
+    QCOMPARE(shown(), QStringLiteral("lost low blackboard"));
+    QCOMPARE(model.startLines(), 1);
+    filter.showStartLines(true);
+    QCOMPARE(shown(), QStringLiteral("map lost low blackboard"));
+    filter.showStartLines(false);
+    filter.setLeast(LogLevel::Warning);
+    QCOMPARE(shown(), QStringLiteral("low blackboard"));
+    filter.setLeast(LogLevel::Error);
+    QCOMPARE(shown(), QStringLiteral("blackboard"));
+  }
+
   void eventsInWords() {
     link::MatchEvent event;
     event.kind = link::MatchEventKind::UnknownAction;

@@ -175,6 +175,7 @@ void SimulatedMatch::runSeparate(Seat& seat, SeatProcess& process) {
     if (waited > glance) lookAfterProcesses(SteadyClock::now());
   }
   process.given = false;
+  m_processes->setSilent(process.id, false, SteadyClock::now());
   process.nextTick = nextDueTick(process.period, m_expectedTick);
   for (const std::string& message : m_turns->takePosted(process.place)) {
     teamChannel(seat.id)->post(seat.id, message);

@@ -110,7 +110,8 @@ void ProcessManager::sample(Entry& entry, Time now) {
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
   entry.sampled = now;
   status.memoryBytes = use->memoryBytes;
-  if (entry.process.watch != Watch::Nobody) {
+  // Of a match that stands still nobody expects any.
+  if (entry.process.watch != Watch::Nobody && !m_paused) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
   changed();

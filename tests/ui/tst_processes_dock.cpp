@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Processes panel and the transport with real processes: each is stopped, started, restarted
+// and killed by the mouse, one that is stopped by a signal is shown, and who goes on while the
+// match stands still is told.
+#include <QContextMenuEvent>
+#include <QMenu>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QtTest>
+#include <csignal>
+
+#include <robotlink/blackboard/system_v.h>
+#include <ui/processes/processes_dock.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+
+#include "../support/segment_keys.h"
+#include "processes_model.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using State = link::ProcessState;
+
+class TestProcessesDock : public QObject {
+  Q_OBJECT
+  const int m_base = testKeyBase();
+  std::unique_ptr<MatchController> m_controller;
+  std::unique_ptr<SourceSwitch> m_switch;
+  std::unique_ptr<QWidget> m_dock;
+  QTableView* m_table = nullptr;
+  QStringList m_told;
+  std::vector<link::MatchEvent> m_events;
+
+  link::Scenario oneRobot(const QString& runtime = {}) const {
+    link::Scenario scenario = link::loadScenario("one-robot").value();
+    scenario.robots[0].behaviour = "striker";
+    scenario.robots[0].runtime.profile = runtime.toStdString();
+    return scenario;
+  }
+
+  void open(const link::Scenario& scenario) {
+    link::MatchOptions options;
+    options.cognition = link::Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    m_controller = std::make_unique<MatchController>(options);
+    m_switch = std::make_unique<SourceSwitch>(m_controller.get());
+    m_dock.reset(makeProcessesDock(m_controller.get(), m_switch.get(), nullptr));
+    m_dock->resize(1200, 400);
+    m_dock->show();
+    m_table = m_dock->findChild<QTableView*>(QStringLiteral("processesTable"));
+    connect(m_controller.get(), &MatchController::errorOccurred, this,
+            [this](const QString& sentence) { m_told << sentence; });
+    connect(m_controller.get(), &MatchController::eventsReceived, this,
+            [this](const std::vector<link::MatchEvent>& events) {
+              m_events.insert(m_events.end(), events.begin(), events.end());
+            });
+    m_controller->open(scenario);
+  }
+
+  link::ProcessStatus process(const char* name) const {
+    const FramePtr frame = m_controller->frame();
+    if (!frame || frame->robots.empty()) return {};
+    for (const link::ProcessStatus& one : frame->robots[0].processes()) {
+      if (one.name == name) return one;
+    }
+    return {};
+  }
+  bool runs(const char* name) const {
+    return process(name).state == State::Running && process(name).pid > 0;
+  }
+  int events(link::MatchEventKind kind) const {
+    return static_cast<int>(
+        std::count_if(m_events.begin(), m_events.end(),
+                      [kind](const link::MatchEvent& event) { return event.kind == kind; }));
+  }
+  /// The row of a process; -1: there is none.
+  int row(const char* name) const {
+    const QAbstractItemModel& model = *m_table->model();
+    for (int i = 0; i < model.rowCount(); ++i) {
+      if (model.index(i, ProcessesModel::Process).data() == QString::fromUtf8(name)) return i;
+    }
+    return -1;
+  }
+  QString text(const char* name, int column) const {
+    return m_table->model()->index(row(name), column).data().toString();
+  }
+
+  /// Clicks with the right button on a process and with the left one on this entry of the menu.
+  void choose(const char* name, const QString& entry) {
+    QTRY_VERIFY(row(name) >= 0);
+    bool clicked = false;
+    QTimer answer;
+    connect(&answer, &QTimer::timeout, this, [&] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      if (!menu) return;
+      answer.stop();
+      for (QAction* action : menu->actions()) {
+        if (!action->text().remove(QLatin1Char('&')).startsWith(entry) || !action->isEnabled()) {
+          continue;
+        }
+        clicked = true;
+        QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+        return;
+      }
+      menu->close();
+    });
+    answer.start(20);
+    const QModelIndex index = m_table->model()->index(row(name), ProcessesModel::Process);
+    const QPoint at = m_table->visualRect(index).center();
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at, m_table->viewport()->mapToGlobal(at));
+    QApplication::sendEvent(m_table->viewport(), &event);
+    QVERIFY2(clicked, qPrintable(entry));
+  }
+
+ private slots:
+  void cleanup() {
+    m_dock.reset();
+    m_switch.reset();
+    m_controller.reset();
+    m_told.clear();
+    m_events.clear();
+    removeSegment(m_base + 100);
+  }
+
+  void eachByTheMouse() {
+    open(oneRobot());
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && runs("localization"), 30'000);
+    const pid_t localization = process("localization").pid;
+    const pid_t first = process("decision").pid;
+
+    choose("decision", QStringLiteral("Stop decision of B1"));
+    QTRY_COMPARE_WITH_TIMEOUT(process("decision").state, State::Stopped, 30'000);
+    QTRY_COMPARE(text("decision", ProcessesModel::State), QStringLiteral("stopped"));
+    QCOMPARE(text("decision", ProcessesModel::Pid), QString());
+
+    choose("decision", QStringLiteral("Start decision of B1"));
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
+    const pid_t second = process("decision").pid;
+    QVERIFY(second != first);
+
+    choose("decision", QStringLiteral("Restart decision of B1"));
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != second, 30'000);
+    const pid_t third = process("decision").pid;
+    QCOMPARE(events(link::MatchEventKind::ProcessDied), 0);
+
+    // What is killed died, and is there again after the first wait.
+    choose("decision", QStringLiteral("Kill decision of B1"));
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != third, 30'000);
+    QTRY_COMPARE(events(link::MatchEventKind::ProcessDied), 1);
+    const auto died =
+        std::find_if(m_events.begin(), m_events.end(), [](const link::MatchEvent& event) {
+          return event.kind == link::MatchEventKind::ProcessDied;
+        });
+    const QString words = QString::fromStdString(sentenceOf(*died));
+    QVERIFY2(words.contains(QStringLiteral("decision")) && words.contains(QStringLiteral("Killed")),
+             qPrintable(words));
+    QTRY_VERIFY(text("decision", ProcessesModel::Restarts).toInt() >= 1);
+
+    // Nobody else was touched, and who takes turns gives signs of life.
+    QCOMPARE(process("localization").pid, localization);
+    QCOMPARE(process("localization").restarts, 0);
+    const auto givesSigns = [this] {
+      const link::ProcessStatus now = process("localization");
+      const double age =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - now.started).count();
+      return age > 2.0 && now.heartbeatAge && *now.heartbeatAge < 0.5 * age;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(givesSigns(), 30'000);
+    QVERIFY2(m_told.isEmpty(), qPrintable(m_told.join(QLatin1Char('\n'))));
+  }
+
+  void oneThatASignalStoppedIsShownAsSilent() {
+    QTemporaryDir folder;
+    QFile profile(folder.filePath(QStringLiteral("mine.json")));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"version": 1, "name": "mine", "processes": [
+      {"name": "thinks", "command": ["sleep", "600"], "silent_after": 0.3}]})");
+    profile.close();
+    open(oneRobot(profile.fileName()));
+    QTRY_VERIFY_WITH_TIMEOUT(runs("thinks"), 30'000);
+    const pid_t pid = process("thinks").pid;
+    QCOMPARE(::kill(pid, SIGSTOP), 0);
+    QTRY_VERIFY_WITH_TIMEOUT(text("thinks", ProcessesModel::State).startsWith(u"silent"), 30'000);
+    QCOMPARE(process("thinks").pid, pid);
+    QCOMPARE(::kill(pid, SIGCONT), 0);
+    QTRY_COMPARE_WITH_TIMEOUT(text("thinks", ProcessesModel::State), QStringLiteral("running"),
+                              30'000);
+  }
+
+  // At 1x it is a choice, and the frame says which it is.
+  void freelyOrInLockStep() {
+    open(oneRobot());
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
+    QTRY_VERIFY(m_controller->frame()->inLockStep);
+    m_controller->setPace(link::RobotsPace::Free);
+    QTRY_VERIFY_WITH_TIMEOUT(!m_controller->frame()->inLockStep, 30'000);
+    m_controller->setSpeed(2.0);
+    QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->inLockStep, 30'000);
+    m_controller->setSpeed(1.0);
+    QTRY_VERIFY_WITH_TIMEOUT(!m_controller->frame()->inLockStep, 30'000);
+    m_controller->setPace(link::RobotsPace::LockStep);
+    QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->inLockStep, 30'000);
+  }
+
+  // Once, where the user looks: at the first pause or other speed.
+  void whoGoesOnWhileTheMatchStandsIsToldOnce() {
+    open(oneRobot(QStringLiteral("own")));
+    QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame() && m_controller->frame()->robots.size() == 1,
+                             30'000);
+    m_controller->setPaused(true);
+    QVERIFY(m_told.isEmpty());  // nobody plays it
+    m_controller->setPaused(false);
+    const auto mine = link::SystemVSegments::open(m_base + 100, link::AttachMode::AttachOnly);
+    QVERIFY(mine);
+    QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->robots[0].ofOthers, 30'000);
+    m_controller->setPaused(true);
+    QCOMPARE(m_told.size(), 1);
+    QVERIFY2(m_told.front().startsWith(QStringLiteral("The processes of B1 were not started here")),
+             qPrintable(m_told.front()));
+    m_controller->setPaused(false);
+    m_controller->setSpeed(5.0);
+    m_controller->setPaused(true);
+    QCOMPARE(m_told.size(), 1);
+  }
+};
+
+QTEST_MAIN(TestProcessesDock)
+#include "tst_processes_dock.moc"
