@@ -120,7 +120,7 @@ MatchFrame RecordedFrames::frameAt(const telemetry::SeriesStore& rows, double ti
     for (std::size_t f = 0; f < Layout::flagCount; ++f) {
       const RowSlot& slot = layout.flags[f];
       if (!slot.present() || flags.seen[f] >= from) continue;
-      std::size_t column = static_cast<std::size_t>(slot.place);
+      std::size_t column = static_cast<std::size_t>(slot.index);
       if (slot.type == telemetry::ColumnType::Float64) {
         for (const auto& info : m_groups[group]->columns) {
           column += info.type != telemetry::ColumnType::Float64 ? 1U : 0U;

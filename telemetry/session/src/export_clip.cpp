@@ -115,9 +115,9 @@ class Clip {
     m_values.clear();
     for (const SelectedColumn& column : group.columns) {
       if (column.type == ColumnType::Float64)
-        m_values.push_back(item.row.values[column.place]);
+        m_values.push_back(item.row.values[column.index]);
       else
-        m_words.push_back(item.row.words[column.place]);
+        m_words.push_back(item.row.words[column.index]);
     }
     // The row keeps its own time; the session's is in the times of the message.
     double source = item.time;

@@ -10,8 +10,8 @@ namespace pitchboard::telemetry {
 namespace {
 
 double numberOf(const SelectedColumn& column, const RowView& row) {
-  if (column.type == ColumnType::Float64) return row.values[column.place];
-  const std::uint32_t word = row.words[column.place];
+  if (column.type == ColumnType::Float64) return row.values[column.index];
+  const std::uint32_t word = row.words[column.index];
   return column.type == ColumnType::Int32 ? std::bit_cast<std::int32_t>(word)
                                           : static_cast<double>(std::bit_cast<float>(word));
 }

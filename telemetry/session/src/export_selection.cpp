@@ -87,13 +87,13 @@ Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session
     std::size_t words = 0, values = 0;
     for (std::size_t c = 0; c < info.columns.size(); ++c) {
       const ColumnInfo& column = info.columns[c];
-      const std::size_t place = column.type == ColumnType::Float64 ? values++ : words++;
+      const std::size_t index = column.type == ColumnType::Float64 ? values++ : words++;
       bool wanted = selection.variables.empty();
       for (std::size_t v = 0; v < selection.variables.size(); ++v) {
         if (!out[g].selected || !matches(selection.variables[v], column.name)) continue;
         wanted = used[v] = true;
       }
-      if (wanted) out[g].columns.push_back({c, column.type, place});
+      if (wanted) out[g].columns.push_back({c, column.type, index});
     }
     out[g].selected = out[g].selected && !out[g].columns.empty();
   }

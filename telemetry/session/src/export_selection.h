@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The part of a session that is exported, with names resolved to places in rows.
+// The part of a session that is exported, with names resolved to indices in rows.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace pitchboard::telemetry {
 struct SelectedColumn {
   std::size_t column = 0;  ///< in GroupInfo
   ColumnType type = ColumnType::Float64;
-  std::size_t place = 0;  ///< in the words or the values of a row
+  std::size_t index = 0;  ///< in the words or the values of a row
 };
 
 struct SelectedGroup {

@@ -51,8 +51,8 @@ struct Cell {
 };
 
 inline std::uint64_t bitsOf(const SelectedColumn& column, const RowView& row) {
-  return column.type == ColumnType::Float64 ? std::bit_cast<std::uint64_t>(row.values[column.place])
-                                            : row.words[column.place];
+  return column.type == ColumnType::Float64 ? std::bit_cast<std::uint64_t>(row.values[column.index])
+                                            : row.words[column.index];
 }
 
 /// A buffer that grows by pieces of known greatest length and is handed on when it is large.

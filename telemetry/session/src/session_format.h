@@ -57,11 +57,11 @@ struct RowLayout {
   static constexpr std::size_t timeAt = 4, wordsAt = 12;
   std::size_t singlesAt = 0, doublesAt = 0, size = 0;
   struct Single {
-    std::size_t place;  ///< among the values
+    std::size_t index;  ///< among the values
     double resolution;
   };
   std::vector<Single> singles;
-  std::vector<std::size_t> doubles;  ///< places among the values
+  std::vector<std::size_t> doubles;  ///< indices among the values
 
   RowLayout() = default;
   explicit RowLayout(const GroupInfo& group);

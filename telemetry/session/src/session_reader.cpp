@@ -152,9 +152,9 @@ void SessionReader::Impl::takeChannels() {
                                        return known.topic == topic;
                                      });
     if (stream != session::streams.end() && channel.messageEncoding == "json") {
-      const auto place = static_cast<std::size_t>(stream - session::streams.begin());
-      channelsOfStream[place].push_back(id);
-      useOfChannel[id].stream = static_cast<SessionStream>(place);
+      const auto index = static_cast<std::size_t>(stream - session::streams.begin());
+      channelsOfStream[index].push_back(id);
+      useOfChannel[id].stream = static_cast<SessionStream>(index);
       continue;
     }
     if (channel.messageEncoding == session::summaryEncoding) continue;  // takeSummaries()

@@ -128,10 +128,10 @@ RowLayout::RowLayout(const GroupInfo& group) {
   for (const ColumnInfo& column : group.columns) {
     if (column.type != ColumnType::Float64) {
       ++words;
-    } else if (const std::size_t place = values++; isSingle(column)) {
-      singles.push_back({place, column.resolution});
+    } else if (const std::size_t index = values++; isSingle(column)) {
+      singles.push_back({index, column.resolution});
     } else {
-      doubles.push_back(place);
+      doubles.push_back(index);
     }
   }
   singlesAt = wordsAt + words * 4;
@@ -148,16 +148,16 @@ void RowLayout::write(char* to, const RowView& row) const {
   if (wordCount > 0) std::memcpy(to + wordsAt, row.words.data(), wordCount * 4);
   std::memset(to + wordsAt + wordCount * 4, 0, size - wordsAt - wordCount * 4);
   char* single = to + singlesAt;
-  for (const auto& [place, resolution] : singles) {
-    if (place >= row.values.size()) break;
-    const float value = rounded(row.values[place], resolution);
+  for (const auto& [index, resolution] : singles) {
+    if (index >= row.values.size()) break;
+    const float value = rounded(row.values[index], resolution);
     std::memcpy(single, &value, 4);
     single += 4;
   }
   char* number = to + doublesAt;
-  for (const std::size_t place : doubles) {
-    if (place >= row.values.size()) break;
-    std::memcpy(number, &row.values[place], 8);
+  for (const std::size_t index : doubles) {
+    if (index >= row.values.size()) break;
+    std::memcpy(number, &row.values[index], 8);
     number += 8;
   }
 }
@@ -176,12 +176,12 @@ bool RowLayout::read(std::string_view bytes, double& time, std::vector<std::uint
   for (const Single& one : singles) {
     float value = 0.0F;
     std::memcpy(&value, single, 4);
-    valuesOut[one.place] = static_cast<double>(value);
+    valuesOut[one.index] = static_cast<double>(value);
     single += 4;
   }
   const char* number = bytes.data() + doublesAt;
-  for (const std::size_t place : doubles) {
-    std::memcpy(&valuesOut[place], number, 8);
+  for (const std::size_t index : doubles) {
+    std::memcpy(&valuesOut[index], number, 8);
     number += 8;
   }
   return std::isfinite(time);

@@ -127,12 +127,12 @@ void SessionWriter::appendJson(SessionStream stream, double time, std::string_vi
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
   if (!impl.hasRoom(lock, json.size() + 64)) return;
-  const auto place = static_cast<std::size_t>(stream);
-  Impl::Stream& state = impl.streams[place];
+  const auto index = static_cast<std::size_t>(stream);
+  Impl::Stream& state = impl.streams[index];
   const bool isSparse = stream == SessionStream::Events || stream == SessionStream::Log;
   McapChunk& to = isSparse ? impl.sparse : impl.current;
   if (state.channel == 0) {
-    const session::StreamInfo& info = session::streams[place];
+    const session::StreamInfo& info = session::streams[index];
     state.channel = impl.addChannel(
         to, {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)},
         {0, 0, std::string(info.topic), "json", {}});

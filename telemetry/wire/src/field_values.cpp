@@ -55,15 +55,15 @@ ReadNumber readLabel(const ProfileField& field, std::string_view word) {
   return {missing, {}};
 }
 
-void addError(TextError error, std::size_t place, DecodedText& out) {
-  if (out.errors.empty()) out.badField = place;
+void addError(TextError error, std::size_t index, DecodedText& out) {
+  if (out.errors.empty()) out.badField = index;
   out.errors.add(error);
 }
 
-void put(const ProfileField& field, std::size_t place, double value, DecodedText& out) {
+void put(const ProfileField& field, std::size_t index, double value, DecodedText& out) {
   if (field.absent && value == *field.absent) {
     // As it was received; nothing is to be seen in it.
-    out.values[place] = missing;
+    out.values[index] = missing;
     return;
   }
   if (field.scale != 1.0 || field.offset != 0.0) {
@@ -71,7 +71,7 @@ void put(const ProfileField& field, std::size_t place, double value, DecodedText
     value = value * field.scale + field.offset;
     if (std::abs(value) < 1e6) value = std::round(value * 1e9) / 1e9;
   }
-  out.values[place] = value;
+  out.values[index] = value;
 }
 
 }  // namespace
@@ -116,38 +116,38 @@ ReadNumber readNumber(const ProfileField& field, std::string_view word) {
   return {missing, TextError::NotANumber};
 }
 
-void setWord(const ProfileField& field, std::size_t place, std::string_view word,
+void setWord(const ProfileField& field, std::size_t index, std::string_view word,
              DecodedText& out) {
-  out.words[place] = word;
+  out.words[index] = word;
   const ReadNumber number = readNumber(field, word);
-  out.values[place] = missing;
-  if (number.error) return addError(*number.error, place, out);
-  put(field, place, number.value, out);
+  out.values[index] = missing;
+  if (number.error) return addError(*number.error, index, out);
+  put(field, index, number.value, out);
 }
 
-void setNumber(const ProfileField& field, std::size_t place, double value, DecodedText& out) {
-  out.words[place] = wordOf(value, out);
-  out.values[place] = missing;
-  if (!std::isfinite(value)) return addError(TextError::NotFinite, place, out);
+void setNumber(const ProfileField& field, std::size_t index, double value, DecodedText& out) {
+  out.words[index] = wordOf(value, out);
+  out.values[index] = missing;
+  if (!std::isfinite(value)) return addError(TextError::NotFinite, index, out);
   const bool counter = field.meaning == FieldMeaning::Sequence;
   const double most = counter ? 4294967295.0 : 2147483647.0;
   switch (field.type) {
     case FieldType::Text:
       return;
     case FieldType::Flag:
-      if (value != 0.0 && value != 1.0) return addError(TextError::BadFlag, place, out);
+      if (value != 0.0 && value != 1.0) return addError(TextError::BadFlag, index, out);
       break;
     case FieldType::Int:
-      if (value != std::floor(value)) return addError(TextError::NotANumber, place, out);
-      if (std::abs(value) > most) return addError(TextError::TooLarge, place, out);
+      if (value != std::floor(value)) return addError(TextError::NotANumber, index, out);
+      if (std::abs(value) > most) return addError(TextError::TooLarge, index, out);
       break;
     case FieldType::Float:
       if (std::abs(value) > static_cast<double>(std::numeric_limits<float>::max())) {
-        return addError(TextError::TooLarge, place, out);
+        return addError(TextError::TooLarge, index, out);
       }
       break;
   }
-  put(field, place, value, out);
+  put(field, index, value, out);
 }
 
 std::string_view wordOf(double value, DecodedText& out) {

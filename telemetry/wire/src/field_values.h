@@ -16,9 +16,9 @@ namespace pitchboard::telemetry {
 void clearFields(std::size_t count, DecodedText& out);
 
 /// A value that was sent as text.
-void setWord(const ProfileField& field, std::size_t place, std::string_view word, DecodedText& out);
+void setWord(const ProfileField& field, std::size_t index, std::string_view word, DecodedText& out);
 /// A value that was sent as a number.
-void setNumber(const ProfileField& field, std::size_t place, double value, DecodedText& out);
+void setNumber(const ProfileField& field, std::size_t index, double value, DecodedText& out);
 /// The word of a number that the message does not have as text; "" when there is no more room.
 std::string_view wordOf(double value, DecodedText& out);
 /// A text that ends with the call is kept.

@@ -18,11 +18,11 @@ namespace pitchboard::telemetry {
 class FieldMap {
  public:
   explicit FieldMap(const Profile& profile);
-  const ProfileField* find(std::string_view key, std::size_t& place) const;
+  const ProfileField* find(std::string_view key, std::size_t& index) const;
 
  private:
   const std::vector<ProfileField>* m_fields;
-  std::vector<std::pair<std::string, std::size_t>> m_places;  // by key
+  std::vector<std::pair<std::string, std::size_t>> m_indices;  // by key
 };
 
 /// Takes what the profile has a field for, and leaves the rest.

@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 17> fieldKeys{
 template <class Enum, class Words>
 Enum chosen(const JsonObject& object, std::string_view key, const Words& words,
             std::string_view what, Enum otherwise) {
-  const auto place = object.choice(key, words, what);
-  return place ? static_cast<Enum>(*place) : otherwise;
+  const auto index = object.choice(key, words, what);
+  return index ? static_cast<Enum>(*index) : otherwise;
 }
 
 std::map<std::int32_t, std::string> labelsFrom(JsonReport& report, const JsonObject& field) {

@@ -12,7 +12,7 @@ namespace pitchboard::telemetry {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t noPlace = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t noIndex = std::numeric_limits<std::size_t>::max();
 constexpr double perMetre = 100.0, perVolt = 10.0, percent = 100.0;
 // Beyond it no field ends; what was sent stays in the message's own columns.
 constexpr double farAway = 1e6;
@@ -157,13 +157,13 @@ struct PublishedValues::Pose {
 
 PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
     : m_shown(sent), m_frame(sent.frame), m_where(where) {
-  m_places.fill(noPlace);
+  m_indices.fill(noIndex);
   m_factors.fill(1.0);
   std::array<bool, fieldMeaningCount> wanted{};  // published values to be made
   for (std::size_t i = 0; i < sent.fields.size(); ++i) {
     const ProfileField& field = sent.fields[i];
     const auto meaning = static_cast<std::size_t>(field.meaning);
-    if (field.meaning != FieldMeaning::None) m_places[meaning] = i;
+    if (field.meaning != FieldMeaning::None) m_indices[meaning] = i;
     if (const Published* known = publishedOf(field.meaning)) {
       const Unit* unit = unitNamed(field.unit);
       const bool fits = unit != nullptr && unit->kind == known->kind;
@@ -177,11 +177,11 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
       wanted[static_cast<std::size_t>(FieldMeaning::BallAngle)] = true;
     }
   }
-  const auto give = [this](std::size_t place, const Published& known) {
-    ProfileField& field = m_shown.fields[place];
+  const auto give = [this](std::size_t index, const Published& known) {
+    ProfileField& field = m_shown.fields[index];
     field.meaning = known.meaning;
     field.unit = known.unit;
-    m_made.push_back({place, known.meaning});
+    m_made.push_back({index, known.meaning});
   };
   for (std::size_t i = 0; i < sent.fields.size(); ++i) {
     const ProfileField& field = sent.fields[i];
@@ -211,7 +211,7 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
         std::find_if(m_shown.fields.begin(), m_shown.fields.end(),
                      [&known](const ProfileField& field) { return field.name == known.variable; });
     if (same != m_shown.fields.end() &&
-        m_places[static_cast<std::size_t>(known.meaning)] ==
+        m_indices[static_cast<std::size_t>(known.meaning)] ==
             static_cast<std::size_t>(same - m_shown.fields.begin())) {
       give(static_cast<std::size_t>(same - m_shown.fields.begin()), known);
       continue;
@@ -223,14 +223,14 @@ PublishedValues::PublishedValues(const Profile& sent, const Surroundings& where)
     m_shown.fields.push_back(made);
     give(m_shown.fields.size() - 1, known);
   }
-  for (const Made& made : m_made) m_changed.push_back(made.place);
-  for (const Scaled& scaled : m_scaled) m_changed.push_back(scaled.place);
+  for (const Made& made : m_made) m_changed.push_back(made.index);
+  for (const Scaled& scaled : m_scaled) m_changed.push_back(scaled.index);
   m_shown.frame = {};
 }
 
 double PublishedValues::sent(std::span<const double> values, FieldMeaning meaning) const {
   const auto index = static_cast<std::size_t>(meaning);
-  return m_places[index] == noPlace ? missing : values[m_places[index]] * m_factors[index];
+  return m_indices[index] == noIndex ? missing : values[m_indices[index]] * m_factors[index];
 }
 
 PublishedValues::Pose PublishedValues::pose(std::span<const double> values) const {
@@ -260,7 +260,7 @@ void PublishedValues::ball(std::span<const double> values, double& distance_cm,
                            double& bearing_deg) const {
   distance_cm = bearing_deg = missing;
   const auto has = [this](FieldMeaning meaning) {
-    return m_places[static_cast<std::size_t>(meaning)] != noPlace;
+    return m_indices[static_cast<std::size_t>(meaning)] != noIndex;
   };
   if (has(FieldMeaning::BallSeen) && !(sent(values, FieldMeaning::BallSeen) > 0.0)) return;
   if (has(FieldMeaning::BallAge) && !(sent(values, FieldMeaning::BallAge) >= 0.0)) return;
@@ -318,9 +318,9 @@ std::span<const std::size_t> PublishedValues::convert(std::span<double> values) 
     made[i] = tidy(published(values, m_made[i].meaning));
   }
   for (const Scaled& scaled : m_scaled) {
-    values[scaled.place] = tidy(values[scaled.place] * scaled.factor);
+    values[scaled.index] = tidy(values[scaled.index] * scaled.factor);
   }
-  for (std::size_t i = 0; i < m_made.size(); ++i) values[m_made[i].place] = made[i];
+  for (std::size_t i = 0; i < m_made.size(); ++i) values[m_made[i].index] = made[i];
   return m_changed;
 }
 

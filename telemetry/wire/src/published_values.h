@@ -44,11 +44,11 @@ class PublishedValues {
 
  private:
   struct Made {
-    std::size_t place = 0;
+    std::size_t index = 0;
     FieldMeaning meaning = FieldMeaning::None;
   };
   struct Scaled {
-    std::size_t place = 0;
+    std::size_t index = 0;
     double factor = 1.0;
   };
   double sent(std::span<const double> values, FieldMeaning meaning) const;
@@ -60,7 +60,7 @@ class PublishedValues {
   Profile m_shown;
   MessageFrame m_frame;
   Surroundings m_where;
-  std::array<std::size_t, fieldMeaningCount> m_places{};
+  std::array<std::size_t, fieldMeaningCount> m_indices{};
   std::array<double, fieldMeaningCount> m_factors{};  ///< to m, rad, V, s
   std::vector<Made> m_made;
   std::vector<Scaled> m_scaled;

@@ -110,26 +110,26 @@ TeamMonitor::Robot* TeamMonitor::newRobot(int number, WallTime time) {
   };
   while (std::any_of(m_robots.begin(), m_robots.end(), taken)) ++slot;
   const std::size_t teams = m_options.teams.size();
-  Robot* place = nullptr;
+  Robot* index = nullptr;
   if (!hasOwnPlace(number, slot, teams)) {
     std::size_t others = 0;
     for (Robot& robot : m_robots) {
       if (hasOwnPlace(robot.number, robot.slot, teams)) continue;
       ++others;
-      if (place == nullptr || robot.last < place->last) place = &robot;
+      if (index == nullptr || robot.last < index->last) index = &robot;
     }
     if (others < MonitorOptions::otherRobots) {
-      place = nullptr;
-    } else if (since(time, place->last) < m_options.timeout) {
+      index = nullptr;
+    } else if (since(time, index->last) < m_options.timeout) {
       return nullptr;
     }
   }
-  if (place == nullptr) place = &m_robots.emplace_back();
-  *place = Robot();
-  place->number = number;
-  place->slot = slot;
-  place->sequence = SequenceStats(counterBits(m_decoder->profile()));
-  return place;
+  if (index == nullptr) index = &m_robots.emplace_back();
+  *index = Robot();
+  index->number = number;
+  index->slot = slot;
+  index->sequence = SequenceStats(counterBits(m_decoder->profile()));
+  return index;
 }
 
 /// It was thought to have moved, but where it was it speaks again: there are two programs.
@@ -367,9 +367,9 @@ TeamStatus TeamMonitor::status(WallTime now) const {
 }
 
 std::optional<double> RobotStatus::value(FieldMeaning meaning) const {
-  const auto place = decoder ? decoder->profile().indexOf(meaning) : std::nullopt;
-  if (!place || *place >= values.size() || std::isnan(values[*place])) return std::nullopt;
-  return values[*place];
+  const auto index = decoder ? decoder->profile().indexOf(meaning) : std::nullopt;
+  if (!index || *index >= values.size() || std::isnan(values[*index])) return std::nullopt;
+  return values[*index];
 }
 
 }  // namespace pitchboard::telemetry

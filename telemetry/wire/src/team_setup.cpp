@@ -206,8 +206,8 @@ Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams
 }
 
 const TeamSetup* teamOf(int robot, const std::vector<TeamSetup>& teams) {
-  const std::size_t place = teamPlace(robot, teams.size());
-  return place < teams.size() ? &teams[place] : nullptr;
+  const std::size_t index = teamPlace(robot, teams.size());
+  return index < teams.size() ? &teams[index] : nullptr;
 }
 
 TeamRouter::TeamRouter(const Profile& profile, std::vector<TeamSetup> teams,

@@ -58,12 +58,12 @@ struct TextDecoder::Plan {
 
 TextDecoder::TextDecoder(Profile profile, const Surroundings& where)
     : m_plan(std::make_unique<const Plan>(std::move(profile), where)) {
-  m_places.fill(DecodedText::maxValues);
+  m_indices.fill(DecodedText::maxValues);
   const auto& fields = m_plan->published.shown().fields;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    m_places[static_cast<std::size_t>(fields[i].meaning)] = i;
+    m_indices[static_cast<std::size_t>(fields[i].meaning)] = i;
   }
-  m_places[static_cast<std::size_t>(FieldMeaning::None)] = DecodedText::maxValues;
+  m_indices[static_cast<std::size_t>(FieldMeaning::None)] = DecodedText::maxValues;
 }
 
 TextDecoder::~TextDecoder() = default;
@@ -127,18 +127,18 @@ void TextDecoder::decodeWords(std::string_view datagram, DecodedText& out) const
   while ((more = words.next(word))) {
     ended = !end.empty() && word == end;
     if (ended) break;
-    const std::size_t place = read < fields ? read : read + shown - fields;
-    if (place >= DecodedText::maxValues) {
+    const std::size_t index = read < fields ? read : read + shown - fields;
+    if (index >= DecodedText::maxValues) {
       out.errors.add(TextError::TooManyFields);
       while (!ended && words.next(word)) ended = !end.empty() && word == end;
       break;
     }
     if (read < fields) {
-      setWord(sent.fields[read], place, word, out);
+      setWord(sent.fields[read], index, word, out);
     } else {
       // It may be anything until the team gives it a type: text is kept as a word.
-      out.words[place] = word;
-      out.values[place] = readFloat(word).value;
+      out.words[index] = word;
+      out.values[index] = readFloat(word).value;
     }
     ++read;
   }
@@ -200,11 +200,11 @@ void TextDecoder::findRobot(DecodedText& out) const {
   }
   const Profile& sent = m_plan->sent;
   if (sent.robotFrom.source != RobotFrom::Source::Message) return;
-  const std::size_t place = m_places[static_cast<std::size_t>(FieldMeaning::Robot)];
+  const std::size_t index = m_indices[static_cast<std::size_t>(FieldMeaning::Robot)];
   const auto robot = value(out, FieldMeaning::Robot);
   if (robot && *robot >= 1.0 && *robot <= maxRobot) {
     out.robot = static_cast<int>(*robot);
-  } else if (place < out.count) {
+  } else if (index < out.count) {
     out.errors.add(TextError::BadRobot);
   }
 }
@@ -216,9 +216,9 @@ void TextDecoder::publish(DecodedText& out) const {
     out.values[i] = std::numeric_limits<double>::quiet_NaN();
     out.words[i] = {};
   }
-  for (const std::size_t place : m_plan->published.convert(out.values)) {
-    out.words[place] =
-        std::isnan(out.values[place]) ? std::string_view() : wordOf(out.values[place], out);
+  for (const std::size_t index : m_plan->published.convert(out.values)) {
+    out.words[index] =
+        std::isnan(out.values[index]) ? std::string_view() : wordOf(out.values[index], out);
   }
 }
 
@@ -229,9 +229,9 @@ std::string TextDecoder::name(std::size_t index) const {
 }
 
 std::optional<double> TextDecoder::value(const DecodedText& decoded, FieldMeaning meaning) const {
-  const std::size_t place = m_places[static_cast<std::size_t>(meaning)];
-  if (!decoded.has(place)) return std::nullopt;
-  return decoded.values[place];
+  const std::size_t index = m_indices[static_cast<std::size_t>(meaning)];
+  if (!decoded.has(index)) return std::nullopt;
+  return decoded.values[index];
 }
 
 }  // namespace pitchboard::telemetry

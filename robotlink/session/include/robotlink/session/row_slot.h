@@ -15,14 +15,14 @@ namespace pitchboard::link {
 
 struct RowSlot {
   telemetry::ColumnType type = telemetry::ColumnType::Float64;
-  int place = -1;  ///< among the words or among the values; -1: there is no such column
+  int index = -1;  ///< among the words or among the values; -1: there is no such column
 
-  bool present() const { return place >= 0; }
+  bool present() const { return index >= 0; }
   /// NaN where there is no such column.
   double read(const telemetry::RowView& row) const {
-    const auto at = static_cast<std::size_t>(place);
+    const auto at = static_cast<std::size_t>(index);
     const bool isWord = type != telemetry::ColumnType::Float64;
-    if (place < 0 || at >= (isWord ? row.words.size() : row.values.size())) {
+    if (index < 0 || at >= (isWord ? row.words.size() : row.values.size())) {
       return std::numeric_limits<double>::quiet_NaN();
     }
     if (type == telemetry::ColumnType::Float64) return row.values[at];
@@ -47,9 +47,9 @@ inline RowSlot findSlot(const telemetry::GroupInfo& group,
   for (const std::string_view name : names) {
     int words = 0, values = 0;
     for (const telemetry::ColumnInfo& column : group.columns) {
-      int& place = column.type == telemetry::ColumnType::Float64 ? values : words;
-      if (column.name == name) return {column.type, place};
-      ++place;
+      int& index = column.type == telemetry::ColumnType::Float64 ? values : words;
+      if (column.name == name) return {column.type, index};
+      ++index;
     }
   }
   return {};

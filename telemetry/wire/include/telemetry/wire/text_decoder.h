@@ -85,7 +85,7 @@ class TextDecoder {
   void publish(DecodedText& out) const;
 
   std::unique_ptr<const Plan> m_plan;
-  std::array<std::size_t, fieldMeaningCount> m_places{};  ///< DecodedText::maxValues: none
+  std::array<std::size_t, fieldMeaningCount> m_indices{};  ///< DecodedText::maxValues: none
 };
 
 }  // namespace pitchboard::telemetry
