@@ -42,16 +42,16 @@ bool RefereeTracker::accept(const RefereeState& state, const Sender& sender, Wal
 
 void RefereeTracker::accept(const RobotReply& reply, Address robot, WallTime time) {
   ++m_counts.replies;
-  const auto index = std::lower_bound(m_replies.begin(), m_replies.end(), reply,
+  const auto place = std::lower_bound(m_replies.begin(), m_replies.end(), reply,
                                       [](const Reply& known, const RobotReply& wanted) {
                                         return std::tie(known.reply.team, known.reply.player) <
                                                std::tie(wanted.team, wanted.player);
                                       });
-  if (index != m_replies.end() && index->reply.team == reply.team &&
-      index->reply.player == reply.player) {
-    *index = {reply, robot, time};
+  if (place != m_replies.end() && place->reply.team == reply.team &&
+      place->reply.player == reply.player) {
+    *place = {reply, robot, time};
   } else if (m_replies.size() < maxReplies) {
-    m_replies.insert(index, {reply, robot, time});
+    m_replies.insert(place, {reply, robot, time});
   } else {
     ++m_counts.refusedReplies;
   }

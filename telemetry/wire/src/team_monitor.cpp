@@ -110,26 +110,26 @@ TeamMonitor::Robot* TeamMonitor::newRobot(int number, WallTime time) {
   };
   while (std::any_of(m_robots.begin(), m_robots.end(), taken)) ++slot;
   const std::size_t teams = m_options.teams.size();
-  Robot* index = nullptr;
+  Robot* place = nullptr;
   if (!hasOwnPlace(number, slot, teams)) {
     std::size_t others = 0;
     for (Robot& robot : m_robots) {
       if (hasOwnPlace(robot.number, robot.slot, teams)) continue;
       ++others;
-      if (index == nullptr || robot.last < index->last) index = &robot;
+      if (place == nullptr || robot.last < place->last) place = &robot;
     }
     if (others < MonitorOptions::otherRobots) {
-      index = nullptr;
-    } else if (since(time, index->last) < m_options.timeout) {
+      place = nullptr;
+    } else if (since(time, place->last) < m_options.timeout) {
       return nullptr;
     }
   }
-  if (index == nullptr) index = &m_robots.emplace_back();
-  *index = Robot();
-  index->number = number;
-  index->slot = slot;
-  index->sequence = SequenceStats(counterBits(m_decoder->profile()));
-  return index;
+  if (place == nullptr) place = &m_robots.emplace_back();
+  *place = Robot();
+  place->number = number;
+  place->slot = slot;
+  place->sequence = SequenceStats(counterBits(m_decoder->profile()));
+  return place;
 }
 
 /// It was thought to have moved, but where it was it speaks again: there are two programs.
