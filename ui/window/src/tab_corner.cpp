@@ -6,6 +6,7 @@
 #include <QEvent>
 #include <QMainWindow>
 #include <QTabBar>
+#include <algorithm>
 
 #include <ui/base/theme.h>
 
@@ -33,7 +34,7 @@ QTabBar* TabCorner::row() const {
   const auto* window = qobject_cast<QMainWindow*>(m_dock->parentWidget());
   if (window == nullptr || m_dock->isFloating() || m_dock->isHidden()) return nullptr;
   for (QTabBar* bar : window->findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
-    for (int i = 0; bar->isVisible() && i < bar->count(); ++i) {
+    for (int i = 0; i < bar->count(); ++i) {
       if (bar->tabText(i) == m_dock->windowTitle()) return bar;
     }
   }
@@ -55,7 +56,10 @@ void TabCorner::place() {
       connect(m_row, &QTabBar::tabMoved, this, &TabCorner::place, Qt::QueuedConnection);
     }
   }
-  if (m_row)
+  // Where only one dock is left, Qt moves the bar out of the window instead of hiding it.
+  const bool seen = m_row && m_row->isVisible() && m_row->count() > 1 &&
+                    m_row->parentWidget()->rect().intersects(m_row->geometry());
+  if (seen)
     goInto(m_row);
   else
     goHome();
@@ -88,9 +92,9 @@ void TabCorner::goHome() {
 }
 
 bool TabCorner::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == m_row &&
-      (event->type() == QEvent::Resize || event->type() == QEvent::Show ||
-       event->type() == QEvent::Hide || event->type() == QEvent::LayoutRequest)) {
+  constexpr QEvent::Type placing[] = {QEvent::Resize, QEvent::Move, QEvent::Show, QEvent::Hide,
+                                      QEvent::LayoutRequest};
+  if (watched == m_row && std::ranges::find(placing, event->type()) != std::end(placing)) {
     // The tabs have their places only when the row has dealt with it.
     QMetaObject::invokeMethod(this, &TabCorner::place, Qt::QueuedConnection);
   }

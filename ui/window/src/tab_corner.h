@@ -27,7 +27,7 @@ class TabCorner : public QObject {
 
  private:
   void place();
-  /// The row of tabs of the main window that has the dock; null: there is none.
+  /// The row of tabs of the main window that has the dock, seen or not; null: there is none.
   QTabBar* row() const;
   void goInto(QTabBar* row);
   void goHome();
