@@ -315,7 +315,7 @@ class TestPlotCurves : public QObject {
   }
 
   void limitsAreTypedWithCommaOrPoint() {
-    AxesDialog dialog({}, {0.0, 1.0}, nullptr);
+    AxesDialog dialog({}, {0.0, 1.0}, {}, nullptr);
     dialog.show();
     dialog.findChild<QCheckBox*>(QStringLiteral("fixedLimits"))->setChecked(true);
     const auto type = [&dialog](const char* box, const QString& number) {

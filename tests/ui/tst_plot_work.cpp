@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is done with plots over a working day: layouts that fit other robots, undo, second axis,
 // curves of curves, pictures for others. Values are computed here.
+#include <QCheckBox>
 #include <QCompleter>
+#include <QLabel>
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -169,6 +171,41 @@ class TestPlotWork : public QObject {
     QVERIFY(read);
     QVERIFY(read->pages[0].panes[0].curves[1].rightAxis);
     QVERIFY(!read->pages[0].panes[0].curves[0].rightAxis);
+  }
+
+  void theSecondAxisIsSetByHandAndKept() {
+    Bench b;
+    auto* chart = qobject_cast<ChartPane*>(b.show(variableCurve(QStringLiteral("B1/DIST"))));
+    b.time.setRange({0.0, 10.0});
+    // Without a curve at the right nothing is asked about it.
+    AxesDialog plain(chart->spec(), {}, {}, nullptr);
+    QVERIFY(!plain.findChild<QLineEdit*>(QStringLiteral("rightlowLimit")));
+    CurveSpec angle = variableCurve(QStringLiteral("B1/ANGLE"));
+    angle.rightAxis = true;
+    chart->addCurve(angle);
+    const ValueLimits left = chart->valueScale().limits;
+    AxesDialog dialog(chart->spec(), left, chart->rightScale().limits, nullptr);
+    const auto type = [&dialog](const char* box, const QString& number) {
+      dialog.findChild<QLineEdit*>(QLatin1String(box))->setText(number);
+    };
+    dialog.findChild<QCheckBox*>(QStringLiteral("rightfixedLimits"))->setChecked(true);
+    type("rightlowLimit", QStringLiteral("-3,5"));
+    type("righthighLimit", QStringLiteral("-4"));
+    QVERIFY(!dialog.findChild<QLabel*>(QStringLiteral("problem"))->text().isEmpty());
+    type("righthighLimit", QStringLiteral("12"));
+    PaneSpec set = dialog.pane();
+    set.rightTitle = QStringLiteral("degrees");
+    const int narrow = chart->wantedRight();
+    chart->setOptions(set);
+    QCOMPARE(chart->rightScale().limits, (ValueLimits{-3.5, 12.0}));
+    QCOMPARE(chart->valueScale().limits, left);
+    QVERIFY(chart->wantedRight() > narrow);
+    const QByteArray text = QJsonDocument(toJson(b.dock->layoutSpec())).toJson();
+    const auto read = layoutFromText({text.data(), std::size_t(text.size())}, "test");
+    QVERIFY(read);
+    QVERIFY(!read->pages[0].panes[0].autoRight && read->pages[0].panes[0].autoValues);
+    QCOMPARE(read->pages[0].panes[0].right, (ValueLimits{-3.5, 12.0}));
+    QCOMPARE(read->pages[0].panes[0].rightTitle, QStringLiteral("degrees"));
   }
 
   void anXyPlotNamesBoth() {

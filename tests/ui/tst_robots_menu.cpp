@@ -2,10 +2,10 @@
 // Robots by their cards and by the menu bar, in a whole window with real keys and clicks: whoever
 // has no mouse can do the same, and the keys of the field act wherever robots were chosen.
 #include <QComboBox>
-#include <QDialog>
 #include <QDoubleSpinBox>
 #include <QGraphicsView>
 #include <QHelpEvent>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -108,9 +108,9 @@ class TestRobotsMenu : public QObject {
     QTest::keyClick(x, Qt::Key_Return);
     QTRY_VERIFY(std::abs(s.pose(2).position.x + 2.25) < 1e-6);
     QVERIFY(s.trigger({"Blackboard…"}));
-    QVERIFY(std::ranges::any_of(s.window.findChildren<QDialog*>(), [](const QDialog* dialog) {
-      return dialog->windowTitle() == QStringLiteral("Blackboard of B9");
-    }));
+    auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("variablesFilter"));
+    QCOMPARE(words->text(), QStringLiteral("B9/"));
+    QTRY_VERIFY(words->isVisible());
     QVERIFY(s.trigger({"Select", "All"}));
     QVERIFY(s.trigger({"Remove 6 robots"}));
     QTRY_VERIFY(s.controller.frame()->robots.empty());
@@ -133,6 +133,26 @@ class TestRobotsMenu : public QObject {
     auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
     QCOMPARE(menu->actions().front()->text(), QStringLiteral("Select"));
     QTest::keyClick(menu, Qt::Key_Escape);
+  }
+
+  void theKeyboardGoesFromCardToCard() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    s.window.activateWindow();
+    RobotCard* first = s.cards()[0];
+    first->setFocus();
+    QTRY_VERIFY(first->hasFocus());
+    QTest::keyClick(first, Qt::Key_Space);
+    QCOMPARE(s.window.field()->selection(), std::vector{RobotId{1}});
+    QVERIFY(first->hasFocus());
+    QTest::keyClick(first, Qt::Key_Tab);
+    QVERIFY(s.cards()[1]->hasFocus());
+    QTest::keyClick(s.cards()[1], Qt::Key_Space, Qt::ControlModifier);
+    QCOMPARE(s.window.field()->selection(), (std::vector{RobotId{1}, RobotId{2}}));
+    QVERIFY(s.cards()[1]->hasFocus());
+    // A click with the mouse gives the keys to the field.
+    QTest::mouseClick(s.cards()[2], Qt::LeftButton, {}, QPoint(8, 8));
+    QVERIFY(!s.cards()[1]->hasFocus() && !s.cards()[2]->hasFocus());
   }
 
   void theFieldsKeysActOnWhatACardChose() {

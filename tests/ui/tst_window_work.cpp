@@ -293,11 +293,19 @@ class TestWindowWork : public QObject {
     QWidget* at = s.find<QComboBox>("speed");
     at->setFocus();
     QTRY_VERIFY(at->hasFocus());
+    QRect area;
+    QImage focused;
+    QString before;
     for (int i = 0; i < 60; ++i) {
       QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
       QWidget* stop = QApplication::focusWidget();
       if (stop == nullptr || seen.contains(stop)) break;
       seen.insert(stop);
+      // Where the keys go is seen: the place looks otherwise when they have gone on.
+      QVERIFY2(focused.isNull() || s.window.grab(area).toImage() != focused, qPrintable(before));
+      area = QRect(stop->mapTo(&s.window, QPoint()), stop->size()).adjusted(-2, -2, 2, 2);
+      focused = s.window.grab(area).toImage();
+      before = QString::fromLatin1(stop->metaObject()->className()) + ' ' + stop->objectName();
       QAccessibleInterface* spoken = QAccessible::queryAccessibleInterface(stop);
       QVERIFY(spoken);
       const QString name = spoken->text(QAccessible::Name);

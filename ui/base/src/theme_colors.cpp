@@ -136,6 +136,8 @@ QToolButton#changedOnly:checked, QToolButton#favouritesOnly:checked {
   background: @row; border-color: @accent; }
 QToolButton#mode, QToolButton#now { border-color: @line; background: @button; padding: @4 @12; }
 QToolButton#mode:checked, QToolButton#now:checked { background: @fill; border-color: @fill; color: white; }
+QToolButton:focus, QToolButton#changedOnly:focus, QToolButton#favouritesOnly:focus,
+QToolButton#mode:focus, QToolButton#now:focus { border-color: @accent; }
 QToolButton::menu-indicator { image: none; }
 QStatusBar { border-top: 1px solid @edge; }
 QStatusBar::item { border: none; }
@@ -147,6 +149,7 @@ QTabBar::tab { padding: @3 @12; border: 1px solid transparent;
   border-bottom: 2px solid transparent; color: @secondary; background: transparent; }
 QTabBar::tab:selected { color: @text; border-bottom-color: @accent; }
 QTabBar::tab:hover:!selected { color: @text; }
+QTabBar#docks::tab:selected { color: @text; border-top-color: @accent; }
 QTabWidget::pane { border: none; border-top: 1px solid @line; }
 QProgressBar { background: @view; border: 1px solid @line; border-radius: 3px; text-align: center; }
 QProgressBar::chunk { background: @fill; border-radius: 2px; }

@@ -114,6 +114,7 @@ void FieldTools::makeViews() {
 
 void FieldTools::makeLayerOptions(QWidget* field) {
   auto* all = new QAction(QStringLiteral("Field of view of all robots"), this);
+  all->setObjectName(QStringLiteral("fieldOfViewOfAll"));
   all->setCheckable(true);
   all->setChecked(m_scene->style().wedgeForAll);
   connect(all, &QAction::toggled, this, [this](bool on) {
@@ -123,6 +124,7 @@ void FieldTools::makeLayerOptions(QWidget* field) {
   auto* group = new QActionGroup(this);
   for (const int granularity : {4, 6}) {
     auto* action = new QAction(QStringLiteral("EOPRA granularity %1").arg(granularity), group);
+    action->setObjectName(QStringLiteral("eopra%1").arg(granularity));
     action->setCheckable(true);
     action->setChecked(m_scene->style().eopraGranularity == granularity);
     connect(action, &QAction::toggled, this, [this, granularity](bool on) {

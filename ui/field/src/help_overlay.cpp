@@ -36,19 +36,33 @@ std::vector<Line> lines() {
 
 }  // namespace
 
-HelpOverlay::HelpOverlay(QWidget* parent) : QWidget(parent) {
+HelpOverlay::HelpOverlay(QWidget* field) : QWidget(field), m_field(field) {
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(QStringLiteral("Keys of the field"));
-  parent->installEventFilter(this);
   hide();
 }
 
 void HelpOverlay::toggle() {
-  setVisible(!isVisible());
-  if (!isVisible()) return;
-  setGeometry(parentWidget()->rect());
+  if (isVisible()) {
+    leave();
+    return;
+  }
+  const QSize least(scaled(this, 720), scaled(this, 560));
+  const bool small = m_field->width() < least.width() || m_field->height() < least.height();
+  QWidget* over = small ? m_field->window() : m_field;
+  setParent(over);
+  over->installEventFilter(this);
+  setGeometry(over->rect());
+  show();
   raise();
   setFocus();
+}
+
+void HelpOverlay::leave() {
+  hide();
+  parentWidget()->removeEventFilter(this);
+  setParent(m_field);
+  m_field->setFocus();
 }
 
 bool HelpOverlay::eventFilter(QObject* watched, QEvent* event) {
@@ -59,12 +73,11 @@ bool HelpOverlay::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void HelpOverlay::mousePressEvent(QMouseEvent*) {
-  hide();
+  leave();
 }
 
 void HelpOverlay::keyPressEvent(QKeyEvent*) {
-  hide();
-  parentWidget()->setFocus();
+  leave();
 }
 
 void HelpOverlay::paintEvent(QPaintEvent*) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// All keys of the field on one panel over it (F1). Any key or click closes it.
+// All keys of the field on one panel over it (F1), or over the whole window when the field is too
+// small for letters that can be read. Any key or click closes it. UI thread only.
 
 #include <QWidget>
 
@@ -10,7 +11,7 @@ namespace pitchboard::ui {
 class HelpOverlay : public QWidget {
   Q_OBJECT
  public:
-  explicit HelpOverlay(QWidget* parent);
+  explicit HelpOverlay(QWidget* field);
   void toggle();
 
  protected:
@@ -18,6 +19,11 @@ class HelpOverlay : public QWidget {
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void leave();
+
+  QWidget* m_field;  // has the keys again afterwards
 };
 
 }  // namespace pitchboard::ui

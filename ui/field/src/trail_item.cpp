@@ -91,6 +91,8 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   QPen pen(theme().fieldLines, 1.5);
   pen.setCapStyle(Qt::FlatCap);
   QPointF last = pixels(mark(0).at);
+  // Far away marks stand closer than anybody sees, and each line costs the same however short.
+  constexpr double shortest_px = 5.0;
   int i = 1;
   for (int shade = 0; shade < shades; ++shade) {
     const double until = m_now - seconds * (shades - 1 - shade) / shades;
@@ -99,7 +101,10 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
       lines[static_cast<std::size_t>(used++)] = QLineF(last, next);
       last = next;
     };
-    while (i < m_count && mark(i).time <= until) lineTo(pixels(mark(i++).at));
+    for (; i < m_count && mark(i).time <= until; ++i) {
+      const QPointF next = pixels(mark(i).at);
+      if (distance(last, next) >= shortest_px) lineTo(next);
+    }
     if (shade == shades - 1) lineTo(QPointF(0, 0));
     if (used == 0) continue;
     pen.setColor(onGrass(theme().fieldLines, 0.08 + 0.52 * (shade + 1) / shades));

@@ -17,7 +17,7 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int pixelsPerValueStep = 18;  // px of the mock
-constexpr int lowestChart = 64;         // lower ones cannot be read: the plots scroll instead
+constexpr int lowestChart = 54;         // lower ones cannot be read: the plots scroll instead
 
 }  // namespace
 
@@ -50,7 +50,7 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   });
   connect(m_gestures, &TimeGestures::fitRequested, this, [this] {
     PaneSpec options = m_spec;
-    options.autoValues = true;
+    options.autoValues = options.autoRight = true;
     setOptions(options);
   });
 }
@@ -136,12 +136,13 @@ void ChartPane::draw() {
                    divided ? ticks[1].time - ticks[0].time : range.end - range.begin, nice.limits,
                    nice.step, ticks.empty() ? range.begin : ticks[0].time);
   if (hasRightAxis()) {
-    const NiceLimits right = limitsOf(rightExtent);
+    NiceLimits right{m_spec.right, niceStep(m_spec.right.high - m_spec.right.low, steps)};
+    if (m_spec.autoRight) right = limitsOf(rightExtent);
     m_chart->setRightAxis(right.limits, right.step);
   } else {
     m_chart->hideRightAxis();
   }
-  m_chart->setTitles({}, m_spec.valueTitle);
+  m_chart->setTitles({}, m_spec.valueTitle, hasRightAxis() ? m_spec.rightTitle : QString());
   shape();
   m_chart->redraw();
   if (std::pair(wantedLeft(), wantedRight()) != before) emit leftChanged();
@@ -237,11 +238,15 @@ void ChartPane::paintCurves(QPainter& painter) const {
 void ChartPane::extendMenu(QMenu* menu) {
   QAction* automatic = menu->addAction(QStringLiteral("Values follow the curves"));
   automatic->setCheckable(true);
-  automatic->setChecked(m_spec.autoValues);
+  automatic->setChecked(m_spec.autoValues && (m_spec.autoRight || !hasRightAxis()));
   connect(automatic, &QAction::triggered, this, [this](bool on) {
     PaneSpec options = m_spec;
     options.autoValues = on;
     options.values = m_chart->yLimits();
+    if (hasRightAxis()) {
+      options.autoRight = on;
+      options.right = m_chart->rightLimits();
+    }
     setOptions(options);
   });
 }

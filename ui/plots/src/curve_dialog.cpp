@@ -247,51 +247,72 @@ CurveSpec CurveDialog::curve() const {
   return spec;
 }
 
-AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, QWidget* parent)
+AxesDialog::AxesDialog(const PaneSpec& pane, ValueLimits shown, ValueLimits shownRight,
+                       QWidget* parent)
     : QDialog(parent),
       m_pane(pane),
+      m_form(new QFormLayout(this)),
       m_title(new QLineEdit(pane.title, this)),
-      m_valueTitle(new QLineEdit(pane.valueTitle, this)),
-      m_fixed(new QCheckBox(QStringLiteral("Fixed limits"), this)),
-      m_low(new QLineEdit(this)),
-      m_high(new QLineEdit(this)),
       m_problem(problemLabel(this)) {
   setWindowTitle(QStringLiteral("Title and axes"));
   setMinimumWidth(scaled(this, 340));
-  const ValueLimits limits = pane.autoValues ? shown : pane.values;
-  m_low->setText(QString::number(limits.low));
-  m_high->setText(QString::number(limits.high));
-  m_low->setObjectName(QStringLiteral("lowLimit"));
-  m_high->setObjectName(QStringLiteral("highLimit"));
-  m_fixed->setObjectName(QStringLiteral("fixedLimits"));
-  m_fixed->setChecked(!pane.autoValues);
-  auto* form = new QFormLayout(this);
-  form->addRow(QStringLiteral("Title"), m_title);
-  form->addRow(QStringLiteral("Value axis"), m_valueTitle);
-  form->addRow(m_fixed);
-  form->addRow(QStringLiteral("From"), m_low);
-  form->addRow(QStringLiteral("To"), m_high);
-  form->addRow(m_problem);
+  m_form->addRow(QStringLiteral("Title"), m_title);
+  m_left = addAxis(QStringLiteral("Value axis"), {}, pane.valueTitle, !pane.autoValues,
+                   pane.autoValues ? shown : pane.values);
+  const bool hasRight = std::any_of(pane.curves.begin(), pane.curves.end(),
+                                    [](const CurveSpec& curve) { return curve.rightAxis; });
+  if (hasRight) {
+    m_right = addAxis(QStringLiteral("Right axis"), QStringLiteral("right"), pane.rightTitle,
+                      !pane.autoRight, pane.autoRight ? shownRight : pane.right);
+  }
+  m_form->addRow(m_problem);
   QDialogButtonBox* box = buttons(this);
   m_accept = box->button(QDialogButtonBox::Ok);
-  form->addRow(box);
-  connect(m_fixed, &QCheckBox::toggled, this, &AxesDialog::check);
-  connect(m_low, &QLineEdit::textChanged, this, &AxesDialog::check);
-  connect(m_high, &QLineEdit::textChanged, this, &AxesDialog::check);
+  m_form->addRow(box);
   check();
 }
 
+AxesDialog::Axis AxesDialog::addAxis(const QString& caption, const QString& prefix,
+                                     const QString& title, bool fixed, ValueLimits limits) {
+  Axis axis{new QLineEdit(title, this), new QCheckBox(QStringLiteral("Fixed limits"), this),
+            new QLineEdit(QString::number(limits.low), this),
+            new QLineEdit(QString::number(limits.high), this)};
+  axis.fixed->setChecked(fixed);
+  const std::pair<QWidget*, const char*> names[] = {
+      {axis.fixed, "fixedLimits"}, {axis.low, "lowLimit"}, {axis.high, "highLimit"}};
+  for (const auto& [widget, name] : names) {
+    widget->setObjectName(prefix + QLatin1String(name));
+  }
+  m_form->addRow(caption, axis.title);
+  m_form->addRow(axis.fixed);
+  m_form->addRow(QStringLiteral("From"), axis.low);
+  m_form->addRow(QStringLiteral("To"), axis.high);
+  connect(axis.fixed, &QCheckBox::toggled, this, &AxesDialog::check);
+  for (QLineEdit* edit : {axis.low, axis.high}) {
+    connect(edit, &QLineEdit::textChanged, this, &AxesDialog::check);
+  }
+  return axis;
+}
+
+QString AxesDialog::Axis::problem() const {
+  if (!fixed->isChecked()) return {};
+  const auto lower = numberFromText(low->text()), upper = numberFromText(high->text());
+  if (!lower || !upper) return QStringLiteral("Both limits must be numbers.");
+  return *lower < *upper ? QString() : QStringLiteral("The first limit must be the smaller one.");
+}
+
+ValueLimits AxesDialog::Axis::limits() const {
+  return {numberFromText(low->text()).value_or(0.0), numberFromText(high->text()).value_or(0.0)};
+}
+
 void AxesDialog::check() {
-  const bool fixed = m_fixed->isChecked();
-  m_low->setEnabled(fixed);
-  m_high->setEnabled(fixed);
-  const auto low = numberFromText(m_low->text());
-  const auto high = numberFromText(m_high->text());
   QString problem;
-  if (fixed && (!low || !high))
-    problem = QStringLiteral("Both limits must be numbers.");
-  else if (fixed && !(*low < *high))
-    problem = QStringLiteral("The first limit must be the smaller one.");
+  for (const Axis& axis : {m_left, m_right}) {
+    if (axis.fixed == nullptr) continue;
+    axis.low->setEnabled(axis.fixed->isChecked());
+    axis.high->setEnabled(axis.fixed->isChecked());
+    if (problem.isEmpty()) problem = axis.problem();
+  }
   m_problem->setText(problem);
   m_accept->setEnabled(problem.isEmpty());
 }
@@ -299,10 +320,13 @@ void AxesDialog::check() {
 PaneSpec AxesDialog::pane() const {
   PaneSpec pane = m_pane;
   pane.title = m_title->text().trimmed();
-  pane.valueTitle = m_valueTitle->text().trimmed();
-  pane.autoValues = !m_fixed->isChecked();
-  pane.values = {numberFromText(m_low->text()).value_or(0.0),
-                 numberFromText(m_high->text()).value_or(0.0)};
+  pane.valueTitle = m_left.title->text().trimmed();
+  pane.autoValues = !m_left.fixed->isChecked();
+  pane.values = m_left.limits();
+  if (m_right.fixed == nullptr) return pane;
+  pane.rightTitle = m_right.title->text().trimmed();
+  pane.autoRight = !m_right.fixed->isChecked();
+  pane.right = m_right.limits();
   return pane;
 }
 

@@ -51,19 +51,31 @@ class CurveDialog : public QDialog {
 class AxesDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `shown`: the limits in force, offered when fixed ones are wanted.
-  AxesDialog(const PaneSpec& pane, ValueLimits shown, QWidget* parent);
+  /// `shown`, `shownRight`: the limits in force, offered when fixed ones are wanted. The second
+  /// axis is asked for only when a curve of the plot is read there.
+  AxesDialog(const PaneSpec& pane, ValueLimits shown, ValueLimits shownRight, QWidget* parent);
   PaneSpec pane() const;
 
  private:
+  /// What is asked about one value axis.
+  struct Axis {
+    QLineEdit* title = nullptr;
+    QCheckBox* fixed = nullptr;
+    QLineEdit* low = nullptr;
+    QLineEdit* high = nullptr;
+
+    QString problem() const;
+    ValueLimits limits() const;
+  };
+  /// `prefix` stands before the names of its boxes.
+  Axis addAxis(const QString& caption, const QString& prefix, const QString& title, bool fixed,
+               ValueLimits limits);
   void check();
 
   PaneSpec m_pane;
+  QFormLayout* m_form;
   QLineEdit* m_title;
-  QLineEdit* m_valueTitle;
-  QCheckBox* m_fixed;
-  QLineEdit* m_low;
-  QLineEdit* m_high;
+  Axis m_left, m_right;
   QLabel* m_problem;
   QPushButton* m_accept;
 };

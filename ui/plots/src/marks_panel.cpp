@@ -20,7 +20,7 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int mostEventsNamed = 3;
-constexpr int nameWidth = 148, numberWidth = 56;  // px of the mock
+constexpr int nameWidth = 148, numberWidth = 62;  // px of the mock
 }  // namespace
 
 QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, double b,
@@ -60,6 +60,7 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   m_table->setModel(m_model);
   styleTable(m_table);
   m_table->setAlternatingRowColors(false);
+  m_table->setTextElideMode(Qt::ElideMiddle);  // robot and unit stand at the end of a name
   m_table->setIconSize(QSize(scaled(this, 8), scaled(this, 8)));
   m_table->horizontalHeader()->setStretchLastSection(false);
   m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);

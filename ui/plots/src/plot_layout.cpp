@@ -108,7 +108,20 @@ QJsonObject paneToJson(const PaneSpec& pane) {
   if (!pane.valueTitle.isEmpty()) o["valueTitle"] = pane.valueTitle;
   if (!pane.autoValues) o["values"] = QJsonArray{pane.values.low, pane.values.high};
   if (pane.equalScales) o["equalScales"] = true;
+  if (!pane.rightTitle.isEmpty()) o["rightTitle"] = pane.rightTitle;
+  if (!pane.autoRight) o["rightValues"] = QJsonArray{pane.right.low, pane.right.high};
   return o;
+}
+
+/// False: there are none, limits follow the curves.
+bool readLimits(const JsonObject& o, std::string_view key, ValueLimits& limits) {
+  const auto* values = o.array(key, mostOfAnything);
+  if (values == nullptr || values->empty()) return false;
+  limits = {values->front().number, values->back().number};
+  if (values->size() != 2 || !(limits.low < limits.high)) {
+    o.fail(key, "needs two numbers, the smaller one first");
+  }
+  return true;
 }
 
 PaneSpec paneFrom(JsonReport& report, const JsonObject& o) {
@@ -118,13 +131,9 @@ PaneSpec paneFrom(JsonReport& report, const JsonObject& o) {
   pane.valueTitle = textOf(o, "valueTitle");
   pane.share = wholeOf(o, "share", 100, 1, 100'000);
   pane.equalScales = o.boolean("equalScales", false);
-  if (const auto* values = o.array("values", mostOfAnything); values && !values->empty()) {
-    pane.autoValues = false;
-    pane.values = {values->front().number, values->back().number};
-    if (values->size() != 2 || !(pane.values.low < pane.values.high)) {
-      o.fail("values", "needs two numbers, the smaller one first");
-    }
-  }
+  pane.rightTitle = textOf(o, "rightTitle");
+  pane.autoValues = !readLimits(o, "values", pane.values);
+  pane.autoRight = !readLimits(o, "rightValues", pane.right);
   forEach(report, o, "curves", [&](const JsonObject& entry) {
     pane.curves << curveFrom(entry);
     if (pane.kind == PaneKind::Xy && pane.curves.back().inputs.size() != 2) {

@@ -261,7 +261,7 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
 void askForAxes(PlotsDock* dock, PlotPane* pane) {
   const auto* chart = qobject_cast<ChartPane*>(pane);
   AxesDialog dialog(pane->spec(), chart != nullptr ? chart->valueScale().limits : ValueLimits{},
-                    dock);
+                    chart != nullptr ? chart->rightScale().limits : ValueLimits{}, dock);
   if (dialog.exec() == QDialog::Accepted) pane->setOptions(dialog.pane());
 }
 

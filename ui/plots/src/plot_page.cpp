@@ -17,6 +17,13 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int plainLeft = 40;  // px of the mock: at least this for the numbers of values
+
+PaneSpec paneOf(PaneKind kind, const CurveSpec& curve) {
+  PaneSpec spec;
+  spec.kind = kind;
+  spec.curves << curve;
+  return spec;
+}
 }  // namespace
 
 PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent)
@@ -207,8 +214,7 @@ void PlotPage::addVariables(const QStringList& names) {
     if (taker != nullptr)
       taker->addCurve(variableCurve(name));
     else
-      insertPane(m_panes->count(),
-                 PaneSpec{kind, {}, {}, true, {}, false, {variableCurve(name)}, 100});
+      insertPane(m_panes->count(), paneOf(kind, variableCurve(name)));
   }
 }
 
@@ -219,7 +225,7 @@ void PlotPage::addCurve(const CurveSpec& curve) {
       return;
     }
   }
-  insertPane(0, PaneSpec{PaneKind::Chart, {}, {}, true, {}, false, {curve}, 100});
+  insertPane(0, paneOf(PaneKind::Chart, curve));
 }
 
 void PlotPage::align() {
@@ -282,7 +288,8 @@ void PlotPage::placeLines() {
   QList<QRect> plots;
   for (PlotPane* pane : panes()) {
     if (!pane->isOverTime()) continue;
-    plots << QRect(pane->mapTo(m_stack, QPoint()) - m_lines->pos(), pane->size());
+    const QWidget* surface = pane->surface();
+    plots << QRect(surface->mapTo(m_stack, QPoint()) - m_lines->pos(), surface->size());
   }
   m_lines->setPlots(plots);
   m_lines->raise();

@@ -8,8 +8,8 @@
 #include <QJsonDocument>
 #include <QMenu>
 #include <QSettings>
+#include <QStackedWidget>
 #include <QTabBar>
-#include <QTabWidget>
 #include <QToolBar>
 #include <QToolButton>
 #include <QUndoStack>
@@ -46,7 +46,9 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
       m_context(context),
       m_time(context.time),
       m_feed(new PlotFeed(context.source, context.time, this)),
-      m_tabs(new QTabWidget(this)),
+      m_pageRow(new QWidget(this)),
+      m_tabs(new QTabBar(m_pageRow)),
+      m_stack(new QStackedWidget(this)),
       m_notices(new NoticeBar(this)),
       m_window(new QToolButton(this)),
       m_undo(new QUndoStack(this)) {
@@ -54,19 +56,25 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  column->addWidget(m_pageRow);
   column->addWidget(m_notices);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(0);
   row->addWidget(makeTools());
-  row->addWidget(m_tabs, 1);
+  row->addWidget(m_stack, 1);
   column->addLayout(row, 1);
-  m_tabs->setDocumentMode(true);
-  // The dock has a tab already: with one page, its own row would only take room from the curves.
-  m_tabs->setTabBarAutoHide(true);
+  auto* pageRow = new QHBoxLayout(m_pageRow);
+  pageRow->setContentsMargins(0, 0, 0, 0);
+  pageRow->addWidget(m_tabs);
+  m_tabs->setObjectName(QStringLiteral("docks"));  // they look like the tabs of docks
+  m_tabs->setAccessibleName(QStringLiteral("Tabs of the plots"));
+  m_tabs->setDrawBase(false);
+  // The dock has a tab already: with one page, a row of tabs would only take room from the curves.
+  m_tabs->setAutoHide(true);
   m_tabs->setMovable(true);
-  m_tabs->tabBar()->setFont(themeFont(TypeRole::Secondary));
-  m_tabs->tabBar()->setExpanding(false);
+  m_tabs->setFont(themeFont(TypeRole::Secondary));
+  m_tabs->setExpanding(false);
   m_tabs->setElideMode(Qt::ElideRight);
   m_draw.setSingleShot(true);
   m_draw.setInterval(drawMilliseconds);
@@ -74,8 +82,12 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   m_saveSoon.setInterval(saveMilliseconds);
   connect(&m_draw, &QTimer::timeout, this, &PlotsDock::drawNow);
   connect(&m_saveSoon, &QTimer::timeout, this, &PlotsDock::save);
-  connect(m_tabs, &QTabWidget::tabBarDoubleClicked, this, &PlotsDock::renamePage);
-  connect(m_tabs, &QTabWidget::currentChanged, this, &PlotsDock::scheduleDraw);
+  connect(m_tabs, &QTabBar::tabBarDoubleClicked, this, &PlotsDock::renamePage);
+  connect(m_tabs, &QTabBar::currentChanged, this, [this](int tab) {
+    if (PlotPage* page = pageAt(tab)) m_stack->setCurrentWidget(page);
+    scheduleDraw();
+  });
+  connect(m_tabs, &QTabBar::tabMoved, this, &PlotsDock::changed);
   connect(m_feed, &PlotFeed::refreshed, this, &PlotsDock::takeRows);
   for (const auto moved : {&LinkedTime::rangeChanged, &LinkedTime::marksChanged}) {
     connect(context.time, moved, this, &PlotsDock::scheduleDraw);
@@ -129,38 +141,51 @@ void PlotsDock::follow() {
 }
 
 PlotsDock::~PlotsDock() {
-  save();
+  if (m_pageRow) save();
+  delete m_pageRow;
 }
 
 QSize PlotsDock::sizeHint() const {
   return {scaled(this, 800), scaled(this, 248)};
 }
 
+PlotPage* PlotsDock::pageAt(int tab) const {
+  return tab < 0 ? nullptr : m_tabs->tabData(tab).value<PlotPage*>();
+}
+
 PlotPage* PlotsDock::currentPage() const {
-  return static_cast<PlotPage*>(m_tabs->currentWidget());
+  return pageAt(m_tabs->currentIndex());
 }
 
 QList<PlotPage*> PlotsDock::pages() const {
   QList<PlotPage*> all;
-  for (int i = 0; i < m_tabs->count(); ++i) all << static_cast<PlotPage*>(m_tabs->widget(i));
+  for (int i = 0; i < m_tabs->count(); ++i) all << pageAt(i);
   return all;
 }
 
 PlotPage* PlotsDock::addPage(const PageSpec& spec) {
-  auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_tabs);
+  auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_stack);
   page->setBoxTool(m_box->isChecked());
-  const int index = m_tabs->addTab(page, spec.name);
-  auto* close = new QToolButton(m_tabs->tabBar());
+  m_stack->addWidget(page);
+  int index = 0;
+  {
+    // The first tab becomes the current one before it has its page.
+    const QSignalBlocker quiet(m_tabs);
+    index = m_tabs->addTab(spec.name);
+    m_tabs->setTabData(index, QVariant::fromValue(page));
+  }
+  auto* close = new QToolButton(m_tabs);
   close->setIcon(themedIcon(QStringLiteral("window-close")));
-  close->setIconSize(QSize(scaled(this, 14), scaled(this, 14)));
-  close->setFixedSize(scaled(this, 16), scaled(this, 16));
+  close->setIconSize(QSize(scaled(this, 12), scaled(this, 12)));
+  close->setFixedSize(scaled(this, 20), scaled(this, 20));
   close->setAutoRaise(true);
   close->setFocusPolicy(Qt::NoFocus);
   close->setToolTip(QStringLiteral("Close this tab"));
-  connect(close, &QToolButton::clicked, this, [this, page] { closePage(m_tabs->indexOf(page)); });
-  m_tabs->tabBar()->setTabButton(index, QTabBar::RightSide, close);
+  connect(close, &QToolButton::clicked, this,
+          [this, page] { closePage(int(pages().indexOf(page))); });
+  m_tabs->setTabButton(index, QTabBar::RightSide, close);
   connect(page, &PlotPage::changed, this, [this, page] {
-    m_tabs->setTabText(m_tabs->indexOf(page), page->name());
+    m_tabs->setTabText(int(pages().indexOf(page)), page->name());
     changed();
     scheduleDraw();
   });
@@ -175,9 +200,10 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
 }
 
 void PlotsDock::closePage(int index) {
-  QWidget* page = m_tabs->widget(index);
+  PlotPage* page = pageAt(index);
   if (page == nullptr) return;
   m_tabs->removeTab(index);
+  m_stack->removeWidget(page);
   page->deleteLater();
   if (m_tabs->count() == 0) addPage({QStringLiteral("Plots"), {}});
   changed();
@@ -185,7 +211,8 @@ void PlotsDock::closePage(int index) {
 
 void PlotsDock::renamePage(int index) {
   if (index < 0) return;
-  auto* page = static_cast<PlotPage*>(m_tabs->widget(index));
+  PlotPage* page = pageAt(index);
+  if (page == nullptr) return;
   bool taken = false;
   const QString name =
       QInputDialog::getText(this, QStringLiteral("Rename tab"), QStringLiteral("Name of the tab:"),
@@ -232,8 +259,9 @@ void PlotsDock::changed() {
 void PlotsDock::put(const PlotLayout& layout) {
   m_restoring = true;
   while (m_tabs->count() > 0) {
-    QWidget* page = m_tabs->widget(0);
+    PlotPage* page = pageAt(0);
     m_tabs->removeTab(0);
+    m_stack->removeWidget(page);
     page->deleteLater();
   }
   for (const PageSpec& page : layout.pages) addPage(page);

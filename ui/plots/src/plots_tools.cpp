@@ -3,7 +3,7 @@
 #include <QAction>
 #include <QLayout>
 #include <QMenu>
-#include <QTabWidget>
+#include <QTabBar>
 #include <QToolBar>
 #include <QToolButton>
 #include <algorithm>

@@ -11,6 +11,7 @@ namespace pitchboard::ui {
 namespace {
 constexpr int rulerHeight = 16;  // px of the mock
 constexpr int headRow = 14;
+constexpr int legendHeight = 18;  // a row of names and the gap to the plot before it
 constexpr int headWidth = 14;
 constexpr int pixelsPerStep = 64;
 constexpr TimeMark bothMarks[] = {TimeMark::A, TimeMark::B};
@@ -190,8 +191,10 @@ void TimeLines::paintEvent(QPaintEvent*) {
   for (qsizetype i = 0; i < m_drawn.size(); ++i) {
     if (m_drawn[i] < 0 || (m_forPicture && i > 1)) continue;
     painter.setPen(pens[i]);
+    // A and B come down from their heads; what moves must not strike the names of curves through.
+    const int above = i > 1 ? 0 : scaled(this, legendHeight);
     for (const QRect& plot : m_plots) {
-      painter.drawLine(QPointF(m_drawn[i], plot.top()), QPointF(m_drawn[i], plot.bottom()));
+      painter.drawLine(QPointF(m_drawn[i], plot.top() - above), QPointF(m_drawn[i], plot.bottom()));
     }
   }
   if (m_pointed && !m_forPicture) {

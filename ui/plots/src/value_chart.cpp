@@ -105,6 +105,7 @@ ValueChart::ValueChart(QWidget* parent)
       m_axisY(new QValueAxis(this)),
       m_axisRight(new QValueAxis(this)) {
   setFrameShape(NoFrame);
+  setFocusPolicy(Qt::ClickFocus);  // no key does anything here, so that Tab need not stop
   setRubberBand(NoRubberBand);
   setAcceptDrops(false);  // the page takes drops for all its plots
   viewport()->setAcceptDrops(false);
@@ -233,7 +234,7 @@ int ValueChart::wantedRight() const {
   const int decimals = decimalsOf(m_stepRight);
   return std::max(metrics.horizontalAdvance(numberText(m_right.low, decimals)),
                   metrics.horizontalAdvance(numberText(m_right.high, decimals))) +
-         scaled(this, 10);
+         scaled(this, m_axisRight->titleText().isEmpty() ? 10 : 28);
 }
 
 void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor) {
@@ -242,7 +243,9 @@ void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double ySte
   put(m_axisY, m_y, y, m_stepY, yStep);
 }
 
-void ValueChart::setTitles(const QString& x, const QString& y) {
+void ValueChart::setTitles(const QString& x, const QString& y, const QString& right) {
+  m_axisRight->setTitleText(right);
+  m_axisRight->setTitleVisible(!right.isEmpty());
   m_axisX->setTitleText(x);
   m_axisY->setTitleText(y);
   m_axisX->setTitleVisible(!x.isEmpty());

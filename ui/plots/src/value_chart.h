@@ -33,7 +33,7 @@ class ValueChart : public QChartView {
   void setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor = 0.0);
   ValueLimits xLimits() const { return m_x; }
   ValueLimits yLimits() const { return m_y; }
-  void setTitles(const QString& x, const QString& y);
+  void setTitles(const QString& x, const QString& y, const QString& right = {});
   /// Numbers under the x axis: of an XY plot, not of a time axis that others label.
   void setLabelsX(bool on);
   /// The chart owns it from now on.

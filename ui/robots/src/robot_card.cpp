@@ -19,12 +19,14 @@ RobotCard::RobotCard(QWidget* parent) : QFrame(parent) {
 
 void RobotCard::setState(const CardState& state) {
   if (state == m_state) return;
-  // Most updates change the last row only.
+  // Most updates change the last row, and values that are not shown.
   CardState rest = state;
   rest.action = m_state.action;
   rest.detail = m_state.detail;
   rest.detailTip = m_state.detailTip;
+  if (m_parts.values.isEmpty()) rest.values = m_state.values;
   const bool footOnly = rest == m_state;
+  const bool footSame = state.action == m_state.action && state.detail == m_state.detail;
   const bool taller = state.tag.isEmpty() != m_state.tag.isEmpty() && !m_parts.processes;
   m_state = state;
   if (taller) updateGeometry();
@@ -34,7 +36,7 @@ void RobotCard::setState(const CardState& state) {
   setAccessibleDescription(said.join(QStringLiteral(", ")));
   if (!footOnly)
     update();
-  else if (!m_collapsed)
+  else if (!m_collapsed && !footSame)
     update(rowRect(2));
 }
 

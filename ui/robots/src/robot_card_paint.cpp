@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a card looks (mock/card.png): all lengths are of the mock and follow the font.
+#include <QPaintEvent>
 #include <QPainter>
 #include <QPainterPath>
 
@@ -36,7 +37,7 @@ int RobotCard::rowHeight(int row) const {
 QRect RobotCard::lampRect(int lamp) const {
   if (m_collapsed) {
     const QRect row = rowRect(0);
-    return {row.left() + scaled(this, 60 + lamp * 12), row.top() + scaled(this, 5), scaled(this, 8),
+    return {row.left() + scaled(this, 57 + lamp * 11), row.top() + scaled(this, 5), scaled(this, 8),
             scaled(this, 10)};
   }
   const QRect row = rowRect(1);
@@ -85,8 +86,14 @@ bool RobotCard::showsTag() const {
   return m_state.tagKind != TagKind::None && !saidByBar;
 }
 
-void RobotCard::paintEvent(QPaintEvent*) {
+void RobotCard::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
+  if (!m_collapsed && rowRect(2).contains(event->rect())) {
+    // Ten times a second for every robot: frame, lamps and bar are as they were.
+    painter.fillRect(event->rect(), m_state.timedOut ? theme().view : theme().window);
+    paintFoot(painter);
+    return;
+  }
   painter.setRenderHint(QPainter::Antialiasing);
   paintFrame(painter);
   paintHead(painter);

@@ -63,8 +63,6 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
     refresh();
   });
   connect(context.selection, &RobotSelection::changed, this, &RobotsDock::showSelection);
-  connect(context.selection, &RobotSelection::blackboardRequested, this,
-          &RobotsDock::showBlackboard);
 }
 
 QSize RobotsDock::sizeHint() const {

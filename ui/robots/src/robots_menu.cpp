@@ -13,8 +13,6 @@
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/source_switch.h>
 
-#include "blackboard_window.h"
-
 namespace pitchboard::ui {
 namespace {
 
@@ -61,16 +59,12 @@ void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
   menu.addSeparator();
   menu.addAction(QStringLiteral("Pose…"), this,
                  [this, id] { emit m_context.selection->poseRequested(id); });
-  menu.addAction(QStringLiteral("Blackboard…"), this, [this, id] { showBlackboard(id); });
+  menu.addAction(QStringLiteral("Blackboard…"), this,
+                 [this, id] { emit m_context.selection->blackboardRequested(id); });
   menu.addAction(themedIcon(QStringLiteral("edit-delete")),
                  QStringLiteral("Remove %1").arg(card->state().name), controller,
                  [controller, id] { controller->edits()->removeRobots({id}); });
   menu.addSeparator();
-}
-
-void RobotsDock::showBlackboard(RobotId id) {
-  if (m_context.controller->edits()->robot(id) == nullptr) return;
-  (new BlackboardWindow(m_context.controller, id, window()))->show();
 }
 
 void RobotsDock::addCardActions(QMenu& menu) {

@@ -18,6 +18,8 @@ namespace {
 constexpr double narrowest = 0.05;  // s shown
 constexpr double widest = 7 * 86400.0;
 constexpr double markReach = 7.0;  // px of the mock
+// What moves by itself moves a pixel or two in that time; more pictures of it only cost.
+constexpr int calmMilliseconds = 50;
 
 }  // namespace
 
@@ -28,9 +30,12 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setAccessibleName(QStringLiteral("Timeline"));
+  m_calm.setSingleShot(true);
+  m_calm.setInterval(calmMilliseconds);
+  connect(&m_calm, &QTimer::timeout, this, qOverload<>(&QWidget::update));
   const auto refresh = [this] {
     fitAxis();
-    update();
+    updateCalmly();
   };
   connect(timeline, &Timeline::moved, this, refresh);
   connect(timeline, &Timeline::sourceChanged, this, [this] {
@@ -46,13 +51,23 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
     update();
   });
   if (plots != nullptr) {
-    connect(plots, &LinkedTime::rangeChanged, this, qOverload<>(&QWidget::update));
+    connect(plots, &LinkedTime::rangeChanged, this, &TimelineStrip::updateCalmly);
     connect(plots, &LinkedTime::cursorChanged, this, qOverload<>(&QWidget::update));
   }
   fitAxis();
 }
 
 TimelineStrip::~TimelineStrip() = default;
+
+// A hand on the timeline or on the plots is followed at once.
+void TimelineStrip::updateCalmly() {
+  const bool byItself = m_grab == Grab::Nothing && !m_timeline->isLookingBack() &&
+                        (m_plots == nullptr || m_plots->isFollowing());
+  if (!byItself)
+    update();
+  else if (!m_calm.isActive())
+    m_calm.start();
+}
 
 void TimelineStrip::setCompared(const EventList* events, double offset, const QString& caption) {
   if (m_compared != nullptr) m_compared->disconnect(this);

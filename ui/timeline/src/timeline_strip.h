@@ -5,6 +5,7 @@
 // moment shown. Click or drag to look back; drag the plots' window in the band; Shift-drag chooses
 // a range; wheel zooms, middle-drag or a wheel with Shift moves. UI thread only.
 
+#include <QTimer>
 #include <QWidget>
 #include <optional>
 #include <vector>
@@ -75,6 +76,7 @@ class TimelineStrip : public QWidget {
  private:
   enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared };
   void fitAxis();
+  void updateCalmly();
   void clampShown(telemetry::TimeRange& range) const;
   Grab grabAt(QPointF at, Qt::KeyboardModifiers keys) const;
   const EventMark* markAt(QPointF at);
@@ -95,6 +97,7 @@ class TimelineStrip : public QWidget {
   const EventList* m_compared = nullptr;
   double m_comparedOffset = 0.0, m_grabOffset = 0.0;
   QString m_comparedCaption;
+  QTimer m_calm;
   TimeAxis m_axis;
   bool m_showsAll = true;
   Grab m_grab = Grab::Nothing;

@@ -28,7 +28,12 @@ struct VariableNode {
   double rowsPerSecond = 0.0;
   double newest = -std::numeric_limits<double>::infinity();
 
+  // Of a category: how many of its variables were never set. Of the row that stands for them: that
+  // row's parent has the number.
+  int neverSet = 0;
+
   // Of a variable.
+  bool wasSet = false;  ///< was another value than zero, or has changed
   std::uint32_t column = 0;
   telemetry::ColumnInfo info;
   bool known = false;  ///< there is a sample
@@ -50,7 +55,9 @@ struct VariableNode {
 template <class Visit>
 void forEachVariable(const VariableNode& group, const Visit& visit) {
   for (const auto& category : group.children) {
-    for (const auto& variable : category->children) visit(*variable);
+    for (const auto& variable : category->children) {
+      if (variable->kind == VariablesModel::Kind::Variable) visit(*variable);
+    }
   }
 }
 

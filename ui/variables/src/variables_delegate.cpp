@@ -2,9 +2,11 @@
 #include "variables_delegate.h"
 
 #include <QApplication>
+#include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QTreeView>
 #include <algorithm>
 #include <cmath>
 
@@ -68,12 +70,53 @@ void VariablesDelegate::initStyleOption(QStyleOptionViewItem* option,
   QStyledItemDelegate::initStyleOption(option, index);
   // Words of a code begin with what matters: "walk forward, fast".
   if (index.column() == VariablesModel::Unit) option->textElideMode = Qt::ElideRight;
+  if (index.column() == VariablesModel::Unit && flowsOver(*option, index)) option->text.clear();
+}
+
+bool VariablesDelegate::flowsOver(const QStyleOptionViewItem& option,
+                                  const QModelIndex& index) const {
+  const auto* tree = qobject_cast<const QTreeView*>(option.widget);
+  if (tree == nullptr) return false;
+  const QHeaderView* header = tree->header();
+  const bool beside =
+      header->visualIndex(VariablesModel::Spark) == header->visualIndex(VariablesModel::Unit) + 1 &&
+      !header->isSectionHidden(VariablesModel::Spark) &&
+      !header->isSectionHidden(VariablesModel::Unit);
+  if (!beside) return false;
+  const QString words = index.siblingAtColumn(VariablesModel::Unit).data().toString();
+  return QFontMetrics(themeFont(TypeRole::Secondary)).horizontalAdvance(words) >
+         header->sectionSize(VariablesModel::Unit) - scaled(tree, 6);
+}
+
+// Both cells are painted by themselves; each shows its part of the same line.
+void VariablesDelegate::paintFlowing(QPainter* painter, const QStyleOptionViewItem& option,
+                                     const QModelIndex& index) const {
+  const auto* tree = static_cast<const QTreeView*>(option.widget);
+  const QModelIndex unit = index.siblingAtColumn(VariablesModel::Unit);
+  QRect line = tree->visualRect(unit);
+  line.setRight(tree->visualRect(index.siblingAtColumn(VariablesModel::Spark)).right());
+  line.adjust(scaled(tree, 3), 0, -scaled(tree, 2), 0);
+  const QFont font = themeFont(TypeRole::Secondary);
+  painter->save();
+  painter->setClipRect(option.rect, Qt::IntersectClip);
+  painter->setFont(font);
+  const QVariant color = unit.data(Qt::ForegroundRole);
+  painter->setPen(color.isValid() ? color.value<QColor>() : theme().secondaryText);
+  painter->drawText(
+      line, Qt::AlignVCenter | Qt::AlignLeft,
+      QFontMetrics(font).elidedText(unit.data().toString(), Qt::ElideRight, line.width()));
+  painter->restore();
 }
 
 void VariablesDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
                               const QModelIndex& index) const {
   QStyledItemDelegate::paint(painter, option, index);
-  if (index.column() == VariablesModel::Spark) paintSpark(painter, option, index);
+  const bool isUnit = index.column() == VariablesModel::Unit;
+  const bool isSpark = index.column() == VariablesModel::Spark;
+  if ((isUnit || isSpark) && flowsOver(option, index))
+    paintFlowing(painter, option, index);
+  else if (isSpark)
+    paintSpark(painter, option, index);
   if (index.column() == VariablesModel::Name &&
       index.data(VariablesModel::FavouriteRole).toBool()) {
     // In the indent, where the arrow of a robot or heading would be.

@@ -29,6 +29,10 @@ class VariablesDelegate : public QStyledItemDelegate {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// Words of a code that are wider than their column go on over the sparkline.
+  bool flowsOver(const QStyleOptionViewItem& option, const QModelIndex& index) const;
+  void paintFlowing(QPainter* painter, const QStyleOptionViewItem& option,
+                    const QModelIndex& index) const;
   void paintSpark(QPainter* painter, const QStyleOptionViewItem& option,
                   const QModelIndex& index) const;
 };

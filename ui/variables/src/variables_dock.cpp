@@ -2,6 +2,7 @@
 #include <ui/variables/variables_dock.h>
 
 #include <QApplication>
+#include <QDockWidget>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -14,12 +15,13 @@
 
 #include <ui/base/in_place_message.h>
 #include <ui/base/plot_target.h>
+#include <ui/base/robot_words.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/match_memory.h>
+#include <ui/sources/robot_selection.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
@@ -29,6 +31,7 @@
 #include "value_writer.h"
 #include "variables_filter.h"
 #include "variables_header.h"
+#include "variables_menu.h"
 #include "variables_model.h"
 #include "variables_view.h"
 
@@ -37,8 +40,6 @@ namespace {
 
 const QString favouritesKey = QStringLiteral("variables/favourites");
 const QString headerKey = QStringLiteral("variables/header");
-const QString samplingKey = QStringLiteral("variables/everyNthTick");
-const QString changedKey = QStringLiteral("variables/changedWithin");
 
 class VariablesDock : public QWidget {
  public:
@@ -72,6 +73,10 @@ class VariablesDock : public QWidget {
     connect(context.source, &SourceSwitch::changed, this, [this] { adoptSource(); });
     connect(context.controller->edits(), &MatchEdits::lockedChanged, this,
             [this] { allowEditing(m_lock->isChecked()); });
+    if (context.selection != nullptr) {
+      connect(context.selection, &RobotSelection::blackboardRequested, this,
+              [this](RobotId id) { showBlackboard(id); });
+    }
     connect(m_timer, &QTimer::timeout, this, [this] { poll(); });
     constexpr int pollMilliseconds = 100;
     m_timer->start(pollMilliseconds);
@@ -128,7 +133,14 @@ class VariablesDock : public QWidget {
     connect(m_lock, &QToolButton::toggled, this, [this](bool on) { allowEditing(on); });
     auto* more = makeButton("variablesMenu", "application-menu",
                             QStringLiteral("Columns, sampling, catalog, other blackboards"));
-    more->setMenu(makeMenu(more));
+    m_menu = new VariablesMenu(m_context, m_view, m_filter, m_catalog, m_guests, more);
+    more->setMenu(m_menu);
+    connect(m_menu, &VariablesMenu::changedWithinChosen, this, [this] {
+      if (m_changed->isChecked())
+        applyChanged();
+      else
+        m_changed->setChecked(true);
+    });
     more->setPopupMode(QToolButton::InstantPopup);
     auto* row = new QHBoxLayout;
     const int gap = scaled(this, 4);
@@ -137,76 +149,6 @@ class VariablesDock : public QWidget {
     row->addWidget(m_words, 1);
     for (QToolButton* button : {m_stars, m_changed, m_lock, more}) row->addWidget(button);
     return row;
-  }
-
-  void fillChanged(QMenu* menu) {
-    menu->clear();
-    for (const int seconds : {1, 5, 15, 60}) {
-      QAction* action =
-          menu->addAction(seconds == 1 ? QStringLiteral("Within the last second")
-                                       : QStringLiteral("Within the last %1 s").arg(seconds));
-      action->setCheckable(true);
-      action->setChecked(seconds == m_changedWithin);
-      connect(action, &QAction::triggered, this, [this, seconds] {
-        m_changedWithin = seconds;
-        if (m_context.settings) m_context.settings->setValue(changedKey, seconds);
-        if (m_changed->isChecked())
-          applyChanged();
-        else
-          m_changed->setChecked(true);
-      });
-    }
-  }
-
-  QMenu* makeMenu(QWidget* parent) {
-    auto* menu = new QMenu(parent);
-    QMenu* columns = menu->addMenu(QStringLiteral("Columns"));
-    connect(columns, &QMenu::aboutToShow, this,
-            [this, columns] { m_view->columns()->fillColumns(columns); });
-    QMenu* changed = menu->addMenu(QStringLiteral("Changed means"));
-    connect(changed, &QMenu::aboutToShow, this, [this, changed] { fillChanged(changed); });
-    QMenu* sampling = menu->addMenu(QStringLiteral("Sampling"));
-    connect(sampling, &QMenu::aboutToShow, this, [this, sampling] { fillSampling(sampling); });
-    menu->addSeparator();
-    menu->addAction(QStringLiteral("Import catalog…"), this,
-                    [this] { m_catalog->askAndImport(this); })
-        ->setObjectName(QStringLiteral("importCatalog"));
-    QAction* reset = menu->addAction(QStringLiteral("Use the published catalog"), this,
-                                     [this] { m_catalog->usePublished(); });
-    reset->setObjectName(QStringLiteral("publishedCatalog"));
-    QAction* attach = menu->addAction(QStringLiteral("Attach blackboard…"), this,
-                                      [this] { m_guests->form()->open(); });
-    attach->setObjectName(QStringLiteral("attachBlackboard"));
-    menu->addSeparator();
-    menu->addAction(QStringLiteral("Open all"), this, [this] { m_view->openAll(); });
-    menu->addAction(QStringLiteral("Close all"), this, [this] { m_view->closeAll(); });
-    connect(menu, &QMenu::aboutToShow, this, [this, reset, attach] {
-      const bool simulated = m_context.source->kind() == SourceKind::Simulate;
-      attach->setEnabled(simulated);
-      attach->setToolTip(
-          simulated ? QStringLiteral("Samples any System V key, read-only")
-                    : QStringLiteral("Blackboards of this computer are shown in Simulate"));
-      reset->setEnabled(!m_catalog->isPublished());
-      reset->setToolTip(m_catalog->name());
-    });
-    menu->setToolTipsVisible(true);
-    return menu;
-  }
-
-  void fillSampling(QMenu* menu) {
-    menu->clear();
-    for (const int ticks : {1, 2, 5, 10, 30, 60}) {
-      QAction* action = menu->addAction(ticks == 1 ? QStringLiteral("Each tick")
-                                                   : QStringLiteral("Every %1 ticks").arg(ticks));
-      action->setCheckable(true);
-      action->setChecked(m_context.controller->memory()->sampling() == ticks);
-      connect(action, &QAction::triggered, this, [this, ticks] { setSampling(ticks); });
-    }
-  }
-
-  void setSampling(int ticks) {
-    m_context.controller->memory()->setSampling(ticks);
-    if (m_context.settings) m_context.settings->setValue(samplingKey, ticks);
   }
 
   void showMenu(QPoint at) {
@@ -266,9 +208,6 @@ class VariablesDock : public QWidget {
     allowEditing(false);
     if (const QSettings* settings = m_context.settings) {
       m_model->setFavourites(settings->value(favouritesKey).toStringList());
-      m_changedWithin = qBound(1, settings->value(changedKey, m_changedWithin).toInt(), 3600);
-      m_context.controller->memory()->setSampling(
-          qBound(1, settings->value(samplingKey, 1).toInt(), 60));
       const QByteArray header = settings->value(headerKey).toByteArray();
       if (!header.isEmpty()) m_view->header()->restoreState(header);
       m_view->header()->setSortIndicator(-1, Qt::AscendingOrder);
@@ -307,13 +246,40 @@ class VariablesDock : public QWidget {
     m_lock->setAccessibleName(QStringLiteral("Edit values"));
   }
 
+  /// The variables of one robot, in front of everything, and where others find them.
+  void showBlackboard(RobotId id) {
+    const FramePtr frame = m_context.source->frame();
+    const link::RobotFrame* robot = frame ? frame->robot(id) : nullptr;
+    if (robot == nullptr) return;
+    m_stars->setChecked(false);
+    m_changed->setChecked(false);
+    // With the slash B1 is not B11, too.
+    m_words->setText(robotName(robot->identity) + QLatin1Char('/'));
+    if (robot->board) m_message->say(InPlaceMessage::Tone::Note, whereText(*robot->board));
+    if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
+      dock->show();
+      dock->raise();
+    }
+  }
+
+  static QString whereText(const link::RobotBoardView& board) {
+    return board.key == 0
+               ? QStringLiteral(
+                     "This blackboard is in the studio's own memory: other programs cannot reach "
+                     "it. Simulation > Robots decide shares it.")
+               : QStringLiteral(
+                     "System V shared memory, key %1, 2048 bytes. In a terminal: "
+                     "pitchboard-cli blackboard watch --key %1")
+                     .arg(board.key);
+  }
+
   void applyChanged() {
     const bool on = m_changed->isChecked();
+    const int seconds = m_menu->changedWithin();
     m_changed->setToolTip(
-        m_changedWithin == 1
-            ? QStringLiteral("Only what changed within the last second")
-            : QStringLiteral("Only what changed within the last %1 s").arg(m_changedWithin));
-    m_filter->setChangedWithin(on ? std::optional<double>(m_changedWithin) : std::nullopt);
+        seconds == 1 ? QStringLiteral("Only what changed within the last second")
+                     : QStringLiteral("Only what changed within the last %1 s").arg(seconds));
+    m_filter->setChangedWithin(on ? std::optional<double>(seconds) : std::nullopt);
     filterChanged();
   }
 
@@ -335,6 +301,7 @@ class VariablesDock : public QWidget {
     m_model->setMoment(past ? std::optional(timeline->shownTime()) : std::nullopt);
     m_guests->refresh();
     m_model->updateGroups();
+    m_model->refreshSet(m_view->rowsInSight());
     constexpr int slowly = 5;
     const bool busy = m_view->isEditing() || QApplication::mouseButtons() != Qt::NoButton;
     if (++m_polls % slowly == 0 && !busy) m_filter->update();
@@ -364,7 +331,7 @@ class VariablesDock : public QWidget {
       return QStringLiteral("No favourites yet. Select a variable and press * to make it one.");
     }
     if (m_changed->isChecked()) {
-      return QStringLiteral("Nothing changed within the last %1 s.").arg(m_changedWithin);
+      return QStringLiteral("Nothing changed within the last %1 s.").arg(m_menu->changedWithin());
     }
     return QStringLiteral("None of the favourites is in this match.");
   }
@@ -379,10 +346,10 @@ class VariablesDock : public QWidget {
   ValueWriter* m_writer;
   GuestBoards* m_guests;
   CatalogChoice* m_catalog = nullptr;
+  VariablesMenu* m_menu = nullptr;
   QLineEdit* m_words = nullptr;
   QToolButton *m_stars = nullptr, *m_changed = nullptr, *m_lock = nullptr;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
-  int m_changedWithin = 5;
   unsigned m_polls = 0;
 };
 

@@ -42,7 +42,23 @@ bool VariablesFilter::sortsByNumbers() const {
          sortColumn() == VariablesModel::Age;
 }
 
+void VariablesFilter::setFolding(bool on) {
+  m_folding = on;
+  invalidateFilter();
+}
+
+void VariablesFilter::setUnfolded(const QSet<QString>& categories) {
+  if (categories == m_unfolded) return;
+  m_unfolded = categories;
+  m_model->setRestShown(categories);
+  invalidateFilter();
+}
+
 void VariablesFilter::update() {
+  if (m_setSeen != m_model->setRevision()) {
+    m_setSeen = m_model->setRevision();
+    invalidateFilter();
+  }
   if (m_changedWithin) {
     m_model->refreshChanges();
     invalidateFilter();
@@ -57,7 +73,13 @@ int VariablesFilter::variableCount() const {
   int count = 0;
   for (int g = 0; g < rowCount(); ++g) {
     const QModelIndex group = index(g, 0);
-    for (int h = 0; h < rowCount(group); ++h) count += rowCount(index(h, 0, group));
+    for (int h = 0; h < rowCount(group); ++h) {
+      const QModelIndex category = index(h, 0, group);
+      const int rows = rowCount(category);
+      const QModelIndex last = mapToSource(index(rows - 1, 0, category));
+      const bool rest = rows > 0 && m_model->kindOf(last) == VariablesModel::Kind::Rest;
+      count += rest ? rows - 1 : rows;
+    }
   }
   return count;
 }
@@ -72,10 +94,26 @@ bool VariablesFilter::accepts(const QModelIndex& variable) const {
                      [&text](const QString& word) { return text.contains(word); });
 }
 
+// Whoever looks for a name finds it; the name of a robot alone looks for no variable.
+bool VariablesFilter::foldsIn(const QModelIndex& category) const {
+  if (!m_folding || m_favouritesOnly || m_changedWithin) return false;
+  if (m_model->neverSetCount(category) == 0) return false;
+  const QModelIndex rest = m_model->index(m_model->rowCount(category) - 1, 0, category);
+  const QString& robot = m_model->searchText(rest);
+  return std::all_of(m_words.begin(), m_words.end(),
+                     [&robot](const QString& word) { return robot.contains(word); });
+}
+
 bool VariablesFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
-  if (!isFiltering()) return true;
   const QModelIndex index = m_model->index(row, 0, parent);
-  if (m_model->kindOf(index) == VariablesModel::Kind::Variable) return accepts(index);
+  const VariablesModel::Kind kind = m_model->kindOf(index);
+  if (kind == VariablesModel::Kind::Rest) return foldsIn(parent);
+  if (kind == VariablesModel::Kind::Variable) {
+    const bool folded = m_model->wasNeverSet(index) && foldsIn(parent) &&
+                        !m_unfolded.contains(parent.data(VariablesModel::PathRole).toString());
+    return !folded && (!isFiltering() || accepts(index));
+  }
+  if (!isFiltering()) return true;
   for (int child = 0; child < m_model->rowCount(index); ++child) {
     if (filterAcceptsRow(child, index)) return true;
   }
@@ -84,8 +122,17 @@ bool VariablesFilter::filterAcceptsRow(int row, const QModelIndex& parent) const
 
 bool VariablesFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
   // Robots and categories keep their order whatever their variables are sorted by.
-  if (m_model->kindOf(left) != VariablesModel::Kind::Variable) {
+  const bool rows = m_model->kindOf(left) == VariablesModel::Kind::Variable ||
+                    m_model->kindOf(left) == VariablesModel::Kind::Rest;
+  if (!rows) {
     return sortOrder() == Qt::AscendingOrder ? left.row() < right.row() : left.row() > right.row();
+  }
+  // The row that stands for the rest is the last one in both orders.
+  if (m_model->kindOf(left) == VariablesModel::Kind::Rest) {
+    return sortOrder() == Qt::DescendingOrder;
+  }
+  if (m_model->kindOf(right) == VariablesModel::Kind::Rest) {
+    return sortOrder() == Qt::AscendingOrder;
   }
   const QVariant a = left.data(VariablesModel::SortRole);
   const QVariant b = right.data(VariablesModel::SortRole);

@@ -3,8 +3,10 @@
 
 // Which variables are listed, and in which order: those with all the words (in robot, category,
 // name or unit), favourites only, recently changed only. A robot or category is listed when one of
-// its variables is. Nothing moves by itself: update() and the setters do it.
+// its variables is. What was never set is folded into one row of its category, unless words,
+// favourites or changes ask for it. Nothing moves by itself: update() and the setters do it.
 
+#include <QSet>
 #include <QSortFilterProxyModel>
 #include <QStringList>
 #include <optional>
@@ -24,7 +26,14 @@ class VariablesFilter : public QSortFilterProxyModel {
   void setChangedWithin(std::optional<double> seconds);
   bool isFiltering() const;
   bool sortsByNumbers() const;
-  /// Looks again: at changes when only those are shown, at values when they give the order.
+  /// Off: what was never set stands among the others.
+  void setFolding(bool on);
+  bool isFolding() const { return m_folding; }
+  /// Shows what was never set in these categories (paths), and folds it in all others.
+  void setUnfolded(const QSet<QString>& categories);
+  const QSet<QString>& unfolded() const { return m_unfolded; }
+  /// Looks again: at changes when only those are shown, at values when they give the order, and at
+  /// what was set for the first time.
   void update();
   int variableCount() const;  ///< listed now
 
@@ -34,11 +43,16 @@ class VariablesFilter : public QSortFilterProxyModel {
 
  private:
   bool accepts(const QModelIndex& variable) const;
+  /// What was never set is folded there.
+  bool foldsIn(const QModelIndex& category) const;
 
   VariablesModel* m_model;
   QStringList m_words;
   std::optional<double> m_changedWithin;
   bool m_favouritesOnly = false;
+  bool m_folding = true;
+  QSet<QString> m_unfolded;
+  std::uint64_t m_setSeen = 0;
 };
 
 }  // namespace pitchboard::ui

@@ -48,6 +48,7 @@ void VariablesModel::setStore(std::shared_ptr<const telemetry::SeriesStore> stor
   m_kind = kind;
   m_revision = 0;
   m_now = 0.0;
+  m_nextGroup = 0;
   endResetModel();
   updateGroups();
 }
@@ -91,6 +92,16 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
             .toLower();
     category->children.push_back(std::move(variable));
   }
+  for (const auto& category : group->children) {
+    category->neverSet = static_cast<int>(category->children.size());
+    auto rest = std::make_unique<VariableNode>();
+    rest->kind = Kind::Rest;
+    rest->parent = category.get();
+    rest->row = category->neverSet;
+    rest->path = category->path + QStringLiteral("\nnever set");
+    rest->searchText = group->name.toLower() + QLatin1Char('\n');
+    category->children.push_back(std::move(rest));
+  }
   std::stable_sort(group->children.begin(), group->children.end(),
                    [](const auto& a, const auto& b) { return a->rank < b->rank; });
   int row = 0;
@@ -125,6 +136,7 @@ void VariablesModel::updateGroups() {
     // One that was replaced stays in the store, without rows.
     if (!view || m_store->findGroup(view->info().name) != id) continue;
     auto group = makeGroup(id, std::move(view));
+    lookForSet(*group);
     const auto place = std::find_if(m_groups.begin(), m_groups.end(), [&group](const auto& other) {
       return std::pair(group->rank, group->group) < std::pair(other->rank, other->group);
     });
@@ -195,16 +207,35 @@ const QString& VariablesModel::searchText(const QModelIndex& index) const {
   return node(index)->searchText;
 }
 
+bool VariablesModel::wasNeverSet(const QModelIndex& variable) const {
+  return !node(variable)->wasSet;
+}
+
+int VariablesModel::neverSetCount(const QModelIndex& index) const {
+  const VariableNode* row = node(index);
+  return (row->kind == Kind::Rest ? row->parent : row)->neverSet;
+}
+
+void VariablesModel::setRestShown(const QSet<QString>& categories) {
+  m_restShown = categories;
+  for (const auto& group : m_groups) {
+    for (const auto& category : group->children) {
+      const QModelIndex rest = indexOf(category->children.back().get(), Name);
+      emit dataChanged(rest, rest);
+    }
+  }
+}
+
 double VariablesModel::lastChange(const QModelIndex& index) const {
   return node(index)->lastChange;
 }
 
 int VariablesModel::variableCount() const {
-  std::size_t count = 0;
+  int count = 0;
   for (const auto& group : m_groups) {
-    for (const auto& category : group->children) count += category->children.size();
+    forEachVariable(*group, [&count](const VariableNode&) { ++count; });
   }
-  return static_cast<int>(count);
+  return count;
 }
 
 QStringList VariablesModel::variableNames(const QModelIndexList& indexes) {

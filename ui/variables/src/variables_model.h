@@ -41,7 +41,8 @@ class VariablesModel : public QAbstractItemModel {
     FavouriteRole,  ///< bool
     ColumnRole      ///< telemetry::ColumnInfo, of a variable
   };
-  enum class Kind { Group, Category, Variable };
+  /// Rest: the last row of a category, which stands for the variables that were never set.
+  enum class Kind { Group, Category, Variable, Rest };
 
   explicit VariablesModel(QObject* parent = nullptr);
   ~VariablesModel() override;
@@ -62,6 +63,17 @@ class VariablesModel : public QAbstractItemModel {
   void refreshAll();
   /// Looks only when each variable changed last; for a filter.
   void refreshChanges();
+  /// Looks which variables were set meanwhile: those of the groups of these rows, and those of one
+  /// more group, another one each time. A variable that was set stays set.
+  void refreshSet(const QModelIndexList& rows);
+  /// Grows whenever one was set.
+  std::uint64_t setRevision() const { return m_setRevision; }
+  /// Zero, or without a value, ever since the source began.
+  bool wasNeverSet(const QModelIndex& variable) const;
+  /// Of a category or its last row.
+  int neverSetCount(const QModelIndex& index) const;
+  /// What the last row of a category says and offers.
+  void setRestShown(const QSet<QString>& categories);
 
   /// What is known of a group beside its rows; an empty note takes it away.
   void setNote(const QString& group, const GroupNote& note);
@@ -123,6 +135,8 @@ class VariablesModel : public QAbstractItemModel {
                                           std::shared_ptr<const telemetry::GroupView> view) const;
   void renumber();
   bool read(VariableNode& variable, int sparkPixels) const;
+  void lookForSet(VariableNode& group);
+  QString restText(const VariableNode& row) const;
   void takeTime();
   void lookAt(VariableNode& group);
   double rateOf(const VariableNode& group) const;
@@ -139,6 +153,9 @@ class VariablesModel : public QAbstractItemModel {
   std::optional<double> m_moment;     // looked back at
   double m_now = 0.0;
   std::uint64_t m_round = 0;
+  std::uint64_t m_setRevision = 0;
+  std::size_t m_nextGroup = 0;  // to be looked at for what was set
+  QSet<QString> m_restShown;    // categories whose variables that were never set are listed
   bool m_editingAllowed = false;
 };
 

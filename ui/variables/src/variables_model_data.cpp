@@ -131,7 +131,7 @@ void VariablesModel::refreshAll() {
     for (const auto& category : group->children) {
       bool changed = false;
       for (const auto& variable : category->children) {
-        changed = read(*variable, 0) || changed;
+        if (variable->kind == Kind::Variable) changed = read(*variable, 0) || changed;
       }
       if (changed) {
         emit dataChanged(indexOf(category->children.front().get(), Value),
@@ -153,11 +153,58 @@ void VariablesModel::refreshChanges() {
   }
 }
 
+void VariablesModel::lookForSet(VariableNode& group) {
+  const auto range = group.view->range();
+  if (!range) return;
+  bool any = false;
+  forEachVariable(group, [&](VariableNode& variable) {
+    if (variable.wasSet) return;
+    const auto newest = group.view->latest(variable.column);
+    if (!newest) return;
+    // What was set and taken back between two looks has changed all the same.
+    const bool zero = newest->value == 0.0 || std::isnan(newest->value);
+    if (zero && group.view->lastChange(variable.column).value_or(range->begin) <= range->begin) {
+      return;
+    }
+    variable.wasSet = true;
+    --variable.parent->neverSet;
+    any = true;
+  });
+  if (any) ++m_setRevision;
+}
+
+void VariablesModel::refreshSet(const QModelIndexList& rows) {
+  if (!m_store || m_groups.empty()) return;
+  std::vector<VariableNode*> groups{m_groups[m_nextGroup++ % m_groups.size()].get()};
+  for (const QModelIndex& index : rows) {
+    VariableNode* group = node(index)->owner();
+    if (group != groups.back()) groups.push_back(group);
+  }
+  for (VariableNode* group : groups) {
+    if (auto view = m_store->view(group->group)) group->view = std::move(view);
+    const std::uint64_t before = m_setRevision;
+    lookForSet(*group);
+    if (before == m_setRevision) continue;
+    for (const auto& category : group->children) {
+      const QModelIndex rest = indexOf(category->children.back().get(), Name);
+      emit dataChanged(rest, rest);
+    }
+  }
+}
+
+QString VariablesModel::restText(const VariableNode& row) const {
+  const int count = row.parent->neverSet;
+  const QString words = count == 1 ? QStringLiteral("1 variable never set")
+                                   : QStringLiteral("%1 variables never set").arg(count);
+  return m_restShown.contains(row.parent->path) ? QStringLiteral("Fold ") + words : words;
+}
+
 double VariablesModel::rateOf(const VariableNode& group) const {
   return m_notes.value(group.name).rate.value_or(group.rowsPerSecond);
 }
 
 QVariant VariablesModel::display(const VariableNode& row, int column) const {
+  if (row.kind == Kind::Rest) return column == Name ? restText(row) : QString();
   if (column == Name) {
     const QString note = row.kind == Kind::Group ? m_notes.value(row.name).trouble : QString();
     return note.isEmpty() ? row.name : row.name + QStringLiteral(" · ") + note;
@@ -185,6 +232,7 @@ QVariant VariablesModel::display(const VariableNode& row, int column) const {
 }
 
 QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
+  if (row.kind != Kind::Variable) return {};
   switch (column) {
     case Value:
       return row.known ? QVariant(row.value) : QVariant();
@@ -225,6 +273,10 @@ QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
 QString VariablesModel::toolTip(const QModelIndex& index) const {
   const VariableNode& row = *node(index);
   if (row.kind == Kind::Category) return {};
+  if (row.kind == Kind::Rest) {
+    return QStringLiteral(
+        "Zero, or without a value, ever since the beginning. A click shows and folds them.");
+  }
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
     for (const auto& [key, value] : row.view->info().attributes) {
@@ -275,6 +327,7 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
       return toolTip(index);
     case Qt::FontRole:
       if (row.kind == Kind::Group && index.column() == Name) return themeFont(TypeRole::Body, true);
+      if (row.kind == Kind::Rest) return themeFont(TypeRole::Secondary);
       return index.column() == Unit || index.column() == Age || row.kind == Kind::Group
                  ? themeFont(TypeRole::Secondary)
                  : QVariant();
@@ -290,8 +343,8 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
         return theme().warningText;
       }
       if (m_now - row.owner()->newest > silence) return theme().disabledText;
-      if (index.column() == Unit || index.column() == Age || index.column() == Rate ||
-          (row.kind == Kind::Group && index.column() != Name)) {
+      if (row.kind == Kind::Rest || index.column() == Unit || index.column() == Age ||
+          index.column() == Rate || (row.kind == Kind::Group && index.column() != Name)) {
         return theme().secondaryText;
       }
       return {};
@@ -325,6 +378,7 @@ bool VariablesModel::setData(const QModelIndex& index, const QVariant& value, in
 Qt::ItemFlags VariablesModel::flags(const QModelIndex& index) const {
   if (!index.isValid()) return Qt::NoItemFlags;
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+  if (kindOf(index) == Kind::Rest) return flags | Qt::ItemNeverHasChildren;
   if (kindOf(index) != Kind::Variable) return flags;
   flags |= Qt::ItemIsDragEnabled | Qt::ItemNeverHasChildren;
   if (index.column() == Value && m_editingAllowed && whyNotEditable(index).isEmpty()) {

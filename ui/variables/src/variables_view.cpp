@@ -57,6 +57,7 @@ VariablesView::VariablesView(VariablesModel* model, VariablesFilter* filter, QWi
   connect(filter, &QAbstractItemModel::modelReset, this, &VariablesView::restoreSoon);
   connect(filter, &QAbstractItemModel::rowsRemoved, this, &VariablesView::restoreSoon);
   connect(filter, &QAbstractItemModel::rowsInserted, this, &VariablesView::restoreSoon);
+  connect(this, &QTreeView::clicked, this, [this](const QModelIndex& at) { toggleRestAt(at); });
   connect(this, &QTreeView::expanded, this,
           [this](const QModelIndex& index) { remember(index, true); });
   connect(this, &QTreeView::collapsed, this,
@@ -94,21 +95,38 @@ void VariablesView::followFilter() {
 // QTreeView's own expandAll() does not say what it opened.
 void VariablesView::openAll() {
   m_closedWhileFiltering.clear();
+  QSet<QString> categories = m_filter->unfolded();
   for (int g = 0; g < m_model->rowCount(); ++g) {
     const QModelIndex group = m_model->index(g, 0);
     m_open.insert(group.data(VariablesModel::PathRole).toString());
     for (int h = 0; h < m_model->rowCount(group); ++h) {
-      m_open.insert(m_model->index(h, 0, group).data(VariablesModel::PathRole).toString());
+      categories.insert(m_model->index(h, 0, group).data(VariablesModel::PathRole).toString());
     }
   }
+  m_open += categories;
   m_openedAtFirst = true;
+  m_filter->setUnfolded(categories);
   restore();
 }
 
 void VariablesView::closeAll() {
   m_open.clear();
   m_openedAtFirst = true;
+  m_filter->setUnfolded({});
   restore();
+}
+
+void VariablesView::toggleRest(const QString& category) {
+  QSet<QString> shown = m_filter->unfolded();
+  if (!shown.remove(category)) shown.insert(category);
+  m_filter->setUnfolded(shown);
+}
+
+bool VariablesView::toggleRestAt(const QModelIndex& index) {
+  const QModelIndex row = m_filter->mapToSource(index.siblingAtColumn(0));
+  if (!row.isValid() || m_model->kindOf(row) != VariablesModel::Kind::Rest) return false;
+  toggleRest(row.parent().data(VariablesModel::PathRole).toString());
+  return true;
 }
 
 void VariablesView::restoreSoon() {
@@ -231,7 +249,7 @@ void VariablesView::keyPressEvent(QKeyEvent* event) {
       if (isEditing()) break;
       if (const QStringList names = selectedVariables(); !names.isEmpty()) {
         emit plotRequested(names);
-      } else if (current.isValid()) {
+      } else if (current.isValid() && !toggleRestAt(current)) {
         setExpanded(current.siblingAtColumn(0), !isExpanded(current.siblingAtColumn(0)));
       }
       return;

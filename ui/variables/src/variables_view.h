@@ -35,6 +35,8 @@ class VariablesView : public QTreeView {
   void openAll();
   void closeAll();
   bool isEditing() const { return state() == EditingState; }
+  /// What was never set in this category (path) is listed, or folded into its last row again.
+  void toggleRest(const QString& category);
 
  signals:
   void plotRequested(const QStringList& names);
@@ -50,6 +52,8 @@ class VariablesView : public QTreeView {
 
  private:
   void editValue(const QModelIndex& index);
+  /// Nothing but on the last row of a category.
+  bool toggleRestAt(const QModelIndex& index);
   void remember(const QModelIndex& index, bool open);
   void restoreSoon();
   void restore();

@@ -34,7 +34,8 @@ QWidget* robots(const StudioParts& s, QWidget* parent) {
                         parent);
 }
 QWidget* variables(const StudioParts& s, QWidget* parent) {
-  return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings}, parent);
+  return makeVariablesDock({s.controller, s.source, s.timeline, s.plots, s.settings, s.selection},
+                           parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, s.selection, parent);

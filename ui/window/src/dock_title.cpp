@@ -35,12 +35,17 @@ DockTitle::DockTitle(QDockWidget* dock) : QWidget(dock) {
   connect(floating, &QToolButton::clicked, dock,
           [dock] { dock->setFloating(!dock->isFloating()); });
   connect(close, &QToolButton::clicked, dock, &QDockWidget::close);
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(scaled(this, 8), 0, scaled(this, 4), 0);
-  row->setSpacing(0);
-  row->addWidget(label, 1);
-  row->addWidget(floating);
-  row->addWidget(close);
+  m_row = new QHBoxLayout(this);
+  m_row->setContentsMargins(scaled(this, 8), 0, scaled(this, 4), 0);
+  m_row->setSpacing(0);
+  m_row->addWidget(label);
+  m_row->addStretch(1);
+  m_row->addWidget(floating);
+  m_row->addWidget(close);
+}
+
+void DockTitle::setCorner(QWidget* corner) {
+  m_row->insertWidget(1, corner, 100);
 }
 
 QSize DockTitle::sizeHint() const {

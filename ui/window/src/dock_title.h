@@ -7,6 +7,7 @@
 #include <QWidget>
 
 class QDockWidget;
+class QHBoxLayout;
 
 namespace pitchboard::ui {
 
@@ -17,11 +18,14 @@ class DockTitle : public QWidget {
   explicit DockTitle(QDockWidget* dock);
   /// Folded it takes no room: the dock is one of several tabs, and the tab says its name.
   void setFolded(bool folded);
+  /// Between the name and the buttons; something else may take it away again.
+  void setCorner(QWidget* corner);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return sizeHint(); }
 
  private:
   bool m_folded = false;
+  QHBoxLayout* m_row;
 };
 
 }  // namespace pitchboard::ui

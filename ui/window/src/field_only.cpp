@@ -51,6 +51,10 @@ void FieldOnly::set(bool on) {
   for (QToolBar* bar : m_window->findChildren<QToolBar*>(QString(), Qt::FindDirectChildrenOnly)) {
     bar->setVisible(!on);
   }
+  // A projector's public has no use for tools.
+  if (auto* tools = m_window->findChild<QToolBar*>(QStringLiteral("fieldTools"))) {
+    tools->setVisible(!on);
+  }
   m_window->menuBar()->setVisible(!on);
   m_window->statusBar()->setVisible(!on);
   m_window->setWindowState(on ? m_state | Qt::WindowFullScreen : m_state);

@@ -54,6 +54,7 @@
 #include "scenario_chooser.h"
 #include "status_bar.h"
 #include "studio_parts.h"
+#include "tab_corner.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
@@ -116,6 +117,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   makeDocks();
   m_plotsDock = findChild<PlotsDock*>();
+  new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
+                m_docks);
   m_undo->addStack(m_plotsDock->undoStack());
   makeMenus();
   connectField();
@@ -209,14 +212,17 @@ void MainWindow::askAndOpen() {
 }
 
 void MainWindow::showPalette() {
-  std::vector<PaletteEntry> entries;
+  std::vector<PaletteEntry> entries, deep;
   for (const MenuAction& each : menuActions(*menuBar())) {
     if (!each.action->isEnabled()) continue;
-    entries.push_back({QStringLiteral("%1: %2").arg(each.menu, each.text),
-                       each.action->shortcut().toString(QKeySequence::NativeText),
-                       [action = each.action] {
-                         if (action) action->trigger();
-                       }});
+    // What stands three menus deep is hardly meant by words that a variable has as well.
+    const bool isDeep = each.menu.count(QStringLiteral(": ")) > 1;
+    (isDeep ? deep : entries)
+        .push_back({QStringLiteral("%1: %2").arg(each.menu, each.text),
+                    each.action->shortcut().toString(QKeySequence::NativeText),
+                    [action = each.action] {
+                      if (action) action->trigger();
+                    }});
   }
   if (const FramePtr frame = m_source->frame()) {
     for (const link::RobotFrame& robot : frame->robots) {
@@ -228,6 +234,7 @@ void MainWindow::showPalette() {
     entries.push_back(
         {name, QStringLiteral("plot"), [this, name] { m_plotsDock->plotVariables({name}); }});
   }
+  entries.insert(entries.end(), deep.begin(), deep.end());
   const auto& events = m_timeline->events()->events();
   constexpr int mostEvents = 500;
   int listed = 0;
@@ -319,7 +326,8 @@ void MainWindow::showSource(SourceKind kind) {
 // Undo belongs to the plots while somebody works there, else to the match.
 void MainWindow::chooseUndo() {
   const QWidget* focus = QApplication::focusWidget();
-  if (focus != nullptr && m_plotsDock->isAncestorOf(focus)) {
+  if (focus != nullptr &&
+      (m_plotsDock->isAncestorOf(focus) || m_plotsDock->pageTabs()->isAncestorOf(focus))) {
     m_undo->setActiveStack(m_plotsDock->undoStack());
     return;
   }

@@ -14,6 +14,8 @@
 #include <utility>
 
 #include <ui/base/notice_bar.h>
+#include <ui/field/field_settings.h>
+#include <ui/field/field_view.h>
 
 #include "dock_list.h"
 #include "dock_title.h"
@@ -54,6 +56,7 @@ void MainWindow::restoreLayout() {
         "the first start."));
   }
   m_savedLayout = saveState(layoutVersion);
+  restoreFieldLayers(*m_field, *m_settings);
 }
 
 // Kept while the studio runs: however it ends, the layout is there.
@@ -65,6 +68,7 @@ void MainWindow::saveLayout() {
   if (m_settings->value(geometryKey).toByteArray() != where) {
     m_settings->setValue(geometryKey, where);
   }
+  saveFieldLayers(*m_field, *m_settings);
   if (now == m_savedLayout) return;
   m_savedLayout = now;
   m_settings->setValue(layoutKey, now);

@@ -35,33 +35,13 @@
 #include "alarms.h"
 #include "field_only.h"
 #include "help_windows.h"
+#include "match_menu.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
 #include "transport_bar.h"
 
 namespace pitchboard::ui {
 namespace {
-
-/// "Match 3 · seed 42 · robots decide in the studio", what a match was started with.
-QString matchFacts(const MatchController& controller) {
-  QStringList facts;
-  const FramePtr frame = controller.frame();
-  const int number = frame ? frame->matchNumber.value_or(0) : 0;
-  facts << QStringLiteral("Match %1").arg(number)
-        << QStringLiteral("seed %1").arg(controller.scenario().settings.seed);
-  switch (controller.cognition()) {
-    case link::Cognition::External:
-      facts << QStringLiteral("separate robot processes");
-      break;
-    case link::Cognition::Inline:
-      facts << QStringLiteral("robots decide in the studio");
-      break;
-    case link::Cognition::None:
-      facts << QStringLiteral("your processes only");
-      break;
-  }
-  return facts.join(QStringLiteral(" · "));
-}
 
 QAction* withIcon(QAction* action, const char* icon, const QKeySequence& keys = {}) {
   if (icon != nullptr) action->setIcon(themedIcon(QLatin1String(icon)));
@@ -272,33 +252,8 @@ void StudioMenus::makeSimulation() {
       action->setChecked(speed == controller->speed());
     }
   });
-  QAction* seed =
-      menu->addAction(QStringLiteral("S&eed…"), &m_window, [parts = m_parts, this_ = &m_window] {
-        link::Scenario again = parts.controller->scenario();
-        bool chosen = false;
-        const QString text = QInputDialog::getText(
-            this_, QStringLiteral("Seed"),
-            QStringLiteral("The same seed gives the same match, from the beginning. Seed:"),
-            QLineEdit::Normal, QString::number(again.settings.seed), &chosen);
-        if (!chosen) return;
-        bool good = false;
-        const qulonglong wanted = text.trimmed().toULongLong(&good);
-        if (!good) {
-          this_->notices()->show(
-              QStringLiteral(
-                  "“%1” is no seed: a seed is a whole number from 0 on. The match goes on.")
-                  .arg(text));
-          return;
-        }
-        again.settings.seed = wanted;
-        parts.controller->open(again, parts.controller->isPaused());
-      });
-  seed->setObjectName(QStringLiteral("matchSeed"));
-  onlyWhenSimulating(seed);
-  QAction* facts = menu->addAction(QStringLiteral("This match"));
-  facts->setEnabled(false);
-  QObject::connect(menu, &QMenu::aboutToShow, facts,
-                   [facts, parts = m_parts] { facts->setText(matchFacts(*parts.controller)); });
+  addMatchEntries(menu, controller, &m_window,
+                  [this](QAction* action) { onlyWhenSimulating(action); });
   menu->addSeparator();
   QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
   freely->setCheckable(true);

@@ -36,6 +36,9 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &StudioStatusBar::refresh);
   timer->start(refreshMilliseconds);
+  connect(this, &QStatusBar::messageChanged, this, [this](const QString& message) {
+    if (message.isEmpty()) refresh();
+  });
   connect(context.source, &SourceSwitch::changed, this, &StudioStatusBar::refresh);
   connect(context.selection, &RobotSelection::changed, this, &StudioStatusBar::refresh);
   setContextMenuPolicy(Qt::CustomContextMenu);
@@ -67,8 +70,9 @@ QLabel* StudioStatusBar::addLabel(const char* name, bool atRight) {
   return label;
 }
 
-// No lines between nothings.
+// No lines between nothings; and nothing beside a message, which has hidden everything.
 void StudioStatusBar::hideEmpty() {
+  if (!currentMessage().isEmpty()) return;
   bool first = true;
   for (const Part& part : m_parts) {
     const bool shown = !part.label->text().isEmpty();

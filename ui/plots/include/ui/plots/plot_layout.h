@@ -62,6 +62,10 @@ struct PaneSpec {
   bool equalScales = false;  ///< Xy: a metre is a metre in both directions
   QList<CurveSpec> curves;
   int share = 100;  ///< of the height, relative to the other plots
+  // Chart: of the second value axis.
+  QString rightTitle;
+  bool autoRight = true;
+  ValueLimits right;
   bool operator==(const PaneSpec&) const = default;
 };
 

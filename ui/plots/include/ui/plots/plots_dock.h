@@ -16,7 +16,8 @@
 class QAction;
 class QMenu;
 class QSettings;
-class QTabWidget;
+class QStackedWidget;
+class QTabBar;
 class QToolBar;
 class QToolButton;
 class QUndoStack;
@@ -57,6 +58,9 @@ class PlotsDock : public QWidget {
   PlotPage* addPage(const PageSpec& spec);
   void closePage(int index);
   void renamePage(int index);
+  /// The tabs of the pages, empty while there is one. They stand above the plots unless the window
+  /// has a better place for them.
+  QWidget* pageTabs() const { return m_pageRow; }
 
   PlotLayout layoutSpec() const;
   /// Can be undone, as everything that is changed here.
@@ -89,11 +93,14 @@ class PlotsDock : public QWidget {
   void takeRows();
   void save();
   void showWindow();
+  PlotPage* pageAt(int tab) const;
 
   PlotsContext m_context;
   QPointer<LinkedTime> m_time;  // the window deletes it before its docks
   PlotFeed* m_feed;
-  QTabWidget* m_tabs;
+  QPointer<QWidget> m_pageRow;  // may stand elsewhere, and go with what it stands in
+  QTabBar* m_tabs;              // in it; the order of the pages
+  QStackedWidget* m_stack;
   NoticeBar* m_notices;
   QToolButton* m_window;
   QUndoStack* m_undo;

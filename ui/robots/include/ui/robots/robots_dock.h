@@ -54,7 +54,6 @@ class RobotsDock : public QScrollArea {
   const CardParts& parts() const { return m_parts; }
   /// What concerns the cards, for the menu bar.
   void addCardActions(QMenu& menu);
-  void showBlackboard(RobotId id);
   /// From so many robots on cards are collapsed, unless somebody opens them.
   static constexpr std::size_t many = 9;
   QSize sizeHint() const override;

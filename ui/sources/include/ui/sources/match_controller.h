@@ -67,6 +67,10 @@ class MatchController : public FrameSource {
   link::Cognition cognition() const { return m_cognition; }
   /// What the next match is made with.
   const link::MatchOptions& options() const { return m_options; }
+  /// For the next match: where the robots' processes run, and its number on this computer (nothing:
+  /// the next free one).
+  void setCognition(link::Cognition where) { m_options.cognition = where; }
+  void setMatchNumber(std::optional<int> number) { m_options.match = number; }
   /// Names of the blackboards' words, for the next match on; the published ones at first.
   void setCatalog(std::shared_ptr<const link::VariableCatalog> catalog);
   const link::VariableCatalog& nextCatalog() const { return *m_nextCatalog; }

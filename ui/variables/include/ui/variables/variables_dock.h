@@ -11,6 +11,7 @@ namespace pitchboard::ui {
 
 class MatchController;
 class PlotTarget;
+class RobotSelection;
 class SourceSwitch;
 class Timeline;
 
@@ -18,9 +19,10 @@ class Timeline;
 struct VariablesContext {
   MatchController* controller = nullptr;  ///< words are written to its robots
   SourceSwitch* source = nullptr;
-  Timeline* timeline = nullptr;   ///< the moment shown; null: always the newest
-  PlotTarget* plots = nullptr;    ///< where variables can be sent to be plotted; may be null
-  QSettings* settings = nullptr;  ///< the user's; may be null
+  Timeline* timeline = nullptr;         ///< the moment shown; null: always the newest
+  PlotTarget* plots = nullptr;          ///< where variables can be sent to be plotted; may be null
+  QSettings* settings = nullptr;        ///< the user's; may be null
+  RobotSelection* selection = nullptr;  ///< who asks for a robot's blackboard; may be null
 };
 
 QWidget* makeVariablesDock(const VariablesContext& context, QWidget* parent);

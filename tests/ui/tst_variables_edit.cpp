@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values that are typed, names that are imported, blackboards that are attached.
+#include <QSpinBox>
+
+#include <robotlink/blackboard/system_v.h>
+
+#include "../support/segment_keys.h"
+#include "catalog_choice.h"
+#include "variables_bench.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using namespace pitchboard::ui::test;
+
+class TestVariablesEdit : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void valuesAreLockedAtFirst() {
+    Bench bench;
+    bench.hand.take(twoRobots(), SourceKind::Simulate);
+    bench.choose(ballDistance);
+    QTest::keyClick(bench.view, Qt::Key_F2);
+    QVERIFY(!bench.view->isEditing());
+    QVERIFY(bench.message().contains(QStringLiteral("locked")));
+    bench.press("editValues");
+    QTest::keyClick(bench.view, Qt::Key_F2);
+    QVERIFY(bench.view->isEditing());
+  }
+
+  void whatCannotBeEditedSaysWhy_data() {
+    QTest::addColumn<SourceKind>("kind");
+    QTest::addColumn<QString>("path");
+    QTest::addColumn<QString>("reason");
+    QTest::newRow("truth") << SourceKind::Simulate << "B1/TRUE_X"
+                           << "truth";
+    QTest::newRow("live") << SourceKind::Live << ballDistance << "live";
+    QTest::newRow("replay") << SourceKind::Replay << ballDistance << "recording";
+    QTest::newRow("attached") << SourceKind::Simulate << "key 900/VISION_LOST"
+                              << "only read";
+  }
+  void whatCannotBeEditedSaysWhy() {
+    QFETCH(const SourceKind, kind);
+    QFETCH(const QString, path);
+    QFETCH(const QString, reason);
+    auto store = twoRobots();
+    telemetry::GroupInfo attached = robotGroup("key 900", 9);
+    attached.attributes = {{"key", "900"}};
+    append(*store, store->addGroup(attached), 1.0, 0, 0, 0.0F, 0.0);
+    Bench bench;
+    bench.hand.take(store, kind);
+    bench.model->setEditingAllowed(true);
+    bench.choose(path);
+    bench.view->scrollTo(bench.at(path));
+    const QRect cell = bench.view->visualRect(bench.at(path, VariablesModel::Value));
+    QTest::mouseDClick(bench.view->viewport(), Qt::LeftButton, {}, cell.center());
+    QVERIFY(!bench.view->isEditing());
+    QVERIFY2(bench.message().contains(reason), qPrintable(bench.message()));
+    QVERIFY(
+        bench.at(path, VariablesModel::Value).data(Qt::ToolTipRole).toString().contains(reason));
+  }
+
+  void badValuesAreRefusedBesideTheEditor_data() {
+    QTest::addColumn<QString>("path");
+    QTest::addColumn<QString>("typed");
+    QTest::addColumn<QString>("problem");
+    QTest::newRow("not whole") << action << "1.5"
+                               << "whole";
+    QTest::newRow("too large") << action << "3000000000"
+                               << "32 bits";
+    QTest::newRow("no number") << ballDistance << "far"
+                               << "not a number";
+    QTest::newRow("nan") << ballDistance << "nan"
+                         << "not a number";
+    QTest::newRow("no float") << ballDistance << "1e39"
+                              << "32-bit";
+    QTest::newRow("flag") << "B1/VISION_LOST"
+                          << "2"
+                          << "0 or 1";
+    QTest::newRow("words") << action << "dance"
+                           << "words of a code";
+    QTest::newRow("two commas") << ballDistance << "1,234,5"
+                                << "not a number";
+  }
+  void badValuesAreRefusedBesideTheEditor() {
+    QFETCH(const QString, path);
+    QFETCH(const QString, typed);
+    QFETCH(const QString, problem);
+    Bench bench;
+    QSignalSpy edited(bench.model, &VariablesModel::valueEdited);
+    auto* editor = bench.edit(path);
+    QVERIFY(editor);
+    editor->selectAll();
+    QTest::keyClicks(editor, typed);
+    QTest::keyClick(editor, Qt::Key_Return);
+    auto* said = bench.dock->findChild<QLabel*>(QStringLiteral("valueProblem"));
+    QVERIFY(said->isVisible());
+    QVERIFY2(said->text().contains(problem), qPrintable(said->text()));
+    QVERIFY(bench.view->isEditing());
+    QTest::keyClick(editor, Qt::Key_Escape);
+    QTRY_VERIFY(!bench.view->isEditing());
+    QCOMPARE(edited.count(), 0);
+  }
+
+  void goodValuesAreHandedOn_data() {
+    QTest::addColumn<QString>("path");
+    QTest::addColumn<QString>("typed");
+    QTest::addColumn<double>("value");
+    QTest::newRow("int") << action << "-7" << -7.0;
+    QTest::newRow("words") << action << "Walk forward, fast" << 1.0;
+    QTest::newRow("float") << ballDistance << "1.5e2" << 150.0;
+    QTest::newRow("minus sign") << ballDistance << QStringLiteral("−2.5") << -2.5;
+    QTest::newRow("decimal comma") << ballDistance << "-1,25" << -1.25;
+    QTest::newRow("flag") << "B1/VISION_LOST"
+                          << "1" << 1.0;
+  }
+  void goodValuesAreHandedOn() {
+    QFETCH(const QString, path);
+    QFETCH(const QString, typed);
+    QFETCH(const double, value);
+    Bench bench;
+    QSignalSpy edited(bench.model, &VariablesModel::valueEdited);
+    auto* editor = bench.edit(path);
+    QVERIFY(editor);
+    editor->setText(typed);
+    QTest::keyClick(editor, Qt::Key_Return);
+    QTRY_COMPARE(edited.count(), 1);
+    QCOMPARE(edited[0][1].toDouble(), value);
+  }
+
+  void aMatchIsSampledAndEdited() {
+    Bench bench;
+    bench.source.choose(&bench.controller);
+    link::Scenario scenario = link::loadScenario("match-3v3").value();
+    scenario.robots.resize(2);
+    scenario.robots[0].behaviour = "none";
+    bench.controller.open(scenario, false);
+    const QString team = QStringLiteral("B1/");
+    QTRY_VERIFY(bench.model->find(team + QStringLiteral("TRUE_X")).isValid());
+    QVERIFY(bench.model->find(QStringLiteral("match/BALL_X")).isValid());
+    bench.press("editValues");
+    const auto edit = [&bench](const QString& path, const QString& value) {
+      bench.choose(path);
+      bench.view->scrollTo(bench.at(path));
+      QTest::keyClick(bench.view, Qt::Key_F2);
+      auto* editor = bench.dock->findChild<QLineEdit*>(QStringLiteral("valueEdit"));
+      QVERIFY(editor);
+      editor->setText(value);
+      QTest::keyClick(editor, Qt::Key_Return);
+      QTRY_VERIFY(!bench.view->isEditing());
+    };
+    // Nobody decides for B1: the value stays. Somebody does for the other robot.
+    edit(team + QStringLiteral("DECISION_STATE"), QStringLiteral("77"));
+    QTRY_COMPARE(bench.text(team + QStringLiteral("DECISION_STATE"), VariablesModel::Value),
+                 QStringLiteral("77"));
+    // Vision writes the head's angle again on the next tick.
+    edit(team + QStringLiteral("VISION_PAN_DEG"), QStringLiteral("1234.5"));
+    QTRY_VERIFY2(bench.message().contains(QStringLiteral("after you wrote 1234.5")),
+                 qPrintable(bench.message()));
+    QCOMPARE(bench.text(team + QStringLiteral("DECISION_STATE"), VariablesModel::Value),
+             QStringLiteral("77"));
+  }
+
+  void importedCatalogNamesTheNextMatch() {
+    QTemporaryDir folder;
+    const QString file = folder.filePath(QStringLiteral("blackboard.json"));
+    const auto save = [&file](const QByteArray& text) {
+      QFile out(file);
+      QVERIFY(out.open(QIODevice::WriteOnly));
+      out.write(text);
+    };
+    save("#define BROKEN");
+    Bench bench;
+    bench.source.choose(&bench.controller);
+    bench.controller.open(link::loadScenario("match-3v3").value(), true);
+    QTRY_VERIFY(bench.controller.frame());
+    QSignalSpy errors(&bench.controller, &MatchController::errorOccurred);
+    auto* catalog = bench.dock->findChild<CatalogChoice*>();
+    catalog->importFile(file);
+    QVERIFY2(bench.message().contains(QStringLiteral("blackboard.json")),
+             qPrintable(bench.message()));
+    QVERIFY(catalog->isPublished());
+    link::VariableCatalog own =
+        link::VariableCatalog::fromJson(
+            QByteArray(
+                R"({"int": {"OUR_STATE": 19, "COM_REFEREE": 51}, "float": {"OUR_SPEED": 3}})")
+                .toStdString(),
+            "own")
+            .value();
+    save(QByteArray::fromStdString(own.toJson()));
+    catalog->importFile(file);
+    QVERIFY(bench.message().contains(QStringLiteral("3 variables")));
+    QVERIFY(!bench.model->find(QStringLiteral("B1/OUR_STATE")).isValid());
+    auto* restart = bench.dock->findChild<QPushButton*>(QStringLiteral("inPlaceButton"));
+    QVERIFY(restart->isVisible());
+    QTest::mouseClick(restart, Qt::LeftButton);
+    QTRY_VERIFY2(bench.model->find(QStringLiteral("B1/OUR_STATE")).isValid(),
+                 qPrintable(errors.isEmpty() ? bench.message() : errors[0][0].toString()));
+    QVERIFY(!bench.model->find(QStringLiteral("B1/VISION_LOST")).isValid());
+    QVERIFY(bench.settings.contains(QStringLiteral("variables/catalog")));
+    catalog->usePublished();
+    QTest::mouseClick(restart, Qt::LeftButton);
+    QTRY_VERIFY(bench.model->find(QStringLiteral("B1/VISION_LOST")).isValid());
+    QVERIFY(!bench.settings.contains(QStringLiteral("variables/catalog")));
+  }
+
+  void attachedBlackboardIsSampledAndItsEndIsSaid() {
+    const int key = testKeyBase() + 77;
+    removeSegment(key);
+    Bench bench;
+    bench.source.choose(&bench.controller);
+    bench.controller.open(link::loadScenario("match-3v3").value(), false);
+    QTRY_VERIFY(bench.controller.frame());
+    auto* form = bench.dock->findChild<QWidget*>(QStringLiteral("attachForm"));
+    form->show();
+    form->findChild<QSpinBox*>(QStringLiteral("attachKey"))->setValue(key);
+    auto* attach = form->findChild<QPushButton*>(QStringLiteral("attachButton"));
+    QTest::mouseClick(attach, Qt::LeftButton);
+    QVERIFY2(bench.message().startsWith(QStringLiteral("Not attached")),
+             qPrintable(bench.message()));
+    const QString group = QStringLiteral("B%1").arg(key / 100);  // as published: 100 n is robot n
+    {
+      auto board = link::SystemVSegments::open(key, link::AttachMode::AttachOrCreate);
+      QVERIFY(board);
+      board->write(*link::VariableCatalog::published().intVar("DECISION_STATE"), 42);
+      QTest::mouseClick(attach, Qt::LeftButton);
+      QVERIFY(!form->isVisible());
+      const QString state = group + QStringLiteral("/DECISION_STATE");
+      QTRY_VERIFY(bench.model->find(state).isValid());
+      bench.choose(state);
+      bench.view->scrollTo(bench.at(state));
+      QTRY_COMPARE(bench.text(state, VariablesModel::Value), QStringLiteral("42"));
+      QVERIFY(!bench.model->whyNotEditable(bench.model->find(state)).isEmpty());
+      QVERIFY(bench.text(group, VariablesModel::Value).toDouble() > 0);
+      bench.controller.restart();
+      QTRY_VERIFY(bench.model->find(state).isValid());
+    }
+    QTRY_VERIFY2(bench.text(group, VariablesModel::Name).contains(QStringLiteral("removed")),
+                 qPrintable(bench.text(group, VariablesModel::Name)));
+    QVERIFY(bench.message().contains(QStringLiteral("was removed")));
+  }
+};
+
+QTEST_MAIN(TestVariablesEdit)
+#include "tst_variables_edit.moc"

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/field/field_settings.h>
+
+#include <QAction>
+#include <QSettings>
+#include <array>
+
+#include <ui/field/field_view.h>
+
+#include "field_scene.h"
+
+namespace pitchboard::ui {
+namespace {
+
+// Words in files, in the order of FieldLayer: never change them.
+constexpr std::array<const char*, fieldLayerCount> layerKeys{
+    "fieldOfView", "belief", "ghost",    "perceivedBall", "trails",      "numbers", "grid",
+    "landmarks",   "eopra",  "starVars", "particles",     "plannedPath", "drawings"};
+const QString wedgeKey = QStringLiteral("field/fieldOfViewOfAll");
+const QString eopraKey = QStringLiteral("field/eopraGranularity");
+const QString hiddenKey = QStringLiteral("field/hiddenDrawings");
+const QString selectedKey = QStringLiteral("field/drawingsOfSelected");
+constexpr qsizetype mostHidden = 1000;  // whatever a file says
+
+QString layerKey(int layer) {
+  return QStringLiteral("field/layer/") + QLatin1String(layerKeys[static_cast<std::size_t>(layer)]);
+}
+
+// "*/ball model": that layer of all robots; "3/": all of robot 3; "3/path": that layer of it.
+QStringList textsOf(const DrawingChoice& choice) {
+  QStringList texts;
+  for (const std::string& layer : choice.hiddenLayers) {
+    texts << QStringLiteral("*/") + QString::fromStdString(layer);
+  }
+  for (const int robot : choice.hiddenRobots) texts << QStringLiteral("%1/").arg(robot);
+  for (const auto& [robot, layer] : choice.hidden) {
+    texts << QStringLiteral("%1/%2").arg(robot).arg(QString::fromStdString(layer));
+  }
+  return texts;
+}
+
+DrawingChoice choiceFrom(const QStringList& texts) {
+  DrawingChoice choice;
+  for (const QString& text : texts.mid(0, mostHidden)) {
+    const qsizetype slash = text.indexOf(QLatin1Char('/'));
+    if (slash < 1) continue;
+    const std::string layer = text.mid(slash + 1).toStdString();
+    if (text.startsWith(QLatin1Char('*'))) {
+      if (!layer.empty()) choice.hiddenLayers.insert(layer);
+      continue;
+    }
+    bool good = false;
+    const int robot = text.left(slash).toInt(&good);
+    if (!good) continue;
+    if (layer.empty())
+      choice.hiddenRobots.insert(robot);
+    else
+      choice.hidden.insert({robot, layer});
+  }
+  return choice;
+}
+
+void put(QSettings& settings, const QString& key, const QVariant& value, const QVariant& usual) {
+  if (value == usual)
+    settings.remove(key);
+  else if (settings.value(key) != value)
+    settings.setValue(key, value);
+}
+
+}  // namespace
+
+void restoreFieldLayers(FieldView& field, const QSettings& settings) {
+  const std::vector<QAction*> layers = field.layerActions();
+  for (int i = 0; i < fieldLayerCount; ++i) {
+    QAction* layer = layers[static_cast<std::size_t>(i)];
+    layer->setChecked(settings.value(layerKey(i), layer->isChecked()).toBool());
+  }
+  const int granularity = settings.value(eopraKey).toInt();
+  for (QAction* option : field.layerOptionActions()) {
+    if (option->objectName() == QStringLiteral("fieldOfViewOfAll")) {
+      option->setChecked(settings.value(wedgeKey, option->isChecked()).toBool());
+    } else if (option->objectName() == QStringLiteral("eopra%1").arg(granularity)) {
+      option->setChecked(true);
+    }
+  }
+  DrawingChoice choice = choiceFrom(settings.value(hiddenKey).toStringList());
+  choice.onlySelected = settings.value(selectedKey, false).toBool();
+  field.findChild<FieldScene*>()->changeStyle(
+      [&choice](FieldStyle& style) { style.drawings = choice; });
+}
+
+void saveFieldLayers(const FieldView& field, QSettings& settings) {
+  const FieldStyle& now = field.findChild<FieldScene*>()->style();
+  const FieldStyle usual;
+  for (int i = 0; i < fieldLayerCount; ++i) {
+    const auto layer = static_cast<std::size_t>(i);
+    put(settings, layerKey(i), now.layers[layer], usual.layers[layer]);
+  }
+  put(settings, wedgeKey, now.wedgeForAll, usual.wedgeForAll);
+  put(settings, eopraKey, now.eopraGranularity, usual.eopraGranularity);
+  put(settings, hiddenKey, textsOf(now.drawings), QStringList());
+  put(settings, selectedKey, now.drawings.onlySelected, false);
+}
+
+}  // namespace pitchboard::ui
