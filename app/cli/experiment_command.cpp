@@ -79,14 +79,9 @@ Result<void> recordRuns(const link::Experiment& experiment, const link::Experime
   for (std::size_t number = 1; number <= experiment.allRuns() && !interrupted; ++number) {
     if ((number - 1) % shard.count != shard.index - 1) continue;
     const link::RunPlace place = link::placeOf(experiment, number);
-    const bool failed = table->conditions[place.condition].columns[0][place.index] == 0.0;
-    const auto& chosen = experiment.recorded;
-    const bool wanted = experiment.record == link::Record::All ||
-                        (experiment.record == link::Record::Failed && failed) ||
-                        (experiment.record == link::Record::Chosen &&
-                         std::find(chosen.begin(), chosen.end(), number) != chosen.end());
-    if (!wanted) continue;
-    const std::string path = sessionPath(folder.path(), number);
+    const bool success = table->conditions[place.condition].columns[0][place.index] != 0.0;
+    if (!link::isRecorded(experiment, number, success)) continue;
+    const std::string path = link::sessionPath(folder.path(), number);
     if (std::filesystem::exists(path)) continue;
     if (auto done = recordRun(folder.path(), experiment, number, path, settings); !done) {
       return tl::unexpected(done.error());
@@ -134,6 +129,8 @@ int run(const Options& options) {
   settings.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
                                                        : options.robotProgram;
   settings.cancelled = &interrupted;
+  settings.folder = options.out;
+  settings.program = program;
   const std::vector<std::size_t> numbers = numbersOf(*folder, *shard);
   const std::size_t jobs =
       options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
@@ -251,18 +248,20 @@ void addReplay(CLI::App& parent, int& exitCode) {
     settings.robotProgram = options->robotProgram.empty()
                                 ? link::besideOwnProgram("pitchboard-robot")
                                 : options->robotProgram;
-    const std::string path =
-        options->output.empty() ? sessionPath(options->folder, options->run) : options->output;
+    const std::string path = options->output.empty()
+                                 ? link::sessionPath(options->folder, options->run)
+                                 : options->output;
     if (!std::filesystem::exists(path) || !options->output.empty()) {
       const auto result = recordRun(options->folder, *experiment, options->run, path, settings);
       if (!result) {
         exitCode = reportError(result.error());
         return;
       }
-      std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64
-                  ", as in the results\n",
+      std::printf("%s: run %zu, seed %" PRIu64 ", %s, state hash 0x%016" PRIx64 ", %s\n",
                   path.c_str(), result->number, result->seed,
-                  link::endWords(result->endedBy).c_str(), result->hash);
+                  link::endWords(result->endedBy).c_str(), result->hash,
+                  experiment->ownPrograms ? "played anew: a team's own programs do not repeat a run"
+                                          : "as in the results");
     } else {
       std::printf("%s: it is there\n", path.c_str());
     }
@@ -275,12 +274,6 @@ void addReplay(CLI::App& parent, int& exitCode) {
 }
 
 }  // namespace
-
-std::string sessionPath(const std::string& folder, std::size_t number) {
-  char name[40];
-  std::snprintf(name, sizeof name, "run-%06zu.mcap", number);
-  return (std::filesystem::path(folder) / link::sessionsFolder / name).string();
-}
 
 Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
                                   std::size_t number, const std::string& path,
@@ -295,7 +288,7 @@ Result<link::RunResult> recordRun(const std::string& folder, const link::Experim
   if (!player) return tl::unexpected(player.error());
   auto result = player->record(number, path, program);
   if (!result) return result;
-  if (result->hash != before->hash) {
+  if (result->hash != before->hash && !experiment.ownPrograms) {
     return failure(ErrorCode::Conflict,
                    "run " + std::to_string(number) +
                        " ended in another state than in the results; were they played by another "

@@ -9,10 +9,8 @@
 
 namespace pitchboard::cli {
 
-/// "results/sessions/run-000417.mcap".
-std::string sessionPath(const std::string& folder, std::size_t number);
-
-/// Error Conflict when it does not end in the state that the results say.
+/// Error Conflict when it does not end in the state that the results say, unless a team's own
+/// programs play in it.
 Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
                                   std::size_t number, const std::string& path,
                                   const link::PlaySettings& settings);

@@ -83,7 +83,7 @@ inline const QList<Room>& table() {
          {"nlohmann/"}},
         {"robotlink/report", below + QStringList{frame, session}, {}},
         {"robotlink/experiment",
-         below + QStringList{board, processes, models, scenario, frame, match, session,
+         below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
          {"boost/", "nlohmann/"}},
         {"robotlink/conformance",

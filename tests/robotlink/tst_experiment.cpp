@@ -12,6 +12,7 @@
 #include <base/read_file.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
+#include <robotlink/experiment/situation.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -99,6 +100,7 @@ class TestExperiment : public QObject {
   void goalsAreCountedForTheTeam();
   void recordedRunEndsInTheSameState();
   void separateProcessesEndInTheSameState();
+  void aSituationKeepsWhatTheRefereeHadSaid();
 };
 
 void TestExperiment::builtInFilesAreGood() {
@@ -149,6 +151,19 @@ void TestExperiment::errorsNameTheLineAndTheKey_data() {
   QTest::newRow("stop key") << "\"noise.forward\""
                             << "\"stop.duration\""
                             << "\"stop\" is the experiment's own key";
+  QTest::newRow("random beyond what is allowed")
+      << "\"starts\""
+      << "\"random\": {\"noise.forward\": {\"from\": 0, \"to\": 1e9}},\n \"starts\""
+      << "test.json:12: random.noise.forward: 381966000 cannot be used in condition \"plain\"";
+  QTest::newRow("random that is no whole number")
+      << "\"starts\""
+      << "\"random\": {\"robots[B1].number\": {\"from\": 1, \"to\": 3}},\n \"starts\""
+      << "test.json:12: random.robots[B1].number: 1.763932 cannot be used";
+  QTest::newRow("random of nobody")
+      << "\"starts\""
+      << "\"random\": {\"robots[R4].x\": {\"from\": 1, \"to\": 3}},\n \"starts\""
+      << "test.json:12: random.robots[R4].x: 1 cannot be used in condition \"plain\": there is no "
+         "robot R4";
   QTest::newRow("name twice") << "\"name\": \"noisy\""
                               << "\"name\": \"plain\""
                               << "another condition has this name";
@@ -370,6 +385,56 @@ void TestExperiment::separateProcessesEndInTheSameState() {
   QVERIFY2(played.has_value(), played ? "" : played.error().text().c_str());
   auto player = RunPlayer::create(inside, {});
   for (const std::size_t number : {5, 6}) QCOMPARE(hashes[number], player->play(number)->hash);
+}
+
+void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {
+  MatchFrame frame;
+  frame.physics = "rigid-body";
+  frame.snapshot.ball = {1.0, 0.5};
+  frame.snapshot.ballVelocity = {-0.5, 0.25};
+  frame.snapshot.clock = 33.0;
+  frame.referee.emplace();
+  frame.referee->state = "READY";
+  for (const int id : {1, 2}) {
+    RobotFrame robot;
+    robot.identity.id = {id};
+    robot.identity.number = id;
+    robot.pose = {{-1.0 * id, 0.25}, 0.5};
+    frame.robots.push_back(robot);
+  }
+  frame.robots[1].penalty = Penalty{"pushing", 20};
+  Scenario base;
+  base.settings.referee = sim::RefereeRules{};
+  base.writes = {{{}, "COM_REFEREE", 2, 0.0}};
+  MomentOptions options;
+  options.base = &base;
+  Situation situation;
+  situation.name = experimentNameFrom("ready, set");
+  QCOMPARE(situation.name, std::string("ready--set"));
+  situation.scenario = situationScenario(frame, options).scenario;
+  QVERIFY(!situationToJson(situation).has_value());  // nothing must hold
+  situation.assertions = {"goal_rate >= 0.8"};
+  situation.stop.duration = 12;
+  situation.stop.goal = true;
+  const auto text = situationToJson(situation);
+  QVERIFY2(text.has_value(), text ? "" : text.error().text().c_str());
+  const Experiment read = experimentFrom(*text);
+  const Scenario& scenario = read.conditions.front().scenario;
+  QVERIFY(!scenario.settings.referee);
+  QCOMPARE(scenario.robots.size(), std::size_t{2});
+  QCOMPARE(scenario.robots[1].pose.position, (Point{-2.0, 0.25}));
+  QCOMPARE(scenario.ball, (Point{1.0, 0.5}));
+  QCOMPARE(scenario.ballVelocity, (Velocity{-0.5, 0.25}));
+  QCOMPARE(scenario.writes.size(), std::size_t{2});
+  QVERIFY((scenario.writes[0] == BlackboardWrite{{1}, "COM_REFEREE", 11, 0.0}));
+  QVERIFY((scenario.writes[1] == BlackboardWrite{{2}, "COM_REFEREE", 1, 0.0}));
+  QCOMPARE(read.stop.duration, 12.0);
+  QVERIFY(read.stop.goal && !read.stop.goalAgainst);
+  // What is offered can be used.
+  for (const SituationTemplate& one : situationTemplates()) {
+    situation.assertions = {one.assertion};
+    QVERIFY2(situationToJson(situation).has_value(), one.words);
+  }
 }
 
 QTEST_GUILESS_MAIN(TestExperiment)

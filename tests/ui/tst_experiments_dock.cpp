@@ -25,7 +25,7 @@ const char* const text = R"({
 
 class Dock {
  public:
-  Dock() : m_dock(makeExperimentsDock(&m_replay, nullptr)) {
+  Dock() : m_dock(makeExperimentsDock({&m_replay}, nullptr)) {
     m_dock->resize(900, 400);
     m_dock->show();
   }

@@ -2,6 +2,7 @@
 #include <robotlink/experiment/experiment.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <base/angles.h>
@@ -11,6 +12,7 @@
 
 #include "checks.h"
 #include "experiment_reader.h"
+#include "own_programs.h"
 
 namespace pitchboard::link {
 namespace {
@@ -90,9 +92,49 @@ bool makeConditions(Experiment& e, const ConditionParts& parts, JsonReport& repo
   return true;
 }
 
+/// Both ends of each range and a value between them, in each condition: what a run would be refused
+/// for is said before any is played.
+bool checkRandom(const Experiment& e, JsonReport& report) {
+  constexpr double inside = 0.381966;  // no whole number where the ends are
+  for (const Condition& condition : e.conditions) {
+    const Json base = Json::parse(condition.json);
+    for (const RandomSetting& setting : e.random) {
+      for (const double share : {0.0, inside, 1.0}) {
+        const double value = std::lerp(setting.from, setting.to, share);
+        Json patched = base;
+        Result<void> usable = putValue(patched, setting.key, value);
+        if (usable) {
+          auto scenario = scenarioFromJson(patched.dump(), "scenario");
+          if (!scenario) usable = tl::unexpected(scenario.error());
+        }
+        if (usable) continue;
+        report.fail(setting.line, "random." + setting.key,
+                    shortest(value) + " cannot be used in condition \"" + condition.name +
+                        "\": " + usable.error().message);
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 bool hasRobot(const Scenario& scenario, std::string_view name) {
   return std::any_of(scenario.robots.begin(), scenario.robots.end(),
                      [&](const ScenarioRobot& robot) { return robot.identity.name() == name; });
+}
+
+/// Who plays decides how runs are played, and which figures they have.
+void findOwnPrograms(Experiment& e, const JsonObject& root) {
+  for (const Condition& condition : e.conditions) {
+    const auto own = hasOwnPrograms(condition.scenario);
+    if (!own) return root.fail("scenario", "runtime: " + own.error().text());
+    if (*own && !e.separateProcesses) {
+      return root.fail("scenario",
+                       "a robot is played by a team's own programs, which only run as programs; "
+                       "add \"processes\": \"separate\"");
+    }
+    e.ownPrograms = e.ownPrograms || *own;
+  }
 }
 
 /// What can only be judged once everything has been read.
@@ -212,8 +254,9 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
   if (!report.failed()) {
     if (changes.runs) e.runs = *changes.runs;
     if (changes.seed) e.seed = *changes.seed;
-    makeConditions(e, parts, report);
+    if (makeConditions(e, parts, report)) checkRandom(e, report);
   }
+  if (!report.failed()) findOwnPrograms(e, JsonObject(report, *root, ""));
   if (!report.failed()) checkWhole(e, JsonObject(report, *root, ""));
   if (report.failed()) return tl::unexpected(report.error());
   Json whole = jsonOf(*root);
@@ -222,6 +265,21 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
   whole["seed"] = e.seed;
   e.text = whole.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   return e;
+}
+
+bool isRecorded(const Experiment& experiment, std::size_t number, bool success) {
+  switch (experiment.record) {
+    case Record::Nothing:
+      return false;
+    case Record::Failed:
+      return !success;
+    case Record::All:
+      return true;
+    case Record::Chosen:
+      break;
+  }
+  const auto& chosen = experiment.recorded;
+  return std::find(chosen.begin(), chosen.end(), number) != chosen.end();
 }
 
 RunPlace placeOf(const Experiment& experiment, std::size_t number) {

@@ -9,15 +9,18 @@
 #include <base/read_file.h>
 #include <resources/resources.h>
 
+#include "experiment_names.h"
+
 namespace pitchboard::link {
 namespace {
 
 constexpr int experimentVersion = 1;
 constexpr int mostRuns = 1'000'000;
 constexpr std::size_t mostConditions = 1000, mostEntries = 1000, mostFileBytes = 1024 * 1024;
-constexpr double longestRun = 1e6;    // s
-constexpr double fieldReach = 200.0;  // m; a place outside the walls is moved inside
-constexpr double fastestBall = 50.0;  // m/s
+constexpr double fastestMatch = 1000.0;  // times real time, of a team's own programs
+constexpr double longestRun = 1e6;       // s
+constexpr double fieldReach = 200.0;     // m; a place outside the walls is moved inside
+constexpr double fastestBall = 50.0;     // m/s
 constexpr std::array<std::string_view, 8> reductionNames{"mean", "min",      "max",     "first",
                                                          "last", "integral", "changes", "p95"};
 constexpr std::array<std::string_view, 3> recordNames{"nothing", "failed", "all"};
@@ -38,7 +41,7 @@ ExperimentReader::ExperimentReader(const JsonNode& root, JsonReport& report, std
               "set",     "grid",       "random", "runs",        "common_random_numbers",
               "seed",    "conditions", "team",   "starts",      "placed",
               "stop",    "metrics",    "sample", "success",     "compare",
-              "record",  "assertions", "paths",  "processes"}),
+              "record",  "assertions", "paths",  "processes",   "speed"}),
       m_folder(std::move(folder)) {}
 
 void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
@@ -48,9 +51,8 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
     m_root.fail("version", "is " + std::to_string(version) +
                                ", but this program reads version 1; a newer program wrote this");
   }
-  e.name = m_root.text("name", e.name, 64);
-  if (e.name.empty() || e.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVW"
-                                                 "XYZ0123456789-_.") != std::string::npos) {
+  e.name = m_root.text("name", e.name, mostNameLetters);
+  if (e.name.empty() || !std::all_of(e.name.begin(), e.name.end(), isNameLetter)) {
     m_root.fail("name", "must consist of letters, digits, '-', '_' and '.'");
   }
   e.title = m_root.text("title", "", 200);
@@ -68,6 +70,7 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
   if (const auto processes = m_root.choice("processes", processesNames, "kind of processes")) {
     e.separateProcesses = *processes == 1;
   }
+  e.speed = m_root.number("speed", e.speed, {0.1, fastestMatch, "times real time"});
   if (m_report.failed()) return;
   readScenario(parts);
   if (m_report.failed()) return;

@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
+#include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/wire/live_clock.h>
 
 #include "checks.h"
+#include "own_programs.h"
+#include "run_layout.h"
 #include "run_measure.h"
 
 namespace pitchboard::link {
@@ -123,26 +128,26 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   player.observe(measure);
   if (measure->problem()) return tl::unexpected(*measure->problem());
 
-  Hand hand(e.conditions[run.condition].placed, player);
-  auto looked = begin;
-  while (measure->endedBy().empty() && !player.match().finished()) {
-    if (auto acted = hand.act(); !acted) return tl::unexpected(acted.error());
-    player.tick();
-    if (player.currentTick() % ticksBetweenLooks != 0) continue;
-    if (m_settings.cancelled && *m_settings.cancelled) {
-      return failure(ErrorCode::Conflict, "cancelled");
-    }
-    if (!e.separateProcesses) continue;
-    if (const auto now = WallClock::now(); now - looked >= lookInterval) {
-      looked = now;
-      player.match().lookAfterProcesses(now);
-      (void)player.match().processes().takeLines();
-    }
+  std::optional<OwnPrograms> own;
+  if (e.ownPrograms) own.emplace(player, e.speed);
+  if (auto begun = own ? own->begin(m_settings.cancelled) : Result<void>(); !begun) {
+    return tl::unexpected(begun.error());
+  }
+  const auto firstTick = player.currentTick();
+  const auto first = WallClock::now();
+  if (auto played = loop(player, *measure, run.condition, own ? &*own : nullptr); !played) {
+    return tl::unexpected(played.error());
   }
   RunResult result = measure->result(player.match());
   std::vector<double> values;
   for (const Check::Name& name : m_success->names()) values.push_back(result.values[name.metric]);
   result.values[static_cast<std::size_t>(TeamValue::Success)] = m_success->holds(values);
+  if (e.separateProcesses) {
+    const double took = std::chrono::duration<double>(WallClock::now() - first).count();
+    const auto ticks = static_cast<double>(player.currentTick() - firstTick);
+    result.values.push_back(ticks / rate / std::max(took, 1e-9));
+  }
+  if (own) result.values.push_back(own->keptUp());
   m_wall = std::chrono::duration<double>(WallClock::now() - begin).count();
   m_simulated = static_cast<double>(result.ticks) / rate;
   if (recorder) {
@@ -150,6 +155,58 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   }
   return result;
 }
+
+/// Until the run is over.
+Result<void> RunPlayer::loop(MatchPlayer& player, const RunMeasure& measure, std::size_t condition,
+                             OwnPrograms* own) {
+  const Experiment& e = *m_experiment;
+  Hand hand(e.conditions[condition].placed, player);
+  auto looked = WallClock::now();
+  while (measure.endedBy().empty() && !player.match().finished()) {
+    if (auto acted = hand.act(); !acted) return acted;
+    if (own) own->wait();
+    player.tick();
+    if (!own && player.currentTick() % ticksBetweenLooks != 0) continue;
+    if (m_settings.cancelled && *m_settings.cancelled) {
+      return failure(ErrorCode::Conflict, "cancelled");
+    }
+    if (own || !e.separateProcesses) continue;
+    if (const auto now = WallClock::now(); now - looked >= lookInterval) {
+      looked = now;
+      player.match().lookAfterProcesses(now);
+      (void)player.match().processes().takeLines();
+    }
+  }
+  return {};
+}
+
+std::string sessionPath(const std::string& folder, std::size_t number) {
+  char name[40];
+  std::snprintf(name, sizeof name, "run-%06zu.mcap", number);
+  return (std::filesystem::path(folder) / sessionsFolder / name).string();
+}
+
+namespace {
+
+/// Runs that cannot be played again are recorded while they are played, those that are wanted when
+/// they have failed as well.
+Result<RunResult> playAndKeep(RunPlayer& player, const Experiment& e, std::size_t number,
+                              const PlaySettings& settings) {
+  const bool mayBeWanted = isRecorded(e, number, true) || isRecorded(e, number, false);
+  if (!e.ownPrograms || settings.folder.empty() || !mayBeWanted) return player.play(number);
+  const std::filesystem::path path = sessionPath(settings.folder, number);
+  std::error_code ignored;
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  std::filesystem::remove(path, ignored);  // of a run that was interrupted
+  auto result = player.record(number, path.string(), settings.program);
+  const bool wanted =
+      result &&
+      isRecorded(e, number, result->values[static_cast<std::size_t>(TeamValue::Success)] != 0.0);
+  if (!wanted) std::filesystem::remove(path, ignored);
+  return result;
+}
+
+}  // namespace
 
 Result<void> playRuns(const Experiment& experiment, std::span<const std::size_t> numbers,
                       std::size_t jobs, const PlaySettings& settings,
@@ -172,7 +229,7 @@ Result<void> playRuns(const Experiment& experiment, std::span<const std::size_t>
     while (!over && !isCancelled()) {
       const std::size_t mine = next++;
       if (mine >= numbers.size()) return;
-      auto result = player->play(numbers[mine]);
+      auto result = playAndKeep(*player, experiment, numbers[mine], settings);
       if (!result && isCancelled()) return;
       const std::lock_guard lock(mutex);
       if (!result) {

@@ -86,6 +86,12 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
   for (const ExpressionMetric& metric : experiment.metrics) {
     out.push_back({metric.name, metric.unit, metric.name, false});
   }
+  if (experiment.separateProcesses) {
+    out.push_back({"times_real_time", "", "Played, times real time", false});
+  }
+  if (experiment.ownPrograms) {
+    out.push_back({"own_programs_kept", "", "What own programs kept of that (1 = all)", false});
+  }
   return out;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <robotlink/match/own_pace.h>
+
 namespace pitchboard::link {
 namespace {
 
@@ -152,16 +154,15 @@ void MatchLoop::collectEvents() {
 }
 
 void MatchLoop::followOwnPrograms(Clock::time_point now) {
-  constexpr auto interval = 3s;  // so that a new speed shows what it does
-  constexpr double faster = 1.25, least = 0.1;
-  if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed || now - m_lastFollow < interval) {
+  if (m_still || m_wantedSpeed == MatchRunner::unlimitedSpeed ||
+      now - m_lastFollow < ownPaceInterval) {
     return;
   }
   m_lastFollow = now;
-  const auto slowest = m_match.slowestOwnProgram();
-  const double speed = !m_match.waitsForOwnPrograms() ? m_wantedSpeed
-                       : slowest ? std::max(least, std::min(*slowest, m_wantedSpeed))
-                                 : std::min(m_wantedSpeed, m_speed * faster);
+  const double speed =
+      m_match.waitsForOwnPrograms()
+          ? paceWithOwnPrograms(m_wantedSpeed, m_speed, m_match.slowestOwnProgram())
+          : m_wantedSpeed;
   if (speed == m_speed) return;
   m_speed = speed;
   m_player.setSpeed(speed, now);

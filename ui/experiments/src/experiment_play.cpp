@@ -16,7 +16,7 @@ constexpr auto progressInterval = std::chrono::milliseconds(100);
 constexpr int mostFolders = 100'000;
 
 link::PlaySettings settingsWith(const std::atomic<bool>& cancelled) {
-  return {link::besideOwnProgram("pitchboard-robot"), &cancelled};
+  return {link::besideOwnProgram("pitchboard-robot"), {}, {}, &cancelled};
 }
 
 /// "name-1", the first that is free.
@@ -61,11 +61,14 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
   if (!results) return fail(results.error());
   std::vector<std::size_t> numbers(experiment.allRuns());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;
+  link::PlaySettings settings = settingsWith(m_cancelled);
+  settings.folder = folder.toStdString();
+  settings.program = "pitchboard";
   const auto begin = WallClock::now();
   auto told = begin;
   const auto played =
       link::playRuns(experiment, numbers, std::max(1U, std::thread::hardware_concurrency()),
-                     settingsWith(m_cancelled), [&](const link::PlayedRun& run) -> Result<void> {
+                     settings, [&](const link::PlayedRun& run) -> Result<void> {
                        if (auto added = results->add(run.result); !added) return added;
                        const auto now = WallClock::now();
                        if (now - told < progressInterval && !results->complete()) return {};
@@ -89,20 +92,28 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
   });
 }
 
-void ExperimentPlay::record(PlayedPtr of, std::size_t number) {
+// In the worker's thread.
+Result<QString> ExperimentPlay::recordOne(const PlayedExperiment& of, std::size_t number) {
+  const QString path = QString::fromStdString(link::sessionPath(of.folder.toStdString(), number));
+  if (QFileInfo::exists(path)) return path;
+  QDir().mkpath(of.folder + QStringLiteral("/sessions"));
+  auto player = link::RunPlayer::create(of.experiment, settingsWith(m_cancelled));
+  if (!player) return tl::unexpected(player.error());
+  const auto result = player->record(number, path.toStdString(), "pitchboard");
+  if (!result) return tl::unexpected(result.error());
+  return path;
+}
+
+void ExperimentPlay::record(PlayedPtr of, std::vector<std::size_t> numbers) {
   m_cancelled = false;
-  m_worker.start([this, of = std::move(of), number] {
-    const QString path = QStringLiteral("%1/sessions/run-%2.mcap")
-                             .arg(of->folder)
-                             .arg(number, 6, 10, QLatin1Char('0'));
-    if (!QFileInfo::exists(path)) {
-      QDir().mkpath(of->folder + QStringLiteral("/sessions"));
-      auto player = link::RunPlayer::create(of->experiment, settingsWith(m_cancelled));
-      if (!player) return fail(player.error());
-      const auto result = player->record(number, path.toStdString(), "pitchboard");
-      if (!result) return fail(result.error());
+  m_worker.start([this, of = std::move(of), numbers = std::move(numbers)] {
+    QStringList sessions;
+    for (const std::size_t number : numbers) {
+      const auto path = recordOne(*of, number);
+      if (!path) return fail(path.error());
+      sessions << *path;
     }
-    m_ui.post([this, path] { emit recorded(path); });
+    m_ui.post([this, sessions] { emit recorded(sessions); });
   });
 }
 

@@ -36,18 +36,20 @@ class ExperimentPlay : public QObject {
   void start(link::Experiment experiment, const QString& folders);
   /// Keeps what has been played; `ended` follows.
   void cancel();
-  /// Plays the run again into a session file; `recorded` or `failed` follows.
-  void record(PlayedPtr of, std::size_t number);
+  /// Plays runs again into session files; `recorded` or `failed` follows.
+  void record(PlayedPtr of, std::vector<std::size_t> numbers);
 
  signals:
   void progressed(qulonglong done, qulonglong all, double seconds);
   /// All runs are there, or it was cancelled: then the summary is that of the runs that are.
   void ended(const pitchboard::ui::PlayedPtr& played);
-  void recorded(const QString& session);
+  /// In the order in which they were asked for.
+  void recorded(const QStringList& sessions);
   void failed(const QString& sentence);
 
  private:
   void play(const link::Experiment& experiment, const QString& folder);
+  Result<QString> recordOne(const PlayedExperiment& of, std::size_t number);
   void fail(const Error& error);
 
   std::atomic<bool> m_cancelled{false};

@@ -7,7 +7,6 @@
 #include <QFontDatabase>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPainter>
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
@@ -22,10 +21,13 @@
 #include <QVBoxLayout>
 
 #include <ui/base/table_style.h>
+#include <ui/experiments/situation_tests.h>
+#include <ui/sources/compared_session.h>
 #include <ui/sources/replay_controller.h>
 
 #include "distribution_view.h"
 #include "experiment_play.h"
+#include "one_line.h"
 #include "results_model.h"
 #include "ways_view.h"
 
@@ -40,26 +42,11 @@ QString folderOfExperiments() {
          QStringLiteral("/experiments");
 }
 
-// A sentence longer than the dock is wide ends with dots; resting the mouse on it tells the rest.
-class OneLine : public QLabel {
- public:
-  using QLabel::QLabel;
-
- protected:
-  void paintEvent(QPaintEvent* /*event*/) override {
-    QPainter painter(this);
-    const QRect room = contentsRect();
-    painter.setPen(palette().color(QPalette::WindowText));
-    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
-  }
-};
-
 class ExperimentsDock : public QWidget {
  public:
-  ExperimentsDock(ReplayController* replay, QWidget* parent)
+  ExperimentsDock(const ExperimentsDockParts& parts, QWidget* parent)
       : QWidget(parent),
-        m_replay(replay),
+        m_parts(parts),
         m_play(new ExperimentPlay(this)),
         m_choice(new QComboBox(this)),
         m_runs(new QSpinBox(this)),
@@ -69,6 +56,7 @@ class ExperimentsDock : public QWidget {
         m_words(new OneLine(this)),
         m_tabs(new QTabWidget(this)),
         m_text(new QPlainTextEdit(this)),
+        m_seeRuns(new QPushButton(this)),
         m_condition(new QComboBox(this)),
         m_ways(new WaysView(this)),
         m_distribution(new DistributionView(this)) {
@@ -80,9 +68,10 @@ class ExperimentsDock : public QWidget {
       setPlaying(false);
       say(sentence, true);
     });
-    connect(m_play, &ExperimentPlay::recorded, m_replay, &ReplayController::open);
-    connect(m_play, &ExperimentPlay::recorded, this,
-            [this] { say(QStringLiteral("The run is open in Replay.")); });
+    connect(m_play, &ExperimentPlay::recorded, this, &ExperimentsDock::showRecorded);
+    if (m_parts.tests != nullptr) {
+      connect(m_parts.tests, &SituationTests::saved, this, &ExperimentsDock::open);
+    }
     for (const link::ExperimentName& one : link::builtInExperiments()) {
       m_choice->addItem(QString::fromStdString(one.title), QString::fromStdString(one.name));
     }
@@ -178,13 +167,12 @@ class ExperimentsDock : public QWidget {
     m_runsTable = addTable(ResultsModel::Kind::Runs, QStringLiteral("Runs"),
                            QStringLiteral("experimentTable"));
     m_runsTable->sortByColumn(0, Qt::AscendingOrder);
-    connect(m_runsTable, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
-      const std::size_t number = numberOf(index);
-      say(QStringLiteral("Playing run %1 again…").arg(number));
-      m_play->record(m_shown, number);
+    connect(m_runsTable, &QTableView::doubleClicked, this,
+            [this](const QModelIndex& index) { see({numberOf(index)}); });
+    connect(m_runsTable->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+      highlight();
+      showChoices();
     });
-    connect(m_runsTable->selectionModel(), &QItemSelectionModel::selectionChanged, this,
-            [this] { highlight(); });
     m_condition->setObjectName(QStringLiteral("experimentCondition"));
     m_condition->setAccessibleName(QStringLiteral("Condition"));
     m_condition->setSizeAdjustPolicy(QComboBox::AdjustToContents);
@@ -199,8 +187,11 @@ class ExperimentsDock : public QWidget {
     auto* choices = new QWidget(this);
     auto* row = new QHBoxLayout(choices);
     row->setContentsMargins(0, scaled(this, 2), scaled(this, 4), scaled(this, 2));
+    row->addWidget(m_seeRuns);
     row->addWidget(m_condition);
     row->addWidget(m_distribution->chooser());
+    m_seeRuns->setObjectName(QStringLiteral("experimentSeeRuns"));
+    connect(m_seeRuns, &QPushButton::clicked, this, [this] { see(chosenRuns()); });
     m_tabs->setCornerWidget(choices);
     connect(m_tabs, &QTabWidget::currentChanged, this, [this] { showChoices(); });
     showChoices();
@@ -211,18 +202,54 @@ class ExperimentsDock : public QWidget {
     return m_models.back()->runNumber(proxy->mapToSource(index).row());
   }
 
-  void showChoices() {
-    m_condition->setVisible(m_tabs->currentWidget() == m_ways && m_shown);
-    m_distribution->chooser()->setVisible(m_tabs->currentWidget() == m_distribution && m_shown);
-  }
-
-  void highlight() {
+  std::vector<std::size_t> chosenRuns() const {
     std::vector<std::size_t> numbers;
     for (const QModelIndex& index : m_runsTable->selectionModel()->selectedRows()) {
       numbers.push_back(numberOf(index));
     }
-    m_ways->highlight(std::move(numbers));
+    return numbers;
   }
+
+  /// One in Replay, or two over each other.
+  void see(const std::vector<std::size_t>& numbers) {
+    say(numbers.size() == 1
+            ? QStringLiteral("Playing run %1 again…").arg(numbers[0])
+            : QStringLiteral("Playing runs %1 and %2 again…").arg(numbers[0]).arg(numbers[1]));
+    m_play->record(m_shown, numbers);
+  }
+
+  void showRecorded(const QStringList& sessions) {
+    m_parts.replay->open(sessions.front());
+    if (sessions.size() == 1) {
+      if (m_parts.compared != nullptr) m_parts.compared->stop();
+      return say(
+          m_shown->experiment.ownPrograms
+              ? QStringLiteral("The run is open in Replay. Own programs do not repeat a run: "
+                               "one that was not recorded was played anew.")
+              : QStringLiteral("The run is open in Replay."));
+    }
+    m_parts.compared->open(sessions.back());
+    say(
+        QStringLiteral("Both runs are open in Replay; the second is drawn over the first. "
+                       "Timeline > Stop comparing ends it."));
+  }
+
+  void showChoices() {
+    const bool runs = m_tabs->currentWidget() == m_runsTable && m_shown;
+    const qsizetype chosen = runs ? m_runsTable->selectionModel()->selectedRows().size() : 0;
+    const bool compares = chosen == 2 && m_parts.compared != nullptr;
+    m_seeRuns->setVisible(runs);
+    m_seeRuns->setEnabled(chosen == 1 || compares);
+    m_seeRuns->setText(compares ? QStringLiteral("Compare on the field")
+                                : QStringLiteral("See in Replay"));
+    m_seeRuns->setToolTip(m_parts.compared == nullptr
+                              ? QStringLiteral("Choose a run")
+                              : QStringLiteral("Choose one run, or two (Ctrl+click) to compare"));
+    m_condition->setVisible(m_tabs->currentWidget() == m_ways && m_shown);
+    m_distribution->chooser()->setVisible(m_tabs->currentWidget() == m_distribution && m_shown);
+  }
+
+  void highlight() { m_ways->highlight(chosenRuns()); }
 
   void say(const QString& words, bool isError = false) {
     QPalette colours = palette();
@@ -245,8 +272,25 @@ class ExperimentsDock : public QWidget {
         QFileDialog::getOpenFileName(this, QStringLiteral("Open experiment"), {},
                                      QStringLiteral("Experiments (*.json);;All files (*)"));
     if (path.isEmpty()) return;
-    m_choice->addItem(QFileInfo(path).fileName(), path);
-    m_choice->setCurrentIndex(m_choice->count() - 1);
+    open(path, false);
+  }
+
+  /// A file, read again when it was open before.
+  void open(const QString& path, bool play) {
+    if (m_play->isPlaying()) {
+      return say(QStringLiteral("%1 is not opened while an experiment is being played.").arg(path),
+                 true);
+    }
+    const int known = m_choice->findData(path);
+    if (known < 0) m_choice->addItem(QFileInfo(path).completeBaseName(), path);
+    const int index = known < 0 ? m_choice->count() - 1 : known;
+    if (m_choice->currentIndex() == index) {
+      load();
+    } else {
+      m_choice->setCurrentIndex(index);
+    }
+    m_tabs->setCurrentWidget(m_text);
+    if (play) startOrCancel();
   }
 
   void askAndSave() {
@@ -332,7 +376,7 @@ class ExperimentsDock : public QWidget {
     if (m_tabs->currentWidget() == m_text) m_tabs->setCurrentIndex(1);
   }
 
-  ReplayController* m_replay;
+  ExperimentsDockParts m_parts;
   ExperimentPlay* m_play;
   QComboBox* m_choice;
   QSpinBox* m_runs;
@@ -342,6 +386,7 @@ class ExperimentsDock : public QWidget {
   QLabel* m_words;
   QTabWidget* m_tabs;
   QPlainTextEdit* m_text;
+  QPushButton* m_seeRuns;
   QComboBox* m_condition;
   WaysView* m_ways;
   DistributionView* m_distribution;
@@ -353,8 +398,8 @@ class ExperimentsDock : public QWidget {
 
 }  // namespace
 
-QWidget* makeExperimentsDock(ReplayController* replay, QWidget* parent) {
-  return new ExperimentsDock(replay, parent);
+QWidget* makeExperimentsDock(const ExperimentsDockParts& parts, QWidget* parent) {
+  return new ExperimentsDock(parts, parent);
 }
 
 }  // namespace pitchboard::ui

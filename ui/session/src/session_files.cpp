@@ -11,6 +11,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
+#include <ui/sources/scenario_behind.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
@@ -161,13 +162,7 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   options.poses = poses;
   options.ball = poses == link::MomentOptions::Poses::True ? link::MomentOptions::Ball::True
                                                            : link::MomentOptions::Ball::Perceived;
-  std::optional<link::Scenario> base;
-  if (m_source->kind() == SourceKind::Simulate) {
-    base = m_controller->scenario();
-  } else if (m_source->kind() == SourceKind::Replay && !m_replay->attachedScenario().empty()) {
-    auto read = link::scenarioFromJson(m_replay->attachedScenario(), "the session's scenario");
-    if (read) base = std::move(*read);
-  }
+  const auto base = scenarioBehind(*m_source, *m_controller, *m_replay);
   if (base) options.base = &*base;
   const link::MomentScenario moment = link::scenarioFromMoment(*frame, options);
   m_timeline->goLive();

@@ -57,7 +57,7 @@ QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
 }
 QWidget* experiments(const StudioParts& s, QWidget* parent) {
-  return makeExperimentsDock(s.replay, parent);
+  return makeExperimentsDock({s.replay, s.compared, s.tests}, parent);
 }
 QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.source, s.timeline, parent);

@@ -20,6 +20,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/time_axis.h>
+#include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/orphan_notice.h>
@@ -115,6 +116,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       {controller, m_source, m_selection, m_timeline, m_replay, m_recording, m_live}, this);
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
+  m_tests = new SituationTests({m_source, controller, m_replay, settings}, this);
+  connect(m_tests, &SituationTests::failed, m_notices,
+          [this](const QString& sentence) { m_notices->show(sentence); });
   makeDocks();
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
@@ -191,7 +195,7 @@ void MainWindow::shutDown() {
 StudioParts MainWindow::parts() const {
   return {m_controller, m_source, m_selection, m_field,           m_time,
           m_settings,   m_plots,  m_timeline,  m_timelineActions, m_replay,
-          m_recording,  m_live,   m_overlay,   m_compared};
+          m_recording,  m_live,   m_overlay,   m_compared,        m_tests};
 }
 
 QStringList MainWindow::recentSessions() const {

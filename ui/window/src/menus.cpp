@@ -12,6 +12,7 @@
 #include <QUndoGroup>
 
 #include <ui/base/notice_bar.h>
+#include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
 #include <ui/live/attach_dialog.h>
 #include <ui/live/live_settings_dialog.h>
@@ -105,6 +106,21 @@ void StudioMenus::makeFile() {
                                   &ScenarioFiles::askAndSave);
   withIcon(save, "document-save", QKeySequence::Save);
   onlyWhenSimulating(save);
+  SituationTests* tests = m_parts.tests;
+  QAction* asTest = withIcon(
+      menu->addAction(QStringLiteral("Save this moment as a &test…"), tests, &SituationTests::ask),
+      "document-save-as");
+  asTest->setObjectName(QStringLiteral("saveAsTest"));
+  QObject::connect(menu, &QMenu::aboutToShow, asTest,
+                   [asTest, tests] { asTest->setEnabled(tests->isPossible()); });
+  QObject::connect(menu, &QMenu::aboutToHide, asTest, [asTest] { asTest->setEnabled(true); });
+  for (QDockWidget* dock : m_context.docks) {
+    if (dock->objectName() != QLatin1String("experiments")) continue;
+    QObject::connect(tests, &SituationTests::saved, dock, [dock] {
+      dock->show();
+      dock->raise();
+    });
+  }
   withIcon(menu->addAction(QStringLiteral("Export &picture…"), files,
                            &ScenarioFiles::askAndExportPicture),
            "document-export");

@@ -18,6 +18,7 @@ class PlotTarget;
 class ReplayController;
 class RobotSelection;
 class SessionRecording;
+class SituationTests;
 class SourceSwitch;
 class Timeline;
 class TimelineActions;
@@ -38,6 +39,7 @@ struct StudioParts {
   LiveController* live = nullptr;       ///< listens once it was asked to
   LiveOverlay* overlay = nullptr;       ///< the other source drawn beside the shown one
   ComparedSession* compared = nullptr;  ///< a second session drawn over the shown one
+  SituationTests* tests = nullptr;      ///< moments that are saved as tests
 };
 
 }  // namespace pitchboard::ui

@@ -124,6 +124,8 @@ struct Experiment {
   Record record = Record::Nothing;
   std::vector<std::size_t> recorded;  ///< numbers of runs, with Record::Chosen
   bool separateProcesses = false;     ///< reference processes as programs, in lock-step
+  bool ownPrograms = false;           ///< a team's own programs play, too: runs do not repeat
+  double speed = 10.0;                ///< times real time of runs with own programs, at most
   std::size_t pathsShown = 30;        ///< runs of a condition that the report draws
   std::string text;  ///< the file with its scenario inside: what a results folder keeps
 
@@ -134,6 +136,8 @@ struct Experiment {
 struct RunPlace {
   std::size_t number = 1, condition = 0, index = 0;
 };
+/// It wants this run in a session file.
+bool isRecorded(const Experiment& experiment, std::size_t number, bool success);
 RunPlace placeOf(const Experiment& experiment, std::size_t number);
 std::uint64_t seedOf(const Experiment& experiment, const RunPlace& run);
 

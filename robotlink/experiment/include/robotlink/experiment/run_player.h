@@ -18,12 +18,21 @@
 namespace pitchboard::link {
 
 class Check;
+class MatchPlayer;
+class OwnPrograms;
+class RunMeasure;
 
 struct PlaySettings {
   std::string robotProgram;  ///< pitchboard-robot, for separate processes
+  /// Where playRuns() puts sessions of runs that cannot be played again because a team's own
+  /// programs play in them: the results folder, and the name and version for the files.
+  std::string folder{}, program{};
   /// Set by anybody: runs that are being played end without a result.
   const std::atomic<bool>* cancelled = nullptr;
 };
+
+/// The session of a run: "results/sessions/run-000417.mcap".
+std::string sessionPath(const std::string& folder, std::size_t number);
 
 /// One thread. `experiment` must outlive it.
 class RunPlayer {
@@ -44,6 +53,8 @@ class RunPlayer {
   RunPlayer(const Experiment& experiment, PlaySettings settings, std::unique_ptr<Check> success);
   struct Recording;
   Result<RunResult> playOne(std::size_t number, const Recording* recording);
+  Result<void> loop(MatchPlayer& player, const RunMeasure& measure, std::size_t condition,
+                    OwnPrograms* own);
 
   const Experiment* m_experiment;
   PlaySettings m_settings;

@@ -38,6 +38,7 @@ class RobotSelection;
 class ScenarioFiles;
 class SessionFiles;
 class SessionRecording;
+class SituationTests;
 class SourceSwitch;
 class StudioStatusBar;
 struct StudioParts;
@@ -130,6 +131,7 @@ class MainWindow : public QMainWindow {
   TransportBar* m_bar;
   StudioStatusBar* m_status;
   ScenarioFiles* m_files;
+  SituationTests* m_tests;
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/experiment/situation.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include <robotlink/cognition/referee_word.h>
+
+#include "experiment_names.h"
+
+namespace pitchboard::link {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* refereeVariable = "COM_REFEREE";
+
+constexpr std::array<SituationTemplate, 9> templates{{
+    {.words = "A goal is scored in at least 8 of 10 runs",
+     .assertion = "goal_rate >= 0.8",
+     .goal = true,
+     .goalAgainst = true},
+    {.words = "No goal against", .assertion = "goal_against_rate == 0", .goalAgainst = true},
+    {.words = "The ball stays on the field in 9 of 10 runs",
+     .assertion = "ball_out_rate <= 0.1",
+     .ballOut = true},
+    {.words = "Nobody falls", .assertion = "fell_rate == 0", .fell = true},
+    {.words = "Nobody gets stuck", .assertion = "stuck_rate == 0", .stuck = true},
+    {.words = "Somebody kicks in every run", .assertion = "min(kicks) >= 1"},
+    {.words = "At the end the robots know where they are",
+     .assertion = "p90(belief_error_end_m) < 0.3"},
+    {.words = "They have the ball most of the time", .assertion = "possession > 0.5"},
+    {.words = "They hardly touch each other", .assertion = "mean(collisions) <= 1"},
+}};
+
+Json spreadJson(const StartSpread& spread) {
+  Json out = Json::object();
+  if (spread.x != 0.0) out["x"] = spread.x;
+  if (spread.y != 0.0) out["y"] = spread.y;
+  if (spread.heading != 0.0) out["heading"] = spread.heading;
+  return out;
+}
+
+Json stopJson(const RunStop& stop) {
+  Json out{{"duration", stop.duration}};
+  // Said even when it is false: the scenario's own would be taken otherwise.
+  out["goal"] = stop.goal;
+  out["goal_against"] = stop.goalAgainst;
+  out["ball_out"] = stop.ballOut;
+  if (stop.fell) out["fell"] = true;
+  if (stop.stuck) out["stuck"] = *stop.stuck;
+  return out;
+}
+
+/// What a robot hears of a simulated or recorded game.
+int wordFor(const RobotFrame& robot, const RefereeView& referee) {
+  const bool penalised = robot.penalty || (robot.health && robot.health->penalty);
+  if (penalised || referee.stopped) return refereeStop;
+  if (referee.state == "PLAYING") return refereePlay;
+  if (referee.state == "READY") return refereeReady;
+  return referee.state == "SET" ? refereeSet : refereeStop;
+}
+
+}  // namespace
+
+MomentScenario situationScenario(const MatchFrame& frame, const MomentOptions& options) {
+  MomentScenario out = scenarioFromMoment(frame, options);
+  Scenario& scenario = out.scenario;
+  scenario.stop = {};
+  if (!frame.referee) return out;
+  scenario.settings.referee.reset();
+  std::erase_if(scenario.writes,
+                [](const BlackboardWrite& write) { return write.variable == refereeVariable; });
+  std::vector<BlackboardWrite> words;
+  for (const ScenarioRobot& robot : scenario.robots) {
+    const RobotFrame* seen = frame.robot(robot.identity.id);
+    const int word = wordFor(seen ? *seen : RobotFrame{}, *frame.referee);
+    words.push_back({robot.identity.id, refereeVariable, static_cast<double>(word), 0.0});
+  }
+  scenario.writes.insert(scenario.writes.begin(), words.begin(), words.end());
+  return out;
+}
+
+Result<std::string> situationToJson(const Situation& situation) {
+  if (situation.assertions.empty()) {
+    return failure(ErrorCode::InvalidArgument, "nothing must hold; choose or write what does");
+  }
+  Json out{{"version", 1},
+           {"name", situation.name},
+           {"title", situation.title},
+           {"description", situation.description},
+           {"scenario", Json::parse(scenarioToJson(situation.scenario))},
+           {"team", info(situation.team).name},
+           {"runs", situation.runs}};
+  Json starts = Json::object();
+  for (const StartSpread* spread : {&situation.robots, &situation.ball}) {
+    if (Json one = spreadJson(*spread); !one.empty()) starts[spread->who] = std::move(one);
+  }
+  if (!starts.empty()) out["starts"] = std::move(starts);
+  out["stop"] = stopJson(situation.stop);
+  out["assertions"] = situation.assertions;
+  std::string text = out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  const auto read = experimentFromJson(text, situation.name);
+  if (!read) return tl::unexpected(read.error());
+  return text;
+}
+
+std::span<const SituationTemplate> situationTemplates() {
+  return templates;
+}
+
+std::string experimentNameFrom(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, mostNameLetters)) {
+    out += isNameLetter(c) ? c : '-';
+  }
+  return out.empty() ? "moment" : out;
+}
+
+}  // namespace pitchboard::link

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// A team's own programs in experiments: an unchanged Python process in each run, several runs at a
+// time that do not hear each other, how fast they were played in all reports, sessions of runs that
+// cannot be played again, and what is said of a program that does not run.
+
+#include <QtTest>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <base/read_file.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/experiment/experiment_folder.h>
+#include <robotlink/experiment/run_player.h>
+#include <robotlink/processes/fake_time.h>
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+/// A robot half a metre behind the ball, told to play or to stand; the sleeps of its program are as
+/// on the field.
+constexpr const char* text = R"({
+  "version": 1, "name": "own", "processes": "separate", "speed": 8,
+  "scenario": {"version": 1, "noise": "none", "ball": {"x": 0, "y": 0},
+    "robots": [{"team": "blue", "number": 1, "x": -0.6, "y": 0, "runtime": "PROFILE"}],
+    "writes": [{"variable": "COM_REFEREE", "value": 2}]},
+  "conditions": [{"name": "plays", "set": {}}, {"name": "stands", "set": {"writes[0].value": 1}}],
+  "runs": 2, "stop": {"duration": 25}, "record": "failed", "success": "kicks > 0",
+  "assertions": [{"check": "min(kicks) >= 1", "condition": "plays"},
+                 {"check": "max(walked_m) < 0.01", "condition": "stands"}]
+})";
+
+class Rig {
+ public:
+  explicit Rig(const QString& program) {
+    QFile profile(m_folder.filePath(QStringLiteral("python.json")));
+    if (!profile.open(QIODevice::WriteOnly)) qFatal("no profile");
+    profile.write(QStringLiteral(R"({"version": 1, "name": "python", "processes": [{
+      "name": "decision", "command": ["python3", "%1", "${key}"], "directory": "%2",
+      "heartbeat": "DECISION_WORKING"}]})")
+                      .arg(program, QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/end_to_end"))
+                      .toUtf8());
+    std::string filled = text;
+    filled.replace(filled.find("PROFILE"), 7, profile.fileName().toStdString());
+    m_text = filled;
+  }
+  Result<Experiment> experiment() const { return experimentFromJson(m_text, "test.json"); }
+  const std::string& json() const { return m_text; }
+  std::string path(const char* name) const { return m_folder.filePath(name).toStdString(); }
+
+ private:
+  QTemporaryDir m_folder;
+  std::string m_text;
+};
+
+PlaySettings settingsFor(const std::string& folder) {
+  PlaySettings settings;
+  settings.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+  settings.folder = folder;
+  settings.program = "test";
+  return settings;
+}
+
+}  // namespace
+
+class TestExperimentOwnPrograms : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void eachRunHasItsProgramAndItsPaceIsReported();
+  void aProgramThatDoesNotRunIsNamed();
+  void insideTheyAreRefused();
+};
+
+void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
+  if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+  const Rig rig(QStringLiteral("naive_robot.py"));
+  const auto e = rig.experiment();
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  QVERIFY(e->ownPrograms);
+  const auto before = SystemVSegments::list().size();
+  const std::string out = rig.path("out");
+  auto folder = ExperimentFolder::begin(out, *e, false);
+  QVERIFY2(folder.has_value(), folder ? "" : folder.error().text().c_str());
+  // One that plays and one that stands, at the same time.
+  std::map<std::size_t, RunResult> results;
+  const auto played = playRuns(*e, std::vector<std::size_t>{1, 3, 2, 4}, 2, settingsFor(out),
+                               [&](const PlayedRun& run) {
+                                 results[run.result.number] = run.result;
+                                 return folder->add(run.result);
+                               });
+  QVERIFY2(played.has_value(), played ? "" : played.error().text().c_str());
+  QVERIFY(folder->finish().has_value());
+  const auto table = resultsOf(out, *e);
+  QVERIFY(table.has_value());
+  const ExperimentSummary summary = summarize(*e, *table);
+  for (const CheckedAssertion& one : summary.assertions) {
+    QVERIFY2(one.holds, (one.condition + ": " + one.text + ", " + one.values).c_str());
+  }
+  QCOMPARE(SystemVSegments::list().size(), before);
+
+  // Speed and slowdown are figures of each run, and stand in every report.
+  const auto metrics = metricsOf(*e);
+  QCOMPARE(metrics[metrics.size() - 2].name, std::string("times_real_time"));
+  QCOMPARE(metrics.back().name, std::string("own_programs_kept"));
+  for (const auto& [number, result] : results) {
+    QVERIFY(result.values[metrics.size() - 2] > 0.0);
+    QVERIFY(result.values[metrics.size() - 2] < 9.0);  // it is asked not to be faster than 8
+    QVERIFY(result.values.back() > 0.0 && result.values.back() <= 1.0);
+  }
+  const auto says = [&out](const char* file, const char* words) {
+    return readFile(out + '/' + file, 1 << 24).value().find(words) != std::string::npos;
+  };
+  for (const char* file : {"runs.csv", "summary.json"}) {
+    QVERIFY(says(file, "times_real_time") && says(file, "own_programs_kept"));
+  }
+  for (const char* file : {"report.md", "report.html"}) {
+    QVERIFY2(says(file, "Played, times real time"), file);
+    QVERIFY2(says(file, "at most 8 times as fast as real time"), file);
+  }
+  // Only the runs without a kick were wanted, and they were recorded while they were played.
+  for (const std::size_t number : {1, 2, 3, 4}) {
+    QCOMPARE(std::filesystem::exists(sessionPath(out, number)), number > 2);
+  }
+}
+
+void TestExperimentOwnPrograms::aProgramThatDoesNotRunIsNamed() {
+  if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+  const Rig rig(QStringLiteral("no_such_program.py"));
+  const auto e = rig.experiment();
+  QVERIFY(e.has_value());
+  auto player = RunPlayer::create(*e, settingsFor({}));
+  const auto result = player->play(1);
+  QVERIFY(!result);
+  const QString said = QString::fromStdString(result.error().text());
+  QVERIFY2(said.startsWith(QStringLiteral("B1 decision does not run")), qPrintable(said));
+  QVERIFY2(said.contains(QStringLiteral("no_such_program.py")), qPrintable(said));
+}
+
+void TestExperimentOwnPrograms::insideTheyAreRefused() {
+  const Rig rig(QStringLiteral("naive_robot.py"));
+  std::string inside = rig.json();
+  const std::string separate = "\"processes\": \"separate\",";
+  inside.erase(inside.find(separate), separate.size());
+  const auto e = experimentFromJson(inside, "test.json");
+  QVERIFY(!e);
+  QVERIFY2(e.error().text().find("add \"processes\": \"separate\"") != std::string::npos,
+           e.error().text().c_str());
+}
+
+QTEST_GUILESS_MAIN(TestExperimentOwnPrograms)
+#include "tst_experiment_own_programs.moc"

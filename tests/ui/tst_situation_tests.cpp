@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// A moment becomes a test: from the menu, in Simulate, while looking back, in Live and in Replay,
+// through the dialog to files that the command line plays.
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QPlainTextEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableView>
+#include <QToolButton>
+#include <algorithm>
+#include <cmath>
+
+#include <robotlink/experiment/experiment.h>
+#include <ui/base/number_box.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/source_switch.h>
+
+#include "live_rig.h"
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using session_rig::Studio;
+
+namespace {
+
+template <class T>
+T* in(QObject* parent, const char* name) {
+  T* found = parent->findChild<T*>(QLatin1String(name));
+  if (found == nullptr) qFatal("there is no %s", name);
+  return found;
+}
+
+/// Opens the dialog from the menu.
+QDialog* dialogOf(Studio& s) {
+  s.action("saveAsTest")->trigger();
+  return s.window.findChild<QDialog*>(QStringLiteral("situationDialog"));
+}
+
+void fill(QDialog* dialog, const QString& folder, const char* name, const char* assertions,
+          double seconds) {
+  in<QLineEdit>(dialog, "testFolder")->setText(folder);
+  auto* line = in<QLineEdit>(dialog, "testName");
+  line->setFocus();
+  line->selectAll();
+  QTest::keyClicks(line, QLatin1String(name));
+  in<QPlainTextEdit>(dialog, "testAssertions")->setPlainText(QLatin1String(assertions));
+  in<NumberBox>(dialog, "testSeconds")->setValue(seconds);
+  in<QSpinBox>(dialog, "testRuns")->setValue(2);
+}
+
+void press(QDialog* dialog, const char* button) {
+  QTest::mouseClick(in<QPushButton>(dialog, button), Qt::LeftButton);
+}
+
+/// Of the second that every test here plays.
+constexpr const char* always = "time_s == 1\np95(walked_m) < 10";
+
+link::Scenario scenarioIn(const QString& file) {
+  const auto read = link::loadExperiment(file.toStdString());
+  if (!read) qFatal("%s", read.error().text().c_str());
+  return read->conditions.front().scenario;
+}
+
+/// Everybody stands in the file as in the frame.
+bool standAlike(const link::Scenario& scenario, const link::MatchFrame& frame) {
+  return scenario.robots.size() == frame.robots.size() &&
+         std::all_of(scenario.robots.begin(), scenario.robots.end(),
+                     [&frame](const link::ScenarioRobot& robot) {
+                       const link::RobotFrame* seen = frame.robot(robot.identity.id);
+                       return seen && seen->identity.team == robot.identity.team &&
+                              distance(seen->pose.position, robot.pose.position) < 1e-9 &&
+                              std::abs(std::remainder(seen->pose.yaw - robot.pose.yaw,
+                                                      6.283185307179586)) < 1e-9;
+                     });
+}
+
+/// pitchboard-cli test FOLDER.
+std::pair<int, QString> played(const QString& folder) {
+  QProcess cli;
+  cli.setProcessChannelMode(QProcess::MergedChannels);
+  cli.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"), {QStringLiteral("test"), folder});
+  if (!cli.waitForFinished(120'000)) return {-1, cli.errorString()};
+  return {cli.exitCode(), QString::fromUtf8(cli.readAll())};
+}
+
+}  // namespace
+
+class TestSituationTests : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() {
+    QStandardPaths::setTestModeEnabled(true);
+    setTheme(*qApp, ThemeChoice::Dark);
+  }
+  void cleanupTestCase() {
+    QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)).removeRecursively();
+  }
+  void momentsOfAMatchAndOfARecordingArePlayed();
+  void momentOfLiveRobotsIsPlayed();
+  void theDialogSaysWhatCannotBe();
+};
+
+void TestSituationTests::momentsOfAMatchAndOfARecordingArePlayed() {
+  Studio s(600);
+  QTRY_VERIFY(s.played(600));
+  const QString folder = s.folder.filePath(QStringLiteral("tests"));
+  const auto save = [&](const char* name) {
+    QDialog* dialog = dialogOf(s);
+    fill(dialog, folder, name, always, 1.0);
+    press(dialog, "testSave");
+    return scenarioIn(folder + QLatin1Char('/') + QLatin1String(name) + QStringLiteral(".json"));
+  };
+  const FramePtr now = s.controller.frame();
+  const link::Scenario ofNow = save("now");
+  QVERIFY(standAlike(ofNow, *now));
+  QVERIFY(distance(ofNow.ball, now->snapshot.ball) < 1e-9);
+  QVERIFY(std::hypot(ofNow.ballVelocity.x - now->snapshot.ballVelocity.x,
+                     ofNow.ballVelocity.y - now->snapshot.ballVelocity.y) < 1e-9);
+  QVERIFY(!ofNow.settings.referee);
+
+  s.window.timeline()->seek(4.0);
+  QTRY_VERIFY(s.window.timeline()->isLookingBack());
+  const link::Scenario before = save("looking-back");
+  QVERIFY(!standAlike(before, *now));
+  QVERIFY(standAlike(before, *s.controller.frameAt(4.0)));
+  s.window.timeline()->goLive();
+
+  const QString session = s.recorded(60);
+  QVERIFY(!session.isEmpty());
+  s.window.openSession(session);
+  QTRY_VERIFY(s.window.timeline()->isRecording());
+  s.window.timeline()->seek(s.window.timeline()->available()->end);
+  QTRY_VERIFY(s.window.replay()->frame() && s.window.replay()->frame()->robots.size() == 6);
+  QVERIFY(standAlike(save("replay"), *s.window.replay()->frame()));
+
+  const auto [code, text] = played(folder);
+  QVERIFY2(code == 0, qPrintable(text));
+  QVERIFY2(text.contains(QStringLiteral("3 tests, 6 assertions, 0 failed")), qPrintable(text));
+  for (const char* name : {"now", "looking-back", "replay"}) {
+    QVERIFY2(
+        text.contains(
+            QStringLiteral("holds   %1, as the scenario: time_s == 1").arg(QLatin1String(name))),
+        qPrintable(text));
+  }
+}
+
+void TestSituationTests::momentOfLiveRobotsIsPlayed() {
+  Studio s(0);
+  const link::LiveOptions options = live_rig::options();
+  s.window.live()->setOptions(options);
+  s.window.showSource(SourceKind::Live);
+  QTRY_VERIFY(!s.window.live()->details().network.ports.empty());
+  for (const auto& port : s.window.live()->details().network.ports) QVERIFY(port.bound);
+  const live_rig::Robot one(options, 1), two(options, 2);
+  QTRY_VERIFY(one.say() && two.say() && s.window.live()->frame() &&
+              s.window.live()->frame()->robots.size() == 2);
+  QDialog* dialog = dialogOf(s);
+  auto* behaviour = in<QComboBox>(dialog, "testBehaviour");
+  QVERIFY(behaviour->isVisibleTo(dialog));
+  QVERIFY(!in<QComboBox>(dialog, "testPoses")->isVisibleTo(dialog));
+  behaviour->setCurrentText(QStringLiteral("naive"));
+  const QString folder = s.folder.filePath(QStringLiteral("tests"));
+  fill(dialog, folder, "live", always, 1.0);
+  press(dialog, "testSave");
+  const link::Scenario scenario = scenarioIn(folder + QStringLiteral("/live.json"));
+  // What the robots have said: cm from the top left corner of the field, y down.
+  QCOMPARE(scenario.robots.size(), std::size_t(2));
+  QCOMPARE(scenario.robots[0].behaviour, std::string("naive"));
+  QVERIFY(distance(scenario.robots[0].pose.position, {1.90 - 4.5, 3.0 - 2.30}) < 1e-6);
+  QVERIFY(distance(scenario.robots[1].pose.position, {2.30 - 4.5, 3.0 - 2.60}) < 1e-6);
+  const auto [code, text] = played(folder);
+  QVERIFY2(code == 0, qPrintable(text));
+}
+
+void TestSituationTests::theDialogSaysWhatCannotBe() {
+  Studio s(10);
+  QTRY_VERIFY(s.played(10));
+  QDialog* dialog = dialogOf(s);
+  auto* problem = in<QLabel>(dialog, "testProblem");
+  auto* assertions = in<QPlainTextEdit>(dialog, "testAssertions");
+  auto* save = in<QPushButton>(dialog, "testSave");
+  QCOMPARE(assertions->toPlainText(), QStringLiteral("goal_rate >= 0.8"));
+  QVERIFY(save->isEnabled());
+  // A template adds its line and what has to end a run for it.
+  auto* out = dialog->findChildren<QCheckBox*>().at(2);
+  QCOMPARE(out->text(), QStringLiteral("ball out"));
+  QVERIFY(!out->isChecked());
+  for (QAction* one : in<QToolButton>(dialog, "testTemplates")->menu()->actions()) {
+    if (one->text().startsWith(QStringLiteral("The ball stays"))) one->trigger();
+  }
+  QVERIFY(out->isChecked());
+  QVERIFY(assertions->toPlainText().endsWith(QStringLiteral("\nball_out_rate <= 0.1")));
+  QVERIFY(save->isEnabled());
+  assertions->setPlainText(QStringLiteral("gaol_rate >= 0.8"));
+  QVERIFY(!save->isEnabled());
+  QVERIFY2(problem->text().contains(QStringLiteral("gaol_rate")), qPrintable(problem->text()));
+  assertions->clear();
+  QVERIFY(!save->isEnabled());
+  assertions->setPlainText(QStringLiteral("goal_rate >= 0.8"));
+  in<QLineEdit>(dialog, "testFolder")->setText(QStringLiteral("/proc/no/such/folder"));
+  press(dialog, "testSave");
+  QVERIFY(dialog->isVisible());
+  QVERIFY2(problem->text().contains(QStringLiteral("cannot be written")),
+           qPrintable(problem->text()));
+}
+
+QTEST_MAIN(TestSituationTests)
+#include "tst_situation_tests.moc"
