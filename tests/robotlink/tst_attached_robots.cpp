@@ -3,12 +3,16 @@
 // the segment.
 #include <sys/ipc.h>
 #include <sys/shm.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <atomic>
+#include <functional>
+#include <optional>
+#include <thread>
 
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/attached_robots.h>
@@ -57,6 +61,14 @@ struct Peer {
 
 int freeKey(int offset) {
   return 0x5000'0000 + (static_cast<int>(getpid()) % 100000) * 64 + offset;
+}
+
+/// As another user of this computer; only root can. The system call is for one thread, the C
+/// library's function for all of them.
+void asUser(unsigned user, const std::function<void()>& work) {
+  std::jthread([&] {
+    if (syscall(SYS_setresuid, -1, user, -1) == 0) work();
+  }).join();
 }
 
 }  // namespace
@@ -196,6 +208,43 @@ class TestAttachedRobots : public QObject {
     const auto wrong = SegmentView::attach(key, 4096);
     QVERIFY(!wrong);
     QVERIFY(wrong.error().text().find("has 2048 bytes, not 4096") != std::string::npos);
+  }
+
+  /// The mode of the segment says who may read it; nobody here is root.
+  void aSegmentOfAnotherUserIsReadWherePermitted() {
+    if (geteuid() != 0) QSKIP("only root can be two other users");
+    constexpr unsigned owner = 65'534, reader = 65'533;
+    const auto attached = [](int key, int mode) {
+      int segment = -1;
+      asUser(owner, [&] {
+        segment = shmget(key, 2048, IPC_CREAT | IPC_EXCL | mode);
+        void* const address = shmat(segment, nullptr, 0);
+        static_cast<std::uint32_t*>(address)[5] = 7;
+        shmdt(address);
+      });
+      std::optional<Result<std::uint32_t>> seen;
+      asUser(reader, [&] {
+        const auto view = SegmentView::attach(key);
+        if (view)
+          seen.emplace(view->word(5));
+        else
+          seen.emplace(tl::unexpected(view.error()));
+      });
+      shmctl(segment, IPC_RMID, nullptr);
+      return seen;
+    };
+    for (const int mode : {0644, 0666}) {
+      const auto permitted = attached(freeKey(5), mode);
+      QVERIFY(permitted.has_value());
+      QVERIFY(permitted->has_value());
+      QCOMPARE(permitted->value(), 7U);
+    }
+    const auto refused = attached(freeKey(5), 0600);
+    QVERIFY(refused.has_value() && !refused->has_value());
+    const std::string sentence = refused->error().text();
+    QVERIFY2(sentence.find("belongs to user 65534 and may not be read") != std::string::npos &&
+                 sentence.find("0644") != std::string::npos,
+             sentence.c_str());
   }
 
   void aSegmentThatIsNotThereYet() {
