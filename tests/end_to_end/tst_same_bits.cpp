@@ -38,7 +38,7 @@ class TestSameBits : public QObject {
     QTest::newRow("localization, team play and realistic noise")
         << QStringList{"--scenario", "match-3v3", "--noise",    "realistic",
                        "--seed",     "7",         "--duration", "1200"}
-        << QStringLiteral("0xc74ed4f5a8880386");
+        << QStringLiteral("0x4eb0a2a0e2de12e3");
     QTest::newRow("two kinds of robots with their own noise")
         << QStringList{"--scenario",    "match-3v3", "--noise",       "robot",
                        "--robot-model", "kid-size",  "--robot-model", "red=adult-size",

@@ -1,8 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAbstractItemModelTester>
+#include <QClipboard>
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QToolButton>
 #include <QtTest>
 
 #include <ui/base/words_filter.h>
+#include <ui/log/log_dock.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
 
 #include "log_model.h"
 #include "processes_model.h"
@@ -31,7 +45,97 @@ class TestLogAndProcesses : public QObject {
     return status;
   }
 
+  /// The panel with nothing but what the test says.
+  struct Panel {
+    MatchController controller{link::MatchOptions{}};
+    SourceSwitch shown{&controller};
+    Timeline timeline{&shown};
+    std::unique_ptr<QWidget> dock{makeLogDock(&controller, &shown, &timeline, nullptr)};
+    QTableView* table = dock->findChild<QTableView*>();
+    QToolButton* follow = dock->findChild<QToolButton*>(QStringLiteral("logFollow"));
+    Panel() {
+      dock->resize(900, 300);
+      dock->show();
+    }
+    bool atEnd() const {
+      return table->verticalScrollBar()->value() == table->verticalScrollBar()->maximum();
+    }
+  };
+
  private slots:
+  void initTestCase() { QApplication::setAttribute(Qt::AA_DontUseNativeDialogs); }
+
+  void chosenLinesAreCopied() {
+    Panel panel;
+    QVERIFY(QTest::qWaitForWindowActive(panel.dock.get()));
+    emit panel.controller.logReceived({{1.0, "B1 decision", "first"},
+                                       {2.0, "B1 decision", "second"},
+                                       {3.0, "R1 decision", "third"}});
+    panel.table->setFocus();
+    panel.table->selectRow(0);
+    panel.table->selectionModel()->select(panel.table->model()->index(2, 0),
+                                          QItemSelectionModel::Select | QItemSelectionModel::Rows);
+    QTest::keySequence(panel.table, QKeySequence::Copy);
+    const QStringList copied = QApplication::clipboard()->text().split('\n');
+    QCOMPARE(copied.size(), 2);
+    QVERIFY(copied[0].endsWith(QStringLiteral("\tB1 decision\tfirst")));
+    QVERIFY(copied[1].endsWith(QStringLiteral("\tR1 decision\tthird")));
+  }
+
+  void theLinesShownAreSaved() {
+    Panel panel;
+    emit panel.controller.logReceived(
+        {{1.0, "B1 decision", "kicks"}, {2.0, "B1 decision", "walks"}, {3.0, "R1", "kicks"}});
+    panel.dock->findChild<QLineEdit*>(QStringLiteral("logFilter"))
+        ->setText(QStringLiteral("kicks"));
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("log.txt"));
+    QTimer answer;
+    connect(&answer, &QTimer::timeout, this, [&] {
+      auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+      if (!dialog) return;
+      answer.stop();
+      dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->setText(path);
+      auto* buttons = dialog->findChild<QDialogButtonBox*>();
+      QTest::mouseClick(buttons->button(QDialogButtonBox::Save), Qt::LeftButton);
+      if (dialog->isVisible()) dialog->reject();
+    });
+    answer.start(20);
+    for (QToolButton* button : panel.dock->findChildren<QToolButton*>()) {
+      if (button->toolTip().startsWith(QStringLiteral("Save"))) {
+        QTest::mouseClick(button, Qt::LeftButton);
+      }
+    }
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QList<QByteArray> saved = file.readAll().trimmed().split('\n');
+    QCOMPARE(saved.size(), 2);
+    QVERIFY(saved[0].endsWith("\tB1 decision\tkicks") && saved[1].endsWith("\tR1\tkicks"));
+  }
+
+  // Who scrolls up reads on undisturbed; the button, or the end of the list, follows again.
+  void followKeepsTheNewestLineInView() {
+    Panel panel;
+    emit panel.controller.logReceived(lines(500));
+    QTRY_VERIFY(panel.table->verticalScrollBar()->maximum() > 0 && panel.atEnd());
+    emit panel.controller.logReceived(lines(10, 500));
+    QTRY_VERIFY(panel.atEnd());
+    QVERIFY(panel.follow->isChecked());
+    QScrollBar* bar = panel.table->verticalScrollBar();
+    bar->triggerAction(QAbstractSlider::SliderPageStepSub);
+    QVERIFY(!panel.follow->isChecked());
+    const int reading = bar->value();
+    emit panel.controller.logReceived(lines(10, 510));
+    QCOMPARE(bar->value(), reading);
+    QVERIFY(!panel.atEnd());
+    QTest::mouseClick(panel.follow, Qt::LeftButton);
+    QTRY_VERIFY(panel.atEnd());
+    bar->triggerAction(QAbstractSlider::SliderPageStepSub);
+    QVERIFY(!panel.follow->isChecked());
+    bar->triggerAction(QAbstractSlider::SliderToMaximum);
+    QVERIFY(panel.follow->isChecked());
+  }
+
   void theLogIsBounded() {
     LogModel model;
     const QAbstractItemModelTester tester(&model, Mode::QtTest);

@@ -19,6 +19,8 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../support/segment_keys.h"
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -30,8 +32,10 @@ class TestMainWindow : public QObject {
     QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
     MatchController controller;
     MainWindow window;
-    explicit Studio(bool paused = true) : controller(options()), window(&controller, &settings) {
-      controller.open(link::loadScenario("match-3v3").value(), paused);
+    explicit Studio(bool paused = true, const link::MatchOptions& how = options(),
+                    const char* scenario = "match-3v3")
+        : controller(how), window(&controller, &settings) {
+      controller.open(link::loadScenario(scenario).value(), paused);
       window.files()->showCurrent(QStringLiteral("match-3v3"));
       window.resize(1280, 800);
       window.show();
@@ -46,6 +50,19 @@ class TestMainWindow : public QObject {
       return bar->widgetForAction(window.findChild<QAction*>(QLatin1String(action)));
     }
     QDockWidget* dock(const char* id) { return window.findChild<QDockWidget*>(QLatin1String(id)); }
+    /// Opens the menu of this entry and clicks on it; whether it was checked before.
+    bool chooseInMenu(const QString& text) {
+      QAction* action = menuAction(text);
+      for (QMenu* menu : window.findChildren<QMenu*>()) {
+        if (!action || !menu->actions().contains(action)) continue;
+        menu->popup(window.mapToGlobal(QPoint(50, 50)));
+        if (!QTest::qWaitForWindowExposed(menu)) return false;
+        const bool was = action->isChecked();
+        QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+        return was;
+      }
+      return false;
+    }
     QAction* menuAction(const QString& text) {
       for (QAction* action : window.findChildren<QAction*>()) {
         if (action->text().remove(QLatin1Char('&')).startsWith(text)) return action;
@@ -120,6 +137,35 @@ class TestMainWindow : public QObject {
     QCOMPARE(chooser->currentData().toString(), path);
     s.window.files()->save(QStringLiteral("/nonexistent/folder/x.json"));
     QVERIFY(!s.window.notices()->text().isEmpty());
+  }
+
+  // How separate processes keep time, chosen in the menu; the frames say what holds.
+  void theMenuSwitchesFreeRunningAndLockStep() {
+    const QString entry = QStringLiteral("Robot processes run freely");
+    link::MatchOptions separate;
+    separate.cognition = link::Cognition::External;
+    separate.keyBase = testKeyBase();
+    separate.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    {
+      Studio s(false, separate, "one-robot");
+      const auto inLockStep = [&s] {
+        const FramePtr frame = s.controller.frame();
+        return frame && frame->inLockStep;
+      };
+      QTRY_VERIFY_WITH_TIMEOUT(inLockStep(), 30'000);
+      QVERIFY(!s.chooseInMenu(entry));
+      QCOMPARE(s.controller.pace(), link::RobotsPace::Free);
+      QTRY_VERIFY_WITH_TIMEOUT(!inLockStep(), 30'000);
+      QVERIFY(s.chooseInMenu(entry));
+      QCOMPARE(s.controller.pace(), link::RobotsPace::LockStep);
+      QTRY_VERIFY_WITH_TIMEOUT(inLockStep(), 30'000);
+    }
+    removeSegment(separate.keyBase.value() + 100);
+    // Processes inside the studio go in lock-step: there is nothing to choose.
+    Studio inside;
+    QVERIFY(!inside.chooseInMenu(entry));
+    QVERIFY(!inside.menuAction(entry)->isEnabled());
+    QCOMPARE(inside.controller.pace(), link::RobotsPace::LockStep);
   }
 
   void theMenuUndoes() {

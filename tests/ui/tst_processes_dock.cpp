@@ -4,6 +4,8 @@
 // match stands still is told.
 #include <QContextMenuEvent>
 #include <QMenu>
+#include <QProcess>
+#include <QPushButton>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -11,9 +13,13 @@
 #include <csignal>
 
 #include <robotlink/blackboard/system_v.h>
+#include <robotlink/frame/belief.h>
+#include <ui/base/notice_bar.h>
+#include <ui/processes/orphan_notice.h>
 #include <ui/processes/processes_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
 
 #include "../support/segment_keys.h"
 #include "processes_model.h"
@@ -70,6 +76,14 @@ class TestProcessesDock : public QObject {
   bool runs(const char* name) const {
     return process(name).state == State::Running && process(name).pid > 0;
   }
+  double now() const { return m_controller->frame() ? m_controller->frame()->snapshot.time : 0.0; }
+  /// m between where the robot stands and where it believes to stand.
+  double beliefError() const {
+    const FramePtr frame = m_controller->frame();
+    const link::RobotFrame& robot = frame->robots[0];
+    const auto belief = link::believedPose(frame->field, *robot.board);
+    return belief ? distance(belief->position, robot.pose.position) : 1e9;
+  }
   int events(link::MatchEventKind kind) const {
     return static_cast<int>(
         std::count_if(m_events.begin(), m_events.end(),
@@ -122,6 +136,7 @@ class TestProcessesDock : public QObject {
     m_told.clear();
     m_events.clear();
     removeSegment(m_base + 100);
+    removeSegment(m_base + 300);
   }
 
   void eachByTheMouse() {
@@ -202,6 +217,62 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!m_controller->frame()->inLockStep, 30'000);
     m_controller->setPace(link::RobotsPace::LockStep);
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->inLockStep, 30'000);
+  }
+
+  // The match goes on while its past is shown, and its processes with it.
+  void beliefsAreAsGoodAfterLookingBack() {
+    open(oneRobot());
+    m_controller->setPace(link::RobotsPace::Free);
+    Timeline timeline(m_switch.get());
+    timeline.watch(m_controller.get());
+    m_controller->setSpeed(10.0);
+    QTRY_VERIFY_WITH_TIMEOUT(now() > 30.0, 60'000);
+    m_controller->setSpeed(1.0);
+    QTRY_VERIFY_WITH_TIMEOUT(!m_controller->frame()->inLockStep, 30'000);
+    const double before = beliefError();
+    QVERIFY2(before < 0.5, qPrintable(QString::number(before)));
+    const double began = now();
+    timeline.seek(10.0);
+    QVERIFY(timeline.isLookingBack());
+    QVERIFY(std::abs(m_switch->frame()->snapshot.time - 10.0) < 0.1);
+    QTRY_VERIFY_WITH_TIMEOUT((timeline.step(-1), now() > began + 5.0), 60'000);
+    QVERIFY(m_switch->frame()->snapshot.time < 10.1);
+    timeline.goLive();
+    QVERIFY(!timeline.isLookingBack());
+    QVERIFY(m_switch->frame()->snapshot.time > began + 4.9);
+    const double after = beliefError();
+    qInfo("belief error %.2f m before, %.2f m after", before, after);
+    QVERIFY2(after < 0.5, qPrintable(QString::number(after)));
+    QVERIFY(runs("localization"));
+    QCOMPARE(events(link::MatchEventKind::ProcessRestarted), 0);
+    QCOMPARE(events(link::MatchEventKind::ProcessSilent), 0);
+  }
+
+  // A blackboard that an earlier run left: told by its key, removed when the user says so.
+  void whatAnEarlierRunLeftIsOffered() {
+    const int left = m_base + 300;
+    QCOMPARE(QProcess::execute(QStringLiteral(SEGMENT_USER),
+                               {QStringLiteral("leave"), QString::number(left)}),
+             0);
+    open(oneRobot());
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
+    const pid_t first = process("decision").pid;
+    NoticeBar notices;
+    showOrphanNotice(&notices, m_controller.get());
+    QVERIFY2(notices.text().contains(QStringLiteral("(key %1)").arg(left)),
+             qPrintable(notices.text()));
+    QPushButton* remove = nullptr;
+    for (QPushButton* button : notices.findChildren<QPushButton*>()) {
+      if (button->text().remove(QLatin1Char('&')) == QStringLiteral("Remove")) remove = button;
+    }
+    QVERIFY(remove);
+    notices.QWidget::show();
+    QTest::mouseClick(remove, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(!link::SystemVSegments::info(left), 30'000);
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != first, 30'000);
+    NoticeBar again;
+    showOrphanNotice(&again, m_controller.get());
+    QVERIFY(again.text().isEmpty());
   }
 
   // Once, where the user looks: at the first pause or other speed.

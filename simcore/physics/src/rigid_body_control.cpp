@@ -170,13 +170,13 @@ struct MotionNoise {
   double forward = 0.0, sideways = 0.0, turn = 0.0;
 };
 
-bool isNoisy(const NoiseParameters& noise) {
+bool motionIsNoisy(const NoiseParameters& noise) {
   return noise.forward != 0.0 || noise.sideways != 0.0 || noise.rotation != 0.0;
 }
 
 MotionNoise drawNoise(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
-  if (!tick.state.robots[index].inMotion || !isNoisy(noise)) return {};
+  if (!tick.state.robots[index].inMotion || !motionIsNoisy(noise)) return {};
   ManyDraws::Draws random = tick.draws.motion.of(index);
   // One statement each: the published order is rotation, forward, sideways.
   MotionNoise drawn;
@@ -219,7 +219,7 @@ bool liesOnFront(const RigidRobot& robot) {
 }
 
 void drawMotion(Tick& tick) {
-  tick.draw(tick.draws.motion, NoiseStream::Motion, 3, isNoisy);
+  tick.draw(tick.draws.motion, NoiseStream::Motion, 3, motionIsNoisy);
 }
 
 void stepControl(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

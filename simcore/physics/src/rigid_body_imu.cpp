@@ -13,13 +13,13 @@ struct YawErrors {
   double white = 0.0;
 };
 
-bool isNoisy(const NoiseParameters& noise) {
+bool imuIsNoisy(const NoiseParameters& noise) {
   return noise.imuWhite != 0.0 || noise.imuDrift != 0.0;
 }
 
 YawErrors drawErrors(const Tick& tick, std::size_t index) {
   const NoiseParameters& noise = tick.noise(index);
-  if (!isNoisy(noise)) return {};
+  if (!imuIsNoisy(noise)) return {};
   ManyDraws::Draws random = tick.draws.imu.of(index);
   YawErrors errors;
   errors.drift = random.normal(0.0, noise.imuDrift * tick.sqrtFrames);
@@ -30,7 +30,7 @@ YawErrors drawErrors(const Tick& tick, std::size_t index) {
 }  // namespace
 
 void drawImu(Tick& tick) {
-  tick.draw(tick.draws.imu, NoiseStream::Imu, 2, isNoisy);
+  tick.draw(tick.draws.imu, NoiseStream::Imu, 2, imuIsNoisy);
 }
 
 void stepImu(Tick& tick, std::size_t index, const RobotCommand& command, ImuPercept& percept) {

@@ -107,7 +107,7 @@ void search(const Tick& tick, std::size_t index, RigidRobot& robot) {
   robot.panRight = robot.headYaw > 0.0;
 }
 
-bool isNoisy(const NoiseParameters& noise) {
+bool ballVisionIsNoisy(const NoiseParameters& noise) {
   return noise.missedDetection != 0.0 || noise.visionDistance != 0.0 || noise.visionBearing != 0.0;
 }
 
@@ -115,7 +115,7 @@ std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, const Image
   const auto seen = image.inView(image.ball(), tick.settings().field.ballRadius);
   if (!seen) return {};
   const NoiseParameters& noise = tick.noise(index);
-  if (!isNoisy(noise)) return seen;
+  if (!ballVisionIsNoisy(noise)) return seen;
   ManyDraws::Draws random = tick.draws.ball.of(index);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
@@ -230,7 +230,7 @@ std::size_t longestDelay(const WorldState& world) {
 }
 
 void drawVision(Tick& tick) {
-  tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, isNoisy);
+  tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
 }
 
 void stepVision(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

@@ -35,9 +35,13 @@ bool isForGood(PenaltyKind penalty) {
 
 }  // namespace
 
-int RefereeTable::removalTicks(const GameTeam& team, PenaltyKind penalty) const {
+int RefereeTable::removalTicks(std::size_t robot, PenaltyKind penalty) const {
   if (isForGood(penalty)) return 0;
   if (staysOnField(penalty)) return ticks(m_rules.motionTime);
+  if (m_game.phase == GamePhase::ShootOut && player(robot)->goalkeeper) {
+    return ticks(m_rules.shotKeeperTime);
+  }
+  const GameTeam& team = m_game.teams[static_cast<std::size_t>(teamOf(robot))];
   const double more = m_rules.escalates ? m_rules.removalMore * team.penalties : 0.0;
   return ticks(m_rules.removalTime + more);
 }
@@ -48,7 +52,7 @@ void RefereeTable::penalise(std::size_t robot, PenaltyKind penalty) {
   GameTeam& team = m_game.teams[static_cast<std::size_t>(teamOf(robot))];
   one->penalty = penalty;
   one->sinceTicks = 0;
-  one->ticksLeft = removalTicks(team, penalty);
+  one->ticksLeft = removalTicks(robot, penalty);
   one->counting = m_rules.countsFromCall || staysOnField(penalty);
   one->outside = false;
   if (m_rules.escalates && escalating(penalty)) ++team.penalties;

@@ -218,6 +218,8 @@ void RefereeTable::beginShot() {
       if (one->penalty == PenaltyKind::None) penalise(i, PenaltyKind::Substitute);
       continue;
     }
+    // A goalkeeper that was removed in the shoot-out misses the shots of its time.
+    if (!own && one->penalty != PenaltyKind::None && one->ticksLeft > 0) continue;
     (own ? kicks : keeps) = true;
     one->penalty = PenaltyKind::None;
     one->outside = false;

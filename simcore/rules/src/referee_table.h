@@ -65,7 +65,7 @@ class RefereeTable {
   void runPenalties();
   void putOutside(std::size_t robot);
   void pardonAll();
-  int removalTicks(const GameTeam& team, PenaltyKind penalty) const;
+  int removalTicks(std::size_t robot, PenaltyKind penalty) const;
 
   // Judging.
   void judge(const BallWay& way);

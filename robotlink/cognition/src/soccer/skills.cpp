@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "soccer/skills.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -19,6 +20,16 @@ using std::numbers::pi;
 constexpr double behindBall = 0.14;  // m, where an attack begins
 constexpr double kickDistance = 0.025;
 constexpr double kickBearing = 0.42;  // rad: the published kick's sector reaches 30 degrees
+
+// Of a search, s.
+constexpr double headTime = 4.5;  // one sweep of the head
+constexpr double turnTime = 6.0;
+
+/// From where a robot sees all of the field between them.
+std::array<Point, 5> searchPlaces(const sim::FieldSpec& field) {
+  const double x = 0.28 * field.length, y = 0.22 * field.width;
+  return {{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
+}
 
 /// From where this robot's foot hits the ball surely, m between the centres.
 double kicksFrom(const WorldModel& world) {
@@ -39,19 +50,42 @@ std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double n
 }
 
 Move Search::step(const WorldModel& world) {
-  constexpr double headTime = 4.5;  // s: one sweep of the head
-  constexpr double turnTime = 6.0;
-  constexpr double placeTime = 22.0;
-  if (!m_since) m_since = world.now();
+  if (!m_since) begin(world);
   const double time = world.now() - *m_since;
   if (time < headTime) return acts::gait;
   if (time < headTime + turnTime || !world.localized()) return acts::turnRight;
-  const double x = 0.28 * world.field().length, y = 0.22 * world.field().width;
-  const std::array<Point, 5> places{{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
-  const auto i = static_cast<std::size_t>(std::max(0.0, time - headTime - turnTime) / placeTime) %
-                 places.size();
-  const Pose place{places[i], world.pose().yaw};
-  if (const auto target = walkTo(world, place, 0.4, pi, Ball::Ignore)) return *target;
+  return walk(world, time - headTime - turnTime);
+}
+
+void Search::begin(const WorldModel& world) {
+  constexpr double clue = 30.0;  // s: where it was before that says nothing
+  m_since = world.now();
+  m_lost.reset();
+  m_first = 0;
+  if (world.ballAge() > clue) return;
+  m_lost = world.ballLastSeen();
+  const auto places = searchPlaces(world.field());
+  const auto nearest =
+      std::min_element(places.begin(), places.end(), [this](const Point& a, const Point& b) {
+        return distance(a, *m_lost) < distance(b, *m_lost);
+      });
+  m_first = static_cast<std::size_t>(nearest - places.begin());
+}
+
+/// `time`: s since it began to walk.
+Move Search::walk(const WorldModel& world, double time) {
+  constexpr double placeTime = 22.0, near = 0.4;
+  const double yaw = world.pose().yaw;
+  if (m_lost) {
+    const auto target = walkTo(world, {*m_lost, yaw}, near, pi, Ball::Ignore);
+    if (target && time < placeTime) return *target;
+    m_lost.reset();
+    m_since = world.now() - headTime;  // looks about there
+    return acts::turnRight;
+  }
+  const auto places = searchPlaces(world.field());
+  const auto i = (m_first + static_cast<std::size_t>(time / placeTime)) % places.size();
+  if (const auto target = walkTo(world, {places[i], yaw}, near, pi, Ball::Ignore)) return *target;
   return acts::turnRight;
 }
 

@@ -23,15 +23,19 @@ enum class Ball { Ignore, KeepClear };
 std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double near, double facing,
                              Ball ball);
 
-/// Looks for the ball: with the head (which vision turns), then turning, then walking to places
-/// where it may lie.
+/// Looks for the ball: with the head (which vision turns), then turning, then walking: to where it
+/// was seen last, and from there round the field.
 class Search {
  public:
   Move step(const WorldModel& world);
   void restart() { m_since.reset(); }
 
  private:
+  void begin(const WorldModel& world);
+  Move walk(const WorldModel& world, double time);
   std::optional<double> m_since;
+  std::optional<Point> m_lost;  // where it was seen last, until this robot has been there
+  std::size_t m_first = 0;      // of the places, the nearest to that
 };
 
 /// Brings the ball towards a point: approaches a place behind it, turns round it until the robot

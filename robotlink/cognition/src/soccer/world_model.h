@@ -63,6 +63,8 @@ class WorldModel {
   /// This robot saw the ball within the last moments; position in its own frame (forward, left).
   bool seesBall() const { return m_now - m_ballSeen < 0.8; }
   double ballAge() const { return m_now - m_ballSeen; }
+  /// Where that was, on the field.
+  const Point& ballLastSeen() const { return m_ballField; }
   const Point& ballInFront() const { return m_ballLocal; }
   double ballDistance() const;
   double ballBearing() const;
