@@ -134,6 +134,48 @@ class TestCliSimulate : public QObject {
              QJsonValue("interrupted"));
     QCOMPARE(attached(), -1);
   }
+
+  // Killed, it can do nothing any more: its guard ends children and what they started, also what
+  // left their process group, and removes the segment.
+  void nothingIsLeftAfterSigkill() {
+    const int base = testKeyBase() + 40;  // keys beside those above
+    QTemporaryDir dir;
+    // Its own seconds tell the sleeps of this test from others.
+    const QByteArray asleep = QByteArray::number(100'000 + getpid());
+    QFile profile(dir.filePath("team.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"version": 1, "name": "team", "processes": [
+      {"name": "localization", "reference": "localization"},
+      {"name": "decision", "command": ["sh", "-c",
+       "sleep )" + asleep +
+                  R"( & (setsid sleep )" + asleep + R"( &) ; exec sleep )" + asleep + R"("]}]})");
+    profile.close();
+    const auto left = [&asleep, base] {
+      int found = 0;
+      for (const QString& pid : QDir("/proc").entryList(QDir::Dirs)) {
+        QFile file(QString("/proc/%1/cmdline").arg(pid));
+        if (!file.open(QIODevice::ReadOnly)) continue;
+        const QByteArray line = file.readAll();
+        found +=
+            line == QByteArray("sleep") + '\0' + asleep + '\0' ||
+            (line.contains("pitchboard-robot") && line.contains(QByteArray::number(base + 100)));
+      }
+      return found;
+    };
+    const auto hasSegment = [base] { return ::shmget(base + 100, 0, 0) >= 0; };
+    QProcess process;
+    process.start(
+        QString(PITCHBOARD_BIN) + "/pitchboard-cli",
+        {"simulate", "--scenario", "one-robot", "--cognition", "external", "--duration", "100000",
+         "--speed", "1", "--key-base", QString::number(base), "--runtime", profile.fileName()});
+    QVERIFY(process.waitForStarted());
+    QTRY_COMPARE_WITH_TIMEOUT(left(), 4, 30000);
+    QVERIFY(hasSegment());
+    ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
+    QVERIFY(process.waitForFinished(10000));
+    QTRY_COMPARE_WITH_TIMEOUT(left(), 0, 30000);
+    QTRY_VERIFY_WITH_TIMEOUT(!hasSegment(), 30000);
+  }
 };
 
 QTEST_GUILESS_MAIN(TestCliSimulate)

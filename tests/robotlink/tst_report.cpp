@@ -185,6 +185,36 @@ class TestReport : public QObject {
     QCOMPARE(std::ranges::count_if(found["circle"], isDisc), 1);
   }
 
+  void whatHappenedToProcessesIsToldEach() {
+    ReportContent content;
+    content.statistics = m_statistics;
+    const auto add = [&](MatchEventKind kind, double time, const char* detail) {
+      MatchEvent event;
+      event.kind = kind;
+      event.time = time;
+      event.robot = RobotId{1};
+      event.name = "B1";
+      event.process = "localization";
+      event.detail = detail;
+      content.events.push_back(event);
+    };
+    add(MatchEventKind::ProcessDied, 5.0, "signal 11 (Segmentation fault); its last words: <oh>");
+    add(MatchEventKind::ProcessRestarted, 5.5, "");
+    add(MatchEventKind::ProcessSilent, 20.0, "no cycle done for 5 s");
+    add(MatchEventKind::ProcessGivenUp, 40.0, "");
+    const QString html = QString::fromStdString(reportHtml(content));
+    QString rest = html.section("<h2>Events</h2>", 1);
+    for (const char* told :
+         {"0:05.0", "B1 localization died: signal 11 (Segmentation fault)",
+          "its last words: &lt;oh&gt;", "0:05.5", "B1 localization started again", "0:20.0",
+          "B1 localization is silent: no cycle done for 5 s", "0:40.0",
+          "B1 localization is not started any more"}) {
+      const auto at = rest.indexOf(told);
+      QVERIFY2(at >= 0, qPrintable(QString(told) + " not after the one before in " + rest));
+      rest = rest.mid(at);
+    }
+  }
+
   void nothingRecordedIsAReportToo() {
     const telemetry::SeriesStore empty;
     ReportContent content;

@@ -73,10 +73,11 @@ void RefereeTable::pardon(std::size_t robot) {
   report(EventKind::PenaltyOver, 0, m_world.robots[robot].id);
 }
 
-void RefereeTable::pardonAll() {
+void RefereeTable::pardonAll(int sinceTicks) {
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     const GamePlayer* one = player(i);
     if (!one || one->penalty == PenaltyKind::None || isForGood(one->penalty)) continue;
+    if (one->sinceTicks < sinceTicks) continue;
     pardon(i);
   }
 }

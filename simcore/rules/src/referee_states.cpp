@@ -121,7 +121,8 @@ void RefereeTable::beginPlaying() {
     m_game.ballFree = false;
     m_game.passed = !m_rules.directGoals;
   }
-  if (m_rules.pardonsAtPlay) pardonAll();  // REFEREE.md section 4: all at SET -> PLAYING
+  // REFEREE.md section 4: all at SET -> PLAYING, but not who is penalised at this whistle.
+  if (m_rules.pardonsAtPlay) pardonAll(1);
 }
 
 void RefereeTable::finish() {

@@ -64,7 +64,7 @@ class RefereeTable {
   void pardon(std::size_t robot);
   void runPenalties();
   void putOutside(std::size_t robot);
-  void pardonAll();
+  void pardonAll(int sinceTicks = 0);  ///< who has been penalised for so long
   int removalTicks(std::size_t robot, PenaltyKind penalty) const;
 
   // Judging.
