@@ -4,9 +4,12 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QGraphicsScene>
 #include <QGraphicsView>
 #include <QHelpEvent>
 #include <QMenu>
+#include <QPainter>
+#include <QScopeGuard>
 #include <QScreen>
 #include <QSignalSpy>
 #include <QTest>
@@ -14,6 +17,7 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <robotlink/frame/match_frame.h>
@@ -24,7 +28,9 @@
 
 #include "drawings_menu.h"
 #include "hover_text.h"
+#include "live_items.h"
 #include "name_labels.h"
+#include "robot_item.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
@@ -312,6 +318,85 @@ class TestFieldLook : public QObject {
     QCoreApplication::sendEvent(m_canvas->viewport(), &beside);
     QTRY_VERIFY(!QToolTip::isVisible());
     QVERIFY(hoverText(*frame, RobotId{9}).isEmpty());
+  }
+
+  // By the formula of the Web Content Accessibility Guidelines, 4.5 for small text: the lightest
+  // and the most frequent colour of the words' plate, as painted on the grass.
+  void tagsAreReadOnGrass_data() {
+    QTest::addColumn<ThemeChoice>("choice");
+    QTest::addColumn<bool>("ofTheBall");
+    QTest::newRow("timeout, dark") << ThemeChoice::Dark << false;
+    QTest::newRow("timeout, light") << ThemeChoice::Light << false;
+    QTest::newRow("n of n agree, dark") << ThemeChoice::Dark << true;
+    QTest::newRow("n of n agree, light") << ThemeChoice::Light << true;
+  }
+  void tagsAreReadOnGrass() {
+    QFETCH(ThemeChoice, choice);
+    QFETCH(bool, ofTheBall);
+    setTheme(*qApp, choice);
+    const auto restore = qScopeGuard([] { setTheme(*qApp, ThemeChoice::Dark); });
+    constexpr double scale = 60.0;  // px per metre
+    FieldStyle style;
+    style.pixelsPerMetre = scale;
+    QGraphicsScene scene;
+    QPointF centre;
+    QSizeF plate;
+    if (ofTheBall) {
+      auto* ball = new TeamBallItem(&style);
+      link::TeamBall agreed;
+      agreed.agree = 3;
+      agreed.see = 4;
+      agreed.spread = 0.2;
+      ball->setBall(agreed);
+      scene.addItem(ball);
+      plate = plateSize(QStringLiteral("3 of 4 agree"));
+      centre = {0, -(std::max(0.2, style.ballDrawRadius() + style.metres(5.0)) * scale) - 12};
+    } else {
+      RobotLook look;
+      look.word = QStringLiteral("timeout 37 s");
+      look.opacity = 0.45;
+      auto* robot = new RobotItem(&style, RobotId{1});
+      robot->setLook(look);
+      scene.addItem(robot);
+      plate = plateSize(look.word);
+      const QRectF all = robot->boundingRect();
+      centre = {0, -all.top() * scale - plate.height() / 2 - 2};
+    }
+    QImage image(300, 200, QImage::Format_RGB32);
+    image.fill(theme().grass);
+    QPainter painter(&image);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.translate(150, 100);
+    painter.scale(scale, -scale);
+    const QRectF source(-150 / scale, -100 / scale, 300 / scale, 200 / scale);
+    scene.render(&painter, source, source, Qt::IgnoreAspectRatio);
+    painter.end();
+    std::map<QRgb, int> counted;
+    const QRect box =
+        QRectF(QPointF(150, 100) + centre - QPointF(plate.width(), plate.height()) / 2, plate)
+            .toAlignedRect()
+            .adjusted(1, 3, -1, -3);
+    for (int y = box.top(); y <= box.bottom(); ++y) {
+      for (int x = box.left(); x <= box.right(); ++x) ++counted[image.pixel(x, y)];
+    }
+    const auto luminance = [](QRgb rgb) {
+      const auto linear = [](int eighth) {
+        const double c = eighth / 255.0;
+        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+      };
+      return 0.2126 * linear(qRed(rgb)) + 0.7152 * linear(qGreen(rgb)) +
+             0.0722 * linear(qBlue(rgb));
+    };
+    const auto ground =
+        std::ranges::max_element(counted, {}, [](const auto& c) { return c.second; });
+    const auto ink =
+        std::ranges::max_element(counted, {}, [&](const auto& c) { return luminance(c.first); });
+    QVERIFY(QColor(ground->first) != theme().grass);
+    const double contrast = (luminance(ink->first) + 0.05) / (luminance(ground->first) + 0.05);
+    QVERIFY2(contrast >= 4.5,
+             qPrintable(QStringLiteral("%1: %2 on %3")
+                            .arg(contrast)
+                            .arg(QColor(ink->first).name(), QColor(ground->first).name())));
   }
 
   void drawingsAreShownByRobotAndLayer() {

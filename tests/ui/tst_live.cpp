@@ -17,6 +17,7 @@
 #include <ui/base/notice_bar.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
 #include <ui/robots/robot_card.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/live_controller.h>
@@ -25,6 +26,8 @@
 #include <ui/window/main_window.h>
 
 #include "live_rig.h"
+#include "plot_page.h"
+#include "plot_pane.h"
 #include "scoreboard.h"
 
 using namespace pitchboard;
@@ -111,6 +114,26 @@ class TestLive : public QObject {
     QCOMPARE(health.action, std::optional(8));
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QCOMPARE(s.cards()[0]->state().action, QStringLiteral("walk forward, slow"));
+  }
+
+  // What the default profile says is named otherwise than on a blackboard.
+  void theFirstPlotsShowWhatIsHeard() {
+    Studio s;
+    s.goLive();
+    const Robot robot(s.options, 3);
+    telemetry::TextMessage said = live_rig::message(3);
+    said.ballDist = 123.0F;
+    QVERIFY(robot.say(said));
+    const auto panes = s.window.findChild<PlotsDock*>()->currentPage()->panes();
+    QCOMPARE(panes.size(), 2);
+    QTRY_COMPARE(s.robots(), std::size_t(1));
+    const auto value = [](const PlotPane* pane) -> std::optional<double> {
+      return pane->curves().empty() ? std::nullopt : pane->curves()[0].valueAt(std::nullopt);
+    };
+    QTRY_COMPARE(value(panes[0]), std::optional(123.0));
+    QCOMPARE(panes[0]->curves()[0].name(), QStringLiteral("BALL_DIST B3"));
+    QTRY_COMPARE(value(panes[1]), std::optional(8.0));
+    QCOMPARE(panes[1]->curves()[0].codeText(8), QStringLiteral("walk forward, slow"));
   }
 
   void theWindowFollowsTheMode() {

@@ -11,6 +11,8 @@
 #include <QStandardPaths>
 #include <QSvgRenderer>
 #include <QToolButton>
+#include <array>
+#include <cmath>
 
 #include <telemetry/session/session_reader.h>
 #include <ui/field/field_view.h>
@@ -61,6 +63,58 @@ class TestSessionExportDialog : public QObject {
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  // By the dialog and by the menu: where a robot was, and not where it went from there.
+  void aPictureIsOfTheMomentShown() {
+    Studio s(600);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const FramePtr now = s.controller.frame(), past = s.controller.frameAt(2.0);
+    QVERIFY(past && past->robots.size() == now->robots.size());
+    const auto moved = [&](std::size_t i) {
+      const Point a = past->robots[i].pose.position, b = now->robots[i].pose.position;
+      return std::hypot(a.x - b.x, a.y - b.y);
+    };
+    std::size_t robot = 0;
+    for (std::size_t i = 1; i < now->robots.size(); ++i) {
+      if (moved(i) > moved(robot)) robot = i;
+    }
+    QVERIFY2(moved(robot) > 0.8, "nobody has walked");
+    const QColor team = theme().team(now->robots[robot].identity.team);
+    const auto isAt = [&](const QImage& image, const Point& p) {
+      const auto& field = now->field;
+      const double scale = std::min(image.width() / (field.length + 2 * field.border),
+                                    image.height() / (field.width + 2 * field.border));
+      const QPoint at(qRound(image.width() / 2.0 + p.x * scale),
+                      qRound(image.height() / 2.0 - p.y * scale));
+      int found = 0;
+      for (int y = -3; y <= 3; ++y) {
+        for (int x = -3; x <= 3; ++x) found += image.pixelColor(at + QPoint(x, y)) == team;
+      }
+      return found > 8;
+    };
+    ExportDialog* dialog = openDialog(s);
+    QVERIFY(dialog != nullptr);
+    choose(dialog, QStringLiteral("(PNG)"));
+    const auto pictures = [&](const char* name) {
+      const QString path = s.folder.filePath(QLatin1String(name));
+      dialog->exportTo(path + QStringLiteral("-dialog.png"));
+      s.window.files()->exportPicture(path + QStringLiteral("-menu.png"));
+      return std::array{QImage(path + QStringLiteral("-dialog.png")),
+                        QImage(path + QStringLiteral("-menu.png"))};
+    };
+    const Point was = past->robots[robot].pose.position, is = now->robots[robot].pose.position;
+    for (const QImage& image : pictures("now")) {
+      QVERIFY(!image.isNull());
+      QVERIFY(isAt(image, is) && !isAt(image, was));
+    }
+    s.window.timeline()->seek(2.0);
+    for (const QImage& image : pictures("past")) {
+      QVERIFY(!image.isNull());
+      QVERIFY(isAt(image, was) && !isAt(image, is));
+    }
+    s.window.timeline()->goLive();
+    for (const QImage& image : pictures("again")) QVERIFY(isAt(image, is) && !isAt(image, was));
+  }
 
   void everyForm_data() {
     QTest::addColumn<QString>("form");

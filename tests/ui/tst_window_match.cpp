@@ -7,7 +7,9 @@
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QToolButton>
+#include <QWindow>
 #include <QtTest>
+#include <algorithm>
 
 #include <robotlink/blackboard/match_number.h>
 #include <ui/base/theme.h>
@@ -29,19 +31,38 @@
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
+/// How often the log's panel was brought to the front.
+class RaiseCounter : public QObject {
+  Q_OBJECT
+ public:
+  int raised = 0;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    const auto* dock = qobject_cast<QDockWidget*>(watched);
+    if (event->type() == QEvent::ZOrderChange && dock != nullptr && dock->isFloating() &&
+        dock->objectName() == QStringLiteral("log")) {
+      ++raised;
+    }
+    return false;
+  }
+};
+
 class TestWindowMatch : public QObject {
   Q_OBJECT
 
   struct Studio {
     MatchController controller;
     MainWindow window;
-    explicit Studio(QSettings* settings, link::Cognition where = link::Cognition::Inline)
-        : controller(options(where)), window(&controller, settings) {
+    explicit Studio(QSettings* settings, link::Cognition where = link::Cognition::Inline,
+                    const char* robotProgram = "")
+        : controller(options(where, robotProgram)), window(&controller, settings) {
       window.resize(1280, 800);
       window.show();
     }
-    static link::MatchOptions options(link::Cognition where) {
+    static link::MatchOptions options(link::Cognition where, const char* robotProgram) {
       link::MatchOptions made;
+      made.robotProgram = robotProgram;
       made.cognition = where;
       return made;
     }
@@ -100,6 +121,49 @@ class TestWindowMatch : public QObject {
     s.window.showSource(SourceKind::Replay);
     QVERIFY(!s.menu("whoDecides")->menuAction()->isEnabled());
     QVERIFY(!s.menu("matchNumber")->menuAction()->isEnabled());
+  }
+
+  // With clicks, as a person does: separate processes, and a number of the list.
+  void separateProcessesAndANumberAreChosenByClicks() {
+    int free = 9;
+    while (free > 0 && !link::MatchClaim::take(free)) --free;
+    if (free == 0) QSKIP("every number of the list is taken by other matches");
+    Studio s(m_settings.get(), link::Cognition::Inline, PITCHBOARD_BIN "/pitchboard-robot");
+    s.controller.open(link::loadScenario("one-robot").value(), true);
+    QTRY_VERIFY(s.controller.frame());
+    const auto click = [&s](const char* name, const QString& text) {
+      QAction* action = s.entry(name, text);
+      QVERIFY2(action != nullptr, qPrintable(text));
+      QMenu* menu = s.window.findChild<QMenu*>(QLatin1String(name));
+      menu->popup(s.window.mapToGlobal(QPoint(50, 50)));
+      QTRY_VERIFY(menu->isVisible());
+      // Filled anew when it opened.
+      for (QAction* each : menu->actions()) {
+        if (each->text().remove(QLatin1Char('&')).startsWith(text)) action = each;
+      }
+      QTest::mouseMove(menu, menu->actionGeometry(action).center());
+      QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+      QTRY_VERIFY(!menu->isVisible());
+    };
+    click("whoDecides", QStringLiteral("In separate processes"));
+    QCOMPARE(s.controller.cognition(), link::Cognition::External);
+    click("matchNumber", QString::number(free));
+    QTRY_VERIFY_WITH_TIMEOUT(s.controller.frame() && s.controller.frame()->matchNumber == free,
+                             30'000);
+    QCOMPARE(s.facts(), QStringLiteral("Match %1 · seed 1 · separate robot processes").arg(free));
+    QVERIFY(s.entry("matchNumber", QString::number(free))->isChecked());
+    const auto running = [&s] {
+      const FramePtr frame = s.controller.frame();
+      if (!frame || frame->robots.empty()) return false;
+      const auto processes = frame->robots.front().processes();
+      return std::ranges::any_of(processes, [](const auto& p) { return p.pid > 0; });
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(running(), 30'000);
+    const auto* status = s.window.findChild<QLabel*>(QStringLiteral("statusProcesses"));
+    QTRY_VERIFY2(status->text().startsWith(QStringLiteral("Match %1 · ").arg(free)),
+                 qPrintable(status->text()));
+    click("whoDecides", QStringLiteral("Inside the studio"));
+    QTRY_VERIFY(s.controller.frame() && !s.controller.frame()->matchNumber);
   }
 
   void everythingSpeaksOfOneMoment() {
@@ -187,10 +251,16 @@ class TestWindowMatch : public QObject {
       QTRY_VERIFY(log->isFloating() && log->isVisible());
       s.window.close();
     }
+    RaiseCounter order;
+    qApp->installEventFilter(&order);
     Studio s(m_settings.get());
     auto* log = s.window.findChild<QDockWidget*>(QStringLiteral("log"));
     QTRY_VERIFY(log->isFloating() && log->isVisible());
     QVERIFY(!s.window.findChild<QDockWidget*>(QStringLiteral("plots"))->isFloating());
+    // A tool of the window is what a desktop keeps above it.
+    QVERIFY(log->windowFlags().testFlag(Qt::Tool));
+    QTRY_COMPARE(log->windowHandle()->transientParent(), s.window.windowHandle());
+    QTRY_VERIFY(order.raised > 0);
   }
 
   void recentScenariosAndSessionsAreOffered() {

@@ -205,8 +205,10 @@ class TestWindowWork : public QObject {
     const QString ground = theme().warningGround.name();
     bar->show(QStringLiteral("saved"), {}, {QStringLiteral("c"), NoticeTone::Success});
     QVERIFY(!bar->styleSheet().contains(ground));
+    QCOMPARE(bar->grab().toImage().pixelColor(bar->width() / 2, 3), theme().workingGround);
     bar->show(QStringLiteral("bad"));
     QVERIFY(bar->styleSheet().contains(ground));
+    QCOMPARE(bar->grab().toImage().pixelColor(bar->width() / 2, 3), theme().warningGround);
     // A scenario that cannot be opened is forgotten when one could.
     s.window.files()->open(s.folder.filePath(QStringLiteral("missing.json")));
     QVERIFY(bar->text().contains(QStringLiteral("missing.json")));
@@ -249,6 +251,36 @@ class TestWindowWork : public QObject {
     QTRY_VERIFY(score->isVisible() && score->width() >= score->sizeHint().width());
     const QPoint right = score->mapTo(&s.window, QPoint(score->width(), 0));
     QVERIFY(right.x() <= s.window.width());
+  }
+
+  // Twice as large on 1920 x 1200, nothing may ask for more than there is.
+  void theWindowIsAsNarrowAsHalfAScreen_data() {
+    QTest::addColumn<SourceKind>("shown");
+    QTest::newRow("simulate") << SourceKind::Simulate;
+    QTest::newRow("live") << SourceKind::Live;
+    QTest::newRow("replay") << SourceKind::Replay;
+  }
+  void theWindowIsAsNarrowAsHalfAScreen() {
+    QFETCH(SourceKind, shown);
+    Studio s({960, 600});
+    s.play();
+    s.controller.edits()->setBehaviour({RobotId{2}}, QStringLiteral("striker"));
+    s.window.showSource(shown);
+    for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+    QStringList wide;
+    for (const QWidget* each : s.window.findChildren<QWidget*>()) {
+      const int least = std::max(each->minimumSizeHint().width(), each->minimumWidth());
+      if (!each->isVisible() || least < 250) continue;
+      wide << QStringLiteral("%1 %2 %3")
+                  .arg(QLatin1String(each->metaObject()->className()), each->objectName())
+                  .arg(least);
+    }
+    QVERIFY2(s.window.minimumSizeHint().width() <= 960, qPrintable(wide.join(u'\n')));
+    QCOMPARE(s.window.width(), 960);
+    auto* score = s.window.findChild<Scoreboard*>();
+    QVERIFY(score->isVisible() && score->width() >= score->sizeHint().width());
+    QVERIFY(score->mapTo(&s.window, QPoint()).x() >= 0);
+    QVERIFY(score->mapTo(&s.window, QPoint(score->width(), 0)).x() <= 960);
   }
 
   void theWindowFitsASmallScreen() {
@@ -390,6 +422,24 @@ class TestWindowWork : public QObject {
     emit s.controller.eventsReceived({low});
     QVERIFY(alarms->isRaised());
     QTRY_VERIFY(!alarms->isRaised());
+    // A sound only when it is wanted, and once more to hear which.
+    int rung = 0;
+    alarms->setBell([&rung] { ++rung; });
+    emit s.controller.eventsReceived({low});
+    QCOMPARE(rung, 0);
+    QAction* sound = s.menuAction(QStringLiteral("With a sound"));
+    sound->trigger();
+    QCOMPARE(rung, 1);
+    link::MatchEvent fall = low;
+    fall.kind = link::MatchEventKind::Fall;  // not chosen
+    emit s.controller.eventsReceived({fall});
+    QCOMPARE(rung, 1);
+    emit s.controller.eventsReceived({low});
+    QCOMPARE(rung, 2);
+    QVERIFY(s.settings.value(QStringLiteral("alarms/sound")).toBool());
+    sound->trigger();
+    emit s.controller.eventsReceived({low});
+    QCOMPARE(rung, 2);
     QCOMPARE(s.settings.value(QStringLiteral("alarms/kinds")).toStringList(),
              QStringList(QStringLiteral("battery-low")));
   }

@@ -28,10 +28,12 @@ QStringList variablesOf(const CurveSpec& curve) {
   return expression ? expression->variables() : QStringList();
 }
 
-CurveSpec ofGroup(const CurveSpec& curve, const QString& group) {
+CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& feed) {
   CurveSpec made = curve;
   for (QString& input : made.inputs) {
-    if (isWord(groupOf(input))) input = group + input.mid(input.indexOf(QLatin1Char('/')));
+    const QString word = groupOf(input);
+    if (!isWord(word)) continue;
+    input = group + QLatin1Char('/') + feed.columnOf(group, input.mid(word.size() + 1));
   }
   // Names of groups may have characters that only braces can hold.
   static const QRegularExpression plain(
@@ -76,7 +78,7 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, const PlotFeed& feed) {
   QList<CurveSpec> all;
   for (const QString& group : groups) {
     if (all.size() == (every ? mostCurves : 1)) break;
-    all << ofGroup(curve, group);
+    all << ofGroup(curve, group, feed);
     all.back().colorNumber += static_cast<int>(all.size()) - 1;
   }
   if (all.isEmpty()) all << curve;

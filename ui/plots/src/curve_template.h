@@ -3,7 +3,8 @@
 
 // Descriptions of curves that stand for one curve of every robot (`each/NAME`, `each.NAME` in an
 // expression) or of the first robot that is not a keeper (`first`; of a keeper where there are only
-// keepers): so a layout survives another number of robots. Plain values.
+// keepers): so a layout survives another number of robots. `first/A|B` is A, or B in a robot that
+// has no A: what robots in Live say is named by their team's profile. Plain values.
 
 #include <QStringList>
 

@@ -15,6 +15,7 @@ namespace pitchboard::ui {
 namespace {
 
 const QString curvePrefix = QStringLiteral("curve/");
+constexpr QLatin1Char alternative('|');
 constexpr std::string_view keeperBehaviour = "keeper";
 
 /// `GROUP/COLUMN`.
@@ -146,14 +147,23 @@ QStringList PlotFeed::groupsWith(const QStringList& columns) const {
     const auto view = m_store->view(id);
     if (!view) continue;
     const auto& info = view->info();
-    const bool all = std::all_of(columns.begin(), columns.end(), [&](const QString& column) {
+    const bool all = std::all_of(columns.begin(), columns.end(), [&](const QString& names) {
+      const QStringList wanted = names.split(alternative);
       return std::any_of(info.columns.begin(), info.columns.end(), [&](const auto& known) {
-        return column == QLatin1String(known.name.data(), qsizetype(known.name.size()));
+        return wanted.contains(QLatin1String(known.name.data(), qsizetype(known.name.size())));
       });
     });
     if (all) groups << QString::fromStdString(info.name);
   }
   return groups;
+}
+
+QString PlotFeed::columnOf(const QString& group, const QString& names) const {
+  const QStringList wanted = names.split(alternative);
+  for (const QString& name : wanted) {
+    if (m_store && m_store->find(group.toStdString(), name.toStdString())) return name;
+  }
+  return wanted.front();
 }
 
 ColumnView PlotFeed::find(const QString& name) {

@@ -194,8 +194,10 @@ CurveSpec variableCurve(const QString& name) {
 QString curveName(const CurveSpec& curve) {
   if (!curve.title.isEmpty()) return curve.title;
   const auto shown = [&curve](qsizetype i) {
-    const QString name = curve.inputs.value(i);
+    QString name = curve.inputs.value(i);
     const qsizetype slash = name.indexOf(QLatin1Char('/'));
+    // Of alternatives, while there is none of them: the first.
+    if (const qsizetype bar = name.indexOf(QLatin1Char('|')); bar > slash) name.truncate(bar);
     return slash < 0 ? name : name.mid(slash + 1) + QLatin1Char(' ') + name.left(slash);
   };
   switch (curve.kind) {

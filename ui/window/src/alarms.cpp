@@ -70,7 +70,8 @@ Alarms::Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObje
     : QObject(parent),
       m_frame(new AlarmFrame(field)),
       m_calm(new QTimer(this)),
-      m_settings(settings) {
+      m_settings(settings),
+      m_ring(&QApplication::beep) {
   m_calm->setSingleShot(true);
   m_calm->setInterval(calmMilliseconds);
   connect(m_calm, &QTimer::timeout, m_frame, &QWidget::hide);
@@ -120,7 +121,7 @@ void Alarms::fill(QMenu* menu) {
   connect(sound, &QAction::toggled, this, [this](bool on) {
     m_sound = on;
     keep();
-    if (on) QApplication::beep();
+    if (on) m_ring();
   });
 }
 
@@ -135,7 +136,7 @@ void Alarms::take(const std::vector<link::MatchEvent>& events) {
   m_frame->raise();
   m_calm->start();
   QApplication::alert(field->window());
-  if (m_sound) QApplication::beep();
+  if (m_sound) m_ring();
   emit raised(QString::fromStdString(sentenceOf(*first)));
 }
 

@@ -6,7 +6,9 @@
 // thread only.
 
 #include <QObject>
+#include <functional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <robotlink/frame/match_event.h>
@@ -28,6 +30,8 @@ class Alarms : public QObject {
   /// A tick for each kind of event that can be an alarm, and one for the sound.
   void fill(QMenu* menu);
   bool isRaised() const;
+  /// What makes the sound; at first that of the desktop.
+  void setBell(std::function<void()> ring) { m_ring = std::move(ring); }
 
  signals:
   void raised(const QString& sentence);
@@ -41,6 +45,7 @@ class Alarms : public QObject {
   QSettings* m_settings;
   std::set<link::MatchEventKind> m_chosen;
   bool m_sound = false;
+  std::function<void()> m_ring;
 };
 
 }  // namespace pitchboard::ui

@@ -6,7 +6,9 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QMenu>
+#include <QPainter>
 #include <QTimer>
+#include <algorithm>
 
 #include <base/angles.h>
 #include <ui/base/robot_words.h>
@@ -21,6 +23,34 @@
 #include <ui/sources/timeline.h>
 
 namespace pitchboard::ui {
+namespace {
+
+/// Narrower than its words it ends in "…", instead of asking for a wider window.
+class StatusLabel : public QLabel {
+ public:
+  using QLabel::QLabel;
+  QSize minimumSizeHint() const override {
+    const QMargins edge = contentsMargins();
+    const int least = std::min(QLabel::minimumSizeHint().width(),
+                               fontMetrics().averageCharWidth() * 3 + edge.left() + edge.right());
+    return {least, QLabel::minimumSizeHint().height()};
+  }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override {
+    const QRect room = contentsRect();
+    if (fontMetrics().horizontalAdvance(text()) <= room.width()) {
+      QLabel::paintEvent(event);
+      return;
+    }
+    QPainter painter(this);
+    painter.setPen(palette().color(foregroundRole()));
+    painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
+                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+  }
+};
+
+}  // namespace
 
 StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
     : QStatusBar(parent), m_context(context) {
@@ -51,7 +81,7 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
 }
 
 QLabel* StudioStatusBar::addLabel(const char* name, bool atRight) {
-  auto* label = new QLabel(this);
+  auto* label = new StatusLabel(this);
   label->setObjectName(QLatin1String(name));
   label->setFont(themeFont(TypeRole::Secondary));
   label->setForegroundRole(QPalette::PlaceholderText);
