@@ -19,6 +19,7 @@
 #include "chart_pane.h"
 #include "curve_dialog.h"
 #include "curve_template.h"
+#include "derived_series.h"
 #include "marks_model.h"
 #include "marks_panel.h"
 #include "plot_export.h"
@@ -131,6 +132,47 @@ class TestPlotWork : public QObject {
     PlotPane* endless = b.show(circle);
     b.dock->feed()->refresh();
     QVERIFY(endless->curves()[0].isWaiting());
+  }
+
+  /// What was computed is not computed again: rows that came before are not looked at any more.
+  void onlyWhatIsNewIsComputed() {
+    PlotSource first, other;
+    first.fill("B1", 10.0);
+    // The same near 10 s and behind it, another one before: who computes that anew gives it away.
+    constexpr double changed = 8.0, elsewhere = -1e6;
+    const auto group = other.addRobot("B1");
+    for (int i = 0; i <= 900; ++i) {
+      const double time = i / 60.0;
+      other.append(group, time, 0, time < changed ? elsewhere : PlotSource::distanceAt(time));
+    }
+    DerivedSeries series(expression(QStringLiteral("B1.DIST * 2")));
+    const PlotSource* source = &first;
+    const auto find = [&source](const QString&) { return ColumnView{source->store->view(0), 1}; };
+    const auto finish = [&](quint64 generation) {
+      series.update(find, generation);
+      return !series.isWorking();
+    };
+    const auto values = [&series] {
+      std::vector<telemetry::Sample> samples;
+      const ColumnView view = series.view();
+      if (view) view.group->samples(view.column, {-1.0, 100.0}, samples);
+      return samples;
+    };
+    QTRY_VERIFY(finish(1));
+    QCOMPARE(values().size(), std::size_t(601));
+    source = &other;
+    QTRY_VERIFY(finish(1));
+    QCOMPARE(values().size(), std::size_t(901));
+    for (const telemetry::Sample& sample : values()) {
+      QCOMPARE(sample.value, 2 * PlotSource::distanceAt(sample.time));
+    }
+    // Of another match nothing holds.
+    QTRY_VERIFY(finish(2));
+    QCOMPARE(values().size(), std::size_t(901));
+    for (const telemetry::Sample& sample : values()) {
+      QCOMPARE(sample.value,
+               2 * (sample.time < changed ? elsewhere : PlotSource::distanceAt(sample.time)));
+    }
   }
 
   void everythingIsUndone() {
