@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `export` makes besides tables of all rows: even times, times of day, pictures and videos.
+// What `export` makes besides tables of all rows: even times, times of day, pictures and videos;
+// and what the commands that write files leave when the disk is full.
 #include <QtTest>
 
 #include <QDateTime>
@@ -10,6 +11,7 @@
 #include <cmath>
 
 #include "../support/program_run.h"
+#include "../support/small_disk.h"
 
 namespace {
 
@@ -126,6 +128,83 @@ class TestCliExport : public QObject {
     QCOMPARE(run.exitCode, 2);
     QVERIFY(!QFile::exists(path("fast.mp4")));
   }
+
+  /// Whole or not at all: nothing new is left, and nothing old is lost.
+  void aFullDiskLeavesNothingHalf_data() {
+    QTest::addColumn<QStringList>("arguments");
+    for (const char* format :
+         {"csv-wide", "csv-even", "csv-long", "jsonl", "mcap", "report", "svg", "png", "mp4"}) {
+      QTest::newRow(format) << QStringList{"export", m_session, "--to", QLatin1String(format),
+                                           "-o"};
+    }
+    QTest::newRow("repair") << QStringList{"repair", m_session};
+    const QStringList play{"simulate", "--scenario", "match-3v3", "--duration", "1", "--force"};
+    QTest::newRow("trace") << play + QStringList{"--trace"};
+    QTest::newRow("moment") << play + QStringList{"--save-moment"};
+    QTest::newRow("catalog") << QStringList{
+        "catalog", "import", QStringLiteral(PITCHBOARD_TEST_DATA "/catalogs/SharedMemory.py"),
+        "--json", "-o"};
+  }
+  void aFullDiskLeavesNothingHalf() {
+    QFETCH(QStringList, arguments);
+    const QTemporaryDir folder;
+    const QString file = folder.filePath("new");
+    const auto names = [&folder] {
+      return QDir(folder.path()).entryList(QDir::Files | QDir::Hidden);
+    };
+    const auto onFullDisk = [&] {
+      const SmallDisk disk(100);
+      return cli(arguments + QStringList{file});
+    };
+    const ProgramRun failed = onFullDisk();
+    QVERIFY2(failed.exitCode > 0, failed.err.constData());
+    QVERIFY2(failed.err.contains("error: "), failed.err.constData());
+    QVERIFY2(names().isEmpty(), qPrintable(names().join(' ')));
+    QFile old(file);
+    QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
+    old.close();
+    QVERIFY(onFullDisk().exitCode > 0);
+    QCOMPARE(contents(file), QByteArray("old"));
+    QCOMPARE(names(), QStringList("new"));
+    // It was the disk: where there is room the same words make the file.
+    QVERIFY(QFile::remove(file));
+    const ProgramRun good = cli(arguments + QStringList{file});
+    QVERIFY2(good.exitCode == 0, good.err.constData());
+    QVERIFY(contents(file).size() > 100);
+  }
+
+#ifdef SLOW_DISK
+  /// Without its folder a new file can be gone after a power cut.
+  void theFolderOfANewFileIsSynced_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::newRow("table") << QStringList{"export", m_session, "-o"};
+    QTest::newRow("clip") << QStringList{"export", m_session, "--to", "mcap", "-o"};
+    QTest::newRow("picture") << QStringList{"export", m_session, "--to", "svg", "-o"};
+    QTest::newRow("report") << QStringList{"export", m_session, "--to", "report", "-o"};
+    QTest::newRow("repair") << QStringList{"repair", m_session};
+    QTest::newRow("recording") << QStringList{"record",     "--scenario", "match-3v3",
+                                              "--duration", "1",          "-o"};
+  }
+  void theFolderOfANewFileIsSynced() {
+    QFETCH(QStringList, arguments);
+    const QTemporaryDir folder;
+    const QString file = folder.filePath("new"), notes = path("synced.txt");
+    QFile::remove(notes);
+    qputenv("LD_PRELOAD", SLOW_DISK);
+    qputenv("SYNCED_FOLDERS", notes.toLocal8Bit());
+    const ProgramRun run = cli(arguments + QStringList{file});
+    qunsetenv("LD_PRELOAD");
+    qunsetenv("SYNCED_FOLDERS");
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const QList<QByteArray> lines = contents(notes).split('\n');
+    const QByteArray place = QDir(folder.path()).canonicalPath().toLocal8Bit();
+    const bool kept = std::any_of(lines.begin(), lines.end(), [&place](const QByteArray& line) {
+      const QList<QByteArray> parts = line.split('\t');
+      return parts[0] == place && parts.mid(1).contains("new");
+    });
+    QVERIFY2(kept, contents(notes).constData());
+  }
+#endif
 };
 
 QTEST_GUILESS_MAIN(TestCliExport)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Export through its dialog: from a session, and from memory.
+// Export through its dialog: from a session, and from memory; and what every writer of the studio
+// leaves when the disk is full.
 #include <QComboBox>
 #include <QDateTimeEdit>
 #include <QDesktopServices>
@@ -15,10 +16,17 @@
 #include <cmath>
 
 #include <telemetry/session/session_reader.h>
+#include <telemetry/wire/team_setup.h>
 #include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
 #include <ui/session/export_dialog.h>
 #include <ui/sources/replay_controller.h>
 
+#include "../support/small_disk.h"
+#include "plot_export.h"
+#include "plot_page.h"
+#include "plot_presets.h"
+#include "profile_editor.h"
 #include "session_rig.h"
 
 using namespace pitchboard;
@@ -198,6 +206,99 @@ class TestSessionExportDialog : public QObject {
     QVERIFY(QDir(s.folder.path())
                 .entryList({QStringLiteral("*.part")}, QDir::Files | QDir::Hidden)
                 .isEmpty());
+  }
+
+  /// Whatever is written over an old file: when the disk is full the old one is still there.
+  void aFullDiskKeepsTheOldFile() {
+    Studio s(300);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
+    const QString session = s.recorded(60);
+    QVERIFY(!session.isEmpty());
+    auto* plots = s.window.findChild<PlotsDock*>();
+    plots->plotVariables({QStringLiteral("B1/TRUE_X")});
+    ScenarioFiles scenarios(&s.controller, s.window.field(), nullptr, &s.window);
+    telemetry::Profile profile = telemetry::publishedProfile();
+    profile.name = "mine";
+    ProfileEditor editor(profile, {}, nullptr);
+    telemetry::TeamSetup team;
+    team.name = "Team";
+    team.number = 12;
+
+    struct Writer {
+      const char* name;
+      std::function<bool(const QString&)> write;  ///< true: it is written
+    };
+    const auto said = [&scenarios](void (ScenarioFiles::*work)(const QString&)) {
+      return [&scenarios, work](const QString& path) {
+        QSignalSpy failed(&scenarios, &ScenarioFiles::failed);
+        (scenarios.*work)(path);
+        return failed.isEmpty();
+      };
+    };
+    std::vector<Writer> writers{
+        {"scenario.json", said(&ScenarioFiles::save)},
+        {"field.png", said(&ScenarioFiles::exportPicture)},
+        {"field.svg", said(&ScenarioFiles::exportPicture)},
+        {"layout.json",
+         [&](const QString& path) {
+           return PlotPresets::writeFile(path, plots->layoutSpec()).has_value();
+         }},
+        {"plots.png",
+         [&](const QString& path) { return savePlotPng(*plots->currentPage(), path).has_value(); }},
+        {"plots.svg",
+         [&](const QString& path) { return savePlotSvg(*plots->currentPage(), path).has_value(); }},
+        {"plots.csv",
+         [&](const QString& path) {
+           return savePlotCsv(plots->currentPage()->panes(), {0.0, 5.0}, path).has_value();
+         }},
+        {"profile.json", [&](const QString& path) { return editor.saveTo(path); }},
+        {"team.json",
+         [&](const QString& path) {
+           return telemetry::saveTeamSetup(team, path.toStdString()).has_value();
+         }},
+    };
+    s.window.openSession(session);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    ExportDialog* dialog = openDialog(s);
+    small(dialog);
+    const auto exported = [&](const char* form) {
+      return [&, form](const QString& path) {
+        choose(dialog, QLatin1String(form));
+        QSignalSpy written(dialog, &ExportDialog::written), failed(dialog, &ExportDialog::failed);
+        dialog->exportTo(path);
+        const bool ended =
+            QTest::qWaitFor([&] { return written.size() + failed.size() == 1; }, 60'000);
+        return ended && written.size() == 1;
+      };
+    };
+    writers.push_back({"export.csv", exported("row per time")});
+    writers.push_back({"export.mcap", exported("MCAP")});
+    writers.push_back({"export.html", exported("Report")});
+    writers.push_back({"export.svg", exported("(SVG)")});
+    writers.push_back({"export.png", exported("(PNG)")});
+    if (!QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
+      writers.push_back({"export.mp4", exported("(MP4)")});
+    }
+    const QDir folder(s.folder.filePath(QStringLiteral("written")));
+    QVERIFY(folder.mkpath(QStringLiteral(".")));
+    QStringList names;
+    for (const Writer& writer : writers) {
+      const QString path = folder.filePath(QLatin1String(writer.name));
+      names << QLatin1String(writer.name);
+      QFile old(path);
+      QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
+      old.close();
+      {
+        const SmallDisk disk(64);
+        QVERIFY2(!writer.write(path), writer.name);
+      }
+      QVERIFY2(contents(path) == "old", writer.name);
+      // It was the disk: with room it is replaced.
+      QVERIFY2(writer.write(path), writer.name);
+      QVERIFY2(contents(path).size() > 64, writer.name);
+    }
+    names.sort();
+    QCOMPARE(folder.entryList(QDir::Files | QDir::Hidden, QDir::Name), names);
   }
 
   void aVideoIsCancelledWithTheButton() {

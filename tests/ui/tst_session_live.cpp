@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is heard live is recorded and saved from memory, through the window; real sockets.
+// What is heard live is recorded and saved from memory, through the window; real sockets. The
+// computer's clock is one that can be set: the function that reads it is replaced in the whole
+// program, Qt included.
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <QComboBox>
+#include <QLabel>
+#include <QListWidget>
 #include <algorithm>
+#include <atomic>
+#include <ctime>
 
 #include <telemetry/session/session_reader.h>
+#include <ui/session/export_dialog.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/replay_controller.h>
 
+#include "../support/program_run.h"
+#include "../support/session_values.h"
 #include "live_rig.h"
 #include "session_rig.h"
 
@@ -13,6 +27,18 @@ using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_rig::Robot;
 using session_rig::Studio;
+
+namespace {
+
+std::atomic<std::int64_t> clockSetBy = 0;  // s
+
+}  // namespace
+
+extern "C" int clock_gettime(clockid_t clock, timespec* time) noexcept {
+  const long failed = syscall(SYS_clock_gettime, clock, time);
+  if (failed == 0 && clock == CLOCK_REALTIME) time->tv_sec += clockSetBy;
+  return static_cast<int>(failed);
+}
 
 class TestSessionLive : public QObject {
   Q_OBJECT
@@ -60,7 +86,72 @@ class TestSessionLive : public QObject {
     QVERIFY(rows >= 10);
   }
 
+  /// Where robot 1 says that it is; -1: it is not there.
+  static int placeIn(const FramePtr& frame) {
+    if (!frame) return -1;
+    for (const link::RobotFrame& robot : frame->robots) {
+      if (robot.identity.number == 1 && robot.board) return robot.board->localizationX;
+    }
+    return -1;
+  }
+  /// Robot 1 says that it is there, and is seen there.
+  static bool stand(Studio& s, const link::LiveOptions& options, int place) {
+    const Robot robot(options, 1);
+    telemetry::TextMessage said = live_rig::message(1);
+    said.x = place;
+    LiveController* live = s.window.live();
+    return robot.say(said) &&
+           QTest::qWaitFor([&] { return placeIn(live->frame()) == place; }, 10'000);
+  }
+  /// The file that has been written since `work` began.
+  static QString record(Studio& s, const std::function<bool()>& work) {
+    QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
+    QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
+    const bool good = s.window.recording()->isRecording() && work();
+    QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
+    if (!QTest::qWaitFor([&saved] { return saved.size() == 1; }, 20'000) || !good) return {};
+    return saved.at(0).at(0).toString();
+  }
+  /// Times at which a file has robot 1 at these places; nan: never.
+  static std::vector<double> timesIn(const QString& path, const std::vector<int>& places) {
+    std::vector<double> times(places.size(), std::nan(""));
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    if (!session) return times;
+    const auto& groups = session->groups();
+    session->rows({-1e9, 1e9}, {}, [&](telemetry::GroupId id, const telemetry::RowView& row) {
+      const telemetry::GroupInfo& info = groups[id].info;
+      if (info.name != "Robot 1" || info.attributes.contains("link")) return true;
+      const auto place = static_cast<int>(valueOf(info, row, columnOf(info, "X")));
+      const auto found = std::ranges::find(places, place);
+      if (found != places.end()) {
+        times[static_cast<std::size_t>(found - places.begin())] = row.time;
+      }
+      return true;
+    });
+    return times;
+  }
+  /// The same in memory.
+  static std::vector<double> timesIn(const telemetry::SeriesStore& store,
+                                     const std::vector<int>& places) {
+    std::vector<double> times(places.size(), std::nan(""));
+    for (telemetry::GroupId id = 0; id < store.groups(); ++id) {
+      const auto view = store.view(id);
+      const telemetry::GroupInfo& info = view->info();
+      if (info.name != "Robot 1" || info.attributes.contains("link")) continue;
+      std::vector<telemetry::Sample> samples;
+      view->samples(static_cast<std::uint32_t>(columnOf(info, "X")), {-1e9, 1e9}, samples);
+      for (const telemetry::Sample& sample : samples) {
+        const auto found = std::ranges::find(places, static_cast<int>(sample.value));
+        if (found != places.end()) {
+          times[static_cast<std::size_t>(found - places.begin())] = sample.time;
+        }
+      }
+    }
+    return times;
+  }
+
  private slots:
+  void cleanup() { clockSetBy = 0; }
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
   void whatIsHeardIsRecordedAndReplays() {
@@ -94,6 +185,165 @@ class TestSessionLive : public QObject {
     QTRY_VERIFY(s.window.timeline()->isRecording());
     s.window.timeline()->seek(s.window.timeline()->available()->end);
     QTRY_COMPARE(s.window.replay()->frame()->robots.size(), std::size_t(2));
+  }
+
+  /// The computer's clock is set an hour on and an hour back while robots play.
+  void aClockThatIsSetLeavesEverythingInAgreement() {
+    constexpr double tenMinutes = 600.0;  // an hour off is beyond it, a slow computer is not
+    Studio s(0);
+    const link::LiveOptions options = live_rig::options();
+    QVERIFY(hear(s, options));
+    LiveController* live = s.window.live();
+    Timeline* timeline = s.window.timeline();
+    const std::vector<int> steps{0, 3600, 0, -3600, 0}, places{410, 420, 430, 440, 450};
+    const auto clockEvents = [&] {
+      std::vector<double> times;
+      for (const link::MatchEvent& event : timeline->events()->events()) {
+        if (event.kind == link::MatchEventKind::ClockSet) times.push_back(event.time);
+      }
+      return times;
+    };
+    const QDateTime truly = QDateTime::currentDateTime();
+    const QString path = record(s, [&] {
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        clockSetBy = steps[i];
+        const bool noticed = QTest::qWaitFor([&] { return clockEvents().size() == i; }, 20'000);
+        if (!noticed || !stand(s, options, places[i])) return false;
+      }
+      return true;
+    });
+    QVERIFY(!path.isEmpty());
+    // Curves: in order, and no row an hour off.
+    const std::vector<double> times = timesIn(*live->series(), places);
+    QVERIFY(std::ranges::is_sorted(times));
+    QVERIFY(times.front() >= 0.0 && times.back() < tenMinutes);
+    // Log: each step between the messages around it.
+    const std::vector<double> noted = clockEvents();
+    QCOMPARE(noted.size(), steps.size() - 1);
+    for (std::size_t i = 0; i < noted.size(); ++i) {
+      QVERIFY(times[i] <= noted[i] && noted[i] <= times[i + 1]);
+    }
+    // Timeline: as long as the robots were heard, at the time of day when it began.
+    QVERIFY(timeline->available() && timeline->available()->begin <= times.front());
+    QVERIFY(timeline->available()->end >= times.back() && timeline->available()->end < tenMinutes);
+    QVERIFY(timeline->clock().has_value());
+    const QDateTime began = *timeline->clock();
+    QVERIFY(static_cast<double>(std::abs(began.secsTo(truly))) < tenMinutes);
+    // Field: at the time of each row the robot stands where the row says.
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      QCOMPARE(placeIn(live->frameAt(times[i])), places[i]);
+    }
+    // File: the same rows, steps and time of day, and the same again on the field.
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    QVERIFY(session.has_value());
+    const std::vector<double> kept = timesIn(path, places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      QVERIFY2(std::abs(kept[i] - times[i]) < 1e-6,
+               qPrintable(QStringLiteral("%1 %2").arg(kept[i]).arg(times[i])));
+    }
+    std::vector<double> written;
+    for (const telemetry::SessionEvent& event : session->events()) {
+      if (event.kind == "clock-set") written.push_back(event.time);
+    }
+    QCOMPARE(written.size(), noted.size());
+    for (std::size_t i = 0; i < noted.size(); ++i) QVERIFY(std::abs(written[i] - noted[i]) < 1e-6);
+    s.window.openSession(path);
+    QTRY_VERIFY(timeline->isRecording());
+    QVERIFY(timeline->clock() && std::abs(timeline->clock()->msecsTo(began)) <= 1);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      timeline->seek(times[i]);
+      QTRY_COMPARE(placeIn(s.window.replay()->frame()), places[i]);
+    }
+  }
+
+  /// Each watch has a second 0 of its own: their beginnings stand at one moment.
+  void twoLiveSessionsOverlapByElapsedTime() {
+    constexpr int place = 444;
+    Studio first(0);
+    const link::LiveOptions options = live_rig::options();
+    QVERIFY(hear(first, options));
+    const QString path = record(first, [&] {
+      return talk(first, options, 5) && stand(first, options, place) && talk(first, options, 1);
+    });
+    QVERIFY(!path.isEmpty());
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    QVERIFY(session && session->range());
+    const double stoodAfter = timesIn(path, {place})[0] - session->range()->begin;
+    QVERIFY(stoodAfter > 0.0);
+
+    Studio second(0);
+    const link::LiveOptions others = live_rig::options();
+    QVERIFY(hear(second, others));
+    Timeline* timeline = second.window.timeline();
+    const auto elapsed = [&] { return timeline->available()->end - timeline->available()->begin; };
+    for (int i = 0; i < 200 && elapsed() <= stoodAfter; ++i) QVERIFY(talk(second, others, 1));
+    QVERIFY(elapsed() > stoodAfter);
+    ComparedSession* compared = second.window.compared();
+    FramePtr ghost;
+    connect(compared, &ComparedSession::momentReached, this,
+            [&ghost](const FramePtr& frame) { ghost = frame; });
+    QSignalSpy changed(compared, &ComparedSession::changed);
+    compared->open(path);
+    QTRY_COMPARE(changed.size(), 1);
+    QVERIFY(compared->isAlignedByTime());
+    const double begin = timeline->available()->begin;
+    QVERIFY(std::abs(compared->offset() - (begin - session->range()->begin)) < 1e-9);
+    constexpr double rounding = 1e-6;
+    timeline->seek(begin + stoodAfter + rounding);
+    QTRY_COMPARE(placeIn(ghost), place);
+    compared->stop();
+    disconnect(compared, nullptr, this, nullptr);
+  }
+
+  /// "Robot 1" is ticked in the studio, and quoted at a terminal.
+  void namesWithSpacesAreExported() {
+    Studio s(0);
+    const link::LiveOptions options = live_rig::options();
+    QVERIFY(hear(s, options));
+    const QString path = record(s, [&] { return talk(s, options, 10); });
+    QVERIFY(!path.isEmpty());
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.timeline()->isRecording());
+    s.action("exportSession")->trigger();
+    auto* dialog = s.window.findChild<ExportDialog*>(QStringLiteral("exportDialog"));
+    QVERIFY(dialog != nullptr);
+    auto* format = dialog->findChild<QComboBox*>(QStringLiteral("exportFormat"));
+    for (int i = 0; i < format->count(); ++i) {
+      if (format->itemText(i).contains(QStringLiteral("even times"))) format->setCurrentIndex(i);
+    }
+    const auto lists = dialog->findChildren<QListWidget*>();
+    QCOMPARE(lists.size(), 2);
+    const auto tick = [](QListWidget* list, const QString& name) {
+      int found = 0;
+      for (int i = 0; i < list->count(); ++i) {
+        const bool on = list->item(i)->text() == name;
+        list->item(i)->setCheckState(on ? Qt::Checked : Qt::Unchecked);
+        found += on ? 1 : 0;
+      }
+      return found;
+    };
+    QCOMPARE(tick(lists[0], QStringLiteral("Robot 2")), 1);
+    QCOMPARE(tick(lists[1], QStringLiteral("X")), 1);
+    QSignalSpy written(dialog, &ExportDialog::written);
+    const QString to = s.folder.filePath(QStringLiteral("one robot.csv"));
+    dialog->exportTo(to);
+    QTRY_VERIFY_WITH_TIMEOUT(written.size() == 1, 20'000);
+    QFile file(to);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray place = QByteArray::number(live_rig::message(2).x);
+    const auto check = [&place](const QList<QByteArray>& lines) {
+      QCOMPARE(lines[0].split(',').last(), QByteArray("Robot 2.X"));
+      QVERIFY(lines.size() > 1);
+      QCOMPARE(lines.last().split(',').last(), place);
+    };
+    check(file.readAll().trimmed().split('\n'));
+    const ProgramRun run =
+        runProgram("pitchboard-cli",
+                   {QStringLiteral("export"), path, QStringLiteral("--to"),
+                    QStringLiteral("csv-even"), QStringLiteral("--robots"),
+                    QStringLiteral("Robot 2"), QStringLiteral("--variables"), QStringLiteral("X")});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    check(run.out.trimmed().split('\n'));
   }
 
   void withoutAnythingHeardNothingIsSaved() {
