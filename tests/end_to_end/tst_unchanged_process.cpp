@@ -166,6 +166,50 @@ class TestUnchangedProcess : public QObject {
     runner->reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
+
+  // Played faster than a team's program can think, the match slows down to it when the user wants,
+  // and is as fast as it was asked to be when not.
+  void theMatchWaitsForOwnProgramsWhenAsked() {
+    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
+    constexpr double wanted = 400.0;
+    const QTemporaryDir folder;
+    QFile profile(folder.filePath("slow.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"json({"version": 1, "name": "slow", "processes": [{"name": "decision",
+      "command": ["python3", "-c",
+        "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)"]}]})json");
+    profile.close();
+    Scenario scenario;
+    ScenarioRobot robot;
+    robot.identity.id = {1};
+    robot.runtime.profile = profile.fileName().toStdString();
+    scenario.robots = {robot};
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    auto runner = MatchRunner::start(scenario, options, false);
+    QVERIFY2(runner, runner ? "" : runner.error().text().c_str());
+    const auto program = [&runner] {
+      const auto frame = (*runner)->latest();
+      const auto all = frame->robots[0].processes();
+      return all.empty() ? ProcessStatus{} : all.front();
+    };
+    // At x1 it is learned what the program does in a second of its own.
+    QTRY_VERIFY_WITH_TIMEOUT(program().achieved == 1.0, 30'000);
+    (*runner)->setSpeed(wanted);
+    QTRY_VERIFY_WITH_TIMEOUT((*runner)->latest()->slowestOwnProgram.has_value(), 60'000);
+    QCOMPARE(program().speed, wanted);
+    (*runner)->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(true); });
+    QTRY_VERIFY_WITH_TIMEOUT(program().speed < 0.9 * wanted, 60'000);
+    // Both: the program's time and the match's.
+    const double slowed = program().speed;
+    QVERIFY2(slowed >= 0.1, qPrintable(QString::number(slowed)));
+    (*runner)->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(false); });
+    QTRY_COMPARE_WITH_TIMEOUT(program().speed, wanted, 60'000);
+    runner->reset();
+    QVERIFY(!SystemVSegments::info(m_base + 100));
+  }
 };
 
 QTEST_GUILESS_MAIN(TestUnchangedProcess)

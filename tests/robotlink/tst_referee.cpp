@@ -282,9 +282,10 @@ class TestReferee : public QObject {
     Game game("humanoid-2021", true);
     game.runTo(56);
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 1.0}, 0.0}));
-    game.runTo(61);
+    game.runTo(64);
     QVERIFY(game.happened(sim::EventKind::Penalised));
     QCOMPARE(game.game().state, PlayState::Playing);
+    QVERIFY(std::abs(game.simulation->snapshot().robots[1].pose.position.y) > 3.0);
   }
 
   void aPenalisedRobotIsPutOutsideAndComesBack() {
