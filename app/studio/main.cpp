@@ -12,6 +12,7 @@
 
 #include <app/command_line.h>
 #include <robotlink/processes/own_program.h>
+#include <ui/base/save_file.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/live_controller.h>
@@ -64,7 +65,7 @@ bool save(const QPixmap& picture, const std::string& file) {
   const QString path = QString::fromStdString(file);
   QSaveFile out(path);
   if (out.open(QIODevice::WriteOnly) &&
-      picture.save(&out, QFileInfo(path).suffix().toLatin1().constData()) && out.commit()) {
+      picture.save(&out, QFileInfo(path).suffix().toLatin1().constData()) && ui::commitWhole(out)) {
     return true;
   }
   shared::reportError(

@@ -197,7 +197,6 @@ class TestRobotsPlay : public QObject {
       }
     }
   }
-
   void onlyOneOfTwoStrikersTakesTheBall() {
     Scenario scenario = soccerMatch("realistic", 2).value();
     scenario.robots.resize(3);

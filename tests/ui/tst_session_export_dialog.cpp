@@ -212,8 +212,6 @@ class TestSessionExportDialog : public QObject {
   void aFullDiskKeepsTheOldFile() {
     Studio s(300);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
-    const QString session = s.recorded(60);
-    QVERIFY(!session.isEmpty());
     auto* plots = s.window.findChild<PlotsDock*>();
     plots->plotVariables({QStringLiteral("B1/TRUE_X")});
     ScenarioFiles scenarios(&s.controller, s.window.field(), nullptr, &s.window);
@@ -223,6 +221,7 @@ class TestSessionExportDialog : public QObject {
     telemetry::TeamSetup team;
     team.name = "Team";
     team.number = 12;
+    team.senders = {"10.0.0.0/8", "192.168.0.0/16"};  // longer than the small disk
 
     struct Writer {
       const char* name;
@@ -257,28 +256,6 @@ class TestSessionExportDialog : public QObject {
            return telemetry::saveTeamSetup(team, path.toStdString()).has_value();
          }},
     };
-    s.window.openSession(session);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
-    ExportDialog* dialog = openDialog(s);
-    small(dialog);
-    const auto exported = [&](const char* form) {
-      return [&, form](const QString& path) {
-        choose(dialog, QLatin1String(form));
-        QSignalSpy written(dialog, &ExportDialog::written), failed(dialog, &ExportDialog::failed);
-        dialog->exportTo(path);
-        const bool ended =
-            QTest::qWaitFor([&] { return written.size() + failed.size() == 1; }, 60'000);
-        return ended && written.size() == 1;
-      };
-    };
-    writers.push_back({"export.csv", exported("row per time")});
-    writers.push_back({"export.mcap", exported("MCAP")});
-    writers.push_back({"export.html", exported("Report")});
-    writers.push_back({"export.svg", exported("(SVG)")});
-    writers.push_back({"export.png", exported("(PNG)")});
-    if (!QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
-      writers.push_back({"export.mp4", exported("(MP4)")});
-    }
     const QDir folder(s.folder.filePath(QStringLiteral("written")));
     QVERIFY(folder.mkpath(QStringLiteral(".")));
     QStringList names;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // A moment becomes a test: from the menu, in Simulate, while looking back, in Live and in Replay,
-// through the dialog to files that the command line plays.
+// through the dialog to files that the command line plays, and at once in the dock.
 
 #include <QComboBox>
 #include <QDockWidget>
@@ -105,6 +105,7 @@ class TestSituationTests : public QObject {
   }
   void momentsOfAMatchAndOfARecordingArePlayed();
   void momentOfLiveRobotsIsPlayed();
+  void aTestIsPlayedAtOnceAndItsRunsAreSeen();
   void theDialogSaysWhatCannotBe();
 };
 
@@ -178,6 +179,44 @@ void TestSituationTests::momentOfLiveRobotsIsPlayed() {
   QVERIFY(distance(scenario.robots[1].pose.position, {2.30 - 4.5, 3.0 - 2.60}) < 1e-6);
   const auto [code, text] = played(folder);
   QVERIFY2(code == 0, qPrintable(text));
+}
+
+void TestSituationTests::aTestIsPlayedAtOnceAndItsRunsAreSeen() {
+  Studio s(60);
+  QTRY_VERIFY(s.played(60));
+  const QString folder = s.folder.filePath(QStringLiteral("tests"));
+  QDialog* dialog = dialogOf(s);
+  fill(dialog, folder, "at-once", "time_s == 1\ngoal_rate == 1", 1.0);
+  press(dialog, "testPlay");
+  auto* dock = in<QDockWidget>(&s.window, "experiments");
+  QVERIFY(dock->isVisible());
+  auto* words = in<QLabel>(dock, "experimentWords");
+  QTRY_VERIFY2_WITH_TIMEOUT(
+      words->text().startsWith(QStringLiteral("2 runs; 1 of 2 assertions fail")),
+      qPrintable(words->text()), 60'000);
+  QVERIFY(in<QComboBox>(dock, "experimentChoice")->currentText() == QStringLiteral("at-once"));
+  const auto [code, text] = played(folder);
+  QCOMPARE(code, 1);
+  QVERIFY2(text.contains(QStringLiteral("FAILED  at-once, as the scenario: goal_rate == 1")),
+           qPrintable(text));
+
+  // Two runs over each other.
+  auto* table = in<QTableView>(dock, "experimentTable");
+  in<QTabWidget>(dock, "experimentTabs")->setCurrentWidget(table);
+  auto* see = in<QPushButton>(dock, "experimentSeeRuns");
+  QVERIFY(see->isVisible() && !see->isEnabled());
+  table->selectRow(0);
+  QCOMPARE(see->text(), QStringLiteral("See in Replay"));
+  QTest::mouseClick(table->viewport(), Qt::LeftButton, Qt::ControlModifier,
+                    table->visualRect(table->model()->index(1, 0)).center());
+  QCOMPARE(see->text(), QStringLiteral("Compare on the field"));
+  QTRY_VERIFY(see->visibleRegion().contains(see->rect().center()));
+  QTest::mouseClick(see, Qt::LeftButton);
+  QTRY_VERIFY2_WITH_TIMEOUT(
+      s.window.replay()->path().endsWith(QStringLiteral("/sessions/run-000001.mcap")),
+      qPrintable(words->text() + s.window.replay()->path()), 20'000);
+  QTRY_VERIFY_WITH_TIMEOUT(s.window.compared()->isOn(), 60'000);
+  QVERIFY(s.window.compared()->path().endsWith(QStringLiteral("/sessions/run-000002.mcap")));
 }
 
 void TestSituationTests::theDialogSaysWhatCannotBe() {

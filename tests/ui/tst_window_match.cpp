@@ -123,49 +123,6 @@ class TestWindowMatch : public QObject {
     QVERIFY(!s.menu("matchNumber")->menuAction()->isEnabled());
   }
 
-  // With clicks, as a person does: separate processes, and a number of the list.
-  void separateProcessesAndANumberAreChosenByClicks() {
-    int free = 9;
-    while (free > 0 && !link::MatchClaim::take(free)) --free;
-    if (free == 0) QSKIP("every number of the list is taken by other matches");
-    Studio s(m_settings.get(), link::Cognition::Inline, PITCHBOARD_BIN "/pitchboard-robot");
-    s.controller.open(link::loadScenario("one-robot").value(), true);
-    QTRY_VERIFY(s.controller.frame());
-    const auto click = [&s](const char* name, const QString& text) {
-      QAction* action = s.entry(name, text);
-      QVERIFY2(action != nullptr, qPrintable(text));
-      QMenu* menu = s.window.findChild<QMenu*>(QLatin1String(name));
-      menu->popup(s.window.mapToGlobal(QPoint(50, 50)));
-      QTRY_VERIFY(menu->isVisible());
-      // Filled anew when it opened.
-      for (QAction* each : menu->actions()) {
-        if (each->text().remove(QLatin1Char('&')).startsWith(text)) action = each;
-      }
-      QTest::mouseMove(menu, menu->actionGeometry(action).center());
-      QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
-      QTRY_VERIFY(!menu->isVisible());
-    };
-    click("whoDecides", QStringLiteral("In separate processes"));
-    QCOMPARE(s.controller.cognition(), link::Cognition::External);
-    click("matchNumber", QString::number(free));
-    QTRY_VERIFY_WITH_TIMEOUT(s.controller.frame() && s.controller.frame()->matchNumber == free,
-                             30'000);
-    QCOMPARE(s.facts(), QStringLiteral("Match %1 · seed 1 · separate robot processes").arg(free));
-    QVERIFY(s.entry("matchNumber", QString::number(free))->isChecked());
-    const auto running = [&s] {
-      const FramePtr frame = s.controller.frame();
-      if (!frame || frame->robots.empty()) return false;
-      const auto processes = frame->robots.front().processes();
-      return std::ranges::any_of(processes, [](const auto& p) { return p.pid > 0; });
-    };
-    QTRY_VERIFY_WITH_TIMEOUT(running(), 30'000);
-    const auto* status = s.window.findChild<QLabel*>(QStringLiteral("statusProcesses"));
-    QTRY_VERIFY2(status->text().startsWith(QStringLiteral("Match %1 · ").arg(free)),
-                 qPrintable(status->text()));
-    click("whoDecides", QStringLiteral("Inside the studio"));
-    QTRY_VERIFY(s.controller.frame() && !s.controller.frame()->matchNumber);
-  }
-
   void everythingSpeaksOfOneMoment() {
     Studio s(m_settings.get());
     s.controller.open(link::loadScenario("match-3v3").value(), true);

@@ -267,6 +267,8 @@ class TestWindowWork : public QObject {
     s.controller.edits()->setBehaviour({RobotId{2}}, QStringLiteral("striker"));
     s.window.showSource(shown);
     for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+    s.window.resize(960, 600);
+    QCoreApplication::processEvents();
     QStringList wide;
     for (const QWidget* each : s.window.findChildren<QWidget*>()) {
       const int least = std::max(each->minimumSizeHint().width(), each->minimumWidth());

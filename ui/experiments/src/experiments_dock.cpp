@@ -20,6 +20,7 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include <ui/base/save_file.h>
 #include <ui/base/table_style.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/sources/compared_session.h>
@@ -299,7 +300,7 @@ class ExperimentsDock : public QWidget {
     if (path.isEmpty()) return;
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly) || file.write(m_text->toPlainText().toUtf8()) < 0 ||
-        !file.commit()) {
+        !commitWhole(file)) {
       say(QStringLiteral("%1 cannot be written: %2").arg(path, file.errorString()), true);
     }
   }

@@ -24,6 +24,7 @@
 
 #include <robotlink/cognition/process_registry.h>
 #include <ui/base/number_box.h>
+#include <ui/base/save_file.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -317,7 +318,7 @@ void SituationDialog::save(bool play) {
   QSaveFile file(to);
   const auto size = static_cast<qint64>(text->size());
   if (!file.open(QIODevice::WriteOnly) || file.write(text->data(), size) != size ||
-      !file.commit()) {
+      !commitWhole(file)) {
     QPalette colours = palette();
     colours.setColor(QPalette::WindowText, theme().errorText);
     m_problem->setPalette(colours);

@@ -17,6 +17,7 @@
 #include <iterator>
 #include <set>
 
+#include <ui/base/save_file.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -210,7 +211,9 @@ bool ProfileEditor::saveTo(const QString& path) {
   }
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly) ||
-      file.write(text.data(), static_cast<qint64>(text.size())) < 0 || !file.commit()) {
+      file.write(text.data(), static_cast<qint64>(text.size())) !=
+          static_cast<qint64>(text.size()) ||
+      !commitWhole(file)) {
     say(QStringLiteral("%1 cannot be written: %2. Choose another folder.")
             .arg(path, file.errorString()),
         true);

@@ -15,6 +15,7 @@
 #include <QVBoxLayout>
 
 #include <ui/base/robot_words.h>
+#include <ui/base/save_file.h>
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -229,7 +230,7 @@ class LogDock : public QWidget {
     for (int row = 0; written && row < m_filter->rowCount(); ++row) {
       written = file.write(textOf(m_filter->index(row, 0)).toUtf8() + '\n') >= 0;
     }
-    if (written && file.commit()) return;
+    if (written && commitWhole(file)) return;
     QMessageBox::warning(this, QStringLiteral("Save the log"),
                          QStringLiteral("%1 cannot be written: %2. Choose another folder.")
                              .arg(path, file.errorString()));

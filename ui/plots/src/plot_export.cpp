@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include <ui/base/save_file.h>
 #include <ui/plots/axis_ticks.h>
 
 #include "plot_page.h"
@@ -27,7 +28,7 @@ tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
 
 Result<void> writeBytes(const QString& path, const QByteArray& bytes) {
   QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
+  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !commitWhole(file)) {
     return cannotWrite(file);
   }
   return {};
@@ -172,7 +173,7 @@ Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange ran
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly)) return cannotWrite(file);
   writeCsv(file, panes, range);
-  if (!file.commit()) return cannotWrite(file);
+  if (!commitWhole(file)) return cannotWrite(file);
   return {};
 }
 

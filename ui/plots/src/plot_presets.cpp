@@ -6,6 +6,7 @@
 #include <QSettings>
 
 #include <base/read_file.h>
+#include <ui/base/save_file.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -48,7 +49,7 @@ void PlotPresets::remove(const QString& name) {
 Result<void> PlotPresets::writeFile(const QString& path, const PlotLayout& layout) {
   QSaveFile file(path);
   const QByteArray bytes = QJsonDocument(toJson(layout)).toJson();
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit()) {
+  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !commitWhole(file)) {
     return failure(ErrorCode::SystemError,
                    "The layout could not be written: " + file.errorString().toStdString() + ".",
                    path.toStdString());

@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QSaveFile>
 
+#include <ui/base/save_file.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -60,7 +61,8 @@ void ScenarioFiles::save(const QString& path) {
   const std::string text = link::scenarioToJson(moment);
   QSaveFile file(path);
   const auto size = static_cast<qint64>(text.size());
-  if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size || !file.commit()) {
+  if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size ||
+      !commitWhole(file)) {
     emit failed(QStringLiteral("The scenario was not saved to %1: %2. Choose another folder.")
                     .arg(path, file.errorString()));
   }
@@ -70,11 +72,14 @@ void ScenarioFiles::exportPicture(const QString& path) {
   const QSize size = m_field->size() * m_window->devicePixelRatioF();
   const QString suffix = QFileInfo(path).suffix().toLower();
   QSaveFile file(path);
+  const auto isWritten = [&file](const QByteArray& bytes) {
+    return !bytes.isEmpty() && file.write(bytes) == bytes.size();
+  };
   const bool drawn = file.open(QIODevice::WriteOnly) &&
                      (suffix == QStringLiteral("svg")
-                          ? file.write(m_field->svgPicture(size)) > 0
+                          ? isWritten(m_field->svgPicture(size))
                           : m_field->picture(size).save(&file, suffix.toLatin1().constData()));
-  if (!drawn || !file.commit()) {
+  if (!drawn || !commitWhole(file)) {
     emit failed(
         QStringLiteral("The picture was not written to %1. Choose another folder, and a name that "
                        "ends in .png or .svg.")
