@@ -202,9 +202,9 @@ class TestProcessSupervisor : public QObject {
     // It opens and closes files of its own while it begins; what it inherits would stay.
     bool seen = false;
     const auto hasOnlyItsOwn = [&] {
-      const QStringList open =
+      const QStringList now =
           descriptors.entryList(QDir::AllEntries | QDir::System | QDir::NoDotAndDotDot);
-      return seen = seen || open == QStringList{"0", "1", "2"};
+      return seen = seen || now == QStringList{"0", "1", "2"};
     };
     QTRY_VERIFY(hasOnlyItsOwn());
     QCOMPARE(QFile::symLinkTarget(descriptors.filePath("0")), QString("/dev/null"));
