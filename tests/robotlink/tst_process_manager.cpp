@@ -16,7 +16,7 @@ using namespace pitchboard::link;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 using Kind = ProcessNewsKind;
 
 ManagedProcess shell(const QByteArray& script, RestartPolicy policy = RestartPolicy::Always) {
@@ -53,12 +53,12 @@ class TestProcessManager : public QObject {
   std::vector<std::string> m_lines;
 
   int add(const ManagedProcess& process) {
-    const auto id = m_manager->add(process, m_board, Clock::now());
+    const auto id = m_manager->add(process, m_board, SteadyClock::now());
     if (!id) qWarning("%s", id.error().text().c_str());
     return id ? *id : 0;
   }
   void look() {
-    (void)m_manager->step(Clock::now());
+    (void)m_manager->step(SteadyClock::now());
     for (ProcessNews& one : m_manager->takeNews()) m_news.push_back(std::move(one));
     for (ProcessLine& one : m_manager->takeLines()) m_lines.push_back(std::move(one.text));
   }
@@ -129,7 +129,7 @@ class TestProcessManager : public QObject {
     QTRY_COMPARE(count(Kind::GivenUp), 1);
     QCOMPARE(status(id).state, ProcessState::GivenUp);
     QCOMPARE(status(id).restarts, 4);
-    m_manager->start(id, Clock::now());  // by hand it may try again
+    m_manager->start(id, SteadyClock::now());  // by hand it may try again
     QTRY_COMPARE(count(Kind::GivenUp), 2);
     QCOMPARE(status(id).restarts, 9);
   }
@@ -215,9 +215,9 @@ class TestProcessManager : public QObject {
     const pid_t grandchild = std::stoi(m_lines.front());
     QTRY_VERIFY(runs(grandchild));
     // Paused and continued with it, too.
-    m_manager->setPaused(true, Clock::now());
+    m_manager->setPaused(true, SteadyClock::now());
     QTRY_COMPARE(stateOf(grandchild), QByteArray("T"));
-    m_manager->setPaused(false, Clock::now());
+    m_manager->setPaused(false, SteadyClock::now());
     QTRY_COMPARE(stateOf(grandchild), QByteArray("S"));
     m_manager->stop(id);
     QCOMPARE(status(id).state, ProcessState::Stopped);
@@ -237,7 +237,7 @@ class TestProcessManager : public QObject {
     const int id =
         add(shell("trap 'echo bye; exit 0' TERM; echo ready; while :; do sleep 0.01; done"));
     QTRY_VERIFY(wrote("ready"));
-    m_manager->setPaused(true, Clock::now());
+    m_manager->setPaused(true, SteadyClock::now());
     m_manager->stop(id);
     QVERIFY(wrote("bye"));
   }
@@ -293,7 +293,7 @@ class TestProcessManager : public QObject {
                             "while True:\n time.sleep(1)\n print(round(time.time() - t), "
                             "round(time.monotonic() - m))\n"};
     process.ownTime = true;
-    m_manager->setSpeed(50.0, Clock::now());
+    m_manager->setSpeed(50.0, SteadyClock::now());
     const int id = add(process);
     QElapsedTimer timer;
     timer.start();
@@ -304,13 +304,13 @@ class TestProcessManager : public QObject {
     QCOMPARE(std::sscanf(m_lines[59].c_str(), "%d %d", &passed, &monotonic), 2);
     QVERIFY2(passed >= 60 && std::abs(passed - monotonic) <= 1, m_lines[59].c_str());
     // Its time stands still while it is stopped, and goes on from there.
-    m_manager->setPaused(true, Clock::now());
+    m_manager->setPaused(true, SteadyClock::now());
     look();
     const int before = std::stoi(m_lines.back());
     QTest::qWait(1000);  // 50 s at its speed
     look();
     m_lines.clear();
-    m_manager->setPaused(false, Clock::now());
+    m_manager->setPaused(false, SteadyClock::now());
     QTRY_VERIFY((look(), !m_lines.empty()));
     QVERIFY2(std::stoi(m_lines.front()) <= before + 25, m_lines.front().c_str());
     const pid_t pid = status(id).pid;
@@ -327,7 +327,7 @@ class TestProcessManager : public QObject {
     process.ownTime = true;
     const int id = add(process);
     QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved == 1.0), 30'000);
-    m_manager->setSpeed(1000.0, Clock::now());
+    m_manager->setSpeed(1000.0, SteadyClock::now());
     QCOMPARE(status(id).achieved, 0.0);
     QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved > 0.0 && status(id).achieved < 900.0),
                              20'000);

@@ -2,15 +2,9 @@
 // The field with real mouse and keyboard events on a real match that stands still.
 
 #include <QAction>
-#include <QApplication>
-#include <QContextMenuEvent>
-#include <QDoubleSpinBox>
 #include <QGraphicsView>
-#include <QMenu>
 #include <QSignalSpy>
 #include <QTest>
-#include <QUndoStack>
-#include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
@@ -24,33 +18,16 @@
 #include <ui/sources/match_edits.h>
 
 #include "../support/segment_keys.h"
+#include "field_rig.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
-class TestFieldView : public QObject {
+class TestFieldView : public QObject, protected field_rig::FieldRig {
   Q_OBJECT
  private slots:
-  void init() {
-    link::MatchOptions options;
-    options.cognition = link::Cognition::Inline;
-    m_controller = std::make_unique<MatchController>(options);
-    const auto scenario = link::loadScenario("match-3v3");
-    QVERIFY2(scenario.has_value(), scenario ? "" : scenario.error().text().c_str());
-    m_view = std::make_unique<FieldView>(m_controller.get());
-    m_view->resize(900, 660);
-    m_view->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
-    m_controller->open(*scenario, true);
-    QTRY_VERIFY(m_controller->frame() && m_controller->frame()->robots.size() == 6);
-    m_canvas = m_view->findChild<QGraphicsView*>();
-    QVERIFY(m_canvas);
-    m_canvas->setFocus();
-  }
-  void cleanup() {
-    m_view.reset();
-    m_controller.reset();
-  }
+  void init() { open(); }
+  void cleanup() { close(); }
 
   void dragMovesTheRobotInTheWorldAndCanBeUndone() {
     const Pose before = pose(1);
@@ -326,124 +303,6 @@ class TestFieldView : public QObject {
     QCOMPARE(m_controller->frame()->robots.size(), std::size_t(6));
   }
 
-  void menuOfARobotCommandsIt_data() {
-    QTest::addColumn<QString>("text");
-    QTest::addColumn<int>("action");
-    QTest::newRow("kick left") << "Kick left" << 5;
-    QTest::newRow("kick right") << "Kick right" << 4;
-    QTest::newRow("pass left") << "Pass left" << 12;
-    QTest::newRow("pass right") << "Pass right" << 13;
-    QTest::newRow("walk") << "Walk forward, fast" << 1;
-    QTest::newRow("greet") << "Greetings" << 19;
-  }
-  void menuOfARobotCommandsIt() {
-    QFETCH(QString, text);
-    QFETCH(int, action);
-    QVERIFY(trigger(pose(1).position, text));
-    QCOMPARE(m_view->selection(), std::vector{RobotId{1}});
-    QTRY_COMPARE(m_controller->frame()->robots.front().board->actionA, action);
-  }
-
-  void menuOfARobotRemovesAndFollows() {
-    QVERIFY(trigger(pose(2).position, "Follow"));
-    QCOMPARE(m_view->followed(), std::optional(RobotId{2}));
-    QVERIFY(trigger(pose(2).position, "Remove robot"));
-    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(5));
-    QVERIFY(!m_view->followed());
-  }
-
-  void menuOfTheGroundPlacesTheBallAndRobots() {
-    const Point place{1.0, 2.0};
-    QVERIFY(trigger(place, "Place ball here"));
-    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.x - 1.0) < 0.03);
-    QVERIFY(trigger({-1.0, -2.0}, "Red"));
-    QTRY_COMPARE(m_controller->frame()->robots.size(), std::size_t(7));
-    QCOMPARE(int(m_controller->frame()->robots.back().identity.team), int(TeamColor::Red));
-    QCOMPARE(m_controller->edits()->undoStack()->count(), 2);
-  }
-
-  void menuOfARobotChangesItsBehaviour() {
-    QVERIFY(trigger(pose(3).position, "Keeper"));
-    QTRY_COMPARE(m_controller->frame()->robots[2].board->behaviour, std::string("keeper"));
-    QCOMPARE(m_controller->edits()->robot(RobotId{3})->behaviour, std::string("keeper"));
-    QVERIFY(isChecked(pose(3).position, "Keeper"));
-    QVERIFY(!isChecked(pose(3).position, "Striker"));
-    QVERIFY(trigger(pose(3).position, "None (your own process)"));
-    QTRY_COMPARE(m_controller->frame()->robots[2].board->behaviour, std::string(link::noBehaviour));
-  }
-
-  void menuOfARobotChangesItsTeam() {
-    const Pose before = pose(1);
-    QVERIFY(isChecked(before.position, "Blue"));
-    QVERIFY(trigger(before.position, "Red"));
-    const auto identity = [this](int id) {
-      const link::RobotFrame* robot = m_controller->frame()->robot(RobotId{id});
-      return robot != nullptr ? robot->identity : sim::RobotIdentity{};
-    };
-    QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
-    QCOMPARE(identity(1).number, 4);      // 1 to 3 are worn
-    QVERIFY(identity(1).imuStartsAt180);  // it attacks to the left now
-    QVERIFY(near(pose(1), before));
-    QCOMPARE(m_controller->edits()->undoStack()->undoText(), QString("Put B1 in team red"));
-    QVERIFY(trigger(before.position, "Red"));  // is there already
-    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
-    m_controller->edits()->undoStack()->undo();
-    QTRY_COMPARE(int(identity(1).team), int(TeamColor::Blue));
-    QCOMPARE(identity(1).number, 1);
-    QVERIFY(!identity(1).imuStartsAt180);
-    m_controller->edits()->undoStack()->redo();
-    QTRY_COMPARE(int(identity(1).team), int(TeamColor::Red));
-    QCOMPARE(int(m_controller->currentMoment().robots[0].identity.team), int(TeamColor::Red));
-  }
-
-  void selectedRobotsChangeTeamTogether() {
-    m_view->select({RobotId{1}, RobotId{2}, RobotId{4}});
-    QVERIFY(trigger(pose(1).position, "Orange"));
-    const auto inOrange = [this] {
-      int count = 0;
-      for (const auto& robot : m_controller->frame()->robots) {
-        count += robot.identity.team == TeamColor::Orange;
-      }
-      return count;
-    };
-    QTRY_COMPARE(inOrange(), 3);
-    m_controller->edits()->undoStack()->undo();
-    QTRY_COMPARE(inOrange(), 0);
-  }
-
-  void menuAsksToSaveTheMoment() {
-    const QSignalSpy save(m_view.get(), &FieldView::saveScenarioRequested);
-    QVERIFY(trigger({-1.0, -2.0}, "Save this moment as a scenario…"));
-    QCOMPARE(save.count(), 1);
-  }
-
-  void poseEditorKeepsOrPutsBack_data() {
-    QTest::addColumn<int>("key");
-    QTest::addColumn<int>("commands");
-    QTest::newRow("Enter keeps it") << int(Qt::Key_Return) << 1;
-    QTest::newRow("Esc puts it back") << int(Qt::Key_Escape) << 0;
-  }
-  void poseEditorKeepsOrPutsBack() {
-    QFETCH(int, key);
-    QFETCH(int, commands);
-    const Pose before = pose(1);
-    QTest::mouseDClick(m_canvas->viewport(), Qt::LeftButton, {}, at(before.position));
-    auto* x = m_view->findChild<QDoubleSpinBox*>("x");
-    auto* heading = m_view->findChild<QDoubleSpinBox*>("heading");
-    QVERIFY(x && heading);
-    x->setValue(0.75);
-    heading->setValue(90.0);
-    QTRY_VERIFY(std::abs(pose(1).position.x - 0.75) < 1e-6);  // shown while typing
-    QTest::keyClick(x, Qt::Key(key));
-    QCOMPARE(m_controller->edits()->undoStack()->count(), commands);
-    const Pose after = commands ? Pose{{0.75, before.position.y}, radiansFromDegrees(90)} : before;
-    QTRY_VERIFY(near(pose(1), after) && std::abs(wrapToPi(pose(1).yaw - after.yaw)) < 1e-6);
-    QTRY_VERIFY(!m_view->findChild<QDoubleSpinBox*>("x"));
-    if (!commands) return;
-    m_controller->edits()->undoStack()->undo();
-    QTRY_VERIFY(near(pose(1), before));
-  }
-
   void shiftDragOfTheBallKicksIt() {
     const Point before = m_controller->frame()->snapshot.ball;
     const QPoint from = at(before);
@@ -466,95 +325,6 @@ class TestFieldView : public QObject {
     QTRY_VERIFY(std::abs(std::min(pose(1).position.x, pose(2).position.x) + 5.2 - 0.13) < 0.01);
     QVERIFY(std::abs(pose(1).position.x - pose(2).position.x - one.position.x + two.position.x) <
             1e-6);
-  }
-
-  void menuOfARobotChangesItsNumberAndModel() {
-    QVERIFY(isChecked(pose(1).position, "1"));
-    QVERIFY(trigger(pose(1).position, "7"));
-    QTRY_COMPARE(m_controller->frame()->robots[0].identity.number, 7);
-    QVERIFY(isChecked(pose(1).position, "Published robot"));
-    QVERIFY(trigger(pose(1).position, "Kid size today"));
-    QTRY_COMPARE(m_controller->frame()->robots[0].radius, 0.19);
-    m_controller->edits()->undoStack()->undo();
-    QTRY_COMPARE(m_controller->frame()->robots[0].radius, 0.0);
-  }
-
-  void ballEditorSetsPlaceAndSpeed() {
-    const Point before = m_controller->frame()->snapshot.ball;
-    QVERIFY(trigger(before, "Place and speed of the ball…"));
-    auto* speed = m_view->findChild<QDoubleSpinBox*>("speed");
-    auto* heading = m_view->findChild<QDoubleSpinBox*>("heading");
-    QVERIFY(speed && heading);
-    speed->setValue(1.5);
-    heading->setValue(90.0);
-    QTest::keyClick(speed, Qt::Key_Return);
-    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ballVelocity.y - 1.5) < 1e-6);
-    QVERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
-  }
-
-  void ballEditorTakesACommaAndIsUndone() {
-    const Point before = m_controller->frame()->snapshot.ball;
-    QVERIFY(trigger(before, "Place and speed of the ball…"));
-    auto* y = m_view->findChild<QDoubleSpinBox*>("y");
-    QVERIFY(y);
-    // With a decimal comma, by its keys.
-    y->selectAll();
-    QTest::keyClicks(y, QStringLiteral("-1,25"));
-    QTest::keyClick(y, Qt::Key_Return);
-    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y + 1.25) < 1e-6);
-    QCOMPARE(m_controller->edits()->undoStack()->count(), 1);
-    m_controller->edits()->undoStack()->undo();
-    QTRY_VERIFY(std::abs(m_controller->frame()->snapshot.ball.y - before.y) < 1e-6);
-  }
-
-  void layerOptionsChangeThePicture() {
-    const auto options = m_view->layerOptionActions();
-    QCOMPARE(options.size(), std::size_t(4));
-    const QSize size(640, 455);
-    const QImage one = m_view->picture(size);
-    options[0]->setChecked(true);  // fields of view of robots that are not selected
-    const QImage all = m_view->picture(size);
-    QVERIFY(all != one);
-    m_view->select({RobotId{1}});
-    m_view->layerActions()[std::size_t(FieldLayer::Eopra)]->setChecked(true);
-    const QImage four = m_view->picture(size);
-    options[2]->setChecked(true);
-    QVERIFY(!options[1]->isChecked());
-    QVERIFY(m_view->picture(size) != four);
-  }
-
-  void particlesAndPathAreDrawnOfRobotsThatTellThem() {
-    auto frame = std::make_shared<link::MatchFrame>(*m_controller->frame());
-    auto cloud = std::make_shared<link::ParticleCloud>();
-    for (int i = 0; i < 200; ++i) cloud->particles.push_back({{-3.0 + 0.01 * i, 2.0}, 0.5, 0.005});
-    auto path = std::make_shared<link::PlannedPath>();
-    path->points = {{-1.0, -2.0}, {0.0, -2.5}, {2.0, -2.0}};
-    frame->robots.at(0).thoughts = {RobotId{1}, cloud, path, 0.0, 0.0};
-    QCOMPARE(frame->robots[0].id(), RobotId{1});
-    FieldView view(nullptr);
-    view.resize(900, 660);
-    view.showFrame(frame);
-    const QSize size(1040, 740);
-    const QImage without = view.picture(size);
-    for (const FieldLayer layer : {FieldLayer::Particles, FieldLayer::PlannedPath}) {
-      QAction* action = view.layerActions()[std::size_t(layer)];
-      QVERIFY(!action->isChecked());  // off at first
-      action->setChecked(true);
-      QVERIFY(view.picture(size) != without);
-      view.select({RobotId{2}});  // of selected robots only, and this one tells nothing
-      const QImage other = view.picture(size);
-      view.select({RobotId{1}});
-      QVERIFY(view.picture(size) != other);
-      view.select({});
-      action->setChecked(false);
-      QCOMPARE(view.picture(size), without);
-    }
-    auto silent = std::make_shared<link::MatchFrame>(*frame);
-    silent->robots[0].thoughts.reset();
-    view.layerActions()[std::size_t(FieldLayer::Particles)]->setChecked(true);
-    view.layerActions()[std::size_t(FieldLayer::PlannedPath)]->setChecked(true);
-    view.showFrame(silent);
-    QCOMPARE(view.picture(size), without);
   }
 
   void nothingIsDrawnBesideThePlayingArea() {
@@ -587,73 +357,6 @@ class TestFieldView : public QObject {
     alone.showFrame(nullptr);
     QVERIFY(alone.selection().empty());
   }
-
- private:
-  /// The context menu at a place of the field; null when there is none.
-  QMenu* menuAt(const Point& place) {
-    const QPoint point = at(place);
-    QContextMenuEvent event(QContextMenuEvent::Mouse, point,
-                            m_canvas->viewport()->mapToGlobal(point));
-    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
-    return qobject_cast<QMenu*>(QApplication::activePopupWidget());
-  }
-  /// Triggers the action with this text of the context menu, also of a submenu.
-  bool trigger(const Point& place, const QString& text) {
-    auto* menu = menuAt(place);
-    if (!menu) return false;
-    const auto actions = menu->findChildren<QAction*>();
-    const auto found = std::find_if(actions.begin(), actions.end(),
-                                    [&](const QAction* action) { return action->text() == text; });
-    if (found != actions.end()) (*found)->trigger();
-    menu->close();
-    return found != actions.end();
-  }
-  bool isChecked(const Point& place, const QString& text) {
-    auto* menu = menuAt(place);
-    if (!menu) return false;
-    bool checked = false;
-    for (const QAction* action : menu->findChildren<QAction*>()) {
-      checked = checked || (action->text() == text && action->isChecked());
-    }
-    menu->close();
-    return checked;
-  }
-  Pose pose(int id) const {
-    const link::RobotFrame* robot = m_controller->frame()->robot(RobotId{id});
-    return robot != nullptr ? robot->pose : Pose{};
-  }
-  QPoint at(const Point& p) const {
-    return m_canvas->viewportTransform().map(QPointF(p.x, p.y)).toPoint();
-  }
-  QPointF metres(const QPoint& p) const {
-    return m_canvas->viewportTransform().inverted().map(QPointF(p));
-  }
-  static bool near(const Pose& a, const Pose& b) {
-    return std::abs(a.position.x - b.position.x) < 1e-6 &&
-           std::abs(a.position.y - b.position.y) < 1e-6;
-  }
-  // QTest::mouseMove() tells no buttons, which a drag needs.
-  void moveTo(const QPoint& to, Qt::MouseButtons held = Qt::LeftButton,
-              Qt::KeyboardModifiers modifiers = {}) {
-    QMouseEvent event(QEvent::MouseMove, QPointF(to),
-                      m_canvas->viewport()->mapToGlobal(QPointF(to)), Qt::NoButton, held,
-                      modifiers);
-    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
-  }
-  void drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers = {}) {
-    QTest::mousePress(m_canvas->viewport(), Qt::LeftButton, modifiers, from);
-    for (int i = 1; i <= 5; ++i) moveTo(from + (to - from) * i / 5, Qt::LeftButton, modifiers);
-    QTest::mouseRelease(m_canvas->viewport(), Qt::LeftButton, modifiers, to);
-  }
-  void wheel(const QPoint& point, int delta) {
-    QWheelEvent event(QPointF(point), m_canvas->viewport()->mapToGlobal(QPointF(point)), {},
-                      QPoint(0, delta), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
-    QCoreApplication::sendEvent(m_canvas->viewport(), &event);
-  }
-
-  std::unique_ptr<MatchController> m_controller;
-  std::unique_ptr<FieldView> m_view;
-  QGraphicsView* m_canvas = nullptr;
 };
 
 QTEST_MAIN(TestFieldView)

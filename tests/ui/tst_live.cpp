@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Live as a person sees it: real datagrams on 127.0.0.1, the real window.
+
 #include <QComboBox>
-#include <QDockWidget>
 #include <QElapsedTimer>
-#include <QGraphicsView>
-#include <QLabel>
-#include <QSettings>
-#include <QSignalSpy>
-#include <QTemporaryDir>
-#include <QToolBar>
-#include <QToolButton>
-#include <QUndoStack>
 #include <QtTest>
 
 #include <simcore/world/published_frame.h>
@@ -26,6 +18,7 @@
 #include <ui/window/main_window.h>
 
 #include "live_rig.h"
+#include "live_studio.h"
 #include "plot_page.h"
 #include "plot_pane.h"
 #include "scoreboard.h"
@@ -33,57 +26,10 @@
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_rig::Robot;
+using live_studio::Studio;
 
 class TestLive : public QObject {
   Q_OBJECT
-
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller;
-    MainWindow window;
-    link::LiveOptions options = live_rig::options();
-
-    Studio() : controller(inside()), window(&controller, &settings) {
-      window.resize(1280, 800);
-      window.show();
-      live()->setOptions(options);
-    }
-    static link::MatchOptions inside() {
-      link::MatchOptions made;
-      made.cognition = link::Cognition::Inline;
-      return made;
-    }
-    LiveController* live() { return window.live(); }
-    void change(const std::function<void(link::LiveOptions&)>& edit) {
-      edit(options);
-      live()->setOptions(options);
-    }
-    /// Through the button, as a person does.
-    void goLive() {
-      for (auto* button : window.findChildren<QToolButton*>(QStringLiteral("mode"))) {
-        if (button->text() == QStringLiteral("Live")) QTest::mouseClick(button, Qt::LeftButton);
-      }
-      QTRY_VERIFY(live()->frame());
-      QTRY_COMPARE(bound(), std::size_t(17));
-    }
-    std::size_t bound() {
-      std::size_t count = 0;
-      for (const auto& port : live()->details().network.ports) count += port.bound ? 1 : 0;
-      return count;
-    }
-    std::size_t robots() { return live()->frame()->robots.size(); }
-    const link::RobotHealth& health(std::size_t i = 0) {
-      return *live()->frame()->robots.at(i).health;
-    }
-    QList<RobotCard*> cards() { return window.findChild<RobotsDock*>()->cards(); }
-    QGraphicsView* canvas() { return window.field()->findChild<QGraphicsView*>(); }
-    Scoreboard* scoreboard() { return window.findChild<Scoreboard*>(QStringLiteral("scoreboard")); }
-    QString label(const char* name) {
-      return window.findChild<QLabel*>(QLatin1String(name))->text();
-    }
-  };
-
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
@@ -244,148 +190,6 @@ class TestLive : public QObject {
     QVERIFY(s.window.field()->isFlipped());
   }
 
-  void aRobotTimesOutAndComesBack() {
-    Studio s;
-    s.change([](link::LiveOptions& o) { o.team.timeout = std::chrono::milliseconds(300); });
-    s.goLive();
-    const Robot robot(s.options, 2);
-    QVERIFY(robot.say());
-    QTRY_COMPARE(s.cards().size(), qsizetype(1));
-    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("TIMEOUT")));
-    QVERIFY(s.cards()[0]->state().timedOut);
-    QVERIFY(s.cards()[0]->state().action.startsWith(QStringLiteral("last: ")));
-    QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("has not been heard")));
-    QVERIFY(robot.say());
-    QTRY_VERIFY(!s.health().timedOut);
-    QTRY_VERIFY(!s.cards()[0]->state().timedOut);
-    QCOMPARE(s.health().recoveries, std::uint64_t(1));
-  }
-
-  void theSameNumberFromTwoSendersIsFlagged() {
-    Studio s;
-    s.goLive();
-    const Robot one(s.options, 4), two(s.options, 4);
-    // Two programs take turns; the order is what matters.
-    const std::uint64_t before = s.live()->details().network.datagrams();
-    const auto heard = [&] { return s.live()->details().network.datagrams() - before; };
-    for (std::uint64_t i = 0; i < 3; ++i) {
-      QVERIFY(one.say());
-      QTRY_COMPARE(heard(), 2 * i + 1);
-      telemetry::TextMessage other = live_rig::message(4);
-      other.x += 100 + static_cast<int>(i);
-      QVERIFY(two.say(other));
-      QTRY_COMPARE(heard(), 2 * i + 2);
-    }
-    QTRY_COMPARE(s.robots(), std::size_t(2));
-    QVERIFY(s.health(0).conflict && s.health(1).conflict);
-    QVERIFY(s.live()->frame()->robots[0].id() != s.live()->frame()->robots[1].id());
-    QTRY_COMPARE(s.cards().size(), qsizetype(2));
-    QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("number sent twice"));
-  }
-
-  void lowBatteryAndSilentProcess() {
-    Studio s;
-    s.goLive();
-    const Robot robot(s.options, 1);
-    telemetry::TextMessage m = live_rig::message(1);
-    m.voltage = 135;
-    QVERIFY(robot.say(m));
-    QTRY_COMPARE(s.cards().size(), qsizetype(1));
-    QTRY_COMPARE(s.cards()[0]->state().tag, QStringLiteral("battery low"));
-    for (int i = 0; i < 8; ++i) {
-      m.decision = 0;
-      m.x += 1;
-      QVERIFY(robot.say(m));
-    }
-    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D silent")));
-  }
-
-  void theRefereesPacketsFillTheScoreboard_data() {
-    QTest::addColumn<QString>("file");
-    const QDir folder(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/gamecontroller"));
-    for (const QString& file :
-         folder.entryList({QStringLiteral("*_PENALISED*.bin"), QStringLiteral("*_PLAYING*.bin"),
-                           QStringLiteral("*_SET*.bin")})) {
-      if (!file.contains(QStringLiteral("truedata"))) QTest::newRow(qPrintable(file)) << file;
-    }
-  }
-  void theRefereesPacketsFillTheScoreboard() {
-    QFETCH(QString, file);
-    const std::string bytes = live_rig::packet(file);
-    const auto packet = telemetry::decodeReferee(bytes);
-    QVERIFY(packet);
-    const auto state = std::get<telemetry::RefereeState>(*packet);
-    const link::LiveOptions options = live_rig::options();
-    LiveController live;
-    live.setOptions(options);
-    live.start();
-    QTRY_VERIFY(!live.details().network.ports.empty());
-    const TestSocket referee;
-    QVERIFY(referee.send(static_cast<std::uint16_t>(options.refereePort), bytes));
-    QTRY_VERIFY(live.frame() && live.frame()->referee);
-    const ScoreboardState shown = scoreboardOf(*live.frame());
-    QCOMPARE(shown.left, state.teams[0].score);
-    QCOMPARE(shown.right, state.teams[1].score);
-    QVERIFY2(shown.state.startsWith(QString::fromUtf8(telemetry::stateName(state.state).data())),
-             qPrintable(shown.state));
-    QVERIFY(!referee.heard());
-  }
-
-  void penaltiesOfOurTeamAreMarked() {
-    const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
-    const auto state = std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());
-    int team = 0, player = 0;
-    for (const auto& side : state.teams) {
-      for (const auto& slot : side.players()) {
-        if (slot.penalty == 0 || telemetry::isSubstitute(state, slot) || player != 0) continue;
-        team = side.number;
-        player = slot.number;
-      }
-    }
-    QVERIFY(player > 0);
-    Studio s;
-    s.goLive();
-    const Robot robot(s.options, player);
-    const TestSocket referee;
-    QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort), bytes));
-    QVERIFY(robot.say());
-    QTRY_VERIFY(s.robots() == 1 && s.live()->frame()->referee);
-    QVERIFY(!s.health().penalty);
-    s.live()->setOurTeam(team);
-    QTRY_VERIFY(s.health().penalty);
-    QTRY_VERIFY(!s.cards().isEmpty() && s.cards()[0]->state().tagKind == TagKind::Warning);
-    auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("ourTeam"));
-    QTRY_COMPARE(chooser->currentData().toInt(), team);
-  }
-
-  void aGoalIsAnEvent() {
-    const link::LiveOptions options = live_rig::options();
-    LiveController live;
-    live.setOptions(options);
-    QSignalSpy events(&live, &FrameSource::eventsReceived);
-    live.start();
-    QTRY_VERIFY(!live.details().network.ports.empty());
-    const TestSocket referee;
-    const auto send = [&](const char* file) {
-      return referee.send(static_cast<std::uint16_t>(options.refereePort),
-                          live_rig::packet(QLatin1String(file)));
-    };
-    QVERIFY(send("v12hl688_INITIAL.bin"));
-    QTRY_VERIFY(live.frame() && live.frame()->referee);
-    QVERIFY(send("v12hl688_PLAYING_1-0.bin"));
-    const auto goal = [&events]() -> std::optional<link::MatchEvent> {
-      for (const auto& call : events) {
-        for (const auto& event : call[0].value<std::vector<link::MatchEvent>>()) {
-          if (event.kind == link::MatchEventKind::Goal) return event;
-        }
-      }
-      return {};
-    };
-    QTRY_VERIFY(goal());
-    QVERIFY(goal()->side && goal()->team != 0);
-    QCOMPARE(goal()->score, (sim::Score{1, 0}));
-  }
-
   void aTakenPortIsNamedAndTheOthersWork() {
     Studio s;
     const int stubborn = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -478,64 +282,6 @@ class TestLive : public QObject {
     QTRY_COMPARE(s.robots() == 1 ? s.health().messages : 0, sent);
     QCOMPARE(s.health().errorCount, std::uint64_t(0));
     QVERIFY(!robot.heard());
-  }
-
-  void robotsAgreeOnTheBall() {
-    Studio s;
-    s.goLive();
-    const auto says = [&](int number, int x, double distance) {
-      telemetry::TextMessage m = live_rig::message(number);
-      m.x = x;
-      m.y = 300;
-      m.theta = 0;
-      m.ballAngle = 0;
-      m.ballDist = static_cast<float>(distance);
-      return Robot(s.options, number).say(m);
-    };
-    QVERIFY(says(1, 300, 150) && says(2, 200, 270) && says(3, 100, 20));
-    QTRY_COMPARE(s.robots(), std::size_t(3));
-    QTRY_VERIFY(s.live()->frame()->teamBall);
-    const link::TeamBall ball = *s.live()->frame()->teamBall;
-    QCOMPARE(ball.agree, 2);
-    QCOMPARE(ball.see, 3);
-    QVERIFY(qAbs(ball.position.x - 0.10) < 1e-6);
-    QVERIFY(qAbs(ball.spread - 0.10) < 1e-6);
-  }
-
-  void cardsFloatReorderAndHide() {
-    Studio s;
-    s.goLive();
-    for (int n = 1; n <= 3; ++n) QVERIFY(Robot(s.options, n).say());
-    QTRY_COMPARE(s.cards().size(), qsizetype(3));
-    auto* dock = s.window.findChild<RobotsDock*>();
-    // Drag the first below the last.
-    RobotCard* first = s.cards()[0];
-    const QPoint below =
-        first->mapFromGlobal(s.cards()[2]->mapToGlobal(QPoint(60, s.cards()[2]->height() - 2)));
-    QTest::mousePress(first, Qt::LeftButton, {}, QPoint(60, 40));
-    QTest::mouseMove(first, QPoint(60, 60));
-    QTest::mouseMove(first, below);
-    QTest::mouseRelease(first, Qt::LeftButton, {}, below);
-    QCOMPARE(s.cards()[2], first);
-    dock->floatCard(RobotId{1});
-    QCOMPARE(s.cards().size(), qsizetype(2));
-    QVERIFY(dock->floating(RobotId{1})->isFloating());
-    QVERIFY(first->isVisible());
-    dock->floating(RobotId{1})->close();
-    QCOMPARE(s.cards().size(), qsizetype(3));
-    QVERIFY(first->isVisible());
-    CardParts parts = dock->parts();
-    const int tall = first->sizeHint().height();
-    parts.processes = parts.battery = false;
-    dock->setParts(parts);
-    QVERIFY(first->sizeHint().height() < tall);
-    parts.values << QStringLiteral("BALL_DIST") << QStringLiteral("X");
-    dock->setParts(parts);
-    QVERIFY(!first->grab().isNull());
-    QCOMPARE(s.settings.value(QStringLiteral("cards/values")).toStringList().size(), qsizetype(2));
-    QVERIFY(s.settings.value(QStringLiteral("cards/hidden"))
-                .toStringList()
-                .contains(QStringLiteral("battery")));
   }
 
   void simulatedAndHeardStandSideBySide() {

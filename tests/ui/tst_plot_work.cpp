@@ -24,45 +24,14 @@
 #include "marks_panel.h"
 #include "plot_export.h"
 #include "plot_page.h"
+#include "plot_rig.h"
 #include "plot_source.h"
 #include "value_chart.h"
 #include "xy_pane.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-
-namespace {
-
-struct Bench : PlotBench {
-  std::unique_ptr<PlotsDock> dock;
-  explicit Bench(const QStringList& robots = {QStringLiteral("B1"), QStringLiteral("B2")}) {
-    for (const QString& robot : robots) source.fill(robot.toUtf8().constData(), 10.0);
-    dock = std::make_unique<PlotsDock>(context(), nullptr);
-    dock->resize(1000, 300);
-    dock->show();
-    dock->feed()->refresh();
-  }
-  PlotPane* show(const CurveSpec& curve) {
-    PaneSpec pane;
-    pane.curves << curve;
-    return dock->currentPage()->insertPane(0, pane);
-  }
-};
-
-CurveSpec expression(const QString& text) {
-  CurveSpec curve;
-  curve.kind = CurveKind::Expression;
-  curve.expression = text;
-  return curve;
-}
-
-QStringList namesOf(const PlotPane* pane) {
-  QStringList names;
-  for (const Curve& curve : pane->curves()) names << curve.name();
-  return names;
-}
-
-}  // namespace
+using namespace plot_rig;
 
 class TestPlotWork : public QObject {
   Q_OBJECT
@@ -256,49 +225,6 @@ class TestPlotWork : public QObject {
     QVERIFY(!read->pages[0].panes[0].autoRight && read->pages[0].panes[0].autoValues);
     QCOMPARE(read->pages[0].panes[0].right, (ValueLimits{-3.5, 12.0}));
     QCOMPARE(read->pages[0].panes[0].rightTitle, QStringLiteral("degrees"));
-  }
-
-  void anXyPlotNamesBoth() {
-    CurveSpec pair = variableCurve(QStringLiteral("B1/TRUE_X"));
-    pair.inputs << QStringLiteral("B1/TRUE_Y");
-    QCOMPARE(curveName(pair), QStringLiteral("TRUE_Y over TRUE_X B1"));
-    pair.inputs[1] = QStringLiteral("B2/TRUE_Y");
-    QCOMPARE(curveName(pair), QStringLiteral("TRUE_Y B2 over TRUE_X B1"));
-  }
-
-  void anXyPlotHasEqualScales() {
-    Bench b;
-    PaneSpec spec;
-    spec.kind = PaneKind::Xy;
-    spec.curves << variableCurve(QStringLiteral("B1/DIST"));
-    spec.curves[0].inputs << QStringLiteral("B1/ANGLE");
-    b.dock->setLayoutSpec({{PageSpec{QStringLiteral("one"), {spec}}}, 0});
-    auto* xy = qobject_cast<XyPane*>(b.dock->currentPage()->panes()[0]);
-    QVERIFY(xy);
-    b.time.setRange({0.0, 10.0});
-    QTRY_VERIFY(xy->yLimits().high >= 900.0 && xy->xLimits().high < 1000.0);
-    const auto* chart = qobject_cast<ValueChart*>(xy->surface()->parentWidget());
-    if (chart == nullptr) chart = qobject_cast<ValueChart*>(xy->surface());
-    QVERIFY(chart);
-    // Of one unit on the screen, across and up.
-    const auto ratio = [&] {
-      const QRectF area = chart->plotArea();
-      return area.width() / (xy->xLimits().high - xy->xLimits().low) /
-             (area.height() / (xy->yLimits().high - xy->yLimits().low));
-    };
-    QVERIFY(std::abs(ratio() - 1.0) > 0.5);
-    QMenu menu;
-    xy->extendMenu(&menu);
-    QAction* equal = nullptr;
-    for (QAction* action : menu.actions()) {
-      if (action->text() == QStringLiteral("Equal scales")) equal = action;
-    }
-    QVERIFY(equal && !equal->isChecked());
-    equal->trigger();
-    QVERIFY(xy->spec().equalScales);
-    QTRY_VERIFY2(std::abs(ratio() - 1.0) < 1e-6, qPrintable(QString::number(ratio())));
-    // What was seen before is still in sight.
-    QVERIFY(xy->yLimits().high >= 900.0 && xy->xLimits().low <= 50.0);
   }
 
   void everythingIsRemovedByTheMenu() {

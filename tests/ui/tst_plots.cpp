@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plots' dock with real drops, wheels and drags, against values computed here.
 
-#include <QAbstractItemModelTester>
-#include <QDropEvent>
 #include <QMimeData>
 #include <QtTest>
 
@@ -16,75 +14,17 @@
 #include "marks_model.h"
 #include "marks_panel.h"
 #include "plot_page.h"
+#include "plot_rig.h"
 #include "plot_source.h"
 #include "time_ruler.h"
 #include "xy_pane.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-
-namespace {
-
-void dropOn(QWidget* page, const QStringList& names, const QPoint& at) {
-  QMimeData data;
-  data.setData(variablesMimeType, names.join('\n').toUtf8());
-  QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, {});
-  QApplication::sendEvent(page, &enter);
-  QVERIFY(enter.isAccepted());
-  QDragMoveEvent move(at, Qt::CopyAction, &data, Qt::LeftButton, {});
-  QApplication::sendEvent(page, &move);
-  QVERIFY(move.isAccepted());
-  QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, {});
-  QApplication::sendEvent(page, &drop);
-  QVERIFY(drop.isAccepted());
-}
-
-void wheel(QWidget* at, const QPoint& position, int notches, Qt::KeyboardModifiers keys = {}) {
-  QWheelEvent event(position, at->mapToGlobal(position), {}, {0, 120 * notches}, Qt::NoButton, keys,
-                    Qt::NoScrollPhase, false);
-  QApplication::sendEvent(at, &event);
-}
-
-void drag(QWidget* at, QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
-  QTest::mousePress(at, Qt::LeftButton, keys, from);
-  for (int i = 1; i <= 4; ++i) {
-    QMouseEvent move(QEvent::MouseMove, from + (to - from) * i / 4,
-                     at->mapToGlobal(from + (to - from) * i / 4), Qt::NoButton, Qt::LeftButton,
-                     keys);
-    QApplication::sendEvent(at, &move);
-  }
-  QTest::mouseRelease(at, Qt::LeftButton, keys, to);
-}
-
-/// A dock on the screen with a source of 30 s of B1.
-struct Shown : PlotBench {
-  explicit Shown(double seconds = 30.0) {
-    if (seconds > 0) source.fill("B1", seconds);
-    dock = std::make_unique<PlotsDock>(context(), nullptr);
-    dock->resize(1000, 400);
-    dock->show();
-    QVERIFY2(QTest::qWaitForWindowExposed(dock.get()), "the dock is not on the screen");
-    dock->feed()->refresh();
-  }
-  PlotPage* page() const { return dock->currentPage(); }
-  PlotPane* pane(int i = 0) const { return page()->panes().value(i); }
-  QPoint middleOf(const QWidget* widget) const {
-    return widget->mapTo(page(), widget->rect().center());
-  }
-  /// Adds by a drop on the empty page.
-  PlotPane* dropped(const QStringList& names) {
-    dropOn(page(), names, page()->rect().center());
-    QCoreApplication::processEvents();
-    return page()->panes().last();
-  }
-  std::unique_ptr<PlotsDock> dock;
-};
-
-}  // namespace
+using namespace plot_rig;
 
 class TestPlots : public QObject {
   Q_OBJECT
-
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
@@ -218,68 +158,6 @@ class TestPlots : public QObject {
     QCOMPARE(chart->legend()->entries()[0].value, valueText(PlotSource::distanceAt(30.0)));
   }
 
-  void marksMeasure() {
-    Shown s;
-    s.dropped({"B1/DIST"});
-    s.time.setMark(TimeMark::A, 4.0);
-    s.time.setMark(TimeMark::B, 10.0);
-    MarksModel* model = s.page()->marksPanel()->model();
-    QTRY_COMPARE(model->rowCount(), 1);
-    // Independently, from the definition.
-    double sum = 0, squares = 0, low = 1e9, high = -1e9;
-    int count = 0;
-    for (int i = 4 * 60; i <= 10 * 60; ++i) {
-      const double value = PlotSource::distanceAt(i / 60.0);
-      sum += value;
-      squares += value * value;
-      low = std::min(low, value);
-      high = std::max(high, value);
-      ++count;
-    }
-    const double mean = sum / count;
-    const MarksRow& row = model->rows()[0];
-    QCOMPARE(row.between.samples, std::uint64_t(count));
-    QVERIFY(std::abs(row.between.mean - mean) < 1e-9);
-    QVERIFY(std::abs(row.between.sigma - std::sqrt(squares / count - mean * mean)) < 1e-6);
-    QVERIFY(std::abs(row.between.rms - std::sqrt(squares / count)) < 1e-9);
-    QCOMPARE(row.between.min, low);
-    QCOMPARE(row.between.max, high);
-    QCOMPARE(*row.a, PlotSource::distanceAt(4.0));
-    QCOMPARE(*row.b, PlotSource::distanceAt(10.0));
-    const double delta = PlotSource::distanceAt(10.0) - PlotSource::distanceAt(4.0);
-    QCOMPARE(model->index(0, MarksModel::Delta).data().toString(),
-             (delta > 0 ? QStringLiteral("+") : QString()) + valueText(delta));
-    QVERIFY(model->text().startsWith(QStringLiteral("Curve\tA\tB")));
-  }
-
-  void headsOfMarksCanBeDragged() {
-    Shown s;
-    s.dropped({"B1/DIST"});
-    s.time.setRange({0.0, 20.0});
-    s.time.showMarks(true);
-    auto* heads = s.page()->findChild<MarkHeads*>();
-    QTRY_VERIFY(heads->isVisible() && heads->height() > 5);
-    // A head stands above its line once both are laid out.
-    const auto lineOfA = [&] {
-      const QPoint left = s.pane()->surface()->mapTo(s.page(), QPoint());
-      return heads->mapFrom(s.page(), left).x() +
-             s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::A));
-    };
-    QTRY_VERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - lineOfA()) < 1.5);
-    const QPoint from = heads->headRect(TimeMark::A).center().toPoint();
-    const double before = *s.time.mark(TimeMark::A);
-    drag(heads, from, from + QPoint(50, 0));
-    QVERIFY(*s.time.mark(TimeMark::A) > before);
-    QVERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - (from.x() + 50)) < 1.5);
-    // The line itself, over a plot.
-    QWidget* surface = s.pane()->surface();
-    const int x = int(std::lround(s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::B))));
-    drag(surface, {x, 30}, {x - 60, 30});
-    QVERIFY(std::abs(s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::B)) - (x - 60)) < 1.5);
-    s.time.showMarks(false);
-    QVERIFY(!heads->isVisible());
-  }
-
   void nanAndSilenceBreakTheLine() {
     PlotSource source;
     const telemetry::GroupId group = source.addRobot("B1");
@@ -330,69 +208,6 @@ class TestPlots : public QObject {
     // Far out the changes are too close to be told apart, which is said.
     s.time.setRange({-5000.0, 5000.0});
     QTRY_VERIFY(!lane->stretches(0).empty() && lane->stretches(0).size() < 9);
-  }
-
-  void oneVariableOverAnother() {
-    Shown s;
-    QCoreApplication::processEvents();
-    dropOn(s.page(), {"B1/DIST", "B1/ANGLE"}, QPoint(s.page()->width() - 20, 200));
-    auto* xy = qobject_cast<XyPane*>(s.pane());
-    QVERIFY(xy);
-    s.time.setRange({0.0, 2.0});
-    QTRY_COMPARE(xy->points().at(0).size(), std::size_t(121));
-    for (int i = 0; i <= 120; ++i) {
-      QCOMPARE(xy->points()[0][std::size_t(i)],
-               QPointF(PlotSource::distanceAt(i / 60.0), 90.0 * (i / 60.0)));
-    }
-    QVERIFY(xy->xLimits().low <= 100.0 && xy->xLimits().high >= 145.0);
-    const double before = xy->xLimits().high - xy->xLimits().low;
-    wheel(xy->surface(), xy->surface()->rect().center(), 2);
-    QVERIFY(xy->xLimits().high - xy->xLimits().low < before);
-    QTest::mouseDClick(xy->surface(), Qt::LeftButton, {}, {300, 60});
-    QCOMPARE(xy->xLimits().high - xy->xLimits().low, before);
-  }
-
-  void linesOfAnXyPlotAreBrokenWhereAValueIsMissing() {
-    const double none = std::nan("");
-    const auto stretches = stretchesOf({{0, none}, {1, 1}, {2, 4}, {none, 0}, {4, 16}}, 2);
-    QVERIFY(stretches.has_value());
-    QCOMPARE(stretches->size(), std::size_t(2));
-    QCOMPARE(stretches->at(0), (QList<QPointF>{{1, 1}, {2, 4}}));
-    QCOMPARE(stretches->at(1), (QList<QPointF>{{4, 16}}));
-    QVERIFY(!stretchesOf({{0, 0}, {1, none}, {2, 0}, {3, none}, {4, 0}}, 2));
-  }
-
-  void theCurvesOfAnXyPlotAreSeen_data() {
-    QTest::addColumn<CurveStyle>("style");
-    QTest::newRow("line") << CurveStyle::Line;
-    QTest::newRow("points") << CurveStyle::Points;
-  }
-  void theCurvesOfAnXyPlotAreSeen() {
-    QFETCH(CurveStyle, style);
-    Shown s;
-    PaneSpec spec;
-    spec.kind = PaneKind::Xy;
-    spec.curves << variableCurve("B1/DIST");
-    spec.curves[0].inputs << "B1/ANGLE";
-    spec.curves[0].style = style;
-    s.dock->setLayoutSpec({{PageSpec{"one", {spec}}}, 0});
-    s.time.setRange({0.0, 20.0});
-    auto* xy = qobject_cast<XyPane*>(s.pane());
-    QVERIFY(xy);
-    QTRY_VERIFY(!xy->points().empty() && xy->points()[0].size() > 1000);
-    const auto pixels = [&] {
-      const QImage image = xy->surface()->grab().toImage();
-      const QColor wanted = curveColor(0);
-      int found = 0;
-      for (int y = 0; y < image.height(); ++y) {
-        for (int x = 0; x < image.width(); ++x) found += image.pixelColor(x, y) == wanted;
-      }
-      return found;
-    };
-    QTRY_VERIFY2(pixels() > 100, qPrintable(QString::number(pixels())));
-    // Taken away: the place is empty again.
-    xy->removeCurve(0);
-    QTRY_COMPARE(pixels(), 0);
   }
 
   void variablesThatAreNotThereYetAreWaitedFor() {
@@ -519,32 +334,6 @@ class TestPlots : public QObject {
     if (!folder.isEmpty()) {
       QVERIFY(image.save(QStringLiteral("%1/plots-%2.png").arg(folder, QTest::currentDataTag())));
     }
-  }
-
-  void theMarksModelIsAModel() {
-    MarksModel model;
-    const QAbstractItemModelTester tester(&model,
-                                          QAbstractItemModelTester::FailureReportingMode::QtTest);
-    MarksRow row;
-    row.name = "x";
-    model.setRows({row, row});
-    row.a = 1.0;
-    model.setRows({row, row});
-    model.setRows({row});
-    model.setRows({});
-    QCOMPARE(model.rowCount(), 0);
-  }
-
-  void eventsBetweenTheMarksAreNamed() {
-    std::deque<link::MatchEvent> events;
-    for (const double time : {1.0, 2.0, 3.0, 4.0, 9.0}) {
-      events.push_back({link::MatchEventKind::Kick, time, RobotId{1}, "B1"});
-    }
-    PlotBench bench;
-    PlotFeed feed(&bench.source, &bench.time);
-    QCOMPARE(eventsBetween(events, 5.0, 8.0, feed), QString());
-    QVERIFY(eventsBetween(events, 3.5, 1.5, feed).contains(QStringLiteral("00:02.00")));
-    QVERIFY(eventsBetween(events, 0.0, 10.0, feed).endsWith(QStringLiteral("and 2 more.")));
   }
 };
 

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window over a day at a match: looking back, finding things, notices, what stays where.
+
 #include <QAccessible>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
-#include <QListView>
-#include <QMenuBar>
-#include <QScrollArea>
-#include <QScrollBar>
-#include <QSettings>
-#include <QSlider>
-#include <QStatusBar>
 #include <QTableView>
-#include <QTemporaryDir>
-#include <QToolBar>
 #include <QToolButton>
-#include <QUndoStack>
 #include <QtTest>
 
 #include <ui/base/notice_bar.h>
@@ -29,53 +20,19 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
-#include "../support/mouse_wheel.h"
 #include "alarms.h"
 #include "menu_actions.h"
 #include "plot_page.h"
 #include "plot_pane.h"
 #include "scoreboard.h"
+#include "window_rig.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
+using window_rig::Studio;
 
 class TestWindowWork : public QObject {
   Q_OBJECT
-
-  struct Studio {
-    QTemporaryDir folder;
-    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-    MatchController controller;
-    MainWindow window;
-    explicit Studio(QSize size = {1280, 800})
-        : controller(options()), window(&controller, &settings) {
-      window.resize(size);
-      window.show();
-    }
-    static link::MatchOptions options() {
-      link::MatchOptions made;
-      made.cognition = link::Cognition::Inline;
-      return made;
-    }
-    /// A match of five seconds, paused.
-    void play() {
-      controller.open(link::loadScenario("match-3v3").value(), true);
-      controller.runTo(300);
-      QTRY_VERIFY(controller.frame() && controller.frame()->snapshot.tick == 300);
-    }
-    template <class Widget>
-    Widget* find(const char* name) {
-      return window.findChild<Widget*>(QLatin1String(name));
-    }
-    Timeline* timeline() { return window.findChild<Timeline*>(); }
-    QAction* menuAction(const QString& text) {
-      for (const MenuAction& each : menuActions(*window.menuBar())) {
-        if (each.text.startsWith(text)) return each.action;
-      }
-      return nullptr;
-    }
-  };
-
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
@@ -232,73 +189,6 @@ class TestWindowWork : public QObject {
     QTRY_COMPARE(play->text(), QStringLiteral("Pause"));
   }
 
-  void theLayoutIsKeptWhileItRuns() {
-    Studio s;
-    s.find<QDockWidget>("processes")->close();
-    // As if the studio were killed: what is in the settings by then is what counts.
-    QTRY_VERIFY_WITH_TIMEOUT(s.settings.contains(QStringLiteral("window/layout")), 10'000);
-    MatchController controller(Studio::options());
-    MainWindow again(&controller, &s.settings);
-    again.show();
-    QVERIFY(again.findChild<QDockWidget*>(QStringLiteral("processes"))->isHidden());
-    QVERIFY(!again.findChild<QDockWidget*>(QStringLiteral("plots"))->isHidden());
-  }
-
-  void theScoreStaysInNarrowWindows() {
-    Studio s({1000, 700});
-    s.play();
-    auto* score = s.window.findChild<Scoreboard*>();
-    QTRY_VERIFY(score->isVisible() && score->width() >= score->sizeHint().width());
-    const QPoint right = score->mapTo(&s.window, QPoint(score->width(), 0));
-    QVERIFY(right.x() <= s.window.width());
-  }
-
-  // Twice as large on 1920 x 1200, nothing may ask for more than there is.
-  void theWindowIsAsNarrowAsHalfAScreen_data() {
-    QTest::addColumn<SourceKind>("shown");
-    QTest::newRow("simulate") << SourceKind::Simulate;
-    QTest::newRow("live") << SourceKind::Live;
-    QTest::newRow("replay") << SourceKind::Replay;
-  }
-  void theWindowIsAsNarrowAsHalfAScreen() {
-    QFETCH(SourceKind, shown);
-    Studio s({960, 600});
-    s.play();
-    s.controller.edits()->setBehaviour({RobotId{2}}, QStringLiteral("striker"));
-    s.window.showSource(shown);
-    for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
-    s.window.resize(960, 600);
-    QCoreApplication::processEvents();
-    QStringList wide;
-    for (const QWidget* each : s.window.findChildren<QWidget*>()) {
-      const int least = std::max(each->minimumSizeHint().width(), each->minimumWidth());
-      if (!each->isVisible() || least < 250) continue;
-      wide << QStringLiteral("%1 %2 %3")
-                  .arg(QLatin1String(each->metaObject()->className()), each->objectName())
-                  .arg(least);
-    }
-    QVERIFY2(s.window.minimumSizeHint().width() <= 960, qPrintable(wide.join(u'\n')));
-    QCOMPARE(s.window.width(), 960);
-    auto* score = s.window.findChild<Scoreboard*>();
-    QVERIFY(score->isVisible() && score->width() >= score->sizeHint().width());
-    QVERIFY(score->mapTo(&s.window, QPoint()).x() >= 0);
-    QVERIFY(score->mapTo(&s.window, QPoint(score->width(), 0)).x() <= 960);
-  }
-
-  void theWindowFitsASmallScreen() {
-    Studio s({1280, 800});
-    s.play();
-    PaneSpec lane;
-    lane.kind = PaneKind::Lane;
-    lane.curves << variableCurve(QStringLiteral("B1/DECISION_ACTION_A"));
-    auto* plots = s.window.findChild<PlotsDock*>();
-    for (int i = 0; i < 24; ++i) plots->currentPage()->insertPane(i, lane);
-    QCoreApplication::processEvents();
-    QVERIFY2(s.window.minimumSizeHint().height() <= 720,
-             qPrintable(QString::number(s.window.minimumSizeHint().height())));
-    QCOMPARE(s.window.size(), QSize(1280, 800));
-  }
-
   void undoBelongsToThePlotsWhileOneWorksThere() {
     Studio s;
     s.play();
@@ -347,56 +237,6 @@ class TestWindowWork : public QObject {
                                            ' ' + stop->objectName()));
     }
     QVERIFY2(seen.size() >= 6, qPrintable(QString::number(seen.size())));
-  }
-
-  void theNoisePanelScrollsByWheel() {
-    Studio s;
-    s.play();
-    auto* dock = s.find<QDockWidget>("noise");
-    dock->show();
-    dock->raise();
-    auto* area = qobject_cast<QScrollArea*>(dock->widget());
-    QTRY_VERIFY(area->verticalScrollBar()->maximum() > 0);
-    auto* slider = area->findChild<QSlider*>();
-    const int value = slider->value();
-    turnWheel(slider, slider->rect().center(), -240);
-    QTRY_VERIFY(area->verticalScrollBar()->value() > 0);
-    QCOMPARE(slider->value(), value);
-  }
-
-  // Three panels below each other at the right showed a few rows each; among tabs, what the menu
-  // opens was behind the others.
-  void aPanelThatWasAskedForIsInFront() {
-    Studio s;
-    s.play();
-    const auto inFront = [&s](const char* name) {
-      const auto* dock = s.find<QDockWidget>(name);
-      const QWidget* seen = s.window.childAt(dock->mapTo(&s.window, dock->rect().center()));
-      return seen != nullptr && dock->isAncestorOf(seen);
-    };
-    QVERIFY(inFront("variables") && inFront("plots"));
-    s.menuAction(QStringLiteral("Experiments"))->trigger();
-    QTRY_VERIFY(inFront("experiments") && !inFront("plots"));
-    for (const char* name : {"refereeing", "referee"}) {
-      s.find<QDockWidget>(name)->toggleViewAction()->trigger();
-      QTRY_VERIFY2(inFront(name), name);
-      QVERIFY2(!inFront("variables"), name);
-      QVERIFY(s.find<QDockWidget>(name)->height() > s.window.height() / 3);
-    }
-  }
-
-  void allToolsOfThePlotsAreSeen() {
-    Studio s;
-    s.play();
-    auto* tools = s.find<QToolBar>("plotTools");
-    int seen = 0;
-    for (const auto* button : tools->findChildren<QToolButton*>()) {
-      if (button->objectName() == QStringLiteral("qt_toolbar_ext_button")) continue;
-      QVERIFY2(button->isVisible() && tools->rect().contains(button->geometry()),
-               qPrintable(button->toolTip()));
-      ++seen;
-    }
-    QCOMPARE(seen, 8);
   }
 
   // B1 keeps the goal there and sees no ball for minutes.

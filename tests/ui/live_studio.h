@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The studio in Live on ports of its own, for tests that send what robots send.
+
+#include <QGraphicsView>
+#include <QLabel>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/scoreboard_state.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/robots/robot_card.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
+
+#include "live_rig.h"
+#include "plot_page.h"
+#include "plot_pane.h"
+#include "scoreboard.h"
+
+namespace live_studio {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+struct Studio {
+  QTemporaryDir folder;
+  QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+  MatchController controller;
+  MainWindow window;
+  link::LiveOptions options = live_rig::options();
+
+  Studio() : controller(inside()), window(&controller, &settings) {
+    window.resize(1280, 800);
+    window.show();
+    live()->setOptions(options);
+  }
+  static link::MatchOptions inside() {
+    link::MatchOptions made;
+    made.cognition = link::Cognition::Inline;
+    return made;
+  }
+  LiveController* live() { return window.live(); }
+  void change(const std::function<void(link::LiveOptions&)>& edit) {
+    edit(options);
+    live()->setOptions(options);
+  }
+  /// Through the button, as a person does.
+  void goLive() {
+    for (auto* button : window.findChildren<QToolButton*>(QStringLiteral("mode"))) {
+      if (button->text() == QStringLiteral("Live")) QTest::mouseClick(button, Qt::LeftButton);
+    }
+    QTRY_VERIFY(live()->frame());
+    QTRY_COMPARE(bound(), std::size_t(17));
+  }
+  std::size_t bound() {
+    std::size_t count = 0;
+    for (const auto& port : live()->details().network.ports) count += port.bound ? 1 : 0;
+    return count;
+  }
+  std::size_t robots() { return live()->frame()->robots.size(); }
+  const link::RobotHealth& health(std::size_t i = 0) {
+    return *live()->frame()->robots.at(i).health;
+  }
+  QList<RobotCard*> cards() { return window.findChild<RobotsDock*>()->cards(); }
+  QGraphicsView* canvas() { return window.field()->findChild<QGraphicsView*>(); }
+  Scoreboard* scoreboard() { return window.findChild<Scoreboard*>(QStringLiteral("scoreboard")); }
+  QString label(const char* name) { return window.findChild<QLabel*>(QLatin1String(name))->text(); }
+};
+
+}  // namespace live_studio

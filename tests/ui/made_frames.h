@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Frames made up for tests of the field.
+
+#include <QTest>
+
+#include <cmath>
+
+#include <robotlink/frame/match_frame.h>
+#include <simcore/world/published_frame.h>
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+
+#include "hover_text.h"
+#include "robot_item.h"
+
+namespace made_frames {
+
+using namespace pitchboard;
+
+/// As its localization writes it; whole centimetres and degrees.
+inline void believe(const link::MatchFrame& frame, link::RobotFrame& robot, const Pose& pose) {
+  const auto written = sim::published_frame::localizationFromStudio(frame.field, pose);
+  robot.board->localizationX = static_cast<int>(std::lround(written.x));
+  robot.board->localizationY = static_cast<int>(std::lround(written.y));
+  robot.board->localizationTheta = static_cast<int>(std::lround(written.degrees));
+}
+
+inline std::shared_ptr<link::MatchFrame> frameOf(int robots) {
+  static std::uint64_t serial = 0;
+  auto frame = std::make_shared<link::MatchFrame>();
+  frame->serial = ++serial;
+  for (int i = 0; i < robots; ++i) {
+    link::RobotFrame robot;
+    robot.identity.id = {i + 1};
+    robot.identity.number = i / 2 + 1;
+    robot.identity.team = i % 2 == 0 ? TeamColor::Blue : TeamColor::Red;
+    robot.pose = {{-3.0 + 0.7 * i, 1.5 - 0.5 * i}, 0.4 * i};
+    robot.headYaw = robot.pose.yaw;
+    robot.board.emplace();
+    robot.board->behaviour = "striker";
+    robot.board->localizationWorking = true;
+    believe(*frame, robot, {{robot.pose.position.x + 0.1, robot.pose.position.y}, robot.pose.yaw});
+    robot.board->belief = 30.0F;
+    frame->robots.push_back(robot);
+  }
+  return frame;
+}
+
+}  // namespace made_frames

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cards of robots that are heard: silence, second senders, batteries, what robots agree on, and the
+// order that people give them.
+
+#include <QtTest>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/scoreboard_state.h>
+#include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/robots/robot_card.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/window/main_window.h>
+
+#include "live_rig.h"
+#include "live_studio.h"
+#include "scoreboard.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using live_rig::Robot;
+using live_studio::Studio;
+
+class TestLiveCards : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aRobotTimesOutAndComesBack() {
+    Studio s;
+    s.change([](link::LiveOptions& o) { o.team.timeout = std::chrono::milliseconds(300); });
+    s.goLive();
+    const Robot robot(s.options, 2);
+    QVERIFY(robot.say());
+    QTRY_COMPARE(s.cards().size(), qsizetype(1));
+    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("TIMEOUT")));
+    QVERIFY(s.cards()[0]->state().timedOut);
+    QVERIFY(s.cards()[0]->state().action.startsWith(QStringLiteral("last: ")));
+    QTRY_VERIFY(s.label("statusProcesses").contains(QStringLiteral("has not been heard")));
+    QVERIFY(robot.say());
+    QTRY_VERIFY(!s.health().timedOut);
+    QTRY_VERIFY(!s.cards()[0]->state().timedOut);
+    QCOMPARE(s.health().recoveries, std::uint64_t(1));
+  }
+
+  void theSameNumberFromTwoSendersIsFlagged() {
+    Studio s;
+    s.goLive();
+    const Robot one(s.options, 4), two(s.options, 4);
+    // Two programs take turns; the order is what matters.
+    const std::uint64_t before = s.live()->details().network.datagrams();
+    const auto heard = [&] { return s.live()->details().network.datagrams() - before; };
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      QVERIFY(one.say());
+      QTRY_COMPARE(heard(), 2 * i + 1);
+      telemetry::TextMessage other = live_rig::message(4);
+      other.x += 100 + static_cast<int>(i);
+      QVERIFY(two.say(other));
+      QTRY_COMPARE(heard(), 2 * i + 2);
+    }
+    QTRY_COMPARE(s.robots(), std::size_t(2));
+    QVERIFY(s.health(0).conflict && s.health(1).conflict);
+    QVERIFY(s.live()->frame()->robots[0].id() != s.live()->frame()->robots[1].id());
+    QTRY_COMPARE(s.cards().size(), qsizetype(2));
+    QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("number sent twice"));
+  }
+
+  void lowBatteryAndSilentProcess() {
+    Studio s;
+    s.goLive();
+    const Robot robot(s.options, 1);
+    telemetry::TextMessage m = live_rig::message(1);
+    m.voltage = 135;
+    QVERIFY(robot.say(m));
+    QTRY_COMPARE(s.cards().size(), qsizetype(1));
+    QTRY_COMPARE(s.cards()[0]->state().tag, QStringLiteral("battery low"));
+    for (int i = 0; i < 8; ++i) {
+      m.decision = 0;
+      m.x += 1;
+      QVERIFY(robot.say(m));
+    }
+    QTRY_VERIFY(s.cards()[0]->state().tag.startsWith(QStringLiteral("D silent")));
+  }
+
+  void robotsAgreeOnTheBall() {
+    Studio s;
+    s.goLive();
+    const auto says = [&](int number, int x, double distance) {
+      telemetry::TextMessage m = live_rig::message(number);
+      m.x = x;
+      m.y = 300;
+      m.theta = 0;
+      m.ballAngle = 0;
+      m.ballDist = static_cast<float>(distance);
+      return Robot(s.options, number).say(m);
+    };
+    QVERIFY(says(1, 300, 150) && says(2, 200, 270) && says(3, 100, 20));
+    QTRY_COMPARE(s.robots(), std::size_t(3));
+    QTRY_VERIFY(s.live()->frame()->teamBall);
+    const link::TeamBall ball = *s.live()->frame()->teamBall;
+    QCOMPARE(ball.agree, 2);
+    QCOMPARE(ball.see, 3);
+    QVERIFY(qAbs(ball.position.x - 0.10) < 1e-6);
+    QVERIFY(qAbs(ball.spread - 0.10) < 1e-6);
+  }
+
+  void cardsFloatReorderAndHide() {
+    Studio s;
+    s.goLive();
+    for (int n = 1; n <= 3; ++n) QVERIFY(Robot(s.options, n).say());
+    QTRY_COMPARE(s.cards().size(), qsizetype(3));
+    auto* dock = s.window.findChild<RobotsDock*>();
+    // Drag the first below the last.
+    RobotCard* first = s.cards()[0];
+    const QPoint below =
+        first->mapFromGlobal(s.cards()[2]->mapToGlobal(QPoint(60, s.cards()[2]->height() - 2)));
+    QTest::mousePress(first, Qt::LeftButton, {}, QPoint(60, 40));
+    QTest::mouseMove(first, QPoint(60, 60));
+    QTest::mouseMove(first, below);
+    QTest::mouseRelease(first, Qt::LeftButton, {}, below);
+    QCOMPARE(s.cards()[2], first);
+    dock->floatCard(RobotId{1});
+    QCOMPARE(s.cards().size(), qsizetype(2));
+    QVERIFY(dock->floating(RobotId{1})->isFloating());
+    QVERIFY(first->isVisible());
+    dock->floating(RobotId{1})->close();
+    QCOMPARE(s.cards().size(), qsizetype(3));
+    QVERIFY(first->isVisible());
+    CardParts parts = dock->parts();
+    const int tall = first->sizeHint().height();
+    parts.processes = parts.battery = false;
+    dock->setParts(parts);
+    QVERIFY(first->sizeHint().height() < tall);
+    parts.values << QStringLiteral("BALL_DIST") << QStringLiteral("X");
+    dock->setParts(parts);
+    QVERIFY(!first->grab().isNull());
+    QCOMPARE(s.settings.value(QStringLiteral("cards/values")).toStringList().size(), qsizetype(2));
+    QVERIFY(s.settings.value(QStringLiteral("cards/hidden"))
+                .toStringList()
+                .contains(QStringLiteral("battery")));
+  }
+};
+
+QTEST_MAIN(TestLiveCards)
+#include "tst_live_cards.moc"

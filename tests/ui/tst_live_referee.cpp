@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The referee in Live: packets from a socket to scoreboard, cards and events.
+
+#include <QComboBox>
+#include <QSignalSpy>
+#include <QtTest>
+
+#include <ui/base/notice_bar.h>
+#include <ui/base/scoreboard_state.h>
+#include <ui/field/field_view.h>
+#include <ui/robots/robot_card.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/window/main_window.h>
+
+#include "live_rig.h"
+#include "live_studio.h"
+#include "plot_pane.h"
+#include "scoreboard.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using live_rig::Robot;
+using live_studio::Studio;
+
+class TestLiveReferee : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void theRefereesPacketsFillTheScoreboard_data() {
+    QTest::addColumn<QString>("file");
+    const QDir folder(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/gamecontroller"));
+    for (const QString& file :
+         folder.entryList({QStringLiteral("*_PENALISED*.bin"), QStringLiteral("*_PLAYING*.bin"),
+                           QStringLiteral("*_SET*.bin")})) {
+      if (!file.contains(QStringLiteral("truedata"))) QTest::newRow(qPrintable(file)) << file;
+    }
+  }
+  void theRefereesPacketsFillTheScoreboard() {
+    QFETCH(QString, file);
+    const std::string bytes = live_rig::packet(file);
+    const auto packet = telemetry::decodeReferee(bytes);
+    QVERIFY(packet);
+    const auto state = std::get<telemetry::RefereeState>(*packet);
+    const link::LiveOptions options = live_rig::options();
+    LiveController live;
+    live.setOptions(options);
+    live.start();
+    QTRY_VERIFY(!live.details().network.ports.empty());
+    const TestSocket referee;
+    QVERIFY(referee.send(static_cast<std::uint16_t>(options.refereePort), bytes));
+    QTRY_VERIFY(live.frame() && live.frame()->referee);
+    const ScoreboardState shown = scoreboardOf(*live.frame());
+    QCOMPARE(shown.left, state.teams[0].score);
+    QCOMPARE(shown.right, state.teams[1].score);
+    QVERIFY2(shown.state.startsWith(QString::fromUtf8(telemetry::stateName(state.state).data())),
+             qPrintable(shown.state));
+    QVERIFY(!referee.heard());
+  }
+
+  void penaltiesOfOurTeamAreMarked() {
+    const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
+    const auto state = std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());
+    int team = 0, player = 0;
+    for (const auto& side : state.teams) {
+      for (const auto& slot : side.players()) {
+        if (slot.penalty == 0 || telemetry::isSubstitute(state, slot) || player != 0) continue;
+        team = side.number;
+        player = slot.number;
+      }
+    }
+    QVERIFY(player > 0);
+    Studio s;
+    s.goLive();
+    const Robot robot(s.options, player);
+    const TestSocket referee;
+    QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort), bytes));
+    QVERIFY(robot.say());
+    QTRY_VERIFY(s.robots() == 1 && s.live()->frame()->referee);
+    QVERIFY(!s.health().penalty);
+    s.live()->setOurTeam(team);
+    QTRY_VERIFY(s.health().penalty);
+    QTRY_VERIFY(!s.cards().isEmpty() && s.cards()[0]->state().tagKind == TagKind::Warning);
+    auto* chooser = s.window.findChild<QComboBox*>(QStringLiteral("ourTeam"));
+    QTRY_COMPARE(chooser->currentData().toInt(), team);
+  }
+
+  void aGoalIsAnEvent() {
+    const link::LiveOptions options = live_rig::options();
+    LiveController live;
+    live.setOptions(options);
+    QSignalSpy events(&live, &FrameSource::eventsReceived);
+    live.start();
+    QTRY_VERIFY(!live.details().network.ports.empty());
+    const TestSocket referee;
+    const auto send = [&](const char* file) {
+      return referee.send(static_cast<std::uint16_t>(options.refereePort),
+                          live_rig::packet(QLatin1String(file)));
+    };
+    QVERIFY(send("v12hl688_INITIAL.bin"));
+    QTRY_VERIFY(live.frame() && live.frame()->referee);
+    QVERIFY(send("v12hl688_PLAYING_1-0.bin"));
+    const auto goal = [&events]() -> std::optional<link::MatchEvent> {
+      for (const auto& call : events) {
+        for (const auto& event : call[0].value<std::vector<link::MatchEvent>>()) {
+          if (event.kind == link::MatchEventKind::Goal) return event;
+        }
+      }
+      return {};
+    };
+    QTRY_VERIFY(goal());
+    QVERIFY(goal()->side && goal()->team != 0);
+    QCOMPARE(goal()->score, (sim::Score{1, 0}));
+  }
+};
+
+QTEST_MAIN(TestLiveReferee)
+#include "tst_live_referee.moc"

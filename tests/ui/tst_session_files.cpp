@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Session files in the studio: broken, damaged, newer, removed, dropped on the window.
+
+#include <QMimeData>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QtTest>
+
+#include <telemetry/mcap/mcap_writer.h>
+#include <telemetry/session/session_reader.h>
+#include <ui/base/notice_bar.h>
+#include <ui/field/field_view.h>
+#include <ui/session/session_files.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/event_list.h>
+#include <ui/sources/live_controller.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/playback.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/session_recording.h>
+#include <ui/sources/timeline.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
+
+#include "live_rig.h"
+#include "session_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using session_rig::Studio;
+
+class TestSessionFiles : public QObject {
+  Q_OBJECT
+
+  static void closeNotice(MainWindow& window) {
+    const auto buttons = window.notices()->findChildren<QAbstractButton*>();
+    for (auto* button : buttons) {
+      const bool closes = qobject_cast<QToolButton*>(button) != nullptr ||
+                          button->text() == QStringLiteral("Close") ||
+                          button->text() == QStringLiteral("Not now");
+      if (button->isVisible() && closes) {
+        QTest::mouseClick(button, Qt::LeftButton);
+        break;
+      }
+    }
+    QCoreApplication::processEvents();
+  }
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void aRemovedFileStopsTheRecordingAndNotTheMatch() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    s.window.recording()->start();
+    QVERIFY(QFile::remove(s.window.recording()->path()));
+    QTRY_VERIFY(!s.window.recording()->isRecording());
+    QVERIFY(s.notice().contains(QStringLiteral("Recording stopped")));
+    QVERIFY(s.controller.isOpen());
+  }
+
+  void filesNeverOverwrite() {
+    QTemporaryDir folder;
+    const QDateTime when(QDate(2026, 7, 1), QTime(14, 23, 5));
+    const QString first = sessionFileName(QDir(folder.path()), QStringLiteral("a/b:c"), when);
+    QCOMPARE(QFileInfo(first).fileName(), QStringLiteral("a-b-c 2026-07-01 14.23.05.mcap"));
+    QFile file(first);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    QVERIFY(sessionFileName(QDir(folder.path()), QStringLiteral("a/b:c"), when) != first);
+  }
+
+  void aFileThatIsNoSessionIsANotice_data() {
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::newRow("empty") << QByteArray();
+    QTest::newRow("text") << QByteArray("this is no session");
+    QTest::newRow("zeros") << QByteArray(5000, '\0');
+  }
+  void aFileThatIsNoSessionIsANotice() {
+    QFETCH(QByteArray, bytes);
+    Studio s(0);
+    const QString path = s.folder.filePath(QStringLiteral("bad.mcap"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(bytes);
+    file.close();
+    s.window.openSession(path);
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("not opened")), qPrintable(s.notice()));
+    QVERIFY(!s.window.replay()->isOpen());
+  }
+
+  void aBrokenFileIsRepairedFromItsNotice() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(600);
+    QVERIFY(!path.isEmpty());
+    QFile file(path);
+    QVERIFY(file.resize(file.size() * 2 / 3));
+    QSignalSpy opened(s.window.replay(), &ReplayController::opened);
+    s.window.openSession(path);
+    QTRY_COMPARE(opened.size(), 1);
+    QVERIFY(s.window.replay()->isBroken());
+    // Behind the notice of the recording that was saved.
+    const auto repairButton = [&s]() -> QPushButton* {
+      for (auto* button : s.window.notices()->findChildren<QPushButton*>()) {
+        if (button->text().contains(QStringLiteral("Repair")) && button->isVisible()) return button;
+      }
+      return nullptr;
+    };
+    for (int i = 0; i < 5 && repairButton() == nullptr; ++i) closeNotice(s.window);
+    QVERIFY2(repairButton() != nullptr, qPrintable(s.notice()));
+    QTest::mouseClick(repairButton(), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(opened.size(), 2, 20'000);
+    QVERIFY(!s.window.replay()->isBroken());
+    QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
+  }
+
+  void damageInsideIsANotice() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(600);
+    QVERIFY(!path.isEmpty());
+    {
+      const auto session = telemetry::SessionReader::open(path.toStdString());
+      QVERIFY(session && session->complete() && session->file().chunks().size() > 2);
+      QFile file(path);
+      QVERIFY(file.open(QIODevice::ReadWrite));
+      const telemetry::McapChunkInfo& chunk = session->file().chunks().back();
+      QVERIFY(file.seek(static_cast<qint64>(chunk.offset + chunk.length) - 20));
+      QVERIFY(file.write("damage") == 6);
+    }
+    QSignalSpy found(s.window.replay(), &ReplayController::damageFound);
+    s.window.openSession(path);
+    QTRY_COMPARE_WITH_TIMEOUT(found.size(), 1, 20'000);
+    QVERIFY(!s.window.replay()->isBroken());
+    const QString told = found[0][0].toStringList().join(QLatin1Char(' '));
+    QVERIFY2(told.contains(QStringLiteral(" lost, between ")), qPrintable(told));
+    QPushButton* repair = nullptr;
+    const auto looked = [&] {
+      for (auto* button : s.window.notices()->findChildren<QPushButton*>()) {
+        if (button->text().contains(QStringLiteral("Repair")) && button->isVisible()) {
+          repair = button;
+        }
+      }
+      return repair != nullptr;
+    };
+    for (int i = 0; i < 5 && !looked(); ++i) closeNotice(s.window);
+    QVERIFY2(repair != nullptr, qPrintable(s.notice()));
+    QVERIFY2(s.notice().contains(QStringLiteral("damaged inside")), qPrintable(s.notice()));
+    QSignalSpy opened(s.window.replay(), &ReplayController::opened);
+    QTest::mouseClick(repair, Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(opened.size(), 1, 20'000);
+    QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
+  }
+
+  void aNewerFileSaysSoAndIsShown() {
+    Studio s(0);
+    const QString path = s.folder.filePath(QStringLiteral("newer.mcap"));
+    {
+      using namespace pitchboard::telemetry;
+      auto file = McapWriter::create(path.toStdString());
+      QVERIFY(file.has_value());
+      // The check is a CRC-32 over keys and values, each with its final zero (docs/SESSIONS.md).
+      QVERIFY(file->metadata(
+          "pitchboard",
+          {{"format", "9"}, {"start_ns", "5000000000"}, {"new", "x"}, {"check", "3914321931"}}));
+      McapChunk chunk;
+      chunk.add(McapSchema{1, "other/msg/Thing", "ros2msg", "int8 a"});
+      chunk.add(McapChannel{1, 1, "/other", "cdr", {}});
+      chunk.add(McapChannel{2, 0, "/events", "json", {}});
+      chunk.add(McapMessage{1, 0, 6'000'000'000, 6'000'000'000, "abc"});
+      chunk.add(McapMessage{2, 0, 6'000'000'000, 6'000'000'000,
+                            R"({"time":1,"kind":"goal","later":[]})"});
+      QVERIFY(file->writeChunk(chunk));
+      QVERIFY(file->finish());
+    }
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.replay()->isOpen());
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("newer version (format 9")),
+                 qPrintable(s.notice()));
+    QVERIFY(s.notice().contains(QStringLiteral("/other")));
+    QCOMPARE(s.window.timeline()->events()->rowCount(), 1);
+  }
+
+  void aSessionThatDoesNotFitSaysSo() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(600);
+    QVERIFY(!path.isEmpty());
+    s.window.setMemoryBudget(1);
+    QCOMPARE(s.window.memoryBudget(), 1);
+    QCOMPARE(s.settings.value(QStringLiteral("session/memoryMegabytes")).toInt(), 1);
+    while (!s.notice().isEmpty()) closeNotice(s.window);
+    s.window.openSession(path);
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("does not fit into memory (1 MB)")),
+                 qPrintable(s.notice()));
+    // What is not in memory comes from the file.
+    s.window.timeline()->seek(10.5);
+    QTRY_COMPARE(s.window.replay()->frame()->snapshot.tick, std::uint64_t(630));
+  }
+
+  void aDroppedFileOpens() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(60);
+    QSignalSpy opened(s.window.replay(), &ReplayController::opened);
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&s.window, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&s.window, &drop);
+    QTRY_COMPARE(opened.size(), 1);
+  }
+};
+
+QTEST_MAIN(TestSessionFiles)
+#include "tst_session_files.moc"

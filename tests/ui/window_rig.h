@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The studio in a window of a chosen size, with settings of its own.
+
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <ui/base/notice_bar.h>
+#include <ui/plots/plots_dock.h>
+#include <ui/sources/match_controller.h>
+#include <ui/sources/robot_selection.h>
+#include <ui/sources/timeline.h>
+#include <ui/window/main_window.h>
+#include <ui/window/scenario_files.h>
+
+#include "alarms.h"
+#include "menu_actions.h"
+#include "plot_page.h"
+
+namespace window_rig {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+struct Studio {
+  QTemporaryDir folder;
+  QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+  MatchController controller;
+  MainWindow window;
+  explicit Studio(QSize size = {1280, 800})
+      : controller(options()), window(&controller, &settings) {
+    window.resize(size);
+    window.show();
+  }
+  static link::MatchOptions options() {
+    link::MatchOptions made;
+    made.cognition = link::Cognition::Inline;
+    return made;
+  }
+  /// A match of five seconds, paused.
+  void play() {
+    controller.open(link::loadScenario("match-3v3").value(), true);
+    controller.runTo(300);
+    QTRY_VERIFY(controller.frame() && controller.frame()->snapshot.tick == 300);
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    return window.findChild<Widget*>(QLatin1String(name));
+  }
+  Timeline* timeline() { return window.findChild<Timeline*>(); }
+  QAction* menuAction(const QString& text) {
+    for (const MenuAction& each : menuActions(*window.menuBar())) {
+      if (each.text.startsWith(text)) return each.action;
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace window_rig
