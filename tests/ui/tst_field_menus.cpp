@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QSignalSpy>
 #include <QTest>
+#include <QUndoStack>
 
 #include <cmath>
 

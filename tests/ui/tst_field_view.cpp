@@ -5,6 +5,7 @@
 #include <QGraphicsView>
 #include <QSignalSpy>
 #include <QTest>
+#include <QUndoStack>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // Cards of robots that are heard: silence, second senders, batteries, what robots agree on, and the
 // order that people give them.
 
+#include <QDockWidget>
 #include <QtTest>
 
 #include <ui/base/notice_bar.h>

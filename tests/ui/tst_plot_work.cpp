@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QTableView>
 #include <QUndoStack>
 #include <QtTest>
 

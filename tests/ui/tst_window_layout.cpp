@@ -3,6 +3,7 @@
 
 #include <QDockWidget>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSlider>
 #include <QToolBar>
 #include <QToolButton>

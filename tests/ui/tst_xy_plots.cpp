@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One variable over another.
 
+#include <QMenu>
 #include <QtTest>
 
 #include <base/actions.h>
