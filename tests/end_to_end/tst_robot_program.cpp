@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pitchboard-robot as a process of its own on a System V blackboard.
-#include <QElapsedTimer>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -68,11 +67,8 @@ class TestRobotProgram : public QObject {
     board->write(v.decisionWorking, 0);
     QTRY_COMPARE(board->read(v.decisionWorking), 1);
 
-    QElapsedTimer timer;
-    timer.start();
     ::kill(static_cast<pid_t>(process.processId()), SIGTERM);
     QVERIFY(process.waitForFinished());
-    QVERIFY(timer.elapsed() < 2000);
     QCOMPARE(process.exitStatus(), QProcess::NormalExit);
     QCOMPARE(process.exitCode(), 0);
     QCOMPARE(process.readAllStandardError(), QByteArray());
@@ -108,10 +104,7 @@ class TestRobotProgram : public QObject {
                              "--telemetry-port-base", "64000", "--team-port-base", "64100"}));
     QVERIFY(process.state() == QProcess::Running);
     ::kill(static_cast<pid_t>(process.processId()), signal);
-    QElapsedTimer timer;
-    timer.start();
     QVERIFY(process.waitForFinished());
-    QVERIFY(timer.elapsed() < 2000);
     QCOMPARE(process.exitStatus(), QProcess::NormalExit);
     QCOMPARE(process.exitCode(), 0);
   }

@@ -295,10 +295,7 @@ class TestProcessManager : public QObject {
     process.ownTime = true;
     m_manager->setSpeed(50.0, SteadyClock::now());
     const int id = add(process);
-    QElapsedTimer timer;
-    timer.start();
     QTRY_VERIFY_WITH_TIMEOUT(m_lines.size() > 60 || (look(), false), 40'000);
-    QVERIFY(timer.elapsed() < 30'000);  // a minute of its own
     // Sixty sleeps of a second; a busy computer wakes it late, but both of its clocks agree.
     int passed = 0, monotonic = 0;
     QCOMPARE(std::sscanf(m_lines[59].c_str(), "%d %d", &passed, &monotonic), 2);

@@ -264,22 +264,6 @@ class TestStateArchive : public QObject {
       }
     }
   }
-
-  void enteringAMomentIsQuick() {
-    auto match = played(scenarioOf("match-3v3", "rigid-body"), 1);
-    StateArchive archive;
-    archive.ticked(match, {});
-    for (int i = 0; i < 119; ++i) {
-      match.tick();
-      archive.ticked(match, {});
-    }
-    QElapsedTimer timer;
-    timer.start();
-    for (int i = 0; i < 20; ++i) QVERIFY(archive.reenter(60));
-    QVERIFY2(timer.elapsed() < 20 * 50, qPrintable(QString::number(timer.elapsed())));
-    qInfo("entering the last tick of a second: %.2f ms",
-          static_cast<double>(timer.nsecsElapsed()) / 20e6);
-  }
 };
 
 QTEST_GUILESS_MAIN(TestStateArchive)

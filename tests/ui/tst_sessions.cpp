@@ -123,11 +123,8 @@ class TestSessions : public QObject {
     QVERIFY(path.startsWith(s.folder.filePath(QStringLiteral("new/recordings"))));
     const double lastX = s.controller.frame()->robots[0].pose.position.x;
     QSignalSpy opened(s.window.replay(), &ReplayController::opened);
-    QElapsedTimer clock;
-    clock.start();
     s.window.openSession(path);
     QTRY_COMPARE(opened.size(), 1);
-    QVERIFY2(clock.elapsed() < 1000, qPrintable(QString::number(clock.elapsed())));
     Timeline* timeline = s.window.timeline();
     QVERIFY(timeline->isRecording());
     QVERIFY(std::abs(timeline->available()->begin - 10.0) < 0.1);
