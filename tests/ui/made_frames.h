@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Frames made up for tests of the field.
+// Frames made up for tests of the field, and a field to show them.
 
+#include <QGraphicsView>
 #include <QTest>
 
 #include <cmath>
+#include <memory>
 
 #include <robotlink/frame/match_frame.h>
 #include <simcore/world/published_frame.h>
-#include <ui/base/theme.h>
 #include <ui/field/field_view.h>
-
-#include "hover_text.h"
-#include "robot_item.h"
 
 namespace made_frames {
 
@@ -46,6 +44,16 @@ inline std::shared_ptr<link::MatchFrame> frameOf(int robots) {
     frame->robots.push_back(robot);
   }
   return frame;
+}
+
+/// The field alone, on the screen, with the keyboard.
+inline std::unique_ptr<ui::FieldView> fieldOnScreen() {
+  auto view = std::make_unique<ui::FieldView>(nullptr);
+  view->resize(900, 660);
+  view->show();
+  if (!QTest::qWaitForWindowExposed(view.get())) qFatal("the field is not shown");
+  view->findChild<QGraphicsView*>()->setFocus();
+  return view;
 }
 
 }  // namespace made_frames

@@ -62,4 +62,19 @@ struct Studio {
   }
 };
 
+/// With its button, as a person does.
+inline void closeNotice(MainWindow& window) {
+  const auto buttons = window.notices()->findChildren<QAbstractButton*>();
+  for (auto* button : buttons) {
+    const bool closes = qobject_cast<QToolButton*>(button) != nullptr ||
+                        button->text() == QStringLiteral("Close") ||
+                        button->text() == QStringLiteral("Not now");
+    if (button->isVisible() && closes) {
+      QTest::mouseClick(button, Qt::LeftButton);
+      break;
+    }
+  }
+  QCoreApplication::processEvents();
+}
+
 }  // namespace session_rig

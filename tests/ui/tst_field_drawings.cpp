@@ -34,12 +34,9 @@ class TestFieldDrawings : public QObject {
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
   void init() {
-    m_view = std::make_unique<FieldView>(nullptr);
-    m_view->resize(900, 660);
-    m_view->show();
-    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+    m_view = fieldOnScreen();
+    QVERIFY(m_view->isVisible());
     m_canvas = m_view->findChild<QGraphicsView*>();
-    m_canvas->setFocus();
   }
 
   void cleanup() { m_view.reset(); }

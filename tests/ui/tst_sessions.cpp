@@ -26,24 +26,11 @@
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
+using session_rig::closeNotice;
 using session_rig::Studio;
 
 class TestSessions : public QObject {
   Q_OBJECT
-
-  static void closeNotice(MainWindow& window) {
-    const auto buttons = window.notices()->findChildren<QAbstractButton*>();
-    for (auto* button : buttons) {
-      const bool closes = qobject_cast<QToolButton*>(button) != nullptr ||
-                          button->text() == QStringLiteral("Close") ||
-                          button->text() == QStringLiteral("Not now");
-      if (button->isVisible() && closes) {
-        QTest::mouseClick(button, Qt::LeftButton);
-        break;
-      }
-    }
-    QCoreApplication::processEvents();
-  }
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
