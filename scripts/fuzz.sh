@@ -27,6 +27,28 @@ cp resources/teams/*.json "$seeds/formats/"
 cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$seeds/rules/"
 cp resources/experiments/*.json resources/situations/*.json "$seeds/experiment/"
 cp tests/data/sessions/*.mcap "$seeds/session/"
+cp tests/data/sessions/*.mcap "$seeds/moments/"
+cp resources/scenarios/*.json "$seeds/scenario/"
+cp tests/data/catalogs/* resources/*.json "$seeds/catalog/"
+printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nsilent_after = 5\n' \
+  > "$seeds/scenario/robot.ini"
+printf '{"pitchboardPlots": 1, "current": 0, "tabs": [{"name": "A", "plots": [{"kind": "chart", "title": "T", "values": [0, 1], "rightValues": [2, 3], "curves": [{"kind": "difference", "inputs": ["B1/A", "first/B"], "colour": "#ff8800"}]}]}]}' \
+  > "$seeds/layout/one.json"
+number=0
+while IFS= read -r words; do
+  printf '%s' "$words" > "$seeds/words/$((number += 1)).txt"
+done <<'WORDS'
+hypot(B1.TRUE_X - 2, {B1/ball x}) * 100 > 3 && !B2.A ? deg(pi) : wrap(t, 360)
+192.168.0.0/24
+10.0.0.7
+100,catalog=FILE,size=4096,robot=3,rate=100,team=red
+PBT1 path 3 1 1500 -200 0 0
+PBT1 cloud 3 2 100 200 90000 5 -100 0 0 1
+PB1 2 450 300 90 12 1 0 4500300
+WORDS
+for trace in tests/data/traces/i_action_0*.json; do
+  { cat "$trace"; printf '\0'; cat "${trace%.json}.csv.gz"; } > "$seeds/trace/${trace##*/}"
+done
 printf 'PBD1 3 12\nlayer a/b robot 0.5\ncolour #11223344\nwidth 3\narrow 0 0 1.5 -0.5\ntext 1 1 hello\nmore c\ndisc 1 2 0.3\n' \
   > "$seeds/drawings/shapes.txt"
 printf '1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT\nPBD1 1\nlayer b belief 2\npolygon 0 0 1 0 1 1\n' \
@@ -54,14 +76,21 @@ options = {"ourTeam": 12, "field": "spl", "teams": [{"setup": "{\"number\": 12}"
 books = {"time": 1, "options": options, "robots": json.dumps({"robots": [robot]}),
          "referee": [{"at": 0, "address": 1, "port": 3838, "localPort": 3838, "base64": "UkdtZQ=="}]}
 (seeds / "books" / "one").write_text(json.dumps(books))
+
+def record(stream, body):
+    return bytes([stream]) + len(body).to_bytes(2, "little") + body
+message = b"1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT"
+referee = pathlib.Path("tests/data/gamecontroller/v12hl640_PLAYING_1-0.bin").read_bytes()
+(seeds / "moments" / "live").write_bytes(record(2, json.dumps(books).encode()) + record(0, message)
+                                         + record(1, referee) + record(0, message))
 PYTHON
 
 for target in "${targets[@]}"; do
   mkdir -p "$build/corpus/$target"
   length=2000
-  [[ $target = profile || $target = experiment ]] && length=8000
+  [[ $target = profile || $target = experiment || $target = scenario ]] && length=8000
   [ "$target" = session ] && length=16000
-  [ "$target" = books ] && length=16000
+  [[ $target = books || $target = moments || $target = catalog ]] && length=16000
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     "$build/bin/fuzz_$target" -max_total_time="$seconds" -max_len=$length -timeout=5 -rss_limit_mb=1024 \
     -artifact_prefix="$build/findings/$target-" -dict=tests/fuzz/$target.dict \

@@ -149,6 +149,7 @@ Result<void> exportPictures(const telemetry::SessionReader& session, const Pictu
                                      "-nostdin",
                                      "-loglevel",
                                      "error",
+                                     "-xerror",  // no room for the end of the file is an error
                                      "-y",
                                      "-framerate",
                                      std::to_string(request.rate),

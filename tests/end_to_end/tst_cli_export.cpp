@@ -173,6 +173,26 @@ class TestCliExport : public QObject {
     QVERIFY(contents(file).size() > 100);
   }
 
+  /// ffmpeg alone takes a video without its end for a good one.
+  void aVideoWithoutRoomForItsEndIsNone() {
+    if (QStandardPaths::findExecutable(QStringLiteral("ffmpeg")).isEmpty()) {
+      QSKIP("ffmpeg is not installed");
+    }
+    const QStringList words{"export",  m_session, "--to",   "mp4", "--from", "2",
+                            "--until", "3",       "--rate", "30",  "-o"};
+    const QString whole = path("whole.mp4"), less = path("less.mp4");
+    QVERIFY(cli(words + QStringList{whole}).exitCode == 0);
+    ProgramRun run;
+    {
+      const SmallDisk disk(static_cast<rlim_t>(contents(whole).size() - 1));
+      run = cli(words + QStringList{less});
+    }
+    QVERIFY2(run.exitCode == 2 && run.err.contains("error: "), run.err.constData());
+    QVERIFY2(run.err.contains("File too large"), run.err.constData());
+    QCOMPARE(QDir(m_folder.path()).entryList({"less*", "*.part"}, QDir::Files | QDir::Hidden),
+             QStringList());
+  }
+
 #ifdef SLOW_DISK
   /// Without its folder a new file can be gone after a power cut.
   void theFolderOfANewFileIsSynced_data() {

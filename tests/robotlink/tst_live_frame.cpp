@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames of what was heard, from values made by hand: no network, no clock.
 
-#include <QFile>
 #include <QtTest>
 
 #include <robotlink/frame/belief.h>
 #include <simcore/world/published_frame.h>
 
+#include "../support/recorded_packets.h"
 #include "live_frame.h"
 
 using namespace pitchboard;
@@ -281,10 +281,7 @@ class TestLiveFrame : public QObject {
     QFETCH(int, team);
     QFETCH(QString, step);
     QFETCH(QString, countdown);
-    QFile packet(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/") + file +
-                 QStringLiteral(".bin"));
-    QVERIFY(packet.open(QIODevice::ReadOnly));
-    const auto decoded = telemetry::decodeReferee(packet.readAll().toStdString());
+    const auto decoded = telemetry::decodeReferee(recordedPacket(file));
     QVERIFY(decoded);
     Heard heard({});
     QVERIFY(heard.referee.accept(std::get<RefereeState>(*decoded), {{1}, 3838}, start));

@@ -2,7 +2,6 @@
 // What is replayed of a live match, from its file and from memory, against the frames that were on
 // the screen: real sockets, recorded referee packets, every field.
 
-#include <QFile>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include <robotlink/session/session_events.h>
 #include <telemetry/wire/text_protocol.h>
 
+#include "../support/recorded_packets.h"
 #include "frame_difference.h"
 #include "live_ports.h"
 
@@ -25,12 +25,6 @@ using telemetry::SessionStream;
 namespace {
 
 constexpr int robots = 3;
-
-std::string packet(const char* name) {
-  QFile file(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/") + QLatin1String(name));
-  if (!file.open(QIODevice::ReadOnly)) qFatal("no %s", name);
-  return file.readAll().toStdString();
-}
 
 /// Frames as they were made, and how many datagrams had been taken before each.
 class Screen : public LiveObserver {
@@ -133,7 +127,7 @@ class TestLiveReplay : public QObject {
 
     std::size_t sent = 0;
     const auto heard = [&] { return m_screen->taken() == sent; };
-    const char* const packets[] = {"v12hl640_2017.3_INITIAL.bin", "v12hl640_2017.3_PENALISED.bin"};
+    const char* const packets[] = {"v12hl640_2017.3_INITIAL", "v12hl640_2017.3_PENALISED"};
     for (int step = 1; step <= 8; ++step) {
       QVERIFY(robot1.send(port(1), message(1, step)));
       QVERIFY(robot2.send(port(2), message(2, step)));
@@ -146,7 +140,7 @@ class TestLiveReplay : public QObject {
       if (step == 4) QVERIFY(twin.send(port(2), message(2, 40)) && ++sent);
       if (step % 2 == 0) {
         QVERIFY(referee.send(static_cast<std::uint16_t>(options.refereePort),
-                             packet(packets[step > 4 ? 1 : 0])));
+                             recordedPacket(packets[step > 4 ? 1 : 0])));
         ++sent;
       }
       if (step == 5) {

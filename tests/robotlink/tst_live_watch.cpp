@@ -2,7 +2,6 @@
 // The watch of real robots, with real sockets on 127.0.0.1: what it hears, to whom it tells it, and
 // what it sends.
 
-#include <QFile>
 #include <QtTest>
 #include <algorithm>
 #include <atomic>
@@ -11,6 +10,7 @@
 #include <robotlink/live/live_watch.h>
 #include <telemetry/wire/text_protocol.h>
 
+#include "../support/recorded_packets.h"
 #include "live_ports.h"
 
 using namespace pitchboard;
@@ -29,12 +29,6 @@ std::string message(int robot, int x = 300) {
   m.y = 200;
   m.control = m.vision = m.localization = m.decision = m.imu = 1;
   return telemetry::encode(m);
-}
-
-std::string refereePacket(const char* name) {
-  QFile file(QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/") + QLatin1String(name));
-  if (!file.open(QIODevice::ReadOnly)) qFatal("no %s", name);
-  return file.readAll().toStdString();
 }
 
 std::size_t bound(const LiveWatch& watch) {
@@ -165,7 +159,7 @@ class TestLiveWatch : public QObject {
     QTRY_COMPARE(bound(watch), std::size_t{4});
     const TestSocket referee;
     const auto port = static_cast<std::uint16_t>(options.refereePort);
-    QVERIFY(referee.send(port, refereePacket("v12hl688_PLAYING_1-0.bin")));
+    QVERIFY(referee.send(port, recordedPacket("v12hl688_PLAYING_1-0")));
     QTRY_COMPARE(witness->referee.load(), 1);
     QTRY_VERIFY(watch.latest() && watch.latest()->referee);
     QCOMPARE(watch.latest()->referee->version, 12);
@@ -253,14 +247,14 @@ class TestLiveWatch : public QObject {
     const TestSocket here;
     const auto port = static_cast<std::uint16_t>(options.refereePort);
     QVERIFY(here.send(portOf(options, 1), message(1)));
-    QVERIFY(here.send(port, refereePacket("v12hl688_PLAYING_1-0.bin")));
+    QVERIFY(here.send(port, recordedPacket("v12hl688_PLAYING_1-0")));
     QTRY_COMPARE(witness->referee.load(), 1);
     QTRY_COMPARE(watch.details().team.refusedByFilter, std::uint64_t{1});
     QVERIFY(options.refereeSenders.add("10.1.2.4"));
     options.team.senders = {};
     watch.setOptions(options);
     // It is not said when options are in force: asked until they are.
-    QTRY_VERIFY(here.send(port, refereePacket("v12hl688_PLAYING_1-0.bin")) &&
+    QTRY_VERIFY(here.send(port, recordedPacket("v12hl688_PLAYING_1-0")) &&
                 watch.details().refusedReferees > 0);
     QVERIFY(here.send(portOf(options, 1), message(1)));
     QTRY_COMPARE(witness->count(), std::size_t{1});
@@ -273,9 +267,9 @@ class TestLiveWatch : public QObject {
     QTRY_COMPARE(bound(watch), std::size_t{4});
     const TestSocket referee;
     const auto port = static_cast<std::uint16_t>(options.refereePort);
-    QVERIFY(referee.send(port, refereePacket("v8hl158_PLAYING.bin")));
+    QVERIFY(referee.send(port, recordedPacket("v8hl158_PLAYING")));
     QTRY_COMPARE(watch.details().referee.otherVersions, std::uint64_t{1});
-    QVERIFY(referee.send(port, refereePacket("v7compat116_from_v8GC_PLAYING_1-0.bin")));
+    QVERIFY(referee.send(port, recordedPacket("v7compat116_from_v8GC_PLAYING_1-0")));
     QTRY_VERIFY(watch.latest() && watch.latest()->referee);
     QCOMPARE(watch.latest()->referee->version, 7);
   }

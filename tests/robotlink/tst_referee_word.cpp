@@ -4,14 +4,14 @@
 
 #include <QtTest>
 
+#include "../support/recorded_packets.h"
+
 using namespace pitchboard;
 
 namespace {
 
 telemetry::RefereeState recorded(const char* name) {
-  QFile file(QString(PITCHBOARD_TEST_DATA) + "/gamecontroller/" + name + ".bin");
-  if (!file.open(QIODevice::ReadOnly)) qFatal("no recorded packet %s", name);
-  const auto packet = telemetry::decodeReferee(file.readAll().toStdString());
+  const auto packet = telemetry::decodeReferee(recordedPacket(name));
   return std::get<telemetry::RefereeState>(packet.value());
 }
 

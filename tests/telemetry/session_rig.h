@@ -49,6 +49,24 @@ inline SessionInfo sessionInfo() {
   return info;
 }
 
+/// Names for session files in a folder that goes with it.
+class NewSessions {
+ public:
+  std::string newPath() {
+    return m_folder.filePath(QString::number(++m_number) + ".mcap").toStdString();
+  }
+
+ private:
+  QTemporaryDir m_folder;
+  int m_number = 0;
+};
+
+inline SessionWriterOptions smallChunks() {
+  SessionWriterOptions options;
+  options.chunkBytes = 4000;
+  return options;
+}
+
 struct Row {
   GroupId group;
   double time;

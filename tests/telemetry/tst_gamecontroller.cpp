@@ -2,8 +2,6 @@
 // Packets recorded from real controllers, and every size that they can be cut to.
 #include <telemetry/wire/gamecontroller.h>
 
-#include <QDir>
-#include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -14,13 +12,6 @@
 using namespace pitchboard::telemetry;
 
 namespace {
-
-const QString data = QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/");
-
-QByteArray read(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
 
 auto decode(const QByteArray& bytes) {
   return decodeReferee(std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
@@ -53,24 +44,19 @@ void compare(const QString& name, const QJsonObject& expected, const char* key,
 class TestGameController : public QObject {
   Q_OBJECT
  private slots:
-  void recordedPackets_data() {
-    QTest::addColumn<QString>("file");
-    const QStringList files = QDir(data).entryList({"*.bin"});
-    QVERIFY(files.size() > 100);
-    for (const QString& file : files) QTest::newRow(qPrintable(file)) << file;
-  }
+  void recordedPackets_data() { addRecordedPackets(); }
   void recordedPackets() {
-    QFETCH(QString, file);
-    const auto result = decode(read(data + file));
+    QFETCH(QString, packet);
+    const auto result = decodeReferee(recordedPacket(packet));
     QVERIFY2(result, result ? "" : result.error().text().c_str());
     const RefereeState& state = std::get<RefereeState>(*result);
-    const QJsonObject expected = QJsonDocument::fromJson(read(data + file.chopped(3) + "json"))
+    const QJsonObject expected = QJsonDocument::fromJson(recordedPacketFileBytes(packet, ".json"))
                                      .object()["expected"]
                                      .toObject();
     QVERIFY(!expected.isEmpty());
     differences.clear();
     QCOMPARE(QString::fromLatin1(state.magic.data(), 4), expected["header"].toString());
-    QCOMPARE(state.trueData(), file.contains("RGTD"));
+    QCOMPARE(state.trueData(), packet.contains("RGTD"));
     QCOMPARE(state.firstHalf != 0, expected["firstHalf"].toBool());
     QCOMPARE(QString::fromUtf8(stateName(state.state).data()), expected["stateName"].toString());
     compare("", expected, "version", state.version);
@@ -90,7 +76,7 @@ class TestGameController : public QObject {
     compare("", expected, "secondaryTime", state.secondaryTime);
     // The v7 packet that a controller of 2015 adds has no game type: no byte tells its recordings
     // from those of 2014. The value beside them is what the program knew.
-    if (!file.startsWith("v7compat")) compare("", expected, "gameType", state.gameType);
+    if (!packet.startsWith("v7compat")) compare("", expected, "gameType", state.gameType);
     if (expected.contains("gameTypeName")) {
       QCOMPARE(QString::fromUtf8(gameTypeName(*state.gameType).data()),
                expected["gameTypeName"].toString());
@@ -192,7 +178,7 @@ class TestGameController : public QObject {
   }
 
   void teamsAreFoundByNumber() {
-    const auto result = decode(read(data + "v12hl640_2017.3_SECOND_HALF_PLAYING.bin"));
+    const auto result = decodeReferee(recordedPacket("v12hl640_2017.3_SECOND_HALF_PLAYING"));
     const RefereeState& state = std::get<RefereeState>(*result);
     QVERIFY(state.team(1) != nullptr && state.team(2) != nullptr);
     QCOMPARE(state.team(1)->number, 1);
@@ -220,7 +206,9 @@ class TestGameController : public QObject {
   void survivesMutations() {
     std::mt19937 random(7);
     QList<QByteArray> seeds;
-    for (const QString& file : QDir(data).entryList({"*.bin"})) seeds << read(data + file);
+    for (const QString& name : recordedPackets()) {
+      seeds << recordedPacketFileBytes(name, ".bin");
+    }
     int decoded = 0;
     for (int round = 0; round < 100'000; ++round) {
       QByteArray bytes = seeds[static_cast<int>(random() % static_cast<unsigned>(seeds.size()))];
@@ -279,4 +267,5 @@ class TestGameController : public QObject {
 };
 
 QTEST_GUILESS_MAIN(TestGameController)
+#include "../support/recorded_packets.h"
 #include "tst_gamecontroller.moc"

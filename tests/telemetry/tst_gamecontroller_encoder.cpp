@@ -3,20 +3,13 @@
 // again; bytes that no field describes are the messages of coaches and are named here.
 #include <telemetry/wire/gamecontroller_encoder.h>
 
-#include <QDir>
-#include <QFile>
 #include <QtTest>
+
+#include "../support/recorded_packets.h"
 
 using namespace pitchboard::telemetry;
 
 namespace {
-
-const QString data = QStringLiteral(PITCHBOARD_TEST_DATA "/gamecontroller/");
-
-QByteArray read(const QString& path) {
-  QFile file(path);
-  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-}
 
 /// Bytes of a team block that hold a coach's number, penalty and words.
 bool isCoach(const RefereeState& state, qsizetype at) {
@@ -39,16 +32,11 @@ bool isCoach(const RefereeState& state, qsizetype at) {
 class TestGameControllerEncoder : public QObject {
   Q_OBJECT
  private slots:
-  void recordings_data() {
-    QTest::addColumn<QString>("file");
-    const QStringList files = QDir(data).entryList({"*.bin"});
-    QVERIFY(files.size() > 100);
-    for (const QString& file : files) QTest::newRow(qPrintable(file)) << file;
-  }
+  void recordings_data() { addRecordedPackets(); }
   void recordings() {
-    QFETCH(QString, file);
-    const QByteArray bytes = read(data + file);
-    const auto decoded = decodeReferee(bytes.toStdString());
+    QFETCH(QString, packet);
+    const std::string bytes = recordedPacket(packet);
+    const auto decoded = decodeReferee(bytes);
     QVERIFY(decoded);
     const auto& state = std::get<RefereeState>(*decoded);
     const auto encoded = encodeReferee(state);

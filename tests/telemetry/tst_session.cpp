@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is recorded is read back bit for bit; what goes wrong is said and never costs what stands.
 
-#include <sys/resource.h>
-#include <unistd.h>
 #include <QtTest>
-#include <csignal>
 #include <filesystem>
 
 #include <telemetry/mcap/mcap_writer.h>
@@ -16,19 +13,8 @@ using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
 
-class TestSession : public QObject {
+class TestSession : public QObject, private NewSessions {
   Q_OBJECT
-
-  QTemporaryDir m_folder;
-  int m_number = 0;
-  std::string newPath() {
-    return m_folder.filePath(QString::number(++m_number) + ".mcap").toStdString();
-  }
-  static SessionWriterOptions smallChunks() {
-    SessionWriterOptions options;
-    options.chunkBytes = 4000;
-    return options;
-  }
 
  private slots:
   void everythingComesBack() {

@@ -1,44 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A session file while it is written: a full disk, a removed file, a full queue.
 
-#include <sys/resource.h>
 #include <unistd.h>
 #include <QtTest>
-#include <csignal>
 #include <filesystem>
+#include <optional>
 
+#include "../support/small_disk.h"
 #include "session_rig.h"
 
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
 
-class TestSessionDisk : public QObject {
+class TestSessionDisk : public QObject, private NewSessions {
   Q_OBJECT
-
-  QTemporaryDir m_folder;
-  int m_number = 0;
-  std::string newPath() {
-    return m_folder.filePath(QString::number(++m_number) + ".mcap").toStdString();
-  }
-  static SessionWriterOptions smallChunks() {
-    SessionWriterOptions options;
-    options.chunkBytes = 4000;
-    return options;
-  }
 
  private slots:
   void diskFull() {
     // A file that may not grow beyond this is what a full disk looks like to a program.
-    struct rlimit old {
-    }, small{};
-    QVERIFY(getrlimit(RLIMIT_FSIZE, &old) == 0);
-    small = {60'000, old.rlim_max};
-    struct sigaction ignore {
-    }, before{};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &ignore, &before);
-    QVERIFY(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    std::optional<SmallDisk> disk(std::in_place, rlim_t{60'000});
     const std::string path = newPath();
     auto options = smallChunks();
     options.sync = false;
@@ -46,8 +27,7 @@ class TestSessionDisk : public QObject {
     options.waitWhenFull = true;
     std::vector<Row> rows = record(**writer, 3000);
     const auto finished = (*writer)->finish();
-    setrlimit(RLIMIT_FSIZE, &old);
-    sigaction(SIGXFSZ, &before, nullptr);
+    disk.reset();
     QVERIFY(!finished);
     const SessionStatus status = (*writer)->status();
     QVERIFY(!status.recording);

@@ -23,15 +23,15 @@
 #include <ui/sources/replay_controller.h>
 
 #include "../support/small_disk.h"
+#include "export_rig.h"
 #include "plot_export.h"
 #include "plot_page.h"
 #include "plot_presets.h"
 #include "profile_editor.h"
-#include "session_rig.h"
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
-using session_rig::Studio;
+using namespace session_rig;
 
 /// What the desktop was asked to open.
 class UrlCatcher : public QObject {
@@ -44,30 +44,6 @@ class UrlCatcher : public QObject {
 
 class TestSessionExportDialog : public QObject {
   Q_OBJECT
-
-  static ExportDialog* openDialog(Studio& s) {
-    s.action("exportSession")->trigger();
-    return s.window.findChild<ExportDialog*>(QStringLiteral("exportDialog"));
-  }
-  static void choose(ExportDialog* dialog, const QString& form) {
-    auto* box = dialog->findChild<QComboBox*>(QStringLiteral("exportFormat"));
-    for (int i = 0; i < box->count(); ++i) {
-      if (box->itemText(i).contains(form)) box->setCurrentIndex(i);
-    }
-    QVERIFY2(box->currentText().contains(form), qPrintable(form));
-  }
-  static QByteArray contents(const QString& path) {
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-  }
-  static QString message(ExportDialog* dialog) {
-    return dialog->findChild<QLabel*>(QStringLiteral("exportMessage"))->text();
-  }
-  /// Chooses the smallest size.
-  static void small(ExportDialog* dialog) {
-    auto* size = dialog->findChild<QComboBox*>(QStringLiteral("exportSize"));
-    size->setCurrentIndex(size->findData(QSize(640, 360)));
-  }
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
@@ -100,7 +76,7 @@ class TestSessionExportDialog : public QObject {
       }
       return found > 8;
     };
-    ExportDialog* dialog = openDialog(s);
+    ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);
     choose(dialog, QStringLiteral("(PNG)"));
     const auto pictures = [&](const char* name) {
@@ -155,15 +131,13 @@ class TestSessionExportDialog : public QObject {
       s.window.openSession(session);
       QTRY_VERIFY(s.window.timeline()->isRecording());
     }
-    ExportDialog* dialog = openDialog(s);
+    ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);
     choose(dialog, form);
     QCOMPARE(dialog->suffix(), suffix);
     small(dialog);
-    QSignalSpy written(dialog, &ExportDialog::written);
     const QString path = s.folder.filePath(QStringLiteral("out") + suffix);
-    dialog->exportTo(path);
-    QTRY_VERIFY2_WITH_TIMEOUT(written.size() == 1, qPrintable(message(dialog)), 60'000);
+    QVERIFY2(exported(dialog, path).written == 1, qPrintable(message(dialog)));
     const QByteArray bytes = contents(path);
     QVERIFY(!bytes.isEmpty());
     if (suffix == QStringLiteral(".csv")) {
@@ -186,11 +160,8 @@ class TestSessionExportDialog : public QObject {
       QCOMPARE(bytes.mid(4, 4), QByteArray("ftyp"));
     }
     // The same name again replaces it, and a link to what is replayed does not.
-    QFile old(path);
-    QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
-    old.close();
-    dialog->exportTo(path);
-    QTRY_VERIFY2_WITH_TIMEOUT(written.size() == 2, qPrintable(message(dialog)), 60'000);
+    overwrite(path, "old");
+    QVERIFY2(exported(dialog, path).written == 1, qPrintable(message(dialog)));
     QVERIFY(contents(path).size() > 3);
     if (!fromMemory) {
       const QString session = s.window.replay()->path();
@@ -203,9 +174,7 @@ class TestSessionExportDialog : public QObject {
       QVERIFY2(message(dialog).contains(QStringLiteral("being read")), qPrintable(message(dialog)));
       QVERIFY(contents(session) == precious);
     }
-    QVERIFY(QDir(s.folder.path())
-                .entryList({QStringLiteral("*.part")}, QDir::Files | QDir::Hidden)
-                .isEmpty());
+    QVERIFY(parts(s.folder.path()).isEmpty());
   }
 
   /// Whatever is written over an old file: when the disk is full the old one is still there.
@@ -262,9 +231,7 @@ class TestSessionExportDialog : public QObject {
     for (const Writer& writer : writers) {
       const QString path = folder.filePath(QLatin1String(writer.name));
       names << QLatin1String(writer.name);
-      QFile old(path);
-      QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
-      old.close();
+      overwrite(path, "old");
       {
         const SmallDisk disk(64);
         QVERIFY2(!writer.write(path), writer.name);
@@ -284,7 +251,7 @@ class TestSessionExportDialog : public QObject {
     }
     Studio s(600);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
-    ExportDialog* dialog = openDialog(s);
+    ExportDialog* dialog = openExport(s);
     choose(dialog, QStringLiteral("(WebM)"));
     QSignalSpy failed(dialog, &ExportDialog::failed);
     const QString path = s.folder.filePath(QStringLiteral("out.webm"));
@@ -298,15 +265,13 @@ class TestSessionExportDialog : public QObject {
     QVERIFY(!dialog->isWriting());
     QVERIFY2(message(dialog).contains(QStringLiteral("Cancelled")), qPrintable(message(dialog)));
     QVERIFY(!QFile::exists(path));
-    QVERIFY(QDir(s.folder.path())
-                .entryList({QStringLiteral("*.part")}, QDir::Files | QDir::Hidden)
-                .isEmpty());
+    QVERIFY(parts(s.folder.path()).isEmpty());
   }
 
   void withoutFfmpegTheDialogSaysWhatToInstall() {
     Studio s(60);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
-    ExportDialog* dialog = openDialog(s);
+    ExportDialog* dialog = openExport(s);
     choose(dialog, QStringLiteral("(MP4)"));
     dialog->setVideoProgram(QStringLiteral("no-such-ffmpeg"));
     QSignalSpy failed(dialog, &ExportDialog::failed);
@@ -319,7 +284,7 @@ class TestSessionExportDialog : public QObject {
   void aRangeTheWrongWayRoundIsSaid() {
     Studio s(60);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
-    ExportDialog* dialog = openDialog(s);
+    ExportDialog* dialog = openExport(s);
     dialog->findChild<QDoubleSpinBox*>(QStringLiteral("exportBegin"))->setValue(5);
     dialog->findChild<QDoubleSpinBox*>(QStringLiteral("exportEnd"))->setValue(1);
     QSignalSpy failed(dialog, &ExportDialog::failed);
@@ -355,7 +320,7 @@ class TestSessionExportDialog : public QObject {
   void robotsAndVariablesAreTicked() {
     Studio s(300);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(300), 20'000);
-    ExportDialog* dialog = openDialog(s);
+    ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);
     choose(dialog, QStringLiteral("even times"));
     const auto lists = dialog->findChildren<QListWidget*>();

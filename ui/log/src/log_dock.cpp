@@ -9,13 +9,12 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
-#include <QSaveFile>
 #include <QScrollBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <base/file_target.h>
 #include <ui/base/robot_words.h>
-#include <ui/base/save_file.h>
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -225,15 +224,16 @@ class LogDock : public QWidget {
                                                       QStringLiteral("log.txt"),
                                                       QStringLiteral("Text files (*.txt)"));
     if (path.isEmpty()) return;
-    QSaveFile file(path);
-    bool written = file.open(QIODevice::WriteOnly);
-    for (int row = 0; written && row < m_filter->rowCount(); ++row) {
-      written = file.write(textOf(m_filter->index(row, 0)).toUtf8() + '\n') >= 0;
+    QByteArray text;
+    for (int row = 0; row < m_filter->rowCount(); ++row) {
+      text += textOf(m_filter->index(row, 0)).toUtf8() + '\n';
     }
-    if (written && commitWhole(file)) return;
+    const auto written =
+        writeFile(path.toStdString(), {text.constData(), static_cast<std::size_t>(text.size())},
+                  IfExists::Replace);
+    if (written) return;
     QMessageBox::warning(this, QStringLiteral("Save the log"),
-                         QStringLiteral("%1 cannot be written: %2. Choose another folder.")
-                             .arg(path, file.errorString()));
+                         QString::fromStdString(written.error().text()));
   }
 
   MatchController* m_controller;

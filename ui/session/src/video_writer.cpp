@@ -47,6 +47,11 @@ QString sentenceOf(const QByteArray& output, const QString& path) {
   if (text.contains(QLatin1String("No space left"))) {
     return QStringLiteral("The video could not be finished: the disk is full. Nothing was kept.");
   }
+  if (text.contains(QLatin1String("File too large"))) {
+    return QStringLiteral(
+        "The video could not be finished: it has reached the largest size that is allowed here. "
+        "Nothing was kept.");
+  }
   if (text.contains(QLatin1String("Unknown encoder")) ||
       text.contains(QLatin1String("Unrecognized option"))) {
     const Format* format = formatOf(path);
@@ -128,15 +133,23 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
   m_pictures = 0;
   m_ending = false;
   m_active = true;
-  QStringList arguments{
-      "-hide_banner", "-loglevel",
-      "error",        "-y",
-      "-f",           "rawvideo",
-      "-pix_fmt",     "bgr0",
-      "-s",           QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
-      "-r",           QString::number(options.framesPerSecond, 'g', 12),
-      "-i",           "pipe:0",
-      "-an"};
+  // Without -xerror ffmpeg ends well when there was no room for the end of the file.
+  QStringList arguments{"-hide_banner",
+                        "-loglevel",
+                        "error",
+                        "-xerror",
+                        "-y",
+                        "-f",
+                        "rawvideo",
+                        "-pix_fmt",
+                        "bgr0",
+                        "-s",
+                        QStringLiteral("%1x%2").arg(size.width()).arg(size.height()),
+                        "-r",
+                        QString::number(options.framesPerSecond, 'g', 12),
+                        "-i",
+                        "pipe:0",
+                        "-an"};
   arguments += format->arguments;
   arguments += QStringLiteral("file:") + QString::fromStdString(m_target->partPath());
   m_process.setStandardOutputFile(QProcess::nullDevice());
