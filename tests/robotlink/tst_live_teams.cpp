@@ -170,6 +170,26 @@ class TestLiveTeams : public QObject {
     QVERIFY(team.profile == publishedProfile());
   }
 
+  /// Every team writes in its own way; who spoke last makes no difference.
+  void booksKnowHowEachTeamWrites() {
+    const LiveOptions options = twoTeams();
+    for (const bool oursLast : {false, true}) {
+      LiveBooks books(options);
+      if (!oursLast) books.monitor.take(from("10.0.0.3", 1243, words));
+      books.monitor.take(from("10.0.1.3", 12003, lua));
+      if (oursLast) books.monitor.take(from("10.0.0.3", 1243, words));
+      const std::string text = books.text(options, 1.0, start);
+      const auto read = LiveBooks::read(text, start);
+      QVERIFY2(read, read ? "" : read.error().text().c_str());
+      QCOMPARE(read->books.text(read->options, 1.0, start), text);
+      const TeamStatus team = read->books.monitor.status(start);
+      QCOMPARE(team.robots.size(), std::size_t(2));
+      QCOMPARE(team.robots[0].value(FieldMeaning::X), std::optional(450.0));
+      QCOMPARE(team.robots[1].value(FieldMeaning::X), std::optional(600.0));
+      QCOMPARE(team.robots[1].decoder->profile().name, std::string("UPenn"));
+    }
+  }
+
   void oneTeamKeepsItsNumbers() {
     LiveOptions options;
     options.team.teams = {setupOf(R"({"senders": ["10.0.0.0/24"]})")};

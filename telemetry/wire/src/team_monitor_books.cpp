@@ -68,10 +68,41 @@ SequenceStats sequenceFrom(const Json* json) {
 
 }  // namespace
 
+/// How robots write whose books do not say it: as their team does.
+class UsualProfiles {
+ public:
+  UsualProfiles(const Profile& profile, const MonitorOptions& options)
+      : m_profile(profile), m_options(options), m_decoders(std::max<std::size_t>(1, teams())) {}
+
+  const Profile& of(int robot) const {
+    return teams() == 0 ? m_profile : m_options.teams[placeOf(robot)].profile;
+  }
+  std::shared_ptr<const TextDecoder> decoderOf(int robot) {
+    std::shared_ptr<const TextDecoder>& decoder = m_decoders[placeOf(robot)];
+    if (!decoder) decoder = std::make_shared<const TextDecoder>(of(robot), whereOf(robot));
+    return decoder;
+  }
+  Surroundings whereOf(int robot) const {
+    Surroundings where = m_options.field;
+    if (teams() > 0) where.attacksLeft = m_options.teams[placeOf(robot)].attacksLeft;
+    return where;
+  }
+
+ private:
+  std::size_t teams() const { return m_options.teams.size(); }
+  std::size_t placeOf(int robot) const {
+    return teams() == 0 ? 0 : std::min(teamPlace(robot, teams()), teams() - 1);
+  }
+
+  const Profile& m_profile;
+  const MonitorOptions& m_options;
+  std::vector<std::shared_ptr<const TextDecoder>> m_decoders;  // by team, made when wanted
+};
+
 struct MonitorBooks {
   using Robot = TeamMonitor::Robot;
 
-  static Json written(const Robot& robot, const TextDecoder& current, WallTime zero) {
+  static Json written(const Robot& robot, const UsualProfiles& usual, WallTime zero) {
     Json json{{"number", robot.number},
               {"slot", robot.slot},
               {"address", robot.sender.address.value},
@@ -108,14 +139,13 @@ struct MonitorBooks {
     json["values"] = robot.values;
     json["words"] = robot.words;
     // It may have said nothing since the profile was changed.
-    if (robot.decoder && !(robot.decoder->profile() == current.profile())) {
+    if (robot.decoder && !(robot.decoder->profile() == usual.of(robot.number))) {
       json["profile"] = profileText(robot.decoder->profile());
     }
     return json;
   }
 
-  static Robot read(const Json& json, const std::shared_ptr<const TextDecoder>& current,
-                    const Surroundings& field, WallTime zero) {
+  static Robot read(const Json& json, UsualProfiles& usual, WallTime zero) {
     Robot robot;
     robot.number = whole<int>(json, "number");
     robot.slot = whole<int>(json, "slot");
@@ -155,10 +185,11 @@ struct MonitorBooks {
                                 ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
                                 : std::string());
     });
-    robot.decoder = current;
+    robot.decoder = usual.decoderOf(robot.number);
     if (const std::string text = lenient::text(json, "profile"); !text.empty()) {
       if (auto profile = parseProfile(text, "profile")) {
-        robot.decoder = std::make_shared<const TextDecoder>(std::move(*profile), field);
+        robot.decoder =
+            std::make_shared<const TextDecoder>(std::move(*profile), usual.whereOf(robot.number));
       }
     }
     return robot;
@@ -171,8 +202,9 @@ struct MonitorBooks {
 
 std::string TeamMonitor::robotsText(WallTime zero) const {
   Json robots = Json::array();
+  const UsualProfiles usual(m_profile, m_options);
   for (const Robot& robot : m_robots) {
-    robots.push_back(MonitorBooks::written(robot, *m_decoder, zero));
+    robots.push_back(MonitorBooks::written(robot, usual, zero));
   }
   return Json{{"robots", std::move(robots)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -186,9 +218,10 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
   std::vector<Robot> read;
   const std::size_t most = m_options.mostRobots();
   read.reserve(most);
+  UsualProfiles usual(m_profile, m_options);
   for (const Json& robot : *robots) {
     if (!robot.is_object() || read.size() == most) continue;
-    Robot one = MonitorBooks::read(robot, m_decoder, m_options.field, zero);
+    Robot one = MonitorBooks::read(robot, usual, zero);
     // Numbers and slots that no monitor gives would not fit into an id.
     const bool possible = one.number >= 1 && one.number <= TextDecoder::maxRobot && one.slot >= 0 &&
                           one.slot < static_cast<int>(most);
