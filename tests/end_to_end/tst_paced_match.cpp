@@ -23,15 +23,16 @@ namespace {
 constexpr std::uint64_t tickRate = 60;
 constexpr std::uint64_t foundThemselves = 20 * tickRate;  // no belief is good at the very start
 
-/// The default scenario; every time of its rules that is not the robots' is shortened.
+/// The default scenario, two against two and in short halves.
 Scenario wholeMatch(const char* noise) {
   Scenario scenario = loadScenario("match").value();
   scenario.settings.noise = noisePreset(noise).value();
   scenario.settings.seed = 11;
   sim::RefereeRules& rules = *scenario.settings.referee;
-  rules.halfTime = 60;
+  rules.halfTime = 40;
   rules.beforeMatch = rules.beforeHalf = 3;
-  rules.readyTime = 30;
+  rules.readyTime = 25;
+  std::erase_if(scenario.robots, [](const ScenarioRobot& r) { return r.identity.number == 3; });
   return scenario;
 }
 
@@ -98,7 +99,11 @@ struct Played {
     if (!started) qFatal("%s", started.error().text().c_str());
     runner = std::move(*started);
   }
-  std::uint64_t tick() const { return runner->latest()->snapshot.tick; }
+  std::uint64_t tick() const {
+    std::uint64_t now = 0;
+    runner->execute([&now](SimulatedMatch& match) { now = match.simulation().state().tick; });
+    return now;
+  }
   void playTo(std::uint64_t tick) {
     runner->runTo(tick);
     if (!runner->waitUntilStill(300s)) qFatal("the match does not get to tick %llu", tick + 0ULL);
@@ -187,8 +192,8 @@ class TestPacedMatch : public QObject {
     QVERIFY(match.over());
     match.runner.reset();
     QCOMPARE(match.witness->end, wanted.end);
-    QVERIFY(wanted.end > 150 * tickRate);
-    QVERIFY(match.witness->hashes == wanted.hashes);
+    QVERIFY(wanted.end > 130 * tickRate);
+    QVERIFY2(match.witness->hashes == wanted.hashes, differs(*match.witness, wanted).constData());
     QVERIFY(match.witness->errors == wanted.errors);
     const Errors errors(wanted.errorsFrom(0));
     qInfo("%.0f s, belief error %.1f cm, 95 of 100 below %.1f cm",
@@ -205,21 +210,17 @@ class TestPacedMatch : public QObject {
   }
 
   // Played on from an earlier moment: what localization remembers is then of a future that never
-  // comes, and it has to find its way back.
+  // comes, and it finds its way back as it does when a robot is dragged.
   void beliefsAreAsGoodAfterGoingOnFromAnEarlierMoment_data() {
-    QTest::addColumn<int>("cognition");
     QTest::addColumn<QString>("noise");
-    for (const char* noise : {"none", "realistic"}) {
-      QTest::addRow("inside, %s", noise) << static_cast<int>(Cognition::Inline) << noise;
-      QTest::addRow("separate, %s", noise) << static_cast<int>(Cognition::External) << noise;
-    }
+    QTest::newRow("none") << "none";
+    QTest::newRow("realistic") << "realistic";
   }
   void beliefsAreAsGoodAfterGoingOnFromAnEarlierMoment() {
-    QFETCH(int, cognition);
     QFETCH(QString, noise);
-    Played match(wholeMatch(qPrintable(noise)), optionsFor(static_cast<Cognition>(cognition)));
+    Played match(wholeMatch(qPrintable(noise)), optionsFor(Cognition::Inline));
     std::uint64_t last = 0;
-    for (const std::uint64_t seconds : {70, 100, 130}) {
+    for (const std::uint64_t seconds : {40, 60, 80}) {
       match.playTo(seconds * tickRate);
       last = match.tick() - 15 * tickRate;
       const auto moment =
@@ -233,12 +234,18 @@ class TestPacedMatch : public QObject {
     match.toTheFinalWhistle();
     QVERIFY(match.over());
     match.runner.reset();
-    compare(*match.witness, last, inOneGo(noise));
+    compare(*match.witness, last + foundThemselves, inOneGo(noise));
   }
 
   void cleanupTestCase() { m_inOneGo.clear(); }
 
  private:
+  static QByteArray differs(const Witness& played, const Witness& wanted) {
+    const auto at = std::mismatch(played.hashes.begin(), played.hashes.end(), wanted.hashes.begin(),
+                                  wanted.hashes.end());
+    return "another state from tick " +
+           QByteArray::number(at.second == wanted.hashes.end() ? 0ULL : at.second->first + 0ULL);
+  }
   static void compare(const Witness& played, std::uint64_t from, const Witness& oneGo) {
     const Errors errors(played.errorsFrom(from)), wanted(oneGo.errorsFrom(from));
     qInfo("belief error %.1f cm (in one go %.1f), 95 of 100 below %.1f cm (%.1f)",
