@@ -259,56 +259,6 @@ class TestSeparateMatch : public QObject {
     runner->execute([&](SimulatedMatch& match) { after = beliefError(match); });
     QVERIFY2(after < 0.5, qPrintable(QString::number(after)));
   }
-
-  void twoMatchesNeverHearEachOther() {
-    MatchOptions options = separate();
-    options.keyBase.reset();
-    Scenario scenario = soccer();
-    auto one = make(scenario, options);
-    auto two = make(scenario, options);
-    QVERIFY(one.number() && two.number());
-    QVERIFY(one.number()->value != two.number()->value);
-    QVERIFY(one.blackboard(RobotId{1})->key() != two.blackboard(RobotId{1})->key());
-    QVERIFY(!two.publishedHolder().empty());
-    // Running freely, robots talk by UDP as on the field: the second match is told to stand, and
-    // what it says would be heard by the first in its places of team-mates.
-    one.setPace(RobotsPace::Free);
-    two.setPace(RobotsPace::Free);
-    for (auto* match : {&one, &two})
-      match->setPlaying(1.0, false, std::chrono::steady_clock::now());
-    QVERIFY(two.removeRobot(RobotId{3}));
-    QVERIFY(one.removeRobot(RobotId{1}) && one.removeRobot(RobotId{2}));
-    // Robot 3 of the first match has no team-mates any more; those of the second are two.
-    const FloatVar mate = one.catalog().floatVar("LOCALIZATION_RBT02_X").value();
-    const IntVar state = one.catalog().intVar("COM_STATE_ROBOT1").value();
-    const auto heard = [&] {
-      one.tick();
-      two.tick();
-      one.lookAfterProcesses(std::chrono::steady_clock::now());
-      two.lookAfterProcesses(std::chrono::steady_clock::now());
-      return two.blackboard(RobotId{1})->read(state) == 1;
-    };
-    QTRY_VERIFY_WITH_TIMEOUT(heard(), 30'000);
-    for (int i = 0; i < 4 * tickRate; ++i) {
-      one.tick();
-      two.tick();
-      QTest::qWait(1);
-    }
-    QCOMPARE(two.blackboard(RobotId{1})->read(state), 1);
-    QCOMPARE(one.blackboard(RobotId{3})->read(state), 0);
-    QVERIFY(one.blackboard(RobotId{3})->read(mate) <= 0.0F);
-  }
-
-  void aNumberOfItsOwnIsRefusedWhenItIsTaken() {
-    MatchOptions options = separate();
-    options.keyBase.reset();
-    auto first = make(loadScenario("one-robot").value(), options);
-    options.match = first.number()->value;
-    const auto second = SimulatedMatch::create(loadScenario("one-robot").value(), options);
-    QVERIFY(!second);
-    QVERIFY2(second.error().text().find("is played already by this program") != std::string::npos,
-             second.error().text().c_str());
-  }
 };
 
 QTEST_GUILESS_MAIN(TestSeparateMatch)

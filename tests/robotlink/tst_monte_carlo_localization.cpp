@@ -255,15 +255,15 @@ class TestMonteCarloLocalization : public QObject {
 
   void widerRegistersGiveTheSameBits_data() {
     QTest::addColumn<int>("width");
-    QTest::newRow("wide") << static_cast<int>(particles::Width::Wide);
-    QTest::newRow("widest") << static_cast<int>(particles::Width::Widest);
+    QTest::newRow("wide") << static_cast<int>(RegisterWidth::Wide);
+    QTest::newRow("widest") << static_cast<int>(RegisterWidth::Widest);
   }
   void widerRegistersGiveTheSameBits() {
     QFETCH(int, width);
-    const particles::Kernels* wide = particles::kernelsOf(static_cast<particles::Width>(width));
+    const particles::Kernels* wide = particles::kernelsOf(static_cast<RegisterWidth>(width));
     if (!wide) QSKIP("this processor or compiler has no wider registers");
     for (const int n : {1, 7, 8, 16, 203, 500}) {
-      QCOMPARE(all(*wide, n), all(*particles::kernelsOf(particles::Width::Narrow), n));
+      QCOMPARE(all(*wide, n), all(*particles::kernelsOf(RegisterWidth::Narrow), n));
     }
   }
 

@@ -105,9 +105,9 @@ class TestRandom : public QObject {
   }
 
   void widerRegistersGiveTheSameBits() {
-    const draws::Loops* wide = draws::loopsOf(draws::Width::Wide);
+    const draws::Loops* wide = draws::loopsOf(RegisterWidth::Wide);
     if (!wide) QSKIP("this processor or compiler has no wider registers");
-    const draws::Loops& narrow = *draws::loopsOf(draws::Width::Narrow);
+    const draws::Loops& narrow = *draws::loopsOf(RegisterWidth::Narrow);
     constexpr std::size_t counters = 101;
     std::vector<std::uint32_t> high(counters), robot(counters);
     for (std::size_t i = 0; i < counters; ++i) {

@@ -21,9 +21,8 @@ namespace narrow {
 #include "draw_loops.inc"
 }  // namespace narrow
 
-// Twice as wide. It has no fused multiply-add: the same operations, the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PITCHBOARD_WIDE_DRAWS
+// Wider ones. Of fused multiply-add nothing is used: the same operations, the same bits.
+#ifdef PITCHBOARD_WIDE_REGISTERS
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace wide {
@@ -32,16 +31,16 @@ namespace wide {
 #pragma GCC pop_options
 #endif
 
-const Loops* loopsOf(Width width) {
-  if (width == Width::Narrow) return &narrow::all;
-#ifdef PITCHBOARD_WIDE_DRAWS
-  if (__builtin_cpu_supports("avx2")) return &wide::all;
+const Loops* loopsOf(RegisterWidth width) {
+  if (!hasRegisters(width)) return nullptr;
+#ifdef PITCHBOARD_WIDE_REGISTERS
+  if (width == RegisterWidth::Wide) return &wide::all;
 #endif
-  return nullptr;
+  return width == RegisterWidth::Narrow ? &narrow::all : nullptr;
 }
 
 const Loops& loops() {
-  static const Loops& best = loopsOf(Width::Wide) ? *loopsOf(Width::Wide) : *loopsOf(Width::Narrow);
+  static const Loops& best = widestLoops(loopsOf);
   return best;
 }
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <base/register_width.h>
+
 namespace pitchboard::draws {
 
 /// What all counters of a call have in common.
@@ -24,9 +26,8 @@ struct Loops {
   void (*fillNormals)(const double* wholes, double* normals, std::size_t n);
 };
 
-enum class Width { Narrow, Wide };
 /// Null where this processor or compiler has no such registers.
-const Loops* loopsOf(Width width);
+const Loops* loopsOf(RegisterWidth width);
 /// The widest there are.
 const Loops& loops();
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 namespace pitchboard::link::particles {
 
@@ -17,8 +16,7 @@ inline constexpr int registerLanes = 4;
 }  // namespace narrow
 
 // Wider ones. Of fused multiply-add nothing is used: the same operations, the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PITCHBOARD_WIDE_KERNELS
+#ifdef PITCHBOARD_WIDE_REGISTERS
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace wide {
@@ -35,27 +33,17 @@ inline constexpr int registerLanes = 16;
 #pragma GCC pop_options
 #endif
 
-const Kernels* kernelsOf(Width width) {
-  if (width == Width::Narrow) return &narrow::all;
-#ifdef PITCHBOARD_WIDE_KERNELS
-  if (width == Width::Wide && __builtin_cpu_supports("avx2")) return &wide::all;
-  // Processors that lack vbmi2 have the registers, but slow down for everything when they are used.
-  if (width == Width::Widest && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vbmi2")) {
-    return &widest::all;
-  }
+const Kernels* kernelsOf(RegisterWidth width) {
+  if (!hasRegisters(width)) return nullptr;
+#ifdef PITCHBOARD_WIDE_REGISTERS
+  if (width == RegisterWidth::Wide) return &wide::all;
+  if (width == RegisterWidth::Widest) return &widest::all;
 #endif
-  return nullptr;
+  return &narrow::all;
 }
 
 const Kernels& kernels() {
-  static const Kernels& best = [] {
-    for (const Width width : {Width::Widest, Width::Wide}) {
-      if (const Kernels* found = kernelsOf(width)) return std::cref(*found);
-    }
-    return std::cref(*kernelsOf(Width::Narrow));
-  }();
+  static const Kernels& best = widestLoops(kernelsOf);
   return best;
 }
 

@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdint>
 
+#include <base/register_width.h>
+
 namespace pitchboard::link::particles {
 
 /// Kernels may write past n, up to whole blocks.
@@ -93,9 +95,8 @@ struct Kernels {
   void (*fillNormal)(NoiseLanes& lanes, float* out, int n);
 };
 
-enum class Width { Narrow, Wide, Widest };
 /// Null where this processor or compiler has no such registers. All give the same bits.
-const Kernels* kernelsOf(Width width);
+const Kernels* kernelsOf(RegisterWidth width);
 /// The widest there are.
 const Kernels& kernels();
 

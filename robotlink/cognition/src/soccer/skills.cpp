@@ -39,6 +39,12 @@ double kicksFrom(const WorldModel& world) {
   return std::max(near, world.body().kickReach - surely);
 }
 
+/// m/s
+double forwardSpeed(const WorldModel& world) {
+  return std::max(0.01,
+                  sim::gaitSpeed(world.body(), acts::forward.action, acts::forward.b).forward);
+}
+
 }  // namespace
 
 std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double near, double facing,
@@ -53,8 +59,10 @@ Move Search::step(const WorldModel& world) {
   if (!m_since) begin(world);
   const double time = world.now() - *m_since;
   if (time < headTime) return acts::gait;
-  if (time < headTime + turnTime || !world.localized()) return acts::turnRight;
-  return walk(world, time - headTime - turnTime);
+  // Who knows where to look does not lose time with turning.
+  const double turns = m_lost ? 0.0 : turnTime;
+  if (time < headTime + turns || !world.localized()) return acts::turnRight;
+  return walk(world, time - headTime - turns);
 }
 
 void Search::begin(const WorldModel& world) {
@@ -64,6 +72,7 @@ void Search::begin(const WorldModel& world) {
   m_first = 0;
   if (world.ballAge() > clue) return;
   m_lost = world.ballLastSeen();
+  m_patience = 10.0 + 1.5 * distance(world.pose().position, *m_lost) / forwardSpeed(world);
   const auto places = searchPlaces(world.field());
   const auto nearest =
       std::min_element(places.begin(), places.end(), [this](const Point& a, const Point& b) {
@@ -75,17 +84,20 @@ void Search::begin(const WorldModel& world) {
 /// `time`: s since it began to walk.
 Move Search::walk(const WorldModel& world, double time) {
   constexpr double placeTime = 22.0, near = 0.4;
-  const double yaw = world.pose().yaw;
+  // Looking where it goes: straight behind itself the head does not see.
+  const auto walkThere = [&world](const Point& place) {
+    return walkTo(world, {place, direction(world.pose().position, place)}, near, pi, Ball::Ignore);
+  };
   if (m_lost) {
-    const auto target = walkTo(world, {*m_lost, yaw}, near, pi, Ball::Ignore);
-    if (target && time < placeTime) return *target;
+    const auto target = walkThere(*m_lost);
+    if (target && time < m_patience) return *target;
     m_lost.reset();
     m_since = world.now() - headTime;  // looks about there
     return acts::turnRight;
   }
   const auto places = searchPlaces(world.field());
   const auto i = (m_first + static_cast<std::size_t>(time / placeTime)) % places.size();
-  if (const auto target = walkTo(world, {places[i], yaw}, near, pi, Ball::Ignore)) return *target;
+  if (const auto target = walkThere(places[i])) return *target;
   return acts::turnRight;
 }
 

@@ -23,8 +23,8 @@ enum class Ball { Ignore, KeepClear };
 std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double near, double facing,
                              Ball ball);
 
-/// Looks for the ball: with the head (which vision turns), then turning, then walking: to where it
-/// was seen last, and from there round the field.
+/// Looks for the ball: with the head (which vision turns), then where it was seen last, then
+/// turning and walking round the field from there.
 class Search {
  public:
   Move step(const WorldModel& world);
@@ -35,6 +35,7 @@ class Search {
   Move walk(const WorldModel& world, double time);
   std::optional<double> m_since;
   std::optional<Point> m_lost;  // where it was seen last, until this robot has been there
+  double m_patience = 0.0;      // s, for the way there
   std::size_t m_first = 0;      // of the places, the nearest to that
 };
 

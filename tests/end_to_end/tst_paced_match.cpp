@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole matches, from kick-off to the final whistle, played with pauses, single steps, every speed
+// and looks back: the robots believe what they believe in a match that is played in one go.
+#include <QtTest>
+#include <map>
+#include <numeric>
+
+#include <robotlink/match/match_runner.h>
+#include <robotlink/session/match_sampler.h>
+#include <robotlink/session/moment_reader.h>
+#include <robotlink/session/recorded_frame.h>
+#include <robotlink/session/state_archive.h>
+
+#include "../support/measured_match.h"
+#include "../support/segment_keys.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::uint64_t tickRate = 60;
+constexpr std::uint64_t foundThemselves = 20 * tickRate;  // no belief is good at the very start
+
+/// The default scenario, two against two and in short halves.
+Scenario wholeMatch(const char* noise) {
+  Scenario scenario = loadScenario("match").value();
+  scenario.settings.noise = noisePreset(noise).value();
+  scenario.settings.seed = 11;
+  sim::RefereeRules& rules = *scenario.settings.referee;
+  rules.halfTime = 40;
+  rules.beforeMatch = rules.beforeHalf = 3;
+  rules.readyTime = 25;
+  std::erase_if(scenario.robots, [](const ScenarioRobot& r) { return r.identity.number == 3; });
+  return scenario;
+}
+
+MatchOptions optionsFor(Cognition cognition, RobotsPace pace = RobotsPace::LockStep) {
+  MatchOptions options;
+  options.cognition = cognition;
+  options.pace = pace;
+  options.process.particles = 200;
+  if (cognition == Cognition::External) {
+    options.keyBase = testKeyBase();
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+  }
+  return options;
+}
+
+/// Hashes, places and errors of belief by tick; what is played twice counts as it was last.
+class Witness : public TickObserver {
+ public:
+  void ticked(const SimulatedMatch& match, std::chrono::nanoseconds) override {
+    const std::uint64_t tick = match.simulation().state().tick;
+    end = tick;
+    if (tick % 6 != 0) return;
+    hashes[tick] = match.simulation().hash();
+    match.simulation().snapshot(m_now);
+    places[tick] = m_now.robots.front().pose.position;
+    if (tick % tickRate != 0 || tick < foundThemselves) return;
+    std::vector<double>& all = errors[tick];
+    all.clear();
+    for (const auto& robot : m_now.robots) all.push_back(poseError(match, robot, nullptr));
+  }
+
+  std::vector<double> errorsFrom(std::uint64_t first) const {
+    std::vector<double> all;
+    for (auto at = errors.lower_bound(first); at != errors.end(); ++at) {
+      all.insert(all.end(), at->second.begin(), at->second.end());
+    }
+    return all;
+  }
+
+  std::uint64_t end = 0;
+  std::map<std::uint64_t, std::uint64_t> hashes;
+  std::map<std::uint64_t, Point> places;
+  std::map<std::uint64_t, std::vector<double>> errors;  // m
+
+ private:
+  sim::Snapshot m_now;
+};
+
+struct Errors {
+  explicit Errors(const std::vector<double>& all)
+      : mean(std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size())),
+        p95(quantile(all, 0.95)) {}
+  double mean, p95;  // m
+};
+
+/// A match with everything that remembers it, as in the studio.
+struct Played {
+  Played(const Scenario& scenario, const MatchOptions& options)
+      : archive(std::make_shared<StateArchive>()), witness(std::make_shared<Witness>()) {
+    const auto sampler = std::make_shared<MatchSampler>(
+        std::shared_ptr<telemetry::RowSink>(std::shared_ptr<void>(), &rows));
+    auto started = MatchRunner::start(scenario, options, true, VariableCatalog::published(),
+                                      {archive, sampler, witness});
+    if (!started) qFatal("%s", started.error().text().c_str());
+    runner = std::move(*started);
+  }
+  std::uint64_t tick() const {
+    std::uint64_t now = 0;
+    runner->execute([&now](SimulatedMatch& match) { now = match.simulation().state().tick; });
+    return now;
+  }
+  void playTo(std::uint64_t tick) {
+    runner->runTo(tick);
+    if (!runner->waitUntilStill(300s)) qFatal("the match does not get to tick %llu", tick + 0ULL);
+  }
+  /// At least `ticks` of the match at this speed, then a pause.
+  void play(double speed, std::uint64_t ticks) {
+    const std::uint64_t until = tick() + ticks;
+    runner->setSpeed(speed);
+    runner->setPaused(false);
+    const bool reached = QTest::qWaitFor(
+        [&] { return tick() >= until || runner->latest()->finishedBy == "full_time"; }, 300'000);
+    runner->setPaused(true);
+    if (!reached || !runner->waitUntilStill(60s)) qFatal("the match does not go on");
+  }
+  bool over() const { return runner->latest()->finishedBy == "full_time"; }
+  void toTheFinalWhistle() {
+    runner->setSpeed(MatchRunner::unlimitedSpeed);
+    runner->setPaused(false);
+    if (!runner->waitUntilStill(600s)) qFatal("the match does not end");
+  }
+
+  telemetry::SeriesStore rows;
+  std::shared_ptr<StateArchive> archive;
+  std::shared_ptr<Witness> witness;
+  std::unique_ptr<MatchRunner> runner;
+};
+
+}  // namespace
+
+class TestPacedMatch : public QObject {
+  Q_OBJECT
+  const int m_base = testKeyBase();
+  std::map<QString, std::unique_ptr<Played>> m_inOneGo;  // by noise
+
+  /// Inside this program, which is what separate processes at x1 play (tst_separate_match).
+  const Witness& inOneGo(const QString& noise) {
+    auto& played = m_inOneGo[noise];
+    if (!played) {
+      played =
+          std::make_unique<Played>(wholeMatch(qPrintable(noise)), optionsFor(Cognition::Inline));
+      played->toTheFinalWhistle();
+      played->runner.reset();  // with its thread, before the witness is read
+    }
+    return *played->witness;
+  }
+
+  /// Pauses, steps, all speeds and a look back, every twenty seconds of the match.
+  static void playWithEverything(Played& match, std::uint64_t ticksInRealTime) {
+    RecordedFrames past;
+    while (!match.over()) {
+      match.playTo(match.tick() + 20 * tickRate);
+      if (match.over()) break;
+      match.runner->stepOnce();
+      match.runner->stepOnce();
+      QVERIFY(match.runner->waitUntilStill(60s));
+      match.play(0.1, 2);
+      match.play(1.0, ticksInRealTime);
+      match.play(5.0, 60);
+      const std::uint64_t before = match.tick();
+      match.runner->setSpeed(20.0);
+      match.runner->setPaused(false);
+      // What is shown of the past is what was, and the match does not mind.
+      const std::uint64_t seen = before / 12 * 6;
+      const MatchFrame frame = past.frameAt(match.rows, static_cast<double>(seen) / tickRate);
+      match.play(20.0, 240);
+      QCOMPARE(frame.snapshot.tick, seen);
+      QVERIFY(frame.robots.front().pose.position == match.witness->places.at(seen));
+    }
+  }
+
+ private slots:
+  void cleanup() {
+    for (int n = 1; n <= 6; ++n) removeSegment(m_base + 100 * n);
+  }
+
+  void everyPaceIsTheSameMatch_data() {
+    QTest::addColumn<int>("cognition");
+    QTest::newRow("inside") << static_cast<int>(Cognition::Inline);
+    QTest::newRow("separate processes") << static_cast<int>(Cognition::External);
+  }
+  void everyPaceIsTheSameMatch() {
+    QFETCH(int, cognition);
+    const Witness& wanted = inOneGo("realistic");
+    Played match(wholeMatch("realistic"), optionsFor(static_cast<Cognition>(cognition)));
+    playWithEverything(match, 8);
+    QVERIFY(match.over());
+    match.runner.reset();
+    QCOMPARE(match.witness->end, wanted.end);
+    QVERIFY(wanted.end > 130 * tickRate);
+    QVERIFY2(match.witness->hashes == wanted.hashes, differs(*match.witness, wanted).constData());
+    QVERIFY(match.witness->errors == wanted.errors);
+    const Errors errors(wanted.errorsFrom(0));
+    qInfo("%.0f s, belief error %.1f cm, 95 of 100 below %.1f cm",
+          static_cast<double>(wanted.end) / tickRate, 100 * errors.mean, 100 * errors.p95);
+  }
+
+  // At x1 the processes run freely, as on the field: not the same match, but beliefs as good.
+  void beliefsAreAsGoodWhenProcessesRunFreely() {
+    Played match(wholeMatch("realistic"), optionsFor(Cognition::External, RobotsPace::Free));
+    playWithEverything(match, 75);
+    QVERIFY(match.over());
+    match.runner.reset();
+    compare(*match.witness, 0, inOneGo("realistic"));
+  }
+
+  // Played on from an earlier moment: what localization remembers is then of a future that never
+  // comes, and it finds its way back as it does when a robot is dragged.
+  void beliefsAreAsGoodAfterGoingOnFromAnEarlierMoment_data() {
+    QTest::addColumn<QString>("noise");
+    QTest::newRow("none") << "none";
+    QTest::newRow("realistic") << "realistic";
+  }
+  void beliefsAreAsGoodAfterGoingOnFromAnEarlierMoment() {
+    QFETCH(QString, noise);
+    Played match(wholeMatch(qPrintable(noise)), optionsFor(Cognition::Inline));
+    std::uint64_t last = 0;
+    for (const std::uint64_t seconds : {40, 60, 80}) {
+      match.playTo(seconds * tickRate);
+      last = match.tick() - 15 * tickRate;
+      const auto moment =
+          momentFromMemory(*match.archive, match.rows, last, VariableCatalog::published());
+      QVERIFY2(moment, moment ? "" : moment.error().text().c_str());
+      bool entered = false;
+      match.runner->execute([&](SimulatedMatch& it) { entered = it.reenter(*moment).has_value(); });
+      QVERIFY(entered);
+      QCOMPARE(match.tick(), last);
+    }
+    match.toTheFinalWhistle();
+    QVERIFY(match.over());
+    match.runner.reset();
+    compare(*match.witness, last + foundThemselves, inOneGo(noise));
+  }
+
+  void cleanupTestCase() { m_inOneGo.clear(); }
+
+ private:
+  static QByteArray differs(const Witness& played, const Witness& wanted) {
+    const auto at = std::mismatch(played.hashes.begin(), played.hashes.end(), wanted.hashes.begin(),
+                                  wanted.hashes.end());
+    return "another state from tick " +
+           QByteArray::number(at.second == wanted.hashes.end() ? 0ULL : at.second->first + 0ULL);
+  }
+  static void compare(const Witness& played, std::uint64_t from, const Witness& oneGo) {
+    const Errors errors(played.errorsFrom(from)), wanted(oneGo.errorsFrom(from));
+    qInfo("belief error %.1f cm (in one go %.1f), 95 of 100 below %.1f cm (%.1f)",
+          100 * errors.mean, 100 * wanted.mean, 100 * errors.p95, 100 * wanted.p95);
+    QVERIFY(errors.mean < 1.5 * wanted.mean + 0.05);
+    QVERIFY(errors.p95 < 1.5 * wanted.p95 + 0.10);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestPacedMatch)
+#include "tst_paced_match.moc"
