@@ -326,8 +326,10 @@ class TestLiveWatch : public QObject {
     QVERIFY(say(4));
     QTRY_VERIFY(gather(MatchEventKind::RobotBack));
     QVERIFY(!gather(MatchEventKind::ClockSet));
-    const std::lock_guard lock(witness->mutex);
-    QVERIFY(witness->times.back() >= 3600.0 && witness->times.back() < 4200.0);
+    {
+      const std::lock_guard lock(witness->mutex);
+      QVERIFY(witness->times.back() >= 3600.0 && witness->times.back() < 4200.0);
+    }
     for (const MatchEvent& event : events) QVERIFY(event.time >= 3600.0 && event.time < 4200.0);
     QVERIFY(watch.latest()->snapshot.time >= 3600.0);
     QVERIFY(watch.began() == began);

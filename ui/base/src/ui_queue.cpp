@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/base/ui_queue.h>
 
-#include <QCoreApplication>
-#include <QEvent>
+#include <sys/eventfd.h>
+#include <QSocketNotifier>
 #include <utility>
 
 namespace pitchboard::ui {
 
-namespace {
-
-QEvent::Type somethingWaits() {
-  static const auto type = static_cast<QEvent::Type>(QEvent::registerEventType());
-  return type;
+UiQueue::UiQueue() : m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)) {
+  if (!m_wake) {
+    startTimer(20);  // no descriptor is left in this process: look now and then
+    return;
+  }
+  m_notifier = std::make_unique<QSocketNotifier>(m_wake.get(), QSocketNotifier::Read);
+  connect(m_notifier.get(), &QSocketNotifier::activated, this, &UiQueue::runNext);
 }
-
-}  // namespace
 
 UiQueue::~UiQueue() {
   std::deque<Call> dropped;
@@ -27,7 +27,7 @@ void UiQueue::post(Call call) {
     const std::lock_guard lock(m_mutex);
     m_waiting.push_back(std::move(call));
   }
-  QCoreApplication::postEvent(this, new QEvent(somethingWaits()));
+  if (m_wake) ::eventfd_write(m_wake.get(), 1);
 }
 
 UiQueue::Call UiQueue::next() {
@@ -42,12 +42,16 @@ void UiQueue::deliver() {
   while (const Call call = next()) call();
 }
 
-// One call for each event: a call that opens a dialog does not hold up those behind it, and one
-// that destroys this object ends here.
-bool UiQueue::event(QEvent* event) {
-  if (event->type() != somethingWaits()) return QObject::event(event);
+void UiQueue::timerEvent(QTimerEvent* /*event*/) {
+  runNext();
+}
+
+// One call for each time: a call that opens a dialog does not hold up those behind it, and one that
+// destroys this object ends here.
+void UiQueue::runNext() {
+  eventfd_t one = 0;
+  if (m_wake) ::eventfd_read(m_wake.get(), &one);
   if (const Call call = next()) call();
-  return true;
 }
 
 }  // namespace pitchboard::ui
