@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   link::MatchOptions options;
   options.process.particles = argc > 5 ? std::atoi(argv[5]) : 500;
 
-  int withGoal = 0, bothScored = 0, goals = 0;
+  int withGoal = 0, bothScored = 0, goals = 0, contacts = 0;
+  double touching = 0.0;
   std::vector<double> position, yaw;
   std::printf(
       "seed score first_goal_s kicks out walked_m touch_%% collisions error_cm error_deg "
@@ -41,6 +42,8 @@ int main(int argc, char** argv) {
     withGoal += m.left + m.right > 0;
     bothScored += m.left > 0 && m.right > 0;
     goals += m.left + m.right;
+    contacts += m.collisions;
+    touching += m.touchShare / seeds;
     position.insert(position.end(), m.positionError.begin(), m.positionError.end());
     yaw.insert(yaw.end(), m.yawError.begin(), m.yawError.end());
     std::printf("%d %d:%d %.0f %d %d %.0f %.1f %d %.1f %.1f %.0f\n", seed, m.left, m.right,
@@ -51,6 +54,9 @@ int main(int argc, char** argv) {
   }
   std::printf("%d of %d matches with a goal, %d with goals of both teams, %.1f goals a match\n",
               withGoal, seeds, bothScored, static_cast<double>(goals) / seeds);
+  std::printf(
+      "a robot touches another in %.1f %% of the time, %.0f contacts of two robots a match\n",
+      100 * touching, static_cast<double>(contacts) / seeds);
   std::printf("belief: median error %.1f cm, %.1f deg; 90 %%: %.1f cm, %.1f deg\n",
               100 * link::quantile(position, 0.5), degreesFromRadians(link::quantile(yaw, 0.5)),
               100 * link::quantile(position, 0.9), degreesFromRadians(link::quantile(yaw, 0.9)));

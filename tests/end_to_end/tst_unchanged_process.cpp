@@ -20,6 +20,29 @@ class TestUnchangedProcess : public QObject {
   Q_OBJECT
 
   const int m_base = testKeyBase();
+  const QTemporaryDir m_folder;
+
+  /// A match of one robot, a metre behind the ball, whose processes are those of the profile.
+  std::unique_ptr<MatchRunner> startWith(const char* profile, bool paused) const {
+    QFile file(m_folder.filePath("profile.json"));
+    if (!file.open(QIODevice::WriteOnly)) qFatal("no profile can be written");
+    file.write(profile);
+    file.close();
+    Scenario scenario;
+    ScenarioRobot robot;
+    robot.identity.id = {1};
+    robot.pose = {{-1.0, 0.0}, 0.0};
+    robot.runtime.profile = file.fileName().toStdString();
+    scenario.robots = {robot};
+    scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
+    MatchOptions options;
+    options.cognition = Cognition::External;
+    options.keyBase = m_base;
+    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    auto runner = MatchRunner::start(scenario, options, paused);
+    if (!runner) qFatal("%s", runner.error().text().c_str());
+    return std::move(*runner);
+  }
 
  private slots:
   void cleanup() { removeSegment(m_base + 100); }
@@ -116,54 +139,38 @@ class TestUnchangedProcess : public QObject {
   void walksToTheBallAndKicksItAtTenTimes() {
     if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
     constexpr double speed = 10.0;
-    const QTemporaryDir folder;
-    QFile profile(folder.filePath("python.json"));
-    QVERIFY(profile.open(QIODevice::WriteOnly));
-    profile.write(R"({"version": 1, "name": "python", "processes": [{"name": "decision",
-      "command": ["python3", "naive_robot.py", "${key}"], "directory": ")" PITCHBOARD_SOURCE_DIR
-                  R"(/tests/end_to_end", "heartbeat": "DECISION_WORKING"}]})");
-    profile.close();
-    Scenario scenario;
-    ScenarioRobot robot;
-    robot.identity.id = {1};
-    robot.pose = {{-1.0, 0.0}, 0.0};
-    robot.runtime.profile = profile.fileName().toStdString();
-    scenario.robots = {robot};
-    scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
-    MatchOptions options;
-    options.cognition = Cognition::External;
-    options.keyBase = m_base;
-    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
-    auto runner = MatchRunner::start(scenario, options, true);
-    QVERIFY2(runner, runner ? "" : runner.error().text().c_str());
-    (*runner)->setSpeed(speed);
-    (*runner)->setPaused(false);
+    auto runner = startWith(R"({"version": 1, "name": "python", "processes": [{"name":
+      "decision", "command": ["python3", "naive_robot.py", "${key}"], "directory": ")" PITCHBOARD_SOURCE_DIR
+                            R"(/tests/end_to_end", "heartbeat": "DECISION_WORKING"}]})",
+                            true);
+    runner->setSpeed(speed);
+    runner->setPaused(false);
     double walkedAtKick = 0.0, ballPath = 0.0;
     const auto kicked = [&] {
-      for (const MatchEvent& event : (*runner)->takeEvents()) {
+      for (const MatchEvent& event : runner->takeEvents()) {
         if (event.kind != MatchEventKind::Kick || walkedAtKick > 0.0) continue;
-        walkedAtKick = (*runner)->latest()->robots[0].statistics.distanceWalked;
+        walkedAtKick = runner->latest()->robots[0].statistics.distanceWalked;
       }
-      const Point ball = (*runner)->latest()->snapshot.ball;
+      const Point ball = runner->latest()->snapshot.ball;
       ballPath = std::hypot(ball.x, ball.y);
       return walkedAtKick > 0.0 && ballPath > 0.3;
     };
     QTRY_VERIFY_WITH_TIMEOUT(kicked(), 60'000);
     QVERIFY2(walkedAtKick > 0.6, qPrintable(QString::number(walkedAtKick)));
-    const auto frame = (*runner)->latest();
+    const auto frame = runner->latest();
     QCOMPARE(frame->robots[0].processes().front().speed, speed);
     // Stopped with the match, and not taken for silent.
     const pid_t pid = frame->robots[0].processes().front().pid;
-    (*runner)->setPaused(true);
+    runner->setPaused(true);
     const auto state = [pid] {
       QFile status(QStringLiteral("/proc/%1/stat").arg(pid));
       return status.open(QIODevice::ReadOnly) ? status.readAll().split(')').last().trimmed().left(1)
                                               : QByteArray();
     };
     QTRY_COMPARE_WITH_TIMEOUT(state(), QByteArray("T"), 30'000);
-    (*runner)->setPaused(false);
+    runner->setPaused(false);
     QTRY_COMPARE_WITH_TIMEOUT(state(), QByteArray("S"), 30'000);
-    runner->reset();
+    runner.reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
 
@@ -172,42 +179,28 @@ class TestUnchangedProcess : public QObject {
   void theMatchWaitsForOwnProgramsWhenAsked() {
     if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
     constexpr double wanted = 400.0;
-    const QTemporaryDir folder;
-    QFile profile(folder.filePath("slow.json"));
-    QVERIFY(profile.open(QIODevice::WriteOnly));
-    profile.write(R"json({"version": 1, "name": "slow", "processes": [{"name": "decision",
-      "command": ["python3", "-c",
-        "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)"]}]})json");
-    profile.close();
-    Scenario scenario;
-    ScenarioRobot robot;
-    robot.identity.id = {1};
-    robot.runtime.profile = profile.fileName().toStdString();
-    scenario.robots = {robot};
-    MatchOptions options;
-    options.cognition = Cognition::External;
-    options.keyBase = m_base;
-    options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
-    auto runner = MatchRunner::start(scenario, options, false);
-    QVERIFY2(runner, runner ? "" : runner.error().text().c_str());
+    auto runner = startWith(R"json({"version": 1, "name": "slow", "processes": [{"name":
+      "decision", "command": ["python3", "-c",
+        "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)"]}]})json",
+                            false);
     const auto program = [&runner] {
-      const auto frame = (*runner)->latest();
+      const auto frame = runner->latest();
       const auto all = frame->robots[0].processes();
       return all.empty() ? ProcessStatus{} : all.front();
     };
     // At x1 it is learned what the program does in a second of its own.
     QTRY_VERIFY_WITH_TIMEOUT(program().achieved == 1.0, 30'000);
-    (*runner)->setSpeed(wanted);
-    QTRY_VERIFY_WITH_TIMEOUT((*runner)->latest()->slowestOwnProgram.has_value(), 60'000);
+    runner->setSpeed(wanted);
+    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->slowestOwnProgram.has_value(), 60'000);
     QCOMPARE(program().speed, wanted);
-    (*runner)->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(true); });
+    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(true); });
     QTRY_VERIFY_WITH_TIMEOUT(program().speed < 0.9 * wanted, 60'000);
     // Both: the program's time and the match's.
     const double slowed = program().speed;
     QVERIFY2(slowed >= 0.1, qPrintable(QString::number(slowed)));
-    (*runner)->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(false); });
+    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(false); });
     QTRY_COMPARE_WITH_TIMEOUT(program().speed, wanted, 60'000);
-    runner->reset();
+    runner.reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
 };

@@ -104,8 +104,14 @@ class TestRandom : public QObject {
     }
   }
 
+  void widerRegistersGiveTheSameBits_data() {
+    QTest::addColumn<int>("width");
+    QTest::newRow("wide") << static_cast<int>(RegisterWidth::Wide);
+    QTest::newRow("widest") << static_cast<int>(RegisterWidth::Widest);
+  }
   void widerRegistersGiveTheSameBits() {
-    const draws::Loops* wide = draws::loopsOf(RegisterWidth::Wide);
+    QFETCH(int, width);
+    const draws::Loops* wide = draws::loopsOf(static_cast<RegisterWidth>(width));
     if (!wide) QSKIP("this processor or compiler has no wider registers");
     const draws::Loops& narrow = *draws::loopsOf(RegisterWidth::Narrow);
     constexpr std::size_t counters = 101;

@@ -3,6 +3,7 @@
 
 #include <base/repeatable_math.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,8 +18,27 @@ bool finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
+/// Directions from an obstacle's centre to the corners round it.
+const std::array<Point, corners>& cornerDirections() {
+  static const std::array<Point, corners> all = [] {
+    std::array<Point, corners> out;
+    for (int i = 0; i < corners; ++i) {
+      const auto [s, c] = repeatable::sinCos(2.0 * std::numbers::pi * i / corners);
+      out[static_cast<std::size_t>(i)] = {c, s};
+    }
+    return out;
+  }();
+  return all;
+}
+
 /// The open disc is crossed by the segment.
 bool crosses(const Obstacle& o, const Point& a, const Point& b) {
+  // Most are nowhere near; the margin is far above what the exact way rounds.
+  const double far = o.radius + 1e-6;
+  if (std::max(a.x, b.x) < o.centre.x - far || std::min(a.x, b.x) > o.centre.x + far ||
+      std::max(a.y, b.y) < o.centre.y - far || std::min(a.y, b.y) > o.centre.y + far) {
+    return false;
+  }
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double length2 = dx * dx + dy * dy;
   const double along = (o.centre.x - a.x) * dx + (o.centre.y - a.y) * dy;
@@ -52,11 +72,10 @@ void PathPlanner::activate(std::size_t obstacle) {
   m_active[obstacle] = 1;
   const Obstacle& o = m_obstacles[obstacle];
   // Circumscribed, so that an edge between two neighbours does not cut the circle.
-  const double radius = o.radius / repeatable::cos(std::numbers::pi / corners) + rim;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / corners;
-    const Point p{o.centre.x + radius * repeatable::cos(angle),
-                  o.centre.y + radius * repeatable::sin(angle)};
+  static const double halfCorner = repeatable::cos(std::numbers::pi / corners);
+  const double radius = o.radius / halfCorner + rim;
+  for (const Point& to : cornerDirections()) {
+    const Point p{o.centre.x + radius * to.x, o.centre.y + radius * to.y};
     const auto covering =
         std::find_if(m_obstacles.begin(), m_obstacles.end(),
                      [&](const Obstacle& c) { return distance(p, c.centre) < c.radius; });

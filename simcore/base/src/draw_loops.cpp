@@ -29,14 +29,21 @@ namespace wide {
 #include "draw_loops.inc"
 }  // namespace wide
 #pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")
+namespace widest {
+#include "draw_loops.inc"
+}  // namespace widest
+#pragma GCC pop_options
 #endif
 
 const Loops* loopsOf(RegisterWidth width) {
   if (!hasRegisters(width)) return nullptr;
 #ifdef PITCHBOARD_WIDE_REGISTERS
   if (width == RegisterWidth::Wide) return &wide::all;
+  if (width == RegisterWidth::Widest) return &widest::all;
 #endif
-  return width == RegisterWidth::Narrow ? &narrow::all : nullptr;
+  return &narrow::all;
 }
 
 const Loops& loops() {

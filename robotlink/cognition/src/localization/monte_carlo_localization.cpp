@@ -2,6 +2,7 @@
 #include "localization/monte_carlo_localization.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -42,6 +43,21 @@ int headingCell(float c, float s) {
   const float d = s / (std::abs(c) + std::abs(s) + 1e-20F);
   const float around = c >= 0 ? d + 1.0F : 3.0F - d;  // 0..4
   return std::clamp(static_cast<int>(around * (headingCells / 4.0F)), 0, headingCells - 1);
+}
+
+/// Where the first of the largest stands. Lanes side by side are what compilers make vectors of.
+int firstLargest(const std::vector<float>& values) {
+  constexpr std::size_t lanes = 16;
+  std::array<float, lanes> most;
+  most.fill(values.front());
+  const auto raise = [](float& to, float value) { to = value > to ? value : to; };
+  std::size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) raise(most[lane], values[i + lane]);
+  }
+  for (; i < values.size(); ++i) raise(most[0], values[i]);
+  const float largest = *std::max_element(most.begin(), most.end());
+  return static_cast<int>(std::find(values.begin(), values.end(), largest) - values.begin());
 }
 
 }  // namespace
@@ -373,8 +389,7 @@ void MonteCarloLocalization::strongestCluster(particles::Mean& mean) {
   for (int i = 0; i < m_count; ++i) {
     m_cellWeight[static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)])] += m_weight[i];
   }
-  const auto best = static_cast<int>(std::max_element(m_cellWeight.begin(), m_cellWeight.end()) -
-                                     m_cellWeight.begin());
+  const int best = firstLargest(m_cellWeight);
   const double cell_m = m_parameters.kldCell;
   const double x = (best % m_columns + 0.5) * cell_m - m_halfLength - m_border;
   const double y = (best / m_columns + 0.5) * cell_m - m_halfWidth - m_border;

@@ -74,7 +74,7 @@ void WorldModel::moveWithBody(const Blackboard& board, double seconds) {
                                               board.read(m_variables.decisionActionB));
   const double x = m_ballLocal.x - speed.forward * seconds;
   const double y = m_ballLocal.y - speed.left * seconds;
-  const double c = repeatable::cos(speed.turn * seconds), s = repeatable::sin(speed.turn * seconds);
+  const auto [s, c] = repeatable::sinCos(speed.turn * seconds);
   m_ballLocal = {c * x + s * y, c * y - s * x};
 }
 
@@ -85,7 +85,8 @@ void WorldModel::readBall(const Blackboard& board) {
   const double bearing =
       radiansFromDegrees(static_cast<double>(board.read(m_variables.visionPanDeg)));
   if (!std::isfinite(distance) || !std::isfinite(bearing) || distance <= 0.0) return;
-  const Point seen{distance * repeatable::cos(bearing), distance * repeatable::sin(bearing)};
+  const auto [s, c] = repeatable::sinCos(bearing);
+  const Point seen{distance * c, distance * s};
   const Point change{seen.x - m_ballLocal.x, seen.y - m_ballLocal.y};
   const bool jump = length(change) > ballJump || !seesBall();
   const double gain = jump ? 1.0 : ballGain;
@@ -102,8 +103,8 @@ void WorldModel::readRobots(Blackboard& board) {
     const double bearing =
         -radiansFromDegrees(static_cast<double>(board.read(m_variables.robotAngle[i])));
     if (!(distance > 0.0) || !std::isfinite(distance) || !std::isfinite(bearing)) continue;
-    m_opponents[i] = {
-        toField({distance * repeatable::cos(bearing), distance * repeatable::sin(bearing)}), m_now};
+    const auto [s, c] = repeatable::sinCos(bearing);
+    m_opponents[i] = {toField({distance * c, distance * s}), m_now};
   }
 }
 
@@ -169,12 +170,12 @@ Pose WorldModel::toStudio(const Pose& turned) const {
 
 Point WorldModel::toLocal(const Point& p) const {
   const double dx = p.x - m_pose.position.x, dy = p.y - m_pose.position.y;
-  const double c = repeatable::cos(m_pose.yaw), s = repeatable::sin(m_pose.yaw);
+  const auto [s, c] = repeatable::sinCos(m_pose.yaw);
   return {c * dx + s * dy, c * dy - s * dx};
 }
 
 Point WorldModel::toField(const Point& p) const {
-  const double c = repeatable::cos(m_pose.yaw), s = repeatable::sin(m_pose.yaw);
+  const auto [s, c] = repeatable::sinCos(m_pose.yaw);
   return {m_pose.position.x + c * p.x - s * p.y, m_pose.position.y + s * p.x + c * p.y};
 }
 

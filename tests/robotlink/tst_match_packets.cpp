@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The GameController's packets of a simulated match, in every version: sent in the rhythm of the
+// controllers, and obeyed by another match that hears them.
+#include <QtTest>
+#include <map>
+
+#include <robotlink/cognition/referee_word.h>
+#include <robotlink/match/simulated_match.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <simcore/rules/referee.h>
+#include <telemetry/wire/gamecontroller_encoder.h>
+
+#include "../support/test_socket.h"
+
+using namespace pitchboard;
+using namespace pitchboard::link;
+
+namespace {
+
+constexpr std::uint32_t loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
+constexpr int tickRate = 60;
+constexpr bool humanoidSoccer(int version) {
+  return version >= 19;
+}
+
+/// Robots that stand, refereed by a person.
+Scenario scenarioFor(int version, int size) {
+  Scenario scenario = loadScenario("match").value();
+  for (ScenarioRobot& robot : scenario.robots) robot.behaviour = "idle";
+  sim::RefereeRules rules =
+      **refereeRuleSet(humanoidSoccer(version) ? "humanoid-soccer-2026" : "humanoid-2021");
+  rules.packetVersion = version;
+  rules.packetSize = size;
+  rules.automatic = false;
+  scenario.settings.referee = rules;
+  return scenario;
+}
+
+SimulatedMatch sending(int version, int size, int port) {
+  MatchOptions options;
+  options.process.particles = 100;
+  options.process.refereePort = port;
+  options.sendReferee = true;
+  return SimulatedMatch::create(scenarioFor(version, size), options).value();
+}
+
+void play(SimulatedMatch& match, double seconds) {
+  for (int i = 0; i < static_cast<int>(seconds * tickRate); ++i) match.tick();
+}
+
+/// Packets by version, since the last time.
+std::map<int, int> heardBy(const TestSocket& ear) {
+  std::map<int, int> versions;
+  for (std::string text = ear.take(); !text.empty(); text = ear.take()) {
+    const auto packet = telemetry::decodeReferee(text);
+    if (!packet) qFatal("%s", packet.error().text().c_str());
+    ++versions[std::get<telemetry::RefereeState>(*packet).version];
+  }
+  return versions;
+}
+
+}  // namespace
+
+class TestMatchPackets : public QObject {
+  Q_OBJECT
+
+  static void everyVersion() {
+    QTest::addColumn<int>("version");
+    QTest::addColumn<int>("size");
+    // All that leagues have sent (reference: gamecontroller.md), not what the code says it knows.
+    const int known[][2] = {{7, 116},  {8, 158},  {9, 244},  {10, 588}, {11, 592}, {11, 58},
+                            {12, 640}, {12, 688}, {12, 54},  {13, 54},  {14, 62},  {15, 118},
+                            {16, 118}, {17, 118}, {18, 118}, {19, 198}, {20, 158}};
+    for (const auto& k : known) QTest::addRow("v%d, %d bytes", k[0], k[1]) << k[0] << k[1];
+  }
+
+ private slots:
+  void sentTwiceASecond_data() { everyVersion(); }
+  void sentTwiceASecond() {
+    QFETCH(int, version);
+    QFETCH(int, size);
+    const TestSocket ear(loopbackBroadcast);
+    QVERIFY(ear.good());
+    SimulatedMatch match = sending(version, size, ear.port());
+    (void)heardBy(ear);  // what was sent before the first tick
+    play(match, 10.0);
+    std::map<int, int> wanted{{version, 20}};
+    // The controllers of 2014 to 2016 send one of version 7 behind each of theirs.
+    if (version == 8 || version == 9) wanted[7] = 20;
+    std::map<int, int> heard = heardBy(ear);
+    for (const auto& [which, count] : wanted) {
+      QVERIFY2(std::abs(heard[which] - count) <= 1, qPrintable(QString::number(heard[which])));
+    }
+    QCOMPARE(heard.size(), wanted.size());
+    if (!humanoidSoccer(version)) return;
+    // When play is stopped they say so at once, and then five times a second for a second.
+    QVERIFY(match.call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready}));
+    QVERIFY(match.call({.kind = sim::CallKind::State, .state = sim::PlayState::Set}));
+    QVERIFY(match.call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing}));
+    play(match, 20.0);
+    (void)heardBy(ear);
+    QVERIFY(match.call({.kind = sim::CallKind::Stop}));
+    match.tick();
+    QVERIFY(heardBy(ear)[version] >= 1);
+    play(match, 1.1);
+    heard = heardBy(ear);
+    QVERIFY2(heard[version] >= 5 && heard[version] <= 8,
+             qPrintable(QString::number(heard[version])));
+    play(match, 5.0);
+    QVERIFY(std::abs(heardBy(ear)[version] - 10) <= 1);
+  }
+
+  void obeyedByAnotherMatch_data() { everyVersion(); }
+  void obeyedByAnotherMatch() {
+    QFETCH(int, version);
+    QFETCH(int, size);
+    const int port = TestSocket().port();  // free, and given back before the match listens
+    MatchOptions options;
+    options.process.particles = 100;
+    options.obeyReferee = port;
+    // It has rules of its own; what it hears decides.
+    auto obeying = SimulatedMatch::create(scenarioFor(12, 688), options).value();
+    SimulatedMatch match = sending(version, size, port);
+    const sim::GameState& wanted = *match.simulation().state().game;
+    const sim::GameState& game = *obeying.simulation().state().game;
+    const auto agrees = [&](auto&& same) {
+      play(match, 0.5);
+      obeying.tick();
+      return same();
+    };
+    const auto call = [&](const sim::RefereeCall& one) {
+      const auto done = match.call(one);
+      if (!done) qFatal("%s", done.error().text().c_str());
+    };
+    const auto becomes = [&](sim::PlayState state) {
+      call({.kind = sim::CallKind::State, .state = state});
+      return QTest::qWaitFor(
+          [&] { return agrees([&] { return game.state == state && game.half == wanted.half; }); },
+          30'000);
+    };
+    call({.kind = sim::CallKind::KickOff, .team = 1});
+    QVERIFY(becomes(sim::PlayState::Ready));
+    QCOMPARE(game.kickOff, 1);
+    QVERIFY(becomes(sim::PlayState::Set));
+    QVERIFY(becomes(sim::PlayState::Playing));
+    const double rate = match.simulation().state().settings.tickRate;
+    QVERIFY(std::abs(sim::secondsOf(game.clock, rate) - sim::secondsOf(wanted.clock, rate)) <= 2);
+
+    call({.kind = sim::CallKind::Penalise,
+          .robot = RobotId{2},
+          .penalty = sim::PenaltyKind::Incapable});
+    QTRY_VERIFY(agrees([&] {
+      return game.teams[0].players[1].penalty == sim::PenaltyKind::Incapable &&
+             obeying.blackboard(RobotId{2})->read(obeying.variables().comReferee) == refereeStop;
+    }));
+    QCOMPARE(game.teams[0].players[0].penalty, sim::PenaltyKind::None);
+    call({.kind = sim::CallKind::Pardon, .robot = RobotId{2}});
+    QTRY_VERIFY(agrees([&] { return game.teams[0].players[1].penalty == sim::PenaltyKind::None; }));
+
+    call({.kind = sim::CallKind::Goal, .team = 1, .value = 1});
+    QTRY_VERIFY(agrees([&] { return game.teams[1].score == 1 && game.teams[0].score == 0; }));
+    QVERIFY(becomes(sim::PlayState::Finished));
+    call({.kind = sim::CallKind::NextHalf});
+    QTRY_VERIFY(agrees([&] { return game.half == 2 && game.swapped; }));
+    QCOMPARE(game.teams[1].score, 1);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestMatchPackets)
+#include "tst_match_packets.moc"
