@@ -147,7 +147,7 @@ int run(const Options& options) {
           simulated += one.simulatedSeconds;
           const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
           progress.say(progressText(done, numbers.size(), seconds));
-          return folder->add(one.result);
+          return folder->add(one.result, one.timesRealTime);
         });
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();

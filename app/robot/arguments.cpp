@@ -15,13 +15,11 @@ namespace {
 
 constexpr std::string_view ourSection = "Pitchboard";
 
-std::string checkBehaviour(const std::string& name) {
-  if (link::findBehaviour(name) != nullptr) return {};
-  std::string known;
-  for (const link::BehaviourInfo& info : link::behaviours()) {
-    known += (known.empty() ? "" : ", ") + std::string(info.name);
-  }
-  return "there is no behaviour '" + name + "'; the behaviours are: " + known;
+std::string checkBehaviour(const std::string& text) {
+  const auto choice = link::behaviourFromText(text, "--behaviour");
+  if (choice) return {};
+  const Error& error = choice.error();
+  return error.code == ErrorCode::NotFound ? error.message : error.text();
 }
 
 std::string checkAddress(const std::string& text) {
@@ -146,15 +144,18 @@ void addOptions(CLI::App& command, Arguments& a) {
       ->capture_default_str()
       ->check(CLI::Range(0, link::MatchNumber::most));
   command.add_option("--match-turns", a.matchTurns)->group("");  // for the program that plays it
-  command.add_option("--behaviour", a.process.behaviour, "What decision does")
-      ->type_name("NAME")
+  command
+      .add_option("--behaviour", a.behaviour,
+                  "What decision does: a name, or an object with numbers as in scenario files, "
+                  "such as {\"name\": \"striker\", \"kick_distance\": 0.04}; `pitchboard-robot "
+                  "list` tells them all")
+      ->type_name("NAME|{...}")
       ->capture_default_str()
       ->check(checkBehaviour);
   command
-      .add_option("--distance-to-kick", a.process.distanceToKick,
-                  "Decision kicks a ball nearer than this; 25 in simulation, 40 on a robot")
-      ->type_name("CM")
-      ->capture_default_str();
+      .add_option("--distance-to-kick", a.distanceToKick,
+                  "The naive behaviour's distance_to_kick: 25 in simulation, 40 on a robot")
+      ->type_name("CM");
   addCommunicationOptions(command, a);
   command
       .add_option("--attack", a.attack,
@@ -224,6 +225,11 @@ Result<link::IniFile> settle(CLI::App& command, Arguments& a) {
                                             : link::robotModelFromText(a.model, "--robot-model");
   if (!model) return tl::unexpected<Error>(model.error());
   a.process.model = *model;
+  const auto behaviour = link::behaviourFromText(a.behaviour, "--behaviour");
+  if (!behaviour) return tl::unexpected<Error>(behaviour.error());
+  a.process.behaviour = behaviour->name;
+  a.process.parameters = behaviour->parameters;
+  if (a.distanceToKick) a.process.parameters.distanceToKick = *a.distanceToKick;
   a.process.telemetryPeriod = 1.0 / a.telemetryRate;
   a.process.setMatch(link::MatchNumber{a.match});
   if (a.telemetryPortBase) a.process.telemetryPortBase = *a.telemetryPortBase;

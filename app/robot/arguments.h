@@ -23,8 +23,9 @@ struct Arguments {
   std::optional<int> matchTurns;  // its place, when a match gives it turns
   // Instead of the match's.
   std::optional<int> telemetryPortBase, teamPortBase, refereePort;
-  std::string field = "published", model = "published", attack;
-  double telemetryRate = 1.0;  // Hz
+  std::string behaviour = "striker", field = "published", model = "published", attack;
+  std::optional<double> distanceToKick;  // instead of the behaviour's
+  double telemetryRate = 1.0;            // Hz
   std::optional<int> thoughtsPort;
   link::ProcessOptions process;
 

@@ -73,6 +73,17 @@ void printList() {
     std::printf("  %-14s %s\n", std::string(info.name).c_str(),
                 std::string(info.description).c_str());
   }
+  std::puts("Their numbers, for --behaviour '{\"name\": \"striker\", \"kick_distance\": 0.04}':");
+  const link::BehaviourParameters usual;
+  for (const link::BehaviourParameter& number : link::behaviourParameters) {
+    std::string of;
+    for (const std::string_view behaviour : number.of) {
+      if (!behaviour.empty()) of += (of.empty() ? "" : ", ") + std::string(behaviour);
+    }
+    std::printf("  %-22s %g%s%s, %g to %g (%s): %s\n", number.key,
+                number.written(usual.*number.member), *number.unit.symbol ? " " : "",
+                number.unit.symbol, number.least, number.most, of.c_str(), number.meaning);
+  }
 }
 
 int parseAndRun(int argc, char** argv) {

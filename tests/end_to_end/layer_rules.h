@@ -69,7 +69,7 @@ inline const QList<Room>& table() {
         {board, {base, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
         {models, {base, world, "resources"}, {"nlohmann/"}},
-        {cognition, {base, world, wire, board, processes}, {"Eigen/"}},
+        {cognition, {base, world, wire, board, processes, models}, {"Eigen/", "nlohmann/"}},
         {scenario,
          {base, world, simulation, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},

@@ -226,7 +226,7 @@ class TestManagement : public QObject {
     row("not a line", "[Pitchboard Management]\nquickly\n", "line 4: 'quickly' has not the form");
     row("option", "[Pitchboard]\nbehavior = keeper\n", "line 4: there is no option 'behavior'");
     row("behaviour", "[Pitchboard]\nbehaviour = clever\n",
-        "line 4: --behaviour: there is no behaviour 'clever'");
+        "line 4: --behaviour: there is no behaviour \"clever\"");
     row("shirt", "[Pitchboard]\nreferee_team = 5\nshirt = 99\n", "robot.ini, line 5: ");
     row("address", "[Pitchboard]\nudp_address = home\n",
         "line 4: --udp-address: \"home\": Not an IPv4");

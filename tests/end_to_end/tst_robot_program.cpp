@@ -164,8 +164,11 @@ class TestRobotProgram : public QObject {
     row("robot 65", {"decision", "--robot", "65"}, "no robot 65");
     row("robot x", {"decision", "--robot", "x"}, "--robot");
     row("unknown option", {"decision", "--robot", "1", "--nonsense"}, "--nonsense");
-    row("behaviour", {"decision", "--robot", "1", "--behaviour", "clever"}, "'clever'");
-    row("distance", {"decision", "--robot", "1", "--distance-to-kick", "nan"}, "distance to kick");
+    row("behaviour", {"decision", "--robot", "1", "--behaviour", "clever"}, "\"clever\"");
+    row("distance", {"decision", "--robot", "1", "--distance-to-kick", "nan"}, "distance_to_kick");
+    row("number of it",
+        {"decision", "--robot", "1", "--behaviour", R"({"name": "keeper", "kick_distance": 7})"},
+        "kick_distance: must lie between");
     row("address", {"communication", "--robot", "1", "--udp-address", "nowhere"}, "\"nowhere\"");
     row("port", {"communication", "--robot", "1", "--telemetry-port-base", "65535"}, "1..65535");
     row("no file", {"decision", "--config", "/no/such.ini"}, "No such file");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// A team's own programs in experiments: an unchanged Python process in each run, several runs at a
-// time that do not hear each other, how fast they were played in all reports, sessions of runs that
-// cannot be played again, and what is said of a program that does not run.
+// Separate processes in experiments. A team's own: an unchanged Python process in each run, several
+// runs at a time that do not hear each other, how fast they were played in all reports, sessions of
+// runs that cannot be played again, and what is said of a program that does not run. The reference
+// ones: files that do not depend on how they were played, and how fast that was beside them.
 
 #include <QtTest>
 #include <algorithm>
@@ -73,6 +74,7 @@ class TestExperimentOwnPrograms : public QObject {
   void eachRunHasItsProgramAndItsPaceIsReported();
   void aProgramThatDoesNotRunIsNamed();
   void insideTheyAreRefused();
+  void referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed();
 };
 
 void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
@@ -90,7 +92,7 @@ void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
   const auto played = playRuns(*e, std::vector<std::size_t>{1, 3, 2, 4}, 2, settingsFor(out),
                                [&](const PlayedRun& run) {
                                  results[run.result.number] = run.result;
-                                 return folder->add(run.result);
+                                 return folder->add(run.result, run.timesRealTime);
                                });
   QVERIFY2(played.has_value(), played ? "" : played.error().text().c_str());
   QVERIFY(folder->finish().has_value());
@@ -149,6 +151,62 @@ void TestExperimentOwnPrograms::insideTheyAreRefused() {
   QVERIFY(!e);
   QVERIFY2(e.error().text().find("add \"processes\": \"separate\"") != std::string::npos,
            e.error().text().c_str());
+}
+
+void TestExperimentOwnPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed() {
+  const auto e = experimentFromJson(R"({"version": 1, "name": "separate", "processes": "separate",
+    "scenario": {"version": 1, "noise": "paper", "ball": {"x": 0.4, "y": 0},
+      "robots": [{"team": "blue", "number": 1, "x": 0, "y": 0, "behaviour": "naive"}],
+      "writes": [{"variable": "COM_REFEREE", "value": 2}]},
+    "grid": {"robots[B1].behaviour.distance_to_kick": [25, 40]},
+    "runs": 2, "stop": {"duration": 2}})",
+                                    "test.json");
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  QTemporaryDir dir;
+  const auto pathOf = [&dir](const char* name) { return dir.filePath(name).toStdString(); };
+  const auto play = [&](const std::string& path, std::vector<std::size_t> numbers, std::size_t jobs,
+                        bool resume) -> Result<void> {
+    auto folder = ExperimentFolder::begin(path, *e, resume);
+    if (!folder) return tl::unexpected(folder.error());
+    auto played = playRuns(*e, numbers, jobs, settingsFor(path), [&](const PlayedRun& run) {
+      return folder->add(run.result, run.timesRealTime);
+    });
+    if (!played) return played;
+    return folder->finish();
+  };
+  QVERIFY(play(pathOf("whole"), {1, 2, 3, 4}, 2, false).has_value());
+  QVERIFY(play(pathOf("resumed"), {3}, 1, false).has_value());
+  QVERIFY(play(pathOf("resumed"), {4, 2, 1}, 1, true).has_value());
+  QVERIFY(play(pathOf("part1"), {1, 3}, 1, false).has_value());
+  QVERIFY(play(pathOf("part2"), {4, 2}, 1, false).has_value());
+  QVERIFY(mergeFolders({pathOf("part2"), pathOf("part1")}, pathOf("merged"), *e).has_value());
+
+  const auto bytes = [](const std::filesystem::path& file) {
+    return readFile(file.string(), 1 << 24).value();
+  };
+  std::size_t same = 0;
+  for (const auto& file : std::filesystem::directory_iterator(pathOf("whole"))) {
+    const std::string name = file.path().filename().string();
+    if (name == timesFile) continue;
+    for (const char* other : {"resumed", "merged"}) {
+      QVERIFY2(bytes(pathOf(other) + '/' + name) == bytes(file.path()), name.c_str());
+    }
+    ++same;
+  }
+  QCOMPARE(same, std::size_t{7});
+  // How fast each run was played, beside them.
+  for (const char* one : {"whole", "resumed", "merged"}) {
+    const QStringList rows =
+        QString::fromStdString(bytes(pathOf(one) + '/' + timesFile)).trimmed().split('\n');
+    QCOMPARE(rows.size(), 5);
+    QCOMPARE(rows[0], QStringLiteral("run,times_real_time"));
+    QSet<QString> runs;
+    for (qsizetype i = 1; i < rows.size(); ++i) {
+      runs << rows[i].section(',', 0, 0);
+      QVERIFY2(rows[i].section(',', 1).toDouble() > 0.0, qPrintable(rows[i]));
+    }
+    QCOMPARE(runs, (QSet<QString>{"1", "2", "3", "4"}));
+  }
 }
 
 QTEST_GUILESS_MAIN(TestExperimentOwnPrograms)

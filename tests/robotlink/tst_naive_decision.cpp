@@ -81,7 +81,7 @@ class TestNaiveDecision : public QObject {
     QFETCH(int, b);
     Blackboard board = boardWithBall(0, bearing, distance);
     ProcessOptions options;
-    options.distanceToKick = kick;
+    options.parameters.distanceToKick = kick;
     const auto decision = makeNaiveDecision(options);
     QVERIFY(decision);
     (*decision)->step(board, {});
@@ -156,11 +156,11 @@ class TestNaiveDecision : public QObject {
 
   void refusesSenselessDistances() {
     ProcessOptions options;
-    options.distanceToKick = std::numeric_limits<double>::quiet_NaN();
+    options.parameters.distanceToKick = std::numeric_limits<double>::quiet_NaN();
     const auto decision = makeNaiveDecision(options);
     QVERIFY(!decision);
     QCOMPARE(decision.error().code, ErrorCode::InvalidArgument);
-    QVERIFY(QString::fromStdString(decision.error().text()).contains("distance to kick"));
+    QVERIFY(QString::fromStdString(decision.error().text()).contains("distance_to_kick"));
   }
 };
 

@@ -28,9 +28,8 @@ Played naiveAt40(const sim::RobotModel& model) {
   // Not 50 cm before it: the published rule then gaits in place (naive_decision.h).
   const double start = -3.55;
   scenario.ball = {start, 0.0};
-  MatchOptions options;
-  options.process.distanceToKick = 40.0;
-  auto match = SimulatedMatch::create(scenario, options).value();
+  scenario.robots[0].parameters.distanceToKick = 40.0;
+  auto match = SimulatedMatch::create(scenario, {}).value();
   for (int i = 0; i < 25 * 60; ++i) match.tick();
   const sim::Snapshot now = match.simulation().snapshot();
   return {now.robots[0].statistics.kicks, now.ball.x - start};

@@ -81,11 +81,8 @@ NaiveOutput naiveRule(int lost, float panDeg, float distance, double distanceToK
 }
 
 Result<std::unique_ptr<CognitiveProcess>> makeNaiveDecision(const ProcessOptions& options) {
-  if (!std::isfinite(options.distanceToKick)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "the distance to kick must be a number of centimetres, for example 25");
-  }
-  return std::make_unique<NaiveDecision>(options.distanceToKick);
+  if (auto valid = validate(options.parameters); !valid) return tl::unexpected(valid.error());
+  return std::make_unique<NaiveDecision>(options.parameters.distanceToKick);
 }
 
 }  // namespace pitchboard::link

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <robotlink/cognition/naive_decision.h>
 
@@ -45,10 +44,7 @@ constexpr auto behaviourInfos = [] {
 }();
 
 Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& options) {
-  if (!std::isfinite(options.distanceToKick)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "the distance to kick must be a number of centimetres, for example 25");
-  }
+  if (auto valid = validate(options.parameters); !valid) return tl::unexpected(valid.error());
   std::string known;
   for (const NamedBehaviour& behaviour : behaviourList) {
     if (behaviour.info.name == options.behaviour) return behaviour.make(options);

@@ -13,6 +13,7 @@
 
 #include <base/descriptor.h>
 #include <base/file_target.h>
+#include <base/lined_json.h>
 #include <base/read_file.h>
 #include <base/system_reason.h>
 #include <robotlink/experiment/junit_report.h>
@@ -24,6 +25,8 @@ namespace pitchboard::link {
 namespace {
 
 constexpr std::size_t mostExperimentBytes = 4 * 1024 * 1024;
+constexpr std::size_t mostTimesBytes = 256 * 1024 * 1024;
+constexpr std::string_view timesHead = "run,times_real_time\n";
 
 std::string inFolder(const std::string& folder, const char* file) {
   return (std::filesystem::path(folder) / file).string();
@@ -61,6 +64,18 @@ Result<std::uint64_t> eachResult(
   return offset;
 }
 
+Result<void> writeAll(const Descriptor& into, std::string_view text, const std::string& path) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(into.get(), text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), path);
+    }
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return {};
+}
+
 /// Both texts are the same experiment; where they differ is for the user to see.
 Result<void> sameExperiment(const std::string& folder, const Experiment& experiment) {
   const auto text =
@@ -80,22 +95,15 @@ struct ExperimentFolder::Impl {
   const Experiment* experiment = nullptr;
   std::vector<char> finished;
   std::size_t count = 0;
-  Descriptor lines;
+  Descriptor lines, times;
 
   std::string file(const char* name) const { return inFolder(path, name); }
   tl::unexpected<Error> failed() const {
     return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno),
                    file(runsFile));
   }
-  Result<void> put(std::string_view text) const {
-    while (!text.empty()) {
-      const ssize_t written = ::write(lines.get(), text.data(), text.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return failed();
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return {};
-  }
+  Result<void> putTimes(std::string_view rows);
+  Result<void> addTimesOf(const std::string& part);
   Result<void> sortLines();
   Result<void> writeReports() const;
 };
@@ -158,13 +166,43 @@ bool ExperimentFolder::complete() const {
   return m_impl->count == m_impl->finished.size();
 }
 
-Result<void> ExperimentFolder::add(const RunResult& result) {
+Result<void> ExperimentFolder::add(const RunResult& result, std::optional<double> timesRealTime) {
   char& done = m_impl->finished[result.number - 1];
   if (done) return {};
-  if (auto written = m_impl->put(lineOf(result)); !written) return written;
+  if (auto written = writeAll(m_impl->lines, lineOf(result), m_impl->file(runsFile)); !written) {
+    return written;
+  }
   done = 1;
   ++m_impl->count;
-  return {};
+  if (!timesRealTime) return {};
+  return m_impl->putTimes(std::to_string(result.number) + ',' + shortest(*timesRealTime) + '\n');
+}
+
+Result<void> ExperimentFolder::Impl::putTimes(std::string_view rows) {
+  const std::string name = file(timesFile);
+  if (times.get() < 0) {
+    times = Descriptor(::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+    if (times.get() < 0) {
+      return failure(ErrorCode::SystemError, "cannot be written: " + systemReason(errno), name);
+    }
+    if (::lseek(times.get(), 0, SEEK_END) == 0) {
+      if (auto head = writeAll(times, timesHead, name); !head) return head;
+    }
+  }
+  return writeAll(times, rows, name);
+}
+
+/// A part that has none was played without separate processes.
+Result<void> ExperimentFolder::Impl::addTimesOf(const std::string& part) {
+  const std::string name = inFolder(part, timesFile);
+  std::error_code ignored;
+  if (!std::filesystem::exists(name, ignored)) return {};
+  const auto text = readFile(name, mostTimesBytes, "the times");
+  if (!text) return tl::unexpected(text.error());
+  if (!text->starts_with(timesHead)) {
+    return failure(ErrorCode::ParseError, "is no table of times; remove it to merge without", name);
+  }
+  return putTimes(std::string_view(*text).substr(timesHead.size()));
 }
 
 Result<void> ExperimentFolder::Impl::sortLines() {
@@ -291,6 +329,9 @@ Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
           return folder->add(result);
         });
     if (!read) return tl::unexpected(read.error());
+    if (auto times = folder->m_impl->addTimesOf(part); !times) {
+      return tl::unexpected(times.error());
+    }
   }
   if (auto finished = folder->finish(); !finished) return tl::unexpected(finished.error());
   return folder;

@@ -142,12 +142,13 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   std::vector<double> values;
   for (const Check::Name& name : m_success->names()) values.push_back(result.values[name.metric]);
   result.values[static_cast<std::size_t>(TeamValue::Success)] = m_success->holds(values);
+  m_timesRealTime.reset();
   if (e.separateProcesses) {
     const double took = std::chrono::duration<double>(WallClock::now() - first).count();
     const auto ticks = static_cast<double>(player.currentTick() - firstTick);
-    result.values.push_back(ticks / rate / std::max(took, 1e-9));
+    m_timesRealTime = ticks / rate / std::max(took, 1e-9);
   }
-  if (own) result.values.push_back(own->keptUp());
+  if (own) result.values.insert(result.values.end(), {*m_timesRealTime, own->keptUp()});
   m_wall = std::chrono::duration<double>(WallClock::now() - begin).count();
   m_simulated = static_cast<double>(result.ticks) / rate;
   if (recorder) {
@@ -239,7 +240,8 @@ Result<void> playRuns(const Experiment& experiment, std::span<const std::size_t>
         return fail(error);
       }
       if (over) return;
-      auto taken = take({std::move(*result), player->wallSeconds(), player->simulatedSeconds()});
+      auto taken = take({std::move(*result), player->wallSeconds(), player->simulatedSeconds(),
+                         player->timesRealTime()});
       if (!taken) fail(taken.error());
     }
   };

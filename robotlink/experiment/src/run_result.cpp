@@ -86,10 +86,9 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
   for (const ExpressionMetric& metric : experiment.metrics) {
     out.push_back({metric.name, metric.unit, metric.name, false});
   }
-  if (experiment.separateProcesses) {
-    out.push_back({"times_real_time", "", "Played, times real time", false});
-  }
+  // A measured time differs from run to run, which those of reference processes must not.
   if (experiment.ownPrograms) {
+    out.push_back({"times_real_time", "", "Played, times real time", false});
     out.push_back({"own_programs_kept", "", "What own programs kept of that (1 = all)", false});
   }
   return out;

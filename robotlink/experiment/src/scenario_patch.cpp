@@ -57,7 +57,10 @@ void makeObject(Json& value, std::string_view key) {
   if (value.is_string()) {
     const std::string name = value;
     value = Json::object();
-    value[key == "noise" ? "preset" : key == "referee" ? "rules" : "base"] = name;
+    value[key == "noise"       ? "preset"
+          : key == "referee"   ? "rules"
+          : key == "behaviour" ? "name"
+                               : "base"] = name;
   }
   if (value.is_null()) value = Json::object();
 }

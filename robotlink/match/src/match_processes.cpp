@@ -305,6 +305,7 @@ ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
   ProcessOptions options = m_options.process;
   options.robot = seat.id;
   options.behaviour = seat.behaviour;
+  options.parameters = seat.parameters;
   options.field = m_scenario.settings.field;
   options.model = *robotModel(seat.id);
   options.seed = m_scenario.settings.seed;
@@ -327,9 +328,8 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       "--key",
       std::to_string(seat.board.key()),
       "--behaviour",
-      seat.behaviour == noBehaviour ? options.behaviour : seat.behaviour,
-      "--distance-to-kick",
-      shortest(options.distanceToKick),
+      behaviourToText(seat.behaviour == noBehaviour ? options.behaviour : seat.behaviour,
+                      seat.parameters),
       "--udp-address",
       options.udpAddress,
       "--team",

@@ -90,6 +90,7 @@ Result<void> SimulatedMatch::addRobot(const ScenarioRobot& robot) {
   };
   auto seat = makeSeat({id, robot.behaviour, m_scenario.runtimeOf(robot)});
   if (!seat) return giveUp(seat.error());
+  (*seat)->parameters = robot.parameters;
   for (std::size_t i = 0; i < m_nextWrite; ++i) {
     const ResolvedWrite& write = m_writes[i];
     if (write.robot.value == 0) (*seat)->write(write.variable, write.value);
@@ -132,6 +133,9 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
     auto made = makeSeat({identity.id, known ? known->behaviour : std::string(noBehaviour),
                           m_scenario.runtimeOf(identity.team, {})});
     if (!made) return tl::unexpected(made.error());
+    for (const ScenarioRobot& one : m_scenario.robots) {
+      if (one.identity.id == identity.id) (*made)->parameters = one.parameters;
+    }
     added.push_back(std::move(*made));
   }
   if (auto put = m_simulation.restore(moment.state); !put) return put;
@@ -312,7 +316,8 @@ Scenario SimulatedMatch::toScenario() const {
                              {inside(robot.pose.position), robot.pose.yaw},
                              m_seats[i]->behaviour,
                              m_seats[i]->choice,
-                             state.models[i]});
+                             state.models[i],
+                             m_seats[i]->parameters});
   }
 
   moment.writes =

@@ -34,6 +34,7 @@ struct SeatProcess {
 struct SimulatedMatch::Seat {
   RobotId id;
   std::string behaviour;
+  BehaviourParameters parameters;    ///< of its behaviour
   RuntimeChoice choice;              ///< as told for this robot; may be nothing
   RuntimeProfile runtime;            ///< what that means
   bool extended = false;             // its decision knows the extension of the map

@@ -255,8 +255,10 @@ class Reader {
     std::vector<std::string_view> known;
     for (const BehaviourInfo& behaviour : behaviours()) known.push_back(behaviour.name);
     known.push_back(noBehaviour);
-    if (const auto behaviour = object.choice("behaviour", known, "behaviour")) {
-      robot.behaviour = known[*behaviour];
+    if (object.find("behaviour")) {
+      BehaviourChoice choice = readBehaviour(object, m_report, "behaviour", known);
+      robot.behaviour = std::move(choice.name);
+      robot.parameters = choice.parameters;
     }
     robot.runtime = readRuntime(object, "runtime");
     for (std::size_t other = 0; other < m_scenario.robots.size(); ++other) {

@@ -19,6 +19,11 @@ Json fieldToJson(const sim::FieldSpec& field) {
   return text.starts_with('{') ? Json::parse(text, nullptr, false) : Json(text);
 }
 
+Json behaviourToJson(const ScenarioRobot& robot) {
+  const std::string text = behaviourToText(robot.behaviour, robot.parameters);
+  return text.starts_with('{') ? Json::parse(text, nullptr, false) : Json(text);
+}
+
 Json rigidBodyToJson(const sim::RigidBodySettings& body, const sim::FieldSpec& field) {
   sim::RigidBodySettings usual;
   usual.ballMass = field.ballMass;
@@ -78,7 +83,7 @@ Json robotToJson(const ScenarioRobot& robot, std::size_t index) {
            {"x", jsonNumber(robot.pose.position.x)},
            {"y", jsonNumber(robot.pose.position.y)},
            {"heading", jsonNumber(fileDegrees(robot.pose.yaw))},
-           {"behaviour", robot.behaviour}};
+           {"behaviour", behaviourToJson(robot)}};
   if (robot.model != sim::RobotModel{}) out["model"] = robotModelToJson(robot.model);
   if (robot.identity.id.value != static_cast<int>(index) + 1) out["id"] = robot.identity.id.value;
   if (robot.identity.imuStartsAt180 != team.facesLeft) {

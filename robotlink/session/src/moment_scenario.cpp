@@ -100,7 +100,9 @@ class Maker {
     ScenarioRobot out{robot.identity, robot.pose, m_options.behaviour, {}};
     if (m_options.base) {
       for (const ScenarioRobot& known : m_options.base->robots) {
-        if (known.identity.id == robot.identity.id) out.model = known.model;
+        if (known.identity.id != robot.identity.id) continue;
+        out.model = known.model;
+        out.parameters = known.parameters;
       }
     }
     const std::string name = robot.identity.name();

@@ -69,7 +69,8 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
   const auto played =
       link::playRuns(experiment, numbers, std::max(1U, std::thread::hardware_concurrency()),
                      settings, [&](const link::PlayedRun& run) -> Result<void> {
-                       if (auto added = results->add(run.result); !added) return added;
+                       if (auto added = results->add(run.result, run.timesRealTime); !added)
+                         return added;
                        const auto now = WallClock::now();
                        if (now - told < progressInterval && !results->complete()) return {};
                        told = now;

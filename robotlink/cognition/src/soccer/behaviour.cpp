@@ -51,11 +51,10 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
     return {m_attack.step(world, aimFrom(world, ball)), Intention::Ball, ball, false};
   }
   // Seen by a team-mate or remembered. If it is not there, it is looked for.
-  constexpr double patience = 4.0;  // s at a place where no ball is
   if (!world.localized()) return lookForBall(world);
   const bool shouldSee = distance(world.pose().position, ball) < 1.5;
   if (!shouldSee) m_told = world.now();
-  if (world.now() - m_told > patience) return lookForBall(world);
+  if (world.now() - m_told > m_numbers.patience) return lookForBall(world);
   const Pose there{ball, direction(world.pose().position, ball)};
   const auto target = walkTo(world, there, 0.5, 0.5, Ball::Ignore);
   return {target ? Move(*target) : acts::turnRight, Intention::Ball, ball, true};
@@ -63,8 +62,7 @@ Choice Behaviour::toBall(const WorldModel& world, const Point& ball) {
 
 bool Striker::takesBall(const WorldModel& world, const Point& ball) const {
   // Who has it keeps it: two that swap for every centimetre reach nothing.
-  constexpr double keeps = 0.1, takes = -0.3;  // m
-  return !mateIsFirst(world, ball, m_attacking ? keeps : takes);
+  return !mateIsFirst(world, ball, m_attacking ? m_numbers.leavesBall : -m_numbers.takesBall);
 }
 
 Choice Striker::play(const WorldModel& world) {
@@ -82,8 +80,9 @@ Choice Striker::play(const WorldModel& world) {
 Pose Striker::supportPose(const WorldModel& world, const Point& ball) const {
   const sim::FieldSpec& field = world.field();
   const double side = world.pose().position.y > ball.y ? 1.0 : -1.0;
-  Point place{ball.x - 1.2, ball.y + 1.0 * side};
-  if (std::abs(place.y) > field.halfWidth() - 0.4) place.y = ball.y - 1.0 * side;
+  const double beside = m_numbers.supportBeside * side;
+  Point place{ball.x - m_numbers.supportBehind, ball.y + beside};
+  if (std::abs(place.y) > field.halfWidth() - 0.4) place.y = ball.y - beside;
   place.x = std::clamp(place.x, -field.halfLength() + 1.2, field.halfLength() - 1.0);
   return {place, direction(place, ball)};
 }
@@ -204,7 +203,8 @@ bool Supporter::takesBall(const WorldModel& world, const Point& ball) const {
       nearest = std::min(nearest, distance(mate->position, ball));
   }
   if (!somebodyAttacks) return true;
-  return own < nearest - (m_attacking ? 0.2 : 0.8);
+  return own <
+         nearest - (m_attacking ? m_numbers.supporterLeavesBall : m_numbers.supporterTakesBall);
 }
 
 Pose Keeper::kickOff(const WorldModel& world) {
@@ -223,9 +223,9 @@ Choice Keeper::play(const WorldModel& world) {
     // Looks about without leaving the goal.
     return {acts::gait, Intention::Keep, {}, true};
   }
-  constexpr double clearWithin = 1.3, clearUntil = 1.9;  // m from the goal's centre
+  const double clearUntil = std::max(m_numbers.clearUntil, m_numbers.clearWithin);
   const double fromGoal = distance(*ball, world.ownGoal());
-  m_clearing = world.seesBall() && fromGoal < (m_clearing ? clearUntil : clearWithin) &&
+  m_clearing = world.seesBall() && fromGoal < (m_clearing ? clearUntil : m_numbers.clearWithin) &&
                !mateIsFirst(world, *ball, 0.5);
   if (m_clearing) {
     Choice choice = toBall(world, *ball);
@@ -233,9 +233,9 @@ Choice Keeper::play(const WorldModel& world) {
     return choice;
   }
   // On the line from the ball to the goal, on an arc before it that covers the posts.
-  const double arc = 0.40 * world.field().goalWidth;
+  const double arc = m_numbers.keeperArc * world.field().goalWidth;
   const double angle = std::clamp(direction(world.ownGoal(), *ball), -1.2, 1.2);
-  const Point place{world.ownGoal().x + 0.2 + 0.6 * arc * repeatable::cos(angle),
+  const Point place{world.ownGoal().x + m_numbers.keeperLine + 0.6 * arc * repeatable::cos(angle),
                     world.ownGoal().y + arc * repeatable::sin(angle)};
   Choice choice = goTo(world, {place, 0.5 * angle}, Intention::Keep, 0.12);
   choice.search = !world.seesBall();

@@ -2,7 +2,7 @@
 #pragma once
 
 // A behaviour: chooses one action a cycle from the world model. To add one, derive from it here or
-// in a file of your own and add a line to the list in cognitive_process.cpp.
+// in a file of your own and add a line to the list in process_registry.cpp.
 
 #include <span>
 
@@ -21,6 +21,8 @@ struct Choice {
 
 class Behaviour {
  public:
+  explicit Behaviour(const BehaviourParameters& parameters)
+      : m_numbers(parameters), m_search(m_numbers), m_attack(m_numbers) {}
   virtual ~Behaviour() = default;
   /// The referee says play and the robot stands.
   virtual Choice play(const WorldModel& world) = 0;
@@ -37,6 +39,7 @@ class Behaviour {
   Choice toBall(const WorldModel& world, const Point& ball);
   Choice lookForBall(const WorldModel& world);
 
+  const BehaviourParameters m_numbers;
   Search m_search;
   Attack m_attack;
   double m_told = -1e9;  // when the ball was last where it was said to be
@@ -45,6 +48,7 @@ class Behaviour {
 /// Goes for the ball and the goal; leaves the ball to a team-mate that is there first.
 class Striker : public Behaviour {
  public:
+  using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
 
@@ -57,6 +61,7 @@ class Striker : public Behaviour {
 /// Stays behind and beside the ball; goes for it when it is there clearly before its team-mates.
 class Supporter : public Striker {
  public:
+  using Striker::Striker;
   Pose kickOff(const WorldModel& world) override;
   Intention atKickOff() const override { return Intention::Support; }
 
@@ -78,6 +83,7 @@ class Supporter : public Striker {
 /// Stays between the ball and its own goal; clears the ball when it comes near.
 class Keeper : public Behaviour {
  public:
+  using Behaviour::Behaviour;
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
   Intention atKickOff() const override { return Intention::Keep; }
@@ -89,6 +95,7 @@ class Keeper : public Behaviour {
 /// Stands.
 class Idle : public Behaviour {
  public:
+  using Behaviour::Behaviour;
   Choice play(const WorldModel&) override { return {}; }
   Pose kickOff(const WorldModel& world) override { return world.pose(); }
 };

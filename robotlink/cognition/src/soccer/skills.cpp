@@ -15,28 +15,10 @@ namespace {
 using acts::turn;
 using std::numbers::pi;
 
-// Of the distance to the ball, beyond that at which the body touches it (0.22 m for the published
-// robot and ball):
-constexpr double behindBall = 0.14;  // m, where an attack begins
-constexpr double kickDistance = 0.025;
-constexpr double kickBearing = 0.42;  // rad: the published kick's sector reaches 30 degrees
-
-// Of a search, s.
-constexpr double headTime = 4.5;  // one sweep of the head
-constexpr double turnTime = 6.0;
-
 /// From where a robot sees all of the field between them.
 std::array<Point, 5> searchPlaces(const sim::FieldSpec& field) {
   const double x = 0.28 * field.length, y = 0.22 * field.width;
   return {{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
-}
-
-/// From where this robot's foot hits the ball surely, m between the centres.
-double kicksFrom(const WorldModel& world) {
-  constexpr double surely = 0.06;  // m inside the foot's reach
-  const double near = world.touch() + kickDistance;
-  if (world.body().kickLaw == sim::KickLaw::Published) return near;
-  return std::max(near, world.body().kickReach - surely);
 }
 
 /// m/s
@@ -58,6 +40,7 @@ std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double n
 Move Search::step(const WorldModel& world) {
   if (!m_since) begin(world);
   const double time = world.now() - *m_since;
+  const double headTime = m_numbers->headTime, turnTime = m_numbers->turnTime;
   if (time < headTime) return acts::gait;
   // Who knows where to look does not lose time with turning.
   const double turns = m_lost ? 0.0 : turnTime;
@@ -83,7 +66,8 @@ void Search::begin(const WorldModel& world) {
 
 /// `time`: s since it began to walk.
 Move Search::walk(const WorldModel& world, double time) {
-  constexpr double placeTime = 22.0, near = 0.4;
+  constexpr double near = 0.4;
+  const double placeTime = m_numbers->placeTime;
   // Looking where it goes: straight behind itself the head does not see.
   const auto walkThere = [&world](const Point& place) {
     return walkTo(world, {place, direction(world.pose().position, place)}, near, pi, Ball::Ignore);
@@ -92,7 +76,7 @@ Move Search::walk(const WorldModel& world, double time) {
     const auto target = walkThere(*m_lost);
     if (target && time < m_patience) return *target;
     m_lost.reset();
-    m_since = world.now() - headTime;  // looks about there
+    m_since = world.now() - m_numbers->headTime;  // looks about there
     return acts::turnRight;
   }
   const auto places = searchPlaces(world.field());
@@ -110,27 +94,47 @@ Move Attack::step(const WorldModel& world, const Point& aim) {
       world.localized() ? wrapToPi(direction(ball, aim) - yaw) : wrapToPi(-world.imuYaw());
   const double d = world.ballDistance(), bearing = world.ballBearing();
   const double goalDistance = distance(ball, aim);
-  const double opening = repeatable::atan2(0.35 * world.field().goalWidth, goalDistance);
-  double tolerance = std::clamp(goalDistance > 3.0 ? 0.30 : opening, 0.12, 0.35);
-  // An opponent at the ball leaves no time: forward is good enough.
-  for (const Point& opponent : world.opponents()) {
-    if (distance(opponent, ball) < 0.6) tolerance = std::max(tolerance, 0.7);
-  }
+  const double goodEnough = tolerance(world, ball, goalDistance);
 
+  // All distances of BehaviourParameters are beyond that at which the body touches the ball.
   const double touch = world.touch();
-  const bool enter = d < touch + 0.26 && std::abs(error) < 0.9 && std::abs(bearing) < 0.8;
-  const bool stay = d < touch + 0.43 && std::abs(error) < 1.5 && std::abs(bearing) < 1.2;
+  const double begin = m_numbers->attackDistance, end = std::max(0.43, begin);
+  const bool enter = d < touch + begin && std::abs(error) < 0.9 && std::abs(bearing) < 0.8;
+  const bool stay = d < touch + end && std::abs(error) < 1.5 && std::abs(bearing) < 1.2;
   m_engaged = m_engaged ? stay : enter;
-  if (m_engaged) return atBall(world, error, tolerance);
+  if (m_engaged) return atBall(world, error, goodEnough);
   m_aligned = false;
 
   const double kickYaw = yaw + error;
-  const double back = touch + behindBall;
+  const double back = touch + m_numbers->behindBall;
   const Point behind{ball.x - back * repeatable::cos(kickYaw),
                      ball.y - back * repeatable::sin(kickYaw)};
   const auto target = walkTo(world, {behind, kickYaw}, 0.08, 0.5, Ball::KeepClear);
   if (target) return *target;
-  return atBall(world, error, tolerance);
+  return atBall(world, error, goodEnough);
+}
+
+/// How far from the aim is good enough.
+double Attack::tolerance(const WorldModel& world, const Point& ball, double goalDistance) const {
+  constexpr double far = 3.0;  // m
+  const double opening = repeatable::atan2(0.35 * world.field().goalWidth, goalDistance);
+  double enough = goalDistance > far ? m_numbers->aimFar : opening;
+  enough = std::min(std::max(enough, m_numbers->aimLeast), m_numbers->aimMost);
+  // An opponent at the ball leaves no time: forward is good enough.
+  for (const Point& opponent : world.opponents()) {
+    if (distance(opponent, ball) < m_numbers->pressedWithin) {
+      enough = std::max(enough, m_numbers->aimPressed);
+    }
+  }
+  return enough;
+}
+
+/// From where this robot's foot hits the ball surely, m between the centres.
+double Attack::kicksFrom(const WorldModel& world) const {
+  constexpr double surely = 0.06;  // m inside the foot's reach
+  const double near = world.touch() + m_numbers->kickDistance;
+  if (world.body().kickLaw == sim::KickLaw::Published) return near;
+  return std::max(near, world.body().kickReach - surely);
 }
 
 Act Attack::atBall(const WorldModel& world, double error, double tolerance) {
@@ -143,14 +147,14 @@ Act Attack::atBall(const WorldModel& world, double error, double tolerance) {
     if (d < world.touch() + 0.015) return acts::backwardSlow;
     return error > 0.0 ? acts::aroundRight : acts::aroundLeft;
   }
-  if (std::abs(bearing) > kickBearing - 0.04) {
+  if (std::abs(bearing) > m_numbers->kickBearing) {
     return world.ballInFront().y > 0.0 ? acts::sidleLeft : acts::sidleRight;
   }
   const bool ownWay = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
   if (d < kicksFrom(world) && world.ballAge() < 0.3 && !ownWay) {
     return bearing <= 0.0 ? acts::kickRight : acts::kickLeft;
   }
-  return d > world.touch() + 0.12 ? acts::forward : acts::forwardSlow;
+  return d > world.touch() + m_numbers->slowWithin ? acts::forward : acts::forwardSlow;
 }
 
 Point aimFrom(const WorldModel& world, const Point& ball) {

@@ -27,12 +27,15 @@ std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double n
 /// turning and walking round the field from there.
 class Search {
  public:
+  /// `numbers` must outlive it.
+  explicit Search(const BehaviourParameters& numbers) : m_numbers(&numbers) {}
   Move step(const WorldModel& world);
   void restart() { m_since.reset(); }
 
  private:
   void begin(const WorldModel& world);
   Move walk(const WorldModel& world, double time);
+  const BehaviourParameters* m_numbers;
   std::optional<double> m_since;
   std::optional<Point> m_lost;  // where it was seen last, until this robot has been there
   double m_patience = 0.0;      // s, for the way there
@@ -44,10 +47,15 @@ class Search {
 /// ball's side. Never kicks towards its own goal.
 class Attack {
  public:
+  /// `numbers` must outlive it.
+  explicit Attack(const BehaviourParameters& numbers) : m_numbers(&numbers) {}
   Move step(const WorldModel& world, const Point& aim);
 
  private:
+  double tolerance(const WorldModel& world, const Point& ball, double goalDistance) const;
+  double kicksFrom(const WorldModel& world) const;
   Act atBall(const WorldModel& world, double error, double tolerance);
+  const BehaviourParameters* m_numbers;
   bool m_engaged = false;
   bool m_aligned = false;
 };

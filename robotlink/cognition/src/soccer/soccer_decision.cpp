@@ -10,7 +10,8 @@ class SoccerDecision final : public CognitiveProcess {
  public:
   SoccerDecision(const ProcessOptions& options, const sim::FieldSpec& field,
                  std::unique_ptr<Behaviour> behaviour)
-      : m_world(field, options.model, options.facesLeft), m_behaviour(std::move(behaviour)) {}
+      : m_world(field, options.model, options.parameters, options.facesLeft),
+        m_behaviour(std::move(behaviour)) {}
 
   void step(Blackboard& board, const Clock& clock) override {
     m_world.update(board, clock);
@@ -56,9 +57,12 @@ Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOption
   if (const Result<void> valid = sim::validate(options.model); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
+  if (const Result<void> valid = validate(options.parameters); !valid) {
+    return tl::unexpected<Error>(valid.error());
+  }
   sim::FieldSpec field = options.field;
   if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
-  return std::make_unique<SoccerDecision>(options, field, std::make_unique<B>());
+  return std::make_unique<SoccerDecision>(options, field, std::make_unique<B>(options.parameters));
 }
 
 template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(

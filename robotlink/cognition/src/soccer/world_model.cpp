@@ -17,8 +17,6 @@ constexpr int lookForBall = 0, lookForOpponents = 2;
 constexpr unsigned cyclesBetweenLooks = 8;  // one of them for opponents
 constexpr double ballGain = 0.45;           // of a new sighting against the prediction
 constexpr double ballJump = 0.5;            // m: farther from the prediction it has been kicked
-constexpr double ballMemory = 8.0;          // s
-constexpr double opponentMemory = 3.0;      // s
 
 }  // namespace
 
@@ -151,14 +149,14 @@ std::optional<Point> WorldModel::ball() const {
     }
   }
   if (told) return told;
-  if (ballAge() < ballMemory) return m_ballField;
+  if (ballAge() < m_ballMemory) return m_ballField;
   return std::nullopt;
 }
 
 std::vector<Point> WorldModel::opponents() const {
   std::vector<Point> seen;
   for (const Sighting& sighting : m_opponents) {
-    if (m_now - sighting.time < opponentMemory) seen.push_back(sighting.position);
+    if (m_now - sighting.time < m_opponentMemory) seen.push_back(sighting.position);
   }
   return seen;
 }

@@ -36,8 +36,12 @@ class WorldModel {
  public:
   /// `body`: the robot whose radius is in `field`.
   WorldModel(const sim::FieldSpec& field, const sim::RobotModel& body,
-             std::optional<bool> facesLeft)
-      : m_field(field), m_body(body), m_facesLeft(facesLeft) {}
+             const BehaviourParameters& parameters, std::optional<bool> facesLeft)
+      : m_field(field),
+        m_body(body),
+        m_facesLeft(facesLeft),
+        m_ballMemory(parameters.ballMemory),
+        m_opponentMemory(parameters.opponentMemory) {}
 
   /// Once a cycle, before the behaviour. Also tells vision what to look for: the ball, and for one
   /// cycle in a while opponents (DECISION_ACTION_VISION).
@@ -103,6 +107,7 @@ class WorldModel {
   sim::FieldSpec m_field;
   sim::RobotModel m_body;
   std::optional<bool> m_facesLeft;
+  double m_ballMemory, m_opponentMemory;  // s
   RobotVariables m_variables{VariableCatalog::extended()};
   TeamVariables m_team;
   double m_now = 0.0;

@@ -12,6 +12,7 @@
 #include <base/ids.h>
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/match_number.h>
+#include <robotlink/cognition/behaviour_parameters.h>
 #include <robotlink/cognition/robot_thoughts.h>
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/field.h>
@@ -42,7 +43,7 @@ class CognitiveProcess {
 struct ProcessOptions {
   RobotId robot{1};
   std::string behaviour = "striker";     ///< decision only
-  double distanceToKick = 25.0;          ///< cm; 25 in simulation, 40 on the published real robot
+  BehaviourParameters parameters;        ///< decision: the numbers of that behaviour
   std::string udpAddress = "127.0.0.1";  ///< where telemetry and team messages go
   int telemetryPortBase = 1240;          ///< telemetry goes to this + robot number
   double telemetryPeriod = 1.0;          ///< s between two telemetry datagrams

@@ -29,7 +29,7 @@ struct NaiveOutput {
 /// count as a lost ball. Pure; any thread.
 NaiveOutput naiveRule(int lost, float panDeg, float distance, double distanceToKick);
 
-/// The decision process with that behaviour. `options.distanceToKick` must be finite.
+/// The decision process with that behaviour. Its `options.parameters` must be valid.
 Result<std::unique_ptr<CognitiveProcess>> makeNaiveDecision(const ProcessOptions& options);
 
 }  // namespace pitchboard::link

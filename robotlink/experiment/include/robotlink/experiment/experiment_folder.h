@@ -4,10 +4,12 @@
 // The folder of an experiment's results. While it is played it holds experiment.json (the file with
 // its scenario inside) and runs.jsonl, a line for each run that has ended; when all are there, also
 // runs.csv, summary.json, report.md, report.html and junit.xml. Those files depend on the
-// experiment only: not on the order of runs, threads, interruptions, shards, clock or folder. One
+// experiment only: not on the order of runs, threads, interruptions, shards, clock or folder. How
+// fast runs with separate processes were played differs every time, and stands in times.csv. One
 // thread at a time; a second program that opens the folder is refused.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace pitchboard::link {
 
 inline constexpr const char* experimentFile = "experiment.json";
 inline constexpr const char* runsFile = "runs.jsonl";
+inline constexpr const char* timesFile = "times.csv";
 inline constexpr const char* sessionsFolder = "sessions";
 
 class ExperimentFolder {
@@ -35,11 +38,15 @@ class ExperimentFolder {
   std::size_t finishedCount() const;
   bool complete() const;
   /// Written and given to the system at once, so that a killed program loses nothing that is here.
-  Result<void> add(const RunResult& result);
+  /// `timesRealTime`: how fast it was played, where that is to be kept.
+  Result<void> add(const RunResult& result, std::optional<double> timesRealTime = {});
   /// Puts the lines in order; when all runs are there, writes the tables and reports.
   Result<void> finish();
 
  private:
+  friend Result<ExperimentFolder> mergeFolders(const std::vector<std::string>& parts,
+                                               const std::string& into,
+                                               const Experiment& experiment);
   struct Impl;
   explicit ExperimentFolder(std::unique_ptr<Impl> made);
   std::unique_ptr<Impl> m_impl;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -48,6 +49,9 @@ class RunPlayer {
   /// s that the last run took, and s that were simulated in it.
   double wallSeconds() const { return m_wall; }
   double simulatedSeconds() const { return m_simulated; }
+  /// How many times as fast as real time the last run was played, once its programs were there;
+  /// nothing unless they are separate processes.
+  std::optional<double> timesRealTime() const { return m_timesRealTime; }
 
  private:
   RunPlayer(const Experiment& experiment, PlaySettings settings, std::unique_ptr<Check> success);
@@ -60,11 +64,13 @@ class RunPlayer {
   PlaySettings m_settings;
   std::unique_ptr<Check> m_success;
   double m_wall = 0.0, m_simulated = 0.0;
+  std::optional<double> m_timesRealTime;
 };
 
 struct PlayedRun {
   RunResult result;
   double wallSeconds = 0.0, simulatedSeconds = 0.0;
+  std::optional<double> timesRealTime;  ///< as of RunPlayer
 };
 
 /// Plays the runs of these numbers in `jobs` threads. `take` is called in one of them at a time, in

@@ -22,7 +22,7 @@ struct MetricInfo {
 };
 
 /// Of every run of the experiment, in the order of RunResult::values: those of the team, those of
-/// each robot, the file's own, and how fast separate processes were played.
+/// each robot, the file's own, and how fast a team's own programs were played.
 std::vector<MetricInfo> metricsOf(const Experiment& experiment);
 /// Those of the team: what every experiment has, for documents.
 std::vector<MetricInfo> teamMetrics();

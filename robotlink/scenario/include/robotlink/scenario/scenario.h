@@ -14,6 +14,7 @@
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/cognition/behaviour_parameters.h>
 #include <robotlink/models/noise_presets.h>
 #include <robotlink/processes/runtime_profile.h>
 #include <simcore/simulation/simulation.h>
@@ -38,6 +39,7 @@ struct ScenarioRobot {
   std::string behaviour = "striker";  ///< a name of behaviours(), or noBehaviour
   RuntimeChoice runtime{};            ///< who runs; not chosen: as its team
   sim::RobotModel model{};
+  BehaviourParameters parameters{};  ///< of its behaviour
   bool operator==(const ScenarioRobot&) const = default;
 };
 

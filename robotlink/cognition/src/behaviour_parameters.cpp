@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/cognition/behaviour_parameters.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/models/model_json.h>
+#include <simcore/world/parameter_reading.h>
+
+namespace pitchboard::link {
+namespace {
+
+BehaviourChoice readBehaviourObject(const JsonNode& node, JsonReport& report,
+                                    const std::string& path,
+                                    std::span<const std::string_view> known) {
+  BehaviourChoice choice;
+  // The name says which numbers there may be.
+  if (const auto name = JsonObject(report, node, path).choice("name", known, "behaviour")) {
+    choice.name = known[*name];
+  }
+  if (report.failed()) return choice;
+  std::vector<std::string_view> keys{"name"};
+  for (const BehaviourParameter& parameter : behaviourParameters) {
+    if (parameter.isOf(choice.name)) keys.emplace_back(parameter.key);
+  }
+  const JsonObject object(report, node, path, keys);
+  for (const BehaviourParameter& parameter : behaviourParameters) {
+    if (!parameter.isOf(choice.name) || !object.find(parameter.key)) continue;
+    choice.parameters.*parameter.member =
+        parameter.stored(object.number(parameter.key, 0.0, sim::rangeOf(parameter)));
+  }
+  return choice;
+}
+
+}  // namespace
+
+bool BehaviourParameter::isOf(std::string_view behaviour) const {
+  return !behaviour.empty() && std::find(of.begin(), of.end(), behaviour) != of.end();
+}
+
+BehaviourChoice readBehaviour(const JsonObject& parent, JsonReport& report, std::string_view key,
+                              std::span<const std::string_view> known) {
+  BehaviourChoice choice;
+  const JsonNode* node = parent.find(key);
+  if (!node || report.failed()) return choice;
+  if (node->kind == JsonNode::Kind::Object) {
+    return readBehaviourObject(*node, report, parent.pathOf(key), known);
+  }
+  if (node->kind != JsonNode::Kind::Text) {
+    parent.fail(key, "must be the name of a behaviour, in quotes, or an object in braces");
+    return choice;
+  }
+  if (const auto name = parent.choice(key, known, "behaviour")) choice.name = known[*name];
+  return choice;
+}
+
+Result<BehaviourChoice> behaviourFromText(std::string_view nameOrJson, std::string_view source) {
+  std::vector<std::string_view> known;
+  for (const BehaviourInfo& info : behaviours()) known.push_back(info.name);
+  if (nameOrJson.find('{') == std::string_view::npos) {
+    if (findBehaviour(nameOrJson)) return BehaviourChoice{std::string(nameOrJson), {}};
+    return failure(ErrorCode::NotFound, unknownName("behaviour", nameOrJson, known),
+                   std::string(source));
+  }
+  JsonReport report(source);
+  const auto root = parseJson(nameOrJson, report);
+  BehaviourChoice choice;
+  if (root) choice = readBehaviourObject(*root, report, "behaviour", known);
+  if (report.failed()) return tl::unexpected(report.error());
+  return choice;
+}
+
+std::string behaviourToText(std::string_view name, const BehaviourParameters& parameters) {
+  const BehaviourParameters usual;
+  nlohmann::ordered_json out{{"name", name}};
+  for (const BehaviourParameter& p : behaviourParameters) {
+    const double value = parameters.*p.member;
+    if (!p.isOf(name) || value == usual.*p.member) continue;
+    out[p.key] = jsonNumber(p.unit.angle ? fileDegrees(value) : value);
+  }
+  return out.size() > 1 ? out.dump() : std::string(name);
+}
+
+Result<void> validate(const BehaviourParameters& parameters) {
+  for (const BehaviourParameter& p : behaviourParameters) {
+    const double value = parameters.*p.member;
+    if (value >= p.stored(p.least) && value <= p.stored(p.most)) continue;
+    const std::string unit = *p.unit.words ? std::string(" ") + p.unit.words : std::string();
+    return failure(ErrorCode::InvalidArgument,
+                   "must lie between " + shortest(p.least) + " and " + shortest(p.most) + unit,
+                   std::string("behaviour.") + p.key);
+  }
+  return {};
+}
+
+}  // namespace pitchboard::link
