@@ -20,6 +20,22 @@ class TestVariablesDock : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
+  // Over the curve beside them, though columns that are hidden stand between the two.
+  void wordsOfCodesAreReadWhole() {
+    Bench bench;
+    bench.hand.take(twoRobots(), SourceKind::Simulate);
+    bench.choose(action);
+    const QModelIndex curve = bench.at(action, VariablesModel::Spark);
+    QTRY_VERIFY(
+        !curve.data(VariablesModel::SparkRole).value<QList<telemetry::SeriesBucket>>().isEmpty());
+    const auto cell = [&] {
+      return bench.view->viewport()->grab(bench.view->visualRect(curve)).toImage();
+    };
+    const QImage words = cell();
+    bench.view->header()->resizeSection(VariablesModel::Unit, 160);
+    QVERIFY(cell() != words);  // now they fit, and the curve has its place
+  }
+
   void modelAndFilterKeepTheRulesOfModels() {
     auto store = twoRobots();
     VariablesModel model;

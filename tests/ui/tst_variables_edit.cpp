@@ -15,6 +15,14 @@ using namespace pitchboard::ui::test;
 class TestVariablesEdit : public QObject {
   Q_OBJECT
 
+  /// The panel with an editor that is open.
+  struct Editing {
+    Bench bench;
+    QSignalSpy edited{bench.model, &VariablesModel::valueEdited};
+    QLineEdit* editor;
+    explicit Editing(const QString& path) : editor(bench.edit(path)) {}
+  };
+
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
@@ -88,20 +96,18 @@ class TestVariablesEdit : public QObject {
     QFETCH(const QString, path);
     QFETCH(const QString, typed);
     QFETCH(const QString, problem);
-    Bench bench;
-    QSignalSpy edited(bench.model, &VariablesModel::valueEdited);
-    auto* editor = bench.edit(path);
-    QVERIFY(editor);
-    editor->selectAll();
-    QTest::keyClicks(editor, typed);
-    QTest::keyClick(editor, Qt::Key_Return);
-    auto* said = bench.dock->findChild<QLabel*>(QStringLiteral("valueProblem"));
+    Editing on(path);
+    QVERIFY(on.editor);
+    on.editor->selectAll();
+    QTest::keyClicks(on.editor, typed);
+    QTest::keyClick(on.editor, Qt::Key_Return);
+    auto* said = on.bench.dock->findChild<QLabel*>(QStringLiteral("valueProblem"));
     QVERIFY(said->isVisible());
     QVERIFY2(said->text().contains(problem), qPrintable(said->text()));
-    QVERIFY(bench.view->isEditing());
-    QTest::keyClick(editor, Qt::Key_Escape);
-    QTRY_VERIFY(!bench.view->isEditing());
-    QCOMPARE(edited.count(), 0);
+    QVERIFY(on.bench.view->isEditing());
+    QTest::keyClick(on.editor, Qt::Key_Escape);
+    QTRY_VERIFY(!on.bench.view->isEditing());
+    QCOMPARE(on.edited.count(), 0);
   }
 
   void goodValuesAreHandedOn_data() {
@@ -120,14 +126,12 @@ class TestVariablesEdit : public QObject {
     QFETCH(const QString, path);
     QFETCH(const QString, typed);
     QFETCH(const double, value);
-    Bench bench;
-    QSignalSpy edited(bench.model, &VariablesModel::valueEdited);
-    auto* editor = bench.edit(path);
-    QVERIFY(editor);
-    editor->setText(typed);
-    QTest::keyClick(editor, Qt::Key_Return);
-    QTRY_COMPARE(edited.count(), 1);
-    QCOMPARE(edited[0][1].toDouble(), value);
+    Editing on(path);
+    QVERIFY(on.editor);
+    on.editor->setText(typed);
+    QTest::keyClick(on.editor, Qt::Key_Return);
+    QTRY_COMPARE(on.edited.count(), 1);
+    QCOMPARE(on.edited[0][1].toDouble(), value);
   }
 
   void aMatchIsSampledAndEdited() {

@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QStyleFactory>
 #include <QStyleOption>
+#include <QTabBar>
 
 #include <ui/base/theme.h>
 
@@ -93,7 +94,10 @@ FlatStyle::FlatStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusio
 void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
                               QPainter* painter, const QWidget* widget) const {
   if (element == PE_FrameFocusRect) {
-    drawFocus(painter, option->rect);
+    // A tab gives the rectangle of its letters, less a little: the frame would strike them out.
+    const bool tab = qobject_cast<const QTabBar*>(widget) != nullptr;
+    const int wide = tab ? textGap() : 0, high = tab ? textGap() / 2 + 1 : 0;
+    drawFocus(painter, option->rect.adjusted(-wide, -high, wide, high));
     return;
   }
   if (element != PE_PanelButtonCommand) {

@@ -125,7 +125,9 @@ QMenuBar::item:selected, QMenuBar::item:pressed { background: @row; border-radiu
 QToolBar { border: none; border-bottom: 1px solid @edge; padding: @4 @8; spacing: @4; }
 QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
-QToolBar#plotTools { padding: @2 @4; spacing: 1px; }
+QToolBar#plotTools { padding: @2 @2; spacing: 1px; }
+QToolBar#plotTools QToolButton { padding: @2; }
+QToolButton#qt_toolbar_ext_button { background: @button; border-color: @line; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
@@ -135,6 +137,7 @@ QToolButton#changedOnly, QToolButton#favouritesOnly {
 QToolButton#changedOnly:checked, QToolButton#favouritesOnly:checked {
   background: @row; border-color: @accent; }
 QToolButton#mode, QToolButton#now { border-color: @line; background: @button; padding: @4 @12; }
+QToolButton#now { padding: @4 @2; }
 QToolButton#mode:checked, QToolButton#now:checked { background: @fill; border-color: @fill; color: white; }
 QToolButton:focus, QToolButton#changedOnly:focus, QToolButton#favouritesOnly:focus,
 QToolButton#mode:focus, QToolButton#now:focus { border-color: @accent; }

@@ -39,6 +39,9 @@ FieldCanvas::FieldCanvas(FieldScene* scene, FieldPointer* pointer, QWidget* pare
   // many, by which everything would have to be clipped.
   setViewportUpdateMode(QGraphicsView::BoundingRectViewportUpdate);
   setSceneRect(-canvasHalf, -canvasHalf, 2 * canvasHalf, 2 * canvasHalf);
+  // The background covers everything; filling it first is work for nothing.
+  viewport()->setAutoFillBackground(false);
+  viewport()->setAttribute(Qt::WA_OpaquePaintEvent);
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(QStringLiteral("Field"));
@@ -112,7 +115,8 @@ void FieldCanvas::drawForeground(QPainter* painter, const QRectF&) {
   const QTransform before = painter->worldTransform();
   painter->resetTransform();
   paintEmptyState(painter);
-  if (hasFocus()) {
+  // On a projector there is nowhere else to be.
+  if (hasFocus() && viewport()->size() != window()->size()) {
     painter->setRenderHint(QPainter::Antialiasing, false);
     painter->setPen(QPen(theme().accentLine, 1));
     painter->setBrush(Qt::NoBrush);

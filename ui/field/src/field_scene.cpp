@@ -174,15 +174,19 @@ void FieldScene::showFrame(const FramePtr& frame) {
 
 void FieldScene::showNames() {
   std::vector<NameLabelsItem::Robot> named;
+  std::vector<QPointF> places;
   const bool shown = m_style.shows(FieldLayer::Numbers);
   m_names->setVisible(shown);
   for (const auto& [id, robot] : m_robots) {
-    if (!shown || !robot->body.isVisible()) continue;
+    if (!robot->body.isVisible()) continue;
     const RobotLook& look = robot->body.look();
+    places.push_back(toScene(look.pose.position));
+    if (!shown) continue;
     named.push_back({id, toScene(look.pose.position), m_style.drawRadius(look.radius),
                      robotName(look.team, look.number)});
   }
   m_names->setRobots(std::move(named));
+  m_teamBall->setRobots(std::move(places), m_style.robotDrawRadius());
 }
 
 // Of the selected robots, or of all while none is selected: six clouds at once hide each other.

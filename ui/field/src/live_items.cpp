@@ -35,8 +35,30 @@ double TeamBallItem::radius() const {
 QRectF TeamBallItem::boundingRect() const {
   const QSizeF plate = plateSize(words());
   const double reach = radius() + m_style->metres(14.0 + plate.height());
-  const double wide = std::max(reach, m_style->metres(plate.width() / 2 + 2.0));
+  const double wide = radius() + m_style->metres(16.0 + plate.width());
   return {-wide, -reach, 2 * wide, 2 * reach};
+}
+
+void TeamBallItem::setRobots(std::vector<QPointF> robots, double radius) {
+  m_robots = std::move(robots);
+  m_robotRadius = radius;
+}
+
+// Above the ring, else below, else beside it: the first place that no robot covers.
+QPointF TeamBallItem::wordsAt(const ScreenPainting& screen, double ring) const {
+  const QSizeF plate = plateSize(words());
+  const double high = ring + 12.0, wide = ring + 6.0 + plate.width() / 2;
+  const double robot = m_robotRadius * screen.pixelsPerMetre();
+  const QPointF places[] = {{0, -high}, {0, high}, {wide, 0}, {-wide, 0}};
+  for (const QPointF& place : places) {
+    const QRectF box(place - QPointF(plate.width(), plate.height()) / 2, plate);
+    const bool covered = std::ranges::any_of(m_robots, [&](const QPointF& each) {
+      const QPointF at = screen.pixels(each - pos());
+      return box.adjusted(-robot, -robot, robot, robot).contains(at);
+    });
+    if (!covered) return place;
+  }
+  return places[0];
 }
 
 void TeamBallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
@@ -50,7 +72,7 @@ void TeamBallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWi
   painter->drawEllipse(QPointF(0, 0), ring, ring);
   painter->drawLine(QPointF(-arm, 0), QPointF(arm, 0));
   painter->drawLine(QPointF(0, -arm), QPointF(0, arm));
-  drawPlateText(painter, {0, -ring - 12}, words());
+  drawPlateText(painter, wordsAt(screen, ring), words());
 }
 
 void OtherPoseItem::setOther(const OtherPose& other) {

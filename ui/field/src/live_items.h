@@ -5,6 +5,7 @@
 // source sees a robot.
 
 #include <QGraphicsItem>
+#include <vector>
 
 #include <robotlink/frame/live_values.h>
 #include "field_style.h"
@@ -16,6 +17,8 @@ class TeamBallItem : public QGraphicsItem {
  public:
   explicit TeamBallItem(const FieldStyle* style) : m_style(style) {}
   void setBall(const std::optional<link::TeamBall>& ball);
+  /// Where robots are drawn, m: the words keep off them where they can.
+  void setRobots(std::vector<QPointF> robots, double radius);
   void styleChanges() { prepareGeometryChange(); }
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -23,8 +26,12 @@ class TeamBallItem : public QGraphicsItem {
  private:
   QString words() const;
   double radius() const;  // metres
+  QPointF wordsAt(const ScreenPainting& screen, double ring) const;
+
   const FieldStyle* m_style;
   link::TeamBall m_ball;
+  std::vector<QPointF> m_robots;
+  double m_robotRadius = 0.0;
 };
 
 /// The same robot as another source shows it.

@@ -80,8 +80,16 @@ void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   paintBody(painter, screen, radius);
   painter->setOpacity(before);
   if (!m_look.word.isEmpty()) {
-    drawPlateText(painter, {0, radius * 1.7 + wordGap_px}, m_look.word);
+    const double below = radius * 1.7 + wordGap_px;
+    drawPlateText(painter, {0, hasRoomBelow() ? below : -below}, m_look.word);
   }
+}
+
+// At the lower edge of what is shown of the field words would be cut off.
+bool RobotItem::hasRoomBelow() const {
+  const QRectF area = m_style->playingArea();
+  const double room = m_style->flipped ? area.bottom() - pos().y() : pos().y() - area.top();
+  return room > bodyRadius() * 1.7 + m_style->metres(wordGap_px + plateSize(m_look.word).height());
 }
 
 void RobotItem::paintSelection(QPainter* painter, const ScreenPainting& screen,
@@ -132,10 +140,21 @@ void RobotItem::paintBody(QPainter* painter, const ScreenPainting& screen, doubl
     painter->setPen(body);
     painter->drawLine(-ahead * radius * 0.75, ahead * radius * 0.75);
   } else {
-    painter->setBrush(team.darker(112));
-    const QPointF nose[] = {ahead * radius * 1.62, ahead * radius * 0.45 + side * radius * 0.80,
-                            ahead * radius * 0.45 - side * radius * 0.80};
-    painter->drawPolygon(nose, 3);
+    // Two filled triangles, because an outline of every robot in every frame costs more than all
+    // else that is painted of it.
+    const QPointF middle = ahead * radius * 0.87;  // as far from each side
+    const double inner = radius * 0.42;
+    const auto fill = [&](double grown, const QColor& color) {
+      const double factor = (inner + grown) / inner;
+      QPointF nose[] = {ahead * radius * 1.62, ahead * radius * 0.45 + side * radius * 0.80,
+                        ahead * radius * 0.45 - side * radius * 0.80};
+      for (QPointF& corner : nose) corner = middle + (corner - middle) * factor;
+      painter->setBrush(color);
+      painter->drawPolygon(nose, 3);
+    };
+    painter->setPen(Qt::NoPen);
+    fill(stroke / 2, outline);
+    fill(-stroke / 2, team.darker(112));
   }
   const bool numbered = m_style->shows(FieldLayer::Numbers);
   const bool fitsInside = radius >= 6.5;

@@ -43,6 +43,7 @@ class RobotItem : public QGraphicsItem {
 
  private:
   double bodyRadius() const { return m_style->drawRadius(m_look.radius); }  // metres
+  bool hasRoomBelow() const;
   void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 

@@ -13,6 +13,18 @@ double distance(const QPointF& a, const QPointF& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
+/// Whether a line passes all these points so closely that nobody sees the difference.
+bool passes(const QPointF& from, const QPointF& to, const QPointF* points, int count) {
+  constexpr double tolerance_px = 0.6;
+  const QPointF way = to - from;
+  const double most = tolerance_px * std::hypot(way.x(), way.y());
+  return std::all_of(points, points + count, [&](const QPointF& point) {
+    const QPointF off = point - from;
+    return std::abs(way.x() * off.y() - way.y() * off.x()) <= most &&
+           QPointF::dotProduct(way, off) >= 0.0;
+  });
+}
+
 }  // namespace
 
 TrailItem::TrailItem(const FieldStyle* style) : m_style(style) {}
@@ -91,21 +103,33 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   QPen pen(theme().fieldLines, 1.5);
   pen.setCapStyle(Qt::FlatCap);
   QPointF last = pixels(mark(0).at);
-  // Far away marks stand closer than anybody sees, and each line costs the same however short.
+  // Far away marks stand closer than anybody sees, many in one straight line; and each line costs
+  // the same however short.
   constexpr double shortest_px = 5.0;
+  constexpr int mostPassed = 8;
+  std::array<QPointF, mostPassed> passed;
   int i = 1;
   for (int shade = 0; shade < shades; ++shade) {
     const double until = m_now - seconds * (shades - 1 - shade) / shades;
-    int used = 0;
+    int used = 0, waiting = 0;
     const auto lineTo = [&](const QPointF& next) {
       lines[static_cast<std::size_t>(used++)] = QLineF(last, next);
       last = next;
+      waiting = 0;
+    };
+    const auto goTo = [&](const QPointF& next) {
+      if (waiting == mostPassed || !passes(last, next, passed.data(), waiting)) {
+        lineTo(passed[static_cast<std::size_t>(waiting - 1)]);
+      }
+      passed[static_cast<std::size_t>(waiting++)] = next;
     };
     for (; i < m_count && mark(i).time <= until; ++i) {
       const QPointF next = pixels(mark(i).at);
-      if (distance(last, next) >= shortest_px) lineTo(next);
+      const QPointF& before = waiting > 0 ? passed[static_cast<std::size_t>(waiting - 1)] : last;
+      if (distance(before, next) >= shortest_px) goTo(next);
     }
-    if (shade == shades - 1) lineTo(QPointF(0, 0));
+    if (shade == shades - 1) goTo(QPointF(0, 0));
+    if (waiting > 0) lineTo(passed[static_cast<std::size_t>(waiting - 1)]);
     if (used == 0) continue;
     pen.setColor(onGrass(theme().fieldLines, 0.08 + 0.52 * (shade + 1) / shades));
     painter->setPen(pen);

@@ -10,14 +10,13 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QSaveFile>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <iterator>
 #include <set>
 
-#include <ui/base/save_file.h>
+#include <base/file_target.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -209,13 +208,9 @@ bool ProfileEditor::saveTo(const QString& path) {
     say(QString::fromStdString(again.error().text()), true);
     return false;
   }
-  QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) ||
-      file.write(text.data(), static_cast<qint64>(text.size())) !=
-          static_cast<qint64>(text.size()) ||
-      !commitWhole(file)) {
-    say(QStringLiteral("%1 cannot be written: %2. Choose another folder.")
-            .arg(path, file.errorString()),
+  if (const auto written = writeFile(path.toStdString(), text, IfExists::Replace); !written) {
+    say(QStringLiteral("%1 cannot be written. %2")
+            .arg(path, QString::fromStdString(written.error().message)),
         true);
     return false;
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include <base/file_target.h>
 #include <ui/base/save_file.h>
 #include <ui/plots/axis_ticks.h>
 
@@ -27,11 +28,8 @@ tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
 }
 
 Result<void> writeBytes(const QString& path, const QByteArray& bytes) {
-  QSaveFile file(path);
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !commitWhole(file)) {
-    return cannotWrite(file);
-  }
-  return {};
+  return writeFile(path.toStdString(), {bytes.data(), std::size_t(bytes.size())},
+                   IfExists::Replace);
 }
 
 QString quoted(QString text) {

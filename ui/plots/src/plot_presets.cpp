@@ -2,11 +2,10 @@
 #include "plot_presets.h"
 
 #include <QJsonDocument>
-#include <QSaveFile>
 #include <QSettings>
 
+#include <base/file_target.h>
 #include <base/read_file.h>
-#include <ui/base/save_file.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -47,14 +46,8 @@ void PlotPresets::remove(const QString& name) {
 }
 
 Result<void> PlotPresets::writeFile(const QString& path, const PlotLayout& layout) {
-  QSaveFile file(path);
-  const QByteArray bytes = QJsonDocument(toJson(layout)).toJson();
-  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !commitWhole(file)) {
-    return failure(ErrorCode::SystemError,
-                   "The layout could not be written: " + file.errorString().toStdString() + ".",
-                   path.toStdString());
-  }
-  return {};
+  return pitchboard::writeFile(
+      path.toStdString(), QJsonDocument(toJson(layout)).toJson().toStdString(), IfExists::Replace);
 }
 
 Result<PlotLayout> PlotPresets::readFile(const QString& path) {

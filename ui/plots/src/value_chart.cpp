@@ -116,6 +116,8 @@ ValueChart::ValueChart(QWidget* parent)
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setOptimizationFlag(DontSavePainterState);
   setViewportUpdateMode(QGraphicsView::MinimalViewportUpdate);
+  viewport()->setAutoFillBackground(false);  // the chart has a background
+  viewport()->setAttribute(Qt::WA_OpaquePaintEvent);
   chart()->legend()->hide();
   chart()->setDropShadowEnabled(false);
   chart()->setMargins({});

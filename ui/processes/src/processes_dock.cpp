@@ -32,7 +32,7 @@ QString emptyText(const MatchController& controller) {
       }
       return QStringLiteral(
           "The robots decide inside the studio, so there are no separate processes to "
-          "show. Start the studio with --cognition external to have them.");
+          "show. Simulation > Robots decide > In separate processes starts them.");
     case link::Cognition::None:
       return QStringLiteral(
           "Nothing was started. Attach your own processes to the robots' "

@@ -37,7 +37,7 @@ int RobotCard::rowHeight(int row) const {
 QRect RobotCard::lampRect(int lamp) const {
   if (m_collapsed) {
     const QRect row = rowRect(0);
-    return {row.left() + scaled(this, 57 + lamp * 11), row.top() + scaled(this, 5), scaled(this, 8),
+    return {row.left() + scaled(this, 61 + lamp * 10), row.top() + scaled(this, 5), scaled(this, 7),
             scaled(this, 10)};
   }
   const QRect row = rowRect(1);

@@ -9,6 +9,9 @@
 #include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
+namespace {
+constexpr qint64 framePeriod = 32;  // ms
+}  // namespace
 
 /// Every message as a row of the store. Lives in the watch's thread once it observes.
 class RowKeeper : public link::LiveObserver {
@@ -44,7 +47,11 @@ class RowKeeper : public link::LiveObserver {
   std::atomic<std::uint64_t> m_refusedRows = 0, m_refusedValues = 0;
 };
 
-LiveController::LiveController(QObject* parent) : FrameSource(parent) {}
+LiveController::LiveController(QObject* parent) : FrameSource(parent) {
+  m_nextFrame.setSingleShot(true);
+  m_nextFrame.setTimerType(Qt::PreciseTimer);
+  connect(&m_nextFrame, &QTimer::timeout, this, &LiveController::deliverNow);
+}
 
 // The watch's thread posts to this object: it ends while this is whole.
 LiveController::~LiveController() {
@@ -187,8 +194,20 @@ void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& ob
   std::erase(m_observers, observer);
 }
 
+// A frame that comes after a rest is shown at once. Where many robots send often, half as many
+// pictures of them tell as much and cost half.
 void LiveController::deliver() {
+  if (m_nextFrame.isActive()) return;  // which shows this one, too
+  const qint64 rested = m_sinceFrame.isValid() ? m_sinceFrame.elapsed() : framePeriod;
+  if (rested >= framePeriod)
+    deliverNow();
+  else
+    m_nextFrame.start(static_cast<int>(framePeriod - rested));
+}
+
+void LiveController::deliverNow() {
   if (!m_watch) return;  // stopped while this was on its way
+  m_sinceFrame.start();
   m_frame = m_watch->latest();
   if (m_frame) {
     emit frameReceived(m_frame);

@@ -26,11 +26,11 @@ class TimelineDock : public QWidget {
     m_now->setObjectName(QStringLiteral("now"));
     m_now->setText(QStringLiteral("Now"));
     m_now->setCheckable(true);  // checked: filled
-    m_now->setFixedWidth(scaled(this, 48));
+    m_now->setFixedWidth(scaled(this, 52));
     m_now->setFixedHeight(scaled(this, 28));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, scaled(this, 12), 0);
-    row->setSpacing(0);
+    row->setSpacing(scaled(this, 4));
     row->addWidget(m_strip, 1);
     row->addWidget(m_now);
     connect(m_now, &QToolButton::clicked, this, [this] {

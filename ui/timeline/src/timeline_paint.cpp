@@ -93,14 +93,15 @@ void TimelineStrip::paintAxis(QPainter& painter) const {
   const int half = metrics.horizontalAdvance(QStringLiteral("00:00:00")) / 2 + 2;
   painter.setPen(theme().secondaryText);
   for (const AxisTick& tick :
-       axisTicks(m_axis, std::max(scaled(this, tickSpacing), 2 * half + scaled(this, 12)),
+       axisTicks(m_axis, std::max(scaled(this, tickSpacing), 2 * half + scaled(this, 24)),
                  m_timeline->clock())) {
     const double x = m_axis.pixel(tick.time);
     QRectF place(x - half, band.bottom() + 1, 2 * half, height() - band.bottom() - 1);
     // The first and the last label stay on the widget.
-    if (place.left() < 0) place.moveLeft(0);
+    const double edge = scaled(this, 4);
+    const bool atEdge = place.left() < edge;
+    if (atEdge) place.moveLeft(edge);
     if (place.right() > width()) place.moveRight(width());
-    const bool atEdge = place.left() == 0 && x < half;
     painter.drawText(place, (atEdge ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter,
                      tick.label);
   }

@@ -78,11 +78,15 @@ bool VariablesDelegate::flowsOver(const QStyleOptionViewItem& option,
   const auto* tree = qobject_cast<const QTreeView*>(option.widget);
   if (tree == nullptr) return false;
   const QHeaderView* header = tree->header();
-  const bool beside =
-      header->visualIndex(VariablesModel::Spark) == header->visualIndex(VariablesModel::Unit) + 1 &&
-      !header->isSectionHidden(VariablesModel::Spark) &&
-      !header->isSectionHidden(VariablesModel::Unit);
-  if (!beside) return false;
+  const int unit = header->visualIndex(VariablesModel::Unit),
+            spark = header->visualIndex(VariablesModel::Spark);
+  if (spark < unit || header->isSectionHidden(VariablesModel::Spark) ||
+      header->isSectionHidden(VariablesModel::Unit)) {
+    return false;
+  }
+  for (int between = unit + 1; between < spark; ++between) {
+    if (!header->isSectionHidden(header->logicalIndex(between))) return false;
+  }
   const QString words = index.siblingAtColumn(VariablesModel::Unit).data().toString();
   return QFontMetrics(themeFont(TypeRole::Secondary)).horizontalAdvance(words) >
          header->sectionSize(VariablesModel::Unit) - scaled(tree, 6);

@@ -108,7 +108,7 @@ class VariablesDock : public QWidget {
   QHBoxLayout* makeTools() {
     m_words = new QLineEdit(this);
     m_words->setObjectName(QStringLiteral("variablesFilter"));
-    m_words->setPlaceholderText(QStringLiteral("Filter by words, e.g. ball dist B1"));
+    m_words->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
     m_words->setToolTip(
         QStringLiteral("Rows that have all the words, in robot, process, name or unit"));
     m_words->setClearButtonEnabled(true);

@@ -75,7 +75,7 @@ CommandPalette::CommandPalette(std::vector<PaletteEntry> entries, QWidget* windo
   column->setSpacing(gap);
   column->addWidget(m_words);
   column->addWidget(m_list, 1);
-  const auto first = [this] { m_list->setCurrentIndex(m_filter->index(0, 0)); };
+  const auto first = [this] { m_list->setCurrentIndex(m_filter->index(best(), 0)); };
   connect(m_words, &QLineEdit::textChanged, this, [this, first](const QString& text) {
     m_filter->setWords(text);
     first();
@@ -113,6 +113,20 @@ void CommandPalette::paintEvent(QPaintEvent* /*event*/) {
 void CommandPalette::changeEvent(QEvent* event) {
   QDialog::changeEvent(event);
   if (event->type() == QEvent::ActivationChange && !isActiveWindow() && isVisible()) close();
+}
+
+// The first that is exactly what was typed, or ends with it: "referee" is meant by "View: Referee"
+// rather than by "View: Refereeing".
+int CommandPalette::best() const {
+  const QString typed = m_words->text().trimmed();
+  if (typed.isEmpty()) return 0;
+  for (int row = 0; row < m_filter->rowCount(); ++row) {
+    const QString text = m_filter->index(row, 0).data().toString();
+    if (!text.endsWith(typed, Qt::CaseInsensitive)) continue;
+    const qsizetype before = text.size() - typed.size() - 1;
+    if (before < 0 || !text[before].isLetterOrNumber()) return row;
+  }
+  return 0;
 }
 
 void CommandPalette::runCurrent() {

@@ -36,6 +36,7 @@ class CommandPalette : public QDialog {
 
  private:
   void runCurrent();
+  int best() const;
 
   std::vector<PaletteEntry> m_entries;
   QLineEdit* m_words;

@@ -223,7 +223,8 @@ void MainWindow::showPalette() {
     const bool isDeep = each.menu.count(QStringLiteral(": ")) > 1;
     (isDeep ? deep : entries)
         .push_back({QStringLiteral("%1: %2").arg(each.menu, each.text),
-                    each.action->shortcut().toString(QKeySequence::NativeText),
+                    (each.action->isChecked() ? QStringLiteral("✓  ") : QString()) +
+                        each.action->shortcut().toString(QKeySequence::NativeText),
                     [action = each.action] {
                       if (action) action->trigger();
                     }});

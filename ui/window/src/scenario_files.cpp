@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QSaveFile>
 
+#include <base/file_target.h>
 #include <ui/base/save_file.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
@@ -58,13 +59,11 @@ void ScenarioFiles::save(const QString& path) {
   link::Scenario moment = m_controller->currentMoment();
   moment.name = QFileInfo(path).completeBaseName().toStdString();
   moment.title = moment.name;
-  const std::string text = link::scenarioToJson(moment);
-  QSaveFile file(path);
-  const auto size = static_cast<qint64>(text.size());
-  if (!file.open(QIODevice::WriteOnly) || file.write(text.data(), size) != size ||
-      !commitWhole(file)) {
-    emit failed(QStringLiteral("The scenario was not saved to %1: %2. Choose another folder.")
-                    .arg(path, file.errorString()));
+  const auto written =
+      writeFile(path.toStdString(), link::scenarioToJson(moment), IfExists::Replace);
+  if (!written) {
+    emit failed(QStringLiteral("The scenario was not saved. %1")
+                    .arg(QString::fromStdString(written.error().text())));
   }
 }
 

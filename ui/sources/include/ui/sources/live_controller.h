@@ -6,6 +6,8 @@
 // another source is shown. It sends nothing but the monitor request, when that is turned on. UI
 // thread only.
 
+#include <QElapsedTimer>
+#include <QTimer>
 #include <memory>
 
 #include <robotlink/live/live_rows.h>
@@ -73,6 +75,7 @@ class LiveController : public FrameSource {
 
  private:
   void deliver();
+  void deliverNow();
   void keepRows();
 
   UiQueue m_toUi;
@@ -80,6 +83,8 @@ class LiveController : public FrameSource {
   std::vector<std::shared_ptr<link::LiveObserver>> m_observers;
   std::unique_ptr<link::LiveWatch> m_watch;
   FramePtr m_frame;
+  QElapsedTimer m_sinceFrame;
+  QTimer m_nextFrame;
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<link::LiveMemory> m_memory;
   std::unique_ptr<link::LiveMoments> m_moments;

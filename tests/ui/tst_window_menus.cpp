@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The menus of the window, opened and clicked as a person does; what they show is what was played.
+#include <QDockWidget>
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QListView>
+#include <QMenuBar>
+#include <QSettings>
+#include <QSpinBox>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QtTest>
+#include <algorithm>
+
+#include <robotlink/blackboard/match_number.h>
+#include <ui/base/theme.h>
+#include <ui/sources/match_controller.h>
+#include <ui/window/main_window.h>
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+class TestWindowMenus : public QObject {
+  Q_OBJECT
+
+  struct Studio {
+    QTemporaryDir folder;
+    QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
+    MatchController controller;
+    MainWindow window;
+    Studio() : controller(options()), window(&controller, &settings) {
+      window.resize(1280, 800);
+      window.show();
+      controller.open(link::loadScenario("one-robot").value(), true);
+    }
+    static link::MatchOptions options() {
+      link::MatchOptions made;
+      made.cognition = link::Cognition::Inline;
+      made.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+      return made;
+    }
+    /// Clicks from the menu bar down to the last word; false when there is no such way.
+    bool click(const QStringList& way) {
+      QWidget* in = window.menuBar();
+      for (qsizetype i = 0; i < way.size(); ++i) {
+        QAction* found = nullptr;
+        for (QAction* action : in->actions()) {
+          if (action->text().remove(QLatin1Char('&')).startsWith(way[i])) found = action;
+        }
+        if (found == nullptr || !found->isEnabled()) return false;
+        const QRect place = i == 0 ? window.menuBar()->actionGeometry(found)
+                                   : static_cast<QMenu*>(in)->actionGeometry(found);
+        QTest::mouseMove(in, place.center());
+        QTest::mouseClick(in, Qt::LeftButton, {}, place.center());
+        in = found->menu();
+        if (in == nullptr) return i + 1 == way.size();
+        if (!QTest::qWaitForWindowExposed(in)) return false;
+      }
+      return false;
+    }
+    /// The ticked entries of a menu below Simulation, as they are when it is opened.
+    QStringList ticked(const char* name) {
+      auto* menu = window.findChild<QMenu*>(QLatin1String(name));
+      emit menu->aboutToShow();
+      QStringList texts;
+      for (const QAction* action : menu->actions()) {
+        if (action->isChecked()) texts << action->text().remove(QLatin1Char('&'));
+      }
+      return texts;
+    }
+  };
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void whoDecidesIsChosenByTheMouse() {
+    int free = link::MatchNumber::most;
+    while (free > 20 && !link::MatchClaim::take(free)) --free;
+    Studio s;
+    s.controller.setMatchNumber(free);
+    QTRY_VERIFY(s.controller.frame());
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+                     QStringLiteral("In separate processes")}));
+    QTRY_COMPARE(s.controller.cognition(), link::Cognition::External);
+    // Programs of the operating system, on the blackboards of this number.
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber == free);
+    QTRY_VERIFY(!s.controller.frame()->robots.empty() &&
+                !s.controller.frame()->robots.front().processes().empty());
+    QCOMPARE(s.controller.frame()->robots.front().board->key, free * 10'000 + 100);
+    QTRY_VERIFY(std::ranges::all_of(s.controller.frame()->robots.front().processes(),
+                                    [](const auto& process) { return process.pid > 0; }));
+    QCOMPARE(s.ticked("whoDecides"), QStringList{QStringLiteral("In separate processes")});
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+                     QStringLiteral("Inside the studio")}));
+    QTRY_VERIFY(s.controller.cognition() == link::Cognition::Inline && s.controller.frame() &&
+                !s.controller.frame()->matchNumber);
+    QCOMPARE(s.ticked("whoDecides"), QStringList{QStringLiteral("Inside the studio")});
+  }
+
+  void theMatchNumberIsChosenByTheMouse() {
+    // One of those that are listed; nobody else on this computer may have it.
+    int free = 9;
+    while (free > 0 && !link::MatchClaim::take(free)) --free;
+    if (free == 0) QSKIP("every number that the menu lists is taken");
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+                     QStringLiteral("Only your own")}));
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber);
+    QVERIFY(s.click(
+        {QStringLiteral("Simulation"), QStringLiteral("Match number"), QString::number(free)}));
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber == free);
+    QCOMPARE(s.ticked("matchNumber"), QStringList{QString::number(free)});
+
+    int typed = link::MatchNumber::most;
+    while (typed > 20 && !link::MatchClaim::take(typed)) --typed;
+    bool asked = false;
+    QTimer answer;
+    connect(&answer, &QTimer::timeout, &s.window, [&] {
+      auto* dialog = s.window.findChild<QInputDialog*>();
+      if (dialog == nullptr || !dialog->isVisible()) return;
+      answer.stop();
+      asked = true;
+      auto* box = dialog->findChild<QSpinBox*>();
+      box->selectAll();
+      QTest::keyClicks(box, QString::number(typed));
+      QTest::keyClick(box, Qt::Key_Return);
+    });
+    answer.start(20);
+    QVERIFY(s.click(
+        {QStringLiteral("Simulation"), QStringLiteral("Match number"), QStringLiteral("Another")}));
+    QVERIFY(asked);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber == typed);
+    QCOMPARE(s.ticked("matchNumber"), QStringList{QStringLiteral("Another… (%1)").arg(typed)});
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Match number"),
+                     QStringLiteral("The next free one")}));
+    QTRY_VERIFY(!s.controller.options().match);
+    QCOMPARE(s.ticked("matchNumber"), QStringList{QStringLiteral("The next free one")});
+  }
+
+  // "referee" must not lead to Refereeing, which stands before it.
+  void thePalettePrefersWhatWasTypedInFull() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    s.window.showPalette();
+    auto* words = s.window.findChild<QLineEdit*>(QStringLiteral("paletteWords"));
+    auto* list = s.window.findChild<QListView*>(QStringLiteral("paletteList"));
+    QTest::keyClicks(words, QStringLiteral("view: referee"));
+    QCOMPARE(list->model()->index(0, 0).data().toString(), QStringLiteral("View: Refereeing"));
+    QCOMPARE(list->currentIndex().data().toString(), QStringLiteral("View: Referee"));
+    QTest::keyClick(words, Qt::Key_Return);
+    const auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("referee"));
+    QTRY_VERIFY(dock->isVisible());
+    QVERIFY(!s.window.findChild<QDockWidget*>(QStringLiteral("refereeing"))->isVisible());
+  }
+};
+
+QTEST_MAIN(TestWindowMenus)
+#include "tst_window_menus.moc"

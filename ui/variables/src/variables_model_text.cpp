@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// VariablesModel: how rows are shown, and what a person may do with them.
+#include <QColor>
+
+#include <ui/base/theme.h>
+
+#include "variable_node.h"
+#include "variable_text.h"
+#include "variables_model.h"
+
+namespace pitchboard::ui {
+
+QString VariablesModel::restText(const VariableNode& row) const {
+  const int count = row.parent->neverSet;
+  const QString words = count == 1 ? QStringLiteral("1 variable never set")
+                                   : QStringLiteral("%1 variables never set").arg(count);
+  return m_restShown.contains(row.parent->path) ? QStringLiteral("Fold ") + words : words;
+}
+
+double VariablesModel::rateOf(const VariableNode& group) const {
+  return m_notes.value(group.name).rate.value_or(group.rowsPerSecond);
+}
+
+QVariant VariablesModel::display(const VariableNode& row, int column) const {
+  if (row.kind == Kind::Rest) return column == Name ? restText(row) : QString();
+  if (column == Name) {
+    const QString note = row.kind == Kind::Group ? m_notes.value(row.name).trouble : QString();
+    return note.isEmpty() ? row.name : row.name + QStringLiteral(" · ") + note;
+  }
+  if (row.kind == Kind::Group) {
+    const double rate = rateOf(row);
+    if (column == Value && rate > 0) return QString::number(rate, 'f', rate < 10 ? 1 : 0);
+    return column == Unit && rate > 0 ? QStringLiteral("/s") : QString();
+  }
+  if (row.kind == Kind::Category) return {};
+  switch (column) {
+    case Value:
+      return row.known ? valueText(row.info, row.value) : QString();
+    case Unit: {
+      const QString words = row.known ? wordsOf(row.info, row.value) : QString();
+      return words.isEmpty() ? QString::fromStdString(row.info.unit) : words;
+    }
+    case Rate:
+      return rateText(row.info, row.ratePerSecond);
+    case Age:
+      return row.known ? row.ageShown : QString();
+    default:
+      return {};
+  }
+}
+
+QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
+  if (row.kind != Kind::Variable) return {};
+  switch (column) {
+    case Value:
+      return row.known ? QVariant(row.value) : QVariant();
+    case Rate:
+      return row.ratePerSecond;
+    case Age:
+      return m_now - row.lastChange;
+    default:
+      return display(row, column);
+  }
+}
+
+QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
+  const telemetry::ColumnInfo* column = columnOf(index);
+  if (column == nullptr) return QStringLiteral("Only values of variables can be edited.");
+  if (m_kind == SourceKind::Live) {
+    return QStringLiteral("Values of live robots are only shown: nothing is ever sent to robots.");
+  }
+  if (m_kind == SourceKind::Replay)
+    return QStringLiteral("Values of a recording are what they were.");
+  if (m_moment) {
+    return QStringLiteral(
+        "A past moment is shown, and its values are what they were. Now leads back to the match.");
+  }
+  const telemetry::GroupInfo& group = groupOf(index)->info();
+  if (group.attributes.count("robot") == 0) {
+    return group.name == "match" ? QStringLiteral("Facts of the match are measured, not set.")
+                                 : QStringLiteral("An attached blackboard is only read.");
+  }
+  if (column->type == telemetry::ColumnType::Float64) {
+    return QStringLiteral(
+        "This is the truth or follows from it, not a variable of the blackboard. Robots and "
+        "ball are moved on the field.");
+  }
+  return {};
+}
+
+QString VariablesModel::toolTip(const QModelIndex& index) const {
+  const VariableNode& row = *node(index);
+  if (row.kind == Kind::Category) return {};
+  if (row.kind == Kind::Rest) {
+    return QStringLiteral(
+        "Zero, or without a value, ever since the beginning. A click shows and folds them.");
+  }
+  if (row.kind == Kind::Group) {
+    QStringList lines{row.name};
+    for (const auto& [key, value] : row.view->info().attributes) {
+      lines << QString::fromStdString(key) + QStringLiteral(": ") + QString::fromStdString(value);
+    }
+    const GroupNote note = m_notes.value(row.name);
+    for (const QString& text : {note.trouble, note.detail}) {
+      if (!text.isEmpty()) lines << text;
+    }
+    lines << (rateOf(row) > 0
+                  ? QStringLiteral(
+                        "Sampled %1 times a second. Changes between two samples cannot be seen.")
+                        .arg(rateOf(row), 0, 'f', 1)
+                  : QStringLiteral("No sample within the last second."));
+    return lines.join(QLatin1Char('\n'));
+  }
+  QStringList lines{row.path};
+  if (row.known) {
+    const QString words = wordsOf(row.info, row.value);
+    lines << exactText(row.info, row.value) + QLatin1Char(' ') +
+                 (words.isEmpty() ? QString::fromStdString(row.info.unit) : words);
+    if (const QString rate = rateText(row.info, row.ratePerSecond); !rate.isEmpty()) {
+      lines << QStringLiteral("changes by %1 a second").arg(rate);
+    }
+    lines << QStringLiteral("has this value for %1").arg(row.ageShown);
+  } else {
+    lines << QStringLiteral("no value yet");
+  }
+  const QString why = whyNotEditable(index);
+  if (index.column() == Value) {
+    lines << (!why.isEmpty()     ? why
+              : m_editingAllowed ? QStringLiteral("Double-click or F2 edits it.")
+                                 : QStringLiteral("Turn on “Edit values” to edit it."));
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+QVariant VariablesModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const VariableNode& row = *node(index);
+  switch (role) {
+    case Qt::DisplayRole:
+      return display(row, index.column());
+    case Qt::EditRole:
+      return index.column() == Value && row.known ? exactText(row.info, row.value)
+                                                  : display(row, index.column());
+    case Qt::ToolTipRole:
+      return toolTip(index);
+    case Qt::FontRole:
+      if (row.kind == Kind::Group && index.column() == Name) return themeFont(TypeRole::Body, true);
+      if (row.kind == Kind::Rest) return themeFont(TypeRole::Secondary);
+      return index.column() == Unit || index.column() == Age || row.kind == Kind::Group
+                 ? themeFont(TypeRole::Secondary)
+                 : QVariant();
+    case Qt::TextAlignmentRole:
+      return int(Qt::AlignVCenter) |
+             int(index.column() == Value || index.column() == Rate || index.column() == Age
+                     ? Qt::AlignRight
+                     : Qt::AlignLeft);
+    case Qt::ForegroundRole: {
+      // Nothing has come for a while: what stands there is history.
+      constexpr double silence = 10.0;
+      if (row.kind == Kind::Group && !m_notes.value(row.name).trouble.isEmpty()) {
+        return theme().warningText;
+      }
+      if (m_now - row.owner()->newest > silence) return theme().disabledText;
+      if (row.kind == Kind::Rest || index.column() == Unit || index.column() == Age ||
+          index.column() == Rate || (row.kind == Kind::Group && index.column() != Name)) {
+        return theme().secondaryText;
+      }
+      return {};
+    }
+    case PathRole:
+      return row.path;
+    case SortRole:
+      return sortValue(row, index.column());
+    case SparkRole:
+      return QVariant::fromValue(row.spark);
+    case ColumnRole:
+      return QVariant::fromValue(row.info);
+    case FavouriteRole:
+      return row.kind == Kind::Variable && m_favourites.contains(row.path);
+    default:
+      return {};
+  }
+}
+
+bool VariablesModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (role != Qt::EditRole || index.column() != Value || !m_editingAllowed ||
+      !whyNotEditable(index).isEmpty()) {
+    return false;
+  }
+  const Result<double> parsed = parseValue(node(index)->info, value.toString());
+  if (!parsed) return false;
+  emit valueEdited(index, *parsed);
+  return true;
+}
+
+Qt::ItemFlags VariablesModel::flags(const QModelIndex& index) const {
+  if (!index.isValid()) return Qt::NoItemFlags;
+  Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+  if (kindOf(index) == Kind::Rest) return flags | Qt::ItemNeverHasChildren;
+  if (kindOf(index) != Kind::Variable) return flags;
+  flags |= Qt::ItemIsDragEnabled | Qt::ItemNeverHasChildren;
+  if (index.column() == Value && m_editingAllowed && whyNotEditable(index).isEmpty()) {
+    flags |= Qt::ItemIsEditable;
+  }
+  return flags;
+}
+
+QVariant VariablesModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || section < 0 || section >= columns) return {};
+  if (role == Qt::TextAlignmentRole) {
+    const bool right = section == Value || section == Rate || section == Age;
+    return int(Qt::AlignVCenter) | int(right ? Qt::AlignRight : Qt::AlignLeft);
+  }
+  const QString last = QStringLiteral("Last %1 s").arg(sparkSeconds(), 0, 'f', 0);
+  if (role == Qt::DisplayRole) {
+    const QString names[] = {QStringLiteral("Name"), QStringLiteral("Value"),
+                             QStringLiteral("Unit"), QStringLiteral("Change/s"),
+                             QStringLiteral("Age"),  last};
+    return names[section];
+  }
+  if (role == Qt::ToolTipRole) {
+    const QString tips[] = {
+        QStringLiteral(
+            "Robot, process, variable. In a robot's row: samples a second.\nChanges between two "
+            "samples cannot be seen."),
+        QStringLiteral("Newest sample"),
+        QStringLiteral("Unit, or what a code means"),
+        QStringLiteral("Rate of change: how much the value changed over the last second"),
+        QStringLiteral("Time since the value changed last"),
+        QStringLiteral("The %1, from lowest to highest value").arg(last.toLower())};
+    return tips[section];
+  }
+  return {};
+}
+
+}  // namespace pitchboard::ui
