@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QStyleFactory>
 #include <QStyleOption>
+#include <QTabBar>
 
 #include <ui/base/theme.h>
 
@@ -93,7 +94,9 @@ FlatStyle::FlatStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusio
 void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
                               QPainter* painter, const QWidget* widget) const {
   if (element == PE_FrameFocusRect) {
-    drawFocus(painter, option->rect);
+    // Of a tab Qt gives less than its words: the line would strike them through.
+    const bool tab = qobject_cast<const QTabBar*>(widget) != nullptr;
+    drawFocus(painter, tab ? option->rect.adjusted(-6, -5, 6, 5) : option->rect);
     return;
   }
   if (element != PE_PanelButtonCommand) {
