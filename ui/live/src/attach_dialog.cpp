@@ -68,10 +68,6 @@ AttachDialog::AttachDialog(LiveController* live, QSettings* settings, QWidget* p
   m_segments = makeTable(this, "segments",
                          {QStringLiteral("Key"), QStringLiteral("Size"), QStringLiteral("Owner"),
                           QStringLiteral("Attached by"), QStringLiteral("What")});
-  const int widths[] = {90, 84, 70, 92};
-  for (int column = 0; column < 4; ++column) {
-    m_segments->setColumnWidth(column, scaled(this, widths[column]));
-  }
   connect(m_segments, &QTableWidget::itemSelectionChanged, this, &AttachDialog::choose);
   connect(m_segments, &QTableWidget::itemDoubleClicked, this, [this] { attach(); });
   m_attached = makeTable(this, "attachedBoards",
