@@ -5,7 +5,7 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileDialog>
-#include <QFormLayout>
+#include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
@@ -16,6 +16,7 @@
 #include <algorithm>
 
 #include <robotlink/blackboard/segments.h>
+#include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
@@ -95,7 +96,7 @@ AttachDialog::AttachDialog(LiveController* live, QSettings* settings, QWidget* p
   column->addWidget(m_attached);
   column->addWidget(m_message);
   column->addWidget(buttons);
-  resize(scaled(this, 560), scaled(this, 540));
+  resize(dialogSize(this, 560, 540));
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
     if (isVisible()) refresh();
@@ -106,9 +107,14 @@ AttachDialog::AttachDialog(LiveController* live, QSettings* settings, QWidget* p
 
 QWidget* AttachDialog::makeForm() {
   auto* widget = new QWidget(this);
-  auto* form = new QFormLayout(widget);
+  auto* form = new QGridLayout(widget);
   form->setContentsMargins(0, 0, 0, 0);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->setHorizontalSpacing(scaled(this, 10));
+  for (const int fields : {1, 3}) form->setColumnStretch(fields, 1);
+  const auto add = [&](int row, int column, const char* words, QWidget* field) {
+    form->addWidget(new QLabel(QLatin1String(words), widget), row, column);
+    form->addWidget(field, row, column + 1);
+  };
   m_key = new QSpinBox(widget);
   m_key->setObjectName(QStringLiteral("attachKey"));
   m_key->setRange(1, 2147483647);
@@ -125,12 +131,6 @@ QWidget* AttachDialog::makeForm() {
         QString::fromUtf8(colour.name.data(), static_cast<qsizetype>(colour.name.size())),
         static_cast<int>(colour.color));
   }
-  auto* robot = new QHBoxLayout;
-  robot->addWidget(m_key, 1);
-  robot->addWidget(new QLabel(QStringLiteral("Robot"), widget));
-  robot->addWidget(m_robot, 1);
-  robot->addWidget(m_team, 1);
-  form->addRow(QStringLiteral("Key"), robot);
   m_catalog = new QComboBox(widget);
   m_catalog->setObjectName(QStringLiteral("attachCatalog"));
   m_catalog->addItem(QStringLiteral("published map"), QString());
@@ -144,11 +144,11 @@ QWidget* AttachDialog::makeForm() {
   m_rate->setDecimals(1);
   m_rate->setValue(link::AttachedBoard().rate);
   m_rate->setSuffix(QStringLiteral(" a second"));
-  auto* variables = new QHBoxLayout;
-  variables->addWidget(m_catalog, 1);
-  variables->addWidget(new QLabel(QStringLiteral("Samples"), widget));
-  variables->addWidget(m_rate, 1);
-  form->addRow(QStringLiteral("Catalog"), variables);
+  add(0, 0, "Key", m_key);
+  add(0, 2, "Robot", m_robot);
+  add(1, 0, "Catalog", m_catalog);
+  add(1, 2, "Team", m_team);
+  add(2, 0, "Samples", m_rate);
   return widget;
 }
 

@@ -10,12 +10,14 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSettings>
 #include <QSpinBox>
 #include <QTabWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_controller.h>
@@ -56,6 +58,11 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   tabs->addTab(makeRobots(), QStringLiteral("Robots"));
   tabs->addTab(makeReferee(), QStringLiteral("Referee"));
   tabs->addTab(makeMessages(), QStringLiteral("Messages"));
+  // On a small screen the pages scroll, and the buttons stay in sight.
+  auto* pages = new QScrollArea(this);
+  pages->setFrameShape(QFrame::NoFrame);
+  pages->setWidgetResizable(true);
+  pages->setWidget(tabs);
   m_problem = new QLabel(this);
   m_problem->setObjectName(QStringLiteral("liveProblem"));
   m_problem->setWordWrap(true);
@@ -69,10 +76,10 @@ LiveSettingsDialog::LiveSettingsDialog(LiveController* live, QSettings* settings
   connect(buttons->button(QDialogButtonBox::Apply), &QPushButton::clicked, this,
           &LiveSettingsDialog::apply);
   auto* column = new QVBoxLayout(this);
-  column->addWidget(tabs);
+  column->addWidget(pages, 1);
   column->addWidget(m_problem);
   column->addWidget(buttons);
-  resize(scaled(this, 760), scaled(this, 580));
+  resize(dialogSize(this, 760, 580));
   adopt();
 }
 

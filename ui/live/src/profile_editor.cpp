@@ -17,6 +17,7 @@
 #include <set>
 
 #include <base/file_target.h>
+#include <ui/base/dialog_size.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -109,7 +110,7 @@ ProfileEditor::ProfileEditor(const Profile& profile, const QString& file, QWidge
   column->addLayout(tools);
   column->addWidget(m_problem);
   column->addWidget(buttons);
-  resize(scaled(this, 620), scaled(this, 560));
+  resize(dialogSize(this, 620, 560));
   check();
 }
 

@@ -17,8 +17,10 @@
 #include <QSpinBox>
 #include <QTemporaryDir>
 #include <QToolButton>
+#include <algorithm>
 
 #include <base/file_target.h>
+#include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
@@ -126,7 +128,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   after->addStretch(1);
   column->addLayout(after);
   column->addWidget(buttons);
-  resize(scaled(this, 420), sizeHint().height());
+  const QSize wanted = dialogSize(this, 420, 4000);
+  resize(wanted.width(), std::min(wanted.height(), sizeHint().height()));
   connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::showRows);
   showRows();
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);

@@ -161,9 +161,24 @@ std::optional<QDateTime> LiveController::clock() const {
 }
 
 QString LiveController::portsText() const {
-  return QStringLiteral("UDP %1–%2")
-      .arg(m_options.portBase + 1)
-      .arg(m_options.portBase + m_options.robots);
+  auto ports = telemetry::teamPorts(m_options.team.teams, m_options.portBase, m_options.robots,
+                                    m_options.refereePort)
+                   .value_or(std::vector<std::uint16_t>{});
+  std::erase(ports, static_cast<std::uint16_t>(m_options.refereePort));
+  std::sort(ports.begin(), ports.end());
+  QStringList ranges;
+  for (std::size_t i = 0; i < ports.size();) {
+    std::size_t last = i;
+    while (last + 1 < ports.size() && ports[last + 1] == ports[last] + 1) ++last;
+    ranges << (last == i ? QString::number(ports[i])
+                         : QStringLiteral("%1–%2").arg(ports[i]).arg(ports[last]));
+    i = last + 1;
+  }
+  // The bar has room for two; the settings say all.
+  if (ranges.size() > 2) {
+    ranges = {ranges.first(), QStringLiteral("… %1").arg(ports.back())};
+  }
+  return QStringLiteral("UDP ") + ranges.join(QStringLiteral(", "));
 }
 
 QString LiveController::emptyText() const {
@@ -172,12 +187,15 @@ QString LiveController::emptyText() const {
                               : QString::fromStdString(m_options.bind.text());
   return QStringLiteral(
              "Nothing heard yet.\nListening at %1 on %2 for robots and UDP %3 for the referee.\n"
-             "Robot 1 sends to port %4, robot 2 to %5. Check that this computer is in the robots' "
-             "network and that no firewall keeps UDP out. Nothing is sent to robots.")
+             "%4Check that this computer is in the robots' network and that no firewall keeps UDP "
+             "out. Nothing is sent to robots.")
       .arg(address, portsText())
       .arg(m_options.refereePort)
-      .arg(m_options.portBase + 1)
-      .arg(m_options.portBase + 2);
+      .arg(m_options.team.teams.empty()
+               ? QStringLiteral("Robot 1 sends to port %1, robot 2 to %2. ")
+                     .arg(m_options.portBase + 1)
+                     .arg(m_options.portBase + 2)
+               : QString());
 }
 
 link::LiveDetails LiveController::details() const {
