@@ -70,10 +70,15 @@ class TestExperimentsDock : public QObject {
 void TestExperimentsDock::playsAndShowsResults() {
   Dock dock;
   QVERIFY(dock.find<QComboBox>("experimentChoice")->count() >= 7);
+  auto* noRuns = dock.find<QLabel>("experimentTableEmpty");
+  QCOMPARE(noRuns->text(), QStringLiteral("No results yet. Start plays the experiment."));
   dock.write("2", 3);
   dock.press();
   QCOMPARE(dock.start(), QStringLiteral("Cancel"));
+  QVERIFY(noRuns->text().startsWith(QStringLiteral("The runs are being played.")));
   QTRY_COMPARE_WITH_TIMEOUT(dock.start(), QStringLiteral("Start"), 60000);
+  QVERIFY(noRuns->isHidden());
+  QVERIFY(dock.find<QLabel>("experimentDistributionEmpty")->isHidden());
   QVERIFY2(dock.words().startsWith(QStringLiteral("6 runs; 2 of 4 assertions fail")),
            qPrintable(dock.words()));
   QAbstractItemModel* runs = dock.table("experimentTable");

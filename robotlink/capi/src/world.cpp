@@ -12,6 +12,18 @@ namespace {
 // Nobody reads the events of these matches; they are thrown away before their list is full.
 constexpr int ticksBetweenForgetting = 200;
 
+constexpr std::size_t cacheLine = 64;
+
+void fetch(const void* begin, std::size_t bytes) {
+  const char* line = static_cast<const char*>(begin);
+  for (std::size_t at = 0; at < bytes; at += cacheLine) __builtin_prefetch(line + at, 1);
+}
+
+template <class Values>
+void fetchAll(const Values& values) {
+  fetch(values.data(), values.size() * sizeof(*values.data()));
+}
+
 }  // namespace
 
 World::World(SimulatedMatch match) : m_match(std::move(match)) {
@@ -48,6 +60,29 @@ void World::play(int ticks) {
     m_sensed = true;
     m_finishedBy = m_match.finishedBy();
     if (++m_sinceForgot >= ticksBetweenForgetting) forgetEvents();
+  }
+}
+
+void World::fetchSelf() const {
+  fetch(this, sizeof *this);
+}
+
+void World::fetchParts() const {
+  const sim::WorldState& state = m_match.simulation().state();
+  fetchAll(state.robots);
+  fetchAll(state.models);
+  fetchAll(state.statistics);
+  if (const auto* bodies = std::get_if<sim::RigidBodyState>(&state.physics)) {
+    fetchAll(bodies->robots);
+  }
+  fetchAll(m_match.commands());
+  fetchAll(m_match.percepts());
+  for (const Blackboard* board : m_boards) {
+    // Reads that nobody waits for; its variables are in the first half.
+    constexpr int wordsOfLine = cacheLine / sizeof(std::uint32_t);
+    for (int word = 0; word < Blackboard::words / 2; word += wordsOfLine) {
+      (void)board->read(IntVar{word});
+    }
   }
 }
 

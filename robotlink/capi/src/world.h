@@ -31,6 +31,10 @@ class World {
 
   /// Up to so many ticks.
   void play(int ticks);
+  /// Asks for its memory ahead of its turn: where it is, and once that is there, what it plays
+  /// with. Of many worlds each has left the processor's caches since its last tick.
+  void fetchSelf() const;
+  void fetchParts() const;
   WorldSnapshot snapshot() const;
   Result<void> restore(const WorldSnapshot& snapshot);
   /// This beginning, with another seed; false when it cannot.

@@ -67,6 +67,7 @@ std::size_t Collisions::addBody(const Tick& tick, std::size_t body) {
 void Collisions::findNeighbours(const Tick& tick) {
   const std::size_t robots = tick.state.robots.size();
   const FieldSpec& field = tick.settings().field;
+  const Obstacles& obstacles = m_solver.obstacles();
   m_bodies.clear();
   m_pairs.clear();
   m_slots.assign(robots + 1, 0);
@@ -96,8 +97,8 @@ void Collisions::findNeighbours(const Tick& tick) {
       return;
     }
     for (std::size_t k = 0; k < obstacleCount; ++k) {
-      const double limit = m_obstacles[k].radius + radius;
-      const double distance = clearance(m_obstacles, k, place).distance;
+      const double limit = obstacles[k].radius + radius;
+      const double distance = clearance(obstacles, k, place).distance;
       if (distance >= limit + way + margin) continue;
       m_pairs.push_back(
           {addBody(tick, body), k, true, restitution, std::max(0.0, limit - distance)});
@@ -145,6 +146,7 @@ void Collisions::findNeighbours(const Tick& tick) {
 
 void Collisions::separate(const Tick& tick) {
   const FieldSpec& field = tick.settings().field;
+  const Obstacles& obstacles = m_solver.obstacles();
   const std::size_t ball = tick.state.robots.size();
   const auto radius = [&](const MovingBody& moving) {
     return moving.body == ball ? field.ballRadius : m_radius[moving.body];
@@ -156,8 +158,8 @@ void Collisions::separate(const Tick& tick) {
     for (const NearPair& pair : m_pairs) {
       MovingBody& a = m_bodies[pair.first];
       if (pair.obstacle) {
-        const Clearance gap = clearance(m_obstacles, pair.second, a.position);
-        const double push = m_obstacles[pair.second].radius + radius(a) - gap.distance;
+        const Clearance gap = clearance(obstacles, pair.second, a.position);
+        const double push = obstacles[pair.second].radius + radius(a) - gap.distance;
         if (push - pair.overlap <= separationTolerance) continue;
         apart = false;
         a.position.x += gap.direction.x * (push - pair.overlap);
@@ -213,13 +215,8 @@ void Collisions::writeBack(Tick& tick) {
 
 void Collisions::advance(Tick& tick) {
   const SimulationSettings& settings = tick.settings();
-  if (!m_fieldKnown || !(m_field == settings.field)) {
-    m_field = settings.field;
-    m_fieldKnown = true;
-    m_obstacles = obstaclesOf(m_field);
-  }
   const std::size_t robots = tick.state.robots.size();
-  m_solver.prepare(tick.world, m_obstacles);
+  m_solver.prepare(tick.world);
   if (m_bodies.capacity() <= robots) {
     m_bodies.reserve(robots + 1);
     m_pairs.reserve((robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount);

@@ -34,9 +34,6 @@ class Collisions {
   void separate(const Tick& tick);
   void writeBack(Tick& tick);
 
-  FieldSpec m_field;
-  bool m_fieldKnown = false;
-  Obstacles m_obstacles;
   Rolling m_rolling;
   ContactSolver m_solver;
   Velocity m_ballVelocity;                 ///< mean over the tick, m/s

@@ -16,6 +16,7 @@ constexpr double longestStep = 1.0 / 60.0;  // s; slower ticks are divided
 // Box2D caps the way of one step at b2_maxTranslation; stay below.
 constexpr double longestWay = 1.5 / unitsPerMetre;  // m
 constexpr int velocityIterations = 8;
+constexpr std::size_t mostWorlds = 4;  // kinds of matches in one thread, in turn
 // Overlaps are the caller's to resolve, in double and smoothly.
 constexpr int positionIterations = 0;
 
@@ -91,8 +92,9 @@ struct ContactSolver::World {
     return true;
   }
 
-  World(const WorldState& state, const Obstacles& obstacles)
+  explicit World(const WorldState& state)
       : field(state.settings.field),
+        obstacles(obstaclesOf(field)),
         constants(state.settings.rigidBody),
         robots(state.robots.size()) {
     for (std::size_t i = 0; i < robots; ++i) sizes.push_back(sizeOf(state, i));
@@ -102,7 +104,7 @@ struct ContactSolver::World {
     world.SetContinuousPhysics(true);
     impulses.sums.resize(robots + 1);
     for (std::size_t i = 0; i <= robots; ++i) addBody(i);
-    addObstacles(obstacles);
+    addObstacles();
     proxies.resize(robots + 1 + obstacleCount);
     ProxyCollector collector(manager().m_broadPhase, proxies);
     b2AABB everywhere;
@@ -136,7 +138,7 @@ struct ContactSolver::World {
     bodies.push_back(body);
   }
 
-  void addObstacles(const Obstacles& obstacles) {
+  void addObstacles() {
     const b2BodyDef def;
     b2Body* ground = world.CreateBody(&def);
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -188,6 +190,7 @@ struct ContactSolver::World {
   ImpulseSum impulses;
   b2World world{b2Vec2{0.0F, 0.0F}};
   FieldSpec field;
+  Obstacles obstacles;
   RigidBodySettings constants;
   std::size_t robots;
   std::vector<Size> sizes;
@@ -198,13 +201,25 @@ struct ContactSolver::World {
 ContactSolver::ContactSolver() = default;
 ContactSolver::~ContactSolver() = default;
 
-void ContactSolver::prepare(const WorldState& world, const Obstacles& obstacles) {
-  if (!m_world || !m_world->fits(world)) m_world = std::make_unique<World>(world, obstacles);
+void ContactSolver::prepare(const WorldState& world) {
+  const auto fits = [&world](const auto& one) { return one->fits(world); };
+  const auto found = std::find_if(m_worlds.begin(), m_worlds.end(), fits);
+  if (found == m_worlds.begin() && found != m_worlds.end()) return;
+  if (found != m_worlds.end()) {
+    std::rotate(m_worlds.begin(), found, found + 1);
+    return;
+  }
+  if (m_worlds.size() == mostWorlds) m_worlds.pop_back();
+  m_worlds.insert(m_worlds.begin(), std::make_unique<World>(world));
+}
+
+const Obstacles& ContactSolver::obstacles() const {
+  return m_worlds.front()->obstacles;
 }
 
 void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs,
                           double dt) {
-  World& w = *m_world;
+  World& w = *m_worlds.front();
   double longest = 0.0;
   for (const MovingBody& moving : bodies) {
     b2Body* body = w.bodies[moving.body];

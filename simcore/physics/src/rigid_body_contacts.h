@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Box2D as a pure function. One b2World lives as long as the model, so that nothing is allocated
+// Box2D as a pure function. A b2World lives as long as the solver, so that nothing is allocated
 // per tick; but of one tick nothing is left for the next: contacts are made from the caller's list,
 // in its order, and are all destroyed afterwards, without warm starting or sleep. The world's own
 // search for contacts, whose order depends on the history of its tree, is refused by a filter.
@@ -47,16 +47,18 @@ class ContactSolver {
   ContactSolver();
   ~ContactSolver();
 
-  /// Makes sure that the bodies fit. Allocates only when the field, the constants, or the number,
-  /// size or weight of the robots changed.
-  void prepare(const WorldState& world, const Obstacles& obstacles);
+  /// Makes sure that the bodies fit. Allocates only for a field, constants, or a number, size or
+  /// weight of robots that the last few matches did not have.
+  void prepare(const WorldState& world);
+  /// Of the field that was prepared last.
+  const Obstacles& obstacles() const;
 
   /// Moves the bodies through `dt` seconds. Pairs that are not listed do not touch.
   void solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt);
 
  private:
   struct World;
-  std::unique_ptr<World> m_world;
+  std::vector<std::unique_ptr<World>> m_worlds;  ///< the one in use first
 };
 
 }  // namespace pitchboard::sim::rigid

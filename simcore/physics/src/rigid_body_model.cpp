@@ -23,6 +23,19 @@ const RigidBodyState& stateOf(const WorldState& world) {
   return std::get<RigidBodyState>(world.physics);
 }
 
+/// Memory that a tick needs and that says nothing afterwards: all matches of a thread have it in
+/// common, so that many of them do not push each other out of the processor's caches.
+struct Scratch {
+  std::vector<rigid::Motion> motions;
+  rigid::Noise draws;
+  rigid::Collisions collisions;
+};
+
+Scratch& scratch() {
+  static thread_local Scratch mine;
+  return mine;
+}
+
 class RigidBodyModel final : public PhysicsModel {
  public:
   void reset(WorldState& world) const override {
@@ -42,16 +55,17 @@ class RigidBodyModel final : public PhysicsModel {
 
   BallWay move(WorldState& world, std::span<const RobotCommand> commands,
                std::span<Percepts> percepts, std::vector<Event>& events) override {
-    rigid::Tick tick = tickOf(world, events);
+    Scratch& used = scratch();
+    rigid::Tick tick = tickOf(world, events, used);
     const double dt = tick.dt;
     const std::size_t robots = tick.state.robots.size();
-    m_motions.resize(robots);
+    used.motions.resize(robots);
     rigid::drawMotion(tick);
     for (std::size_t i = 0; i < robots; ++i) {
       percepts[i] = Percepts{};
       rigid::stepControl(tick, i, commands[i], percepts[i]);
     }
-    m_collisions.advance(tick);
+    used.collisions.advance(tick);
     for (std::size_t i = 0; i < robots; ++i) {
       const RigidRobot& robot = tick.state.robots[i];
       if (robot.inMotion) {
@@ -67,9 +81,9 @@ class RigidBodyModel final : public PhysicsModel {
   void sense(WorldState& world, std::span<const RobotCommand> commands,
              std::span<Percepts> percepts) override {
     std::vector<Event> none;  // senses report nothing
-    rigid::Tick tick = tickOf(world, none);
+    rigid::Tick tick = tickOf(world, none, scratch());
     rigid::drawImu(tick);
-    rigid::drawVision(tick);
+    tick.draws.ballDrawn = false;
     for (std::size_t i = 0; i < tick.state.robots.size(); ++i) {
       rigid::stepImu(tick, i, commands[i], percepts[i].imu);
       rigid::stepVision(tick, i, commands[i], percepts[i]);
@@ -133,21 +147,16 @@ class RigidBodyModel final : public PhysicsModel {
   }
 
  private:
-  rigid::Tick tickOf(WorldState& world, std::vector<Event>& events) {
+  static rigid::Tick tickOf(WorldState& world, std::vector<Event>& events, Scratch& used) {
     const double frames = published_frame::framesPerSecond / world.settings.tickRate;
     return {world,
             stateOf(world),
-            m_motions,
+            used.motions,
             events,
-            m_draws,
+            used.draws,
             1.0 / world.settings.tickRate,
             std::sqrt(frames)};
   }
-
-  // Scratch of a tick; see rigid_body_tick.h.
-  std::vector<rigid::Motion> m_motions;
-  rigid::Noise m_draws;
-  rigid::Collisions m_collisions;
 };
 
 }  // namespace

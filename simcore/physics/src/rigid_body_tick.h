@@ -3,7 +3,7 @@
 
 // What the parts of the rigid-body model hand to each other during one tick: the world that is
 // being advanced, and per robot what control asked for and what collisions made of it. Metres,
-// radians, seconds. Scratch memory of the model; nothing here outlives a tick but the memory itself
+// radians, seconds. Scratch memory of a thread; nothing here outlives a tick but the memory itself
 // and the sine and cosine of a yaw, which are remembered by its bits.
 
 #include <bit>
@@ -56,6 +56,7 @@ struct Motion {
 struct Noise {
   std::vector<int> robots;  ///< their numbers
   ManyDraws motion, imu, ball;
+  bool ballDrawn = false;  ///< in this tick: only where somebody sees the ball
 };
 
 /// The tick that is being computed.

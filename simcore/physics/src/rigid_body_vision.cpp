@@ -116,6 +116,10 @@ std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, const Image
   if (!seen) return {};
   const NoiseParameters& noise = tick.noise(index);
   if (!ballVisionIsNoisy(noise)) return seen;
+  if (!tick.draws.ballDrawn) {
+    tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
+    tick.draws.ballDrawn = true;
+  }
   ManyDraws::Draws random = tick.draws.ball.of(index);
   if (random.uniform() < noise.missedDetection) return {};
   const double distance =
@@ -227,10 +231,6 @@ std::size_t longestDelay(const WorldState& world) {
     longest = std::max(longest, delayTicks(world, i));
   }
   return longest;
-}
-
-void drawVision(Tick& tick) {
-  tick.draw(tick.draws.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
 }
 
 void stepVision(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

@@ -17,9 +17,6 @@ std::size_t longestDelay(const WorldState& world);
 /// Makes the ring fit the delays and the robots; moments that it has are kept.
 void resizePast(WorldState& world, RigidBodyState& state);
 
-/// Draws the noise of all robots' sight of the ball in this tick, before the first stepVision().
-void drawVision(Tick& tick);
-
 /// Moves the head and fills percept.landmarks, .ball, .robots and .searchOn. What is seen is the
 /// world as it was before the vision delay; what is looked for is what the robot wants now, and a
 /// robot that is down sees nothing.

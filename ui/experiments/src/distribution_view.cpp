@@ -71,6 +71,10 @@ void DistributionView::show(const PlayedPtr& played) {
   draw();
 }
 
+QWidget* DistributionView::area() const {
+  return m_view->viewport();
+}
+
 void DistributionView::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange) draw();

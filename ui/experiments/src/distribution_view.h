@@ -19,6 +19,8 @@ class DistributionView : public QWidget {
   void show(const PlayedPtr& played);
   /// Chooses the metric; stands where the owner puts it.
   QComboBox* chooser() const { return m_metric; }
+  /// Where the chart is.
+  QWidget* area() const;
 
  protected:
   void changeEvent(QEvent* event) override;

@@ -10,27 +10,21 @@
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QSaveFile>
-#include <QSortFilterProxyModel>
 #include <QSpinBox>
 #include <QStandardPaths>
-#include <QTabWidget>
-#include <QTableView>
 #include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
 
-#include <ui/base/save_file.h>
-#include <ui/base/table_style.h>
+#include <base/file_target.h>
+#include <ui/base/theme.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/replay_controller.h>
 
-#include "distribution_view.h"
 #include "experiment_play.h"
 #include "one_line.h"
-#include "results_model.h"
-#include "ways_view.h"
+#include "results_tabs.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -55,12 +49,8 @@ class ExperimentsDock : public QWidget {
         m_report(new QPushButton(QStringLiteral("Report"), this)),
         m_progress(new QProgressBar(this)),
         m_words(new OneLine(this)),
-        m_tabs(new QTabWidget(this)),
-        m_text(new QPlainTextEdit(this)),
-        m_seeRuns(new QPushButton(this)),
-        m_condition(new QComboBox(this)),
-        m_ways(new WaysView(this)),
-        m_distribution(new DistributionView(this)) {
+        m_tabs(new ResultsTabs(parts.compared != nullptr, this)),
+        m_text(new QPlainTextEdit(this)) {
     makeBar();
     makeTabs();
     connect(m_play, &ExperimentPlay::progressed, this, &ExperimentsDock::showProgress);
@@ -136,79 +126,13 @@ class ExperimentsDock : public QWidget {
     setMinimumHeight(scaled(this, 264));
   }
 
-  QTableView* addTable(ResultsModel::Kind kind, const QString& title, const QString& name) {
-    auto* model = new ResultsModel(kind, this);
-    auto* sorted = new QSortFilterProxyModel(this);
-    sorted->setSourceModel(model);
-    sorted->setSortRole(Qt::UserRole);
-    auto* table = new QTableView(this);
-    table->setObjectName(name);
-    table->setModel(sorted);
-    styleTable(table);
-    table->setSortingEnabled(kind == ResultsModel::Kind::Runs);
-    m_models.push_back(model);
-    m_tables.push_back(table);
-    m_tabs->addTab(table, title);
-    return table;
-  }
-
   void makeTabs() {
-    m_tabs->setObjectName(QStringLiteral("experimentTabs"));
-    m_tabs->setDocumentMode(true);
     m_text->setObjectName(QStringLiteral("experimentText"));
     m_text->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
     m_text->setLineWrapMode(QPlainTextEdit::NoWrap);
     m_tabs->addTab(m_text, QStringLiteral("File"));
-    addTable(ResultsModel::Kind::Measured, QStringLiteral("Measured"),
-             QStringLiteral("experimentMeasured"));
-    addTable(ResultsModel::Kind::Differences, QStringLiteral("Differences"),
-             QStringLiteral("experimentDifferences"));
-    addTable(ResultsModel::Kind::Assertions, QStringLiteral("Assertions"),
-             QStringLiteral("experimentAssertions"));
-    m_runsTable = addTable(ResultsModel::Kind::Runs, QStringLiteral("Runs"),
-                           QStringLiteral("experimentTable"));
-    m_runsTable->sortByColumn(0, Qt::AscendingOrder);
-    connect(m_runsTable, &QTableView::doubleClicked, this,
-            [this](const QModelIndex& index) { see({numberOf(index)}); });
-    connect(m_runsTable->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
-      highlight();
-      showChoices();
-    });
-    m_condition->setObjectName(QStringLiteral("experimentCondition"));
-    m_condition->setAccessibleName(QStringLiteral("Condition"));
-    m_condition->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-    connect(m_condition, &QComboBox::currentIndexChanged, this, [this](int index) {
-      if (index < 0 || !m_shown) return;
-      m_ways->show(m_shown, static_cast<std::size_t>(index));
-      highlight();
-    });
-    m_tabs->addTab(m_ways, QStringLiteral("Ways"));
-    m_tabs->addTab(m_distribution, QStringLiteral("Distribution"));
-    // Beside the tabs, because height is what field and chart lack.
-    auto* choices = new QWidget(this);
-    auto* row = new QHBoxLayout(choices);
-    row->setContentsMargins(0, scaled(this, 2), scaled(this, 4), scaled(this, 2));
-    row->addWidget(m_seeRuns);
-    row->addWidget(m_condition);
-    row->addWidget(m_distribution->chooser());
-    m_seeRuns->setObjectName(QStringLiteral("experimentSeeRuns"));
-    connect(m_seeRuns, &QPushButton::clicked, this, [this] { see(chosenRuns()); });
-    m_tabs->setCornerWidget(choices);
-    connect(m_tabs, &QTabWidget::currentChanged, this, [this] { showChoices(); });
-    showChoices();
-  }
-
-  std::size_t numberOf(const QModelIndex& index) const {
-    const auto* proxy = static_cast<const QSortFilterProxyModel*>(m_runsTable->model());
-    return m_models.back()->runNumber(proxy->mapToSource(index).row());
-  }
-
-  std::vector<std::size_t> chosenRuns() const {
-    std::vector<std::size_t> numbers;
-    for (const QModelIndex& index : m_runsTable->selectionModel()->selectedRows()) {
-      numbers.push_back(numberOf(index));
-    }
-    return numbers;
+    m_tabs->addTabs();
+    connect(m_tabs, &ResultsTabs::asked, this, &ExperimentsDock::see);
   }
 
   /// One in Replay, or two over each other.
@@ -234,23 +158,6 @@ class ExperimentsDock : public QWidget {
         QStringLiteral("Both runs are open in Replay; the second is drawn over the first. "
                        "Timeline > Stop comparing ends it."));
   }
-
-  void showChoices() {
-    const bool runs = m_tabs->currentWidget() == m_runsTable && m_shown;
-    const qsizetype chosen = runs ? m_runsTable->selectionModel()->selectedRows().size() : 0;
-    const bool compares = chosen == 2 && m_parts.compared != nullptr;
-    m_seeRuns->setVisible(runs);
-    m_seeRuns->setEnabled(chosen == 1 || compares);
-    m_seeRuns->setText(compares ? QStringLiteral("Compare on the field")
-                                : QStringLiteral("See in Replay"));
-    m_seeRuns->setToolTip(m_parts.compared == nullptr
-                              ? QStringLiteral("Choose a run")
-                              : QStringLiteral("Choose one run, or two (Ctrl+click) to compare"));
-    m_condition->setVisible(m_tabs->currentWidget() == m_ways && m_shown);
-    m_distribution->chooser()->setVisible(m_tabs->currentWidget() == m_distribution && m_shown);
-  }
-
-  void highlight() { m_ways->highlight(chosenRuns()); }
 
   void say(const QString& words, bool isError = false) {
     QPalette colours = palette();
@@ -298,11 +205,10 @@ class ExperimentsDock : public QWidget {
     const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), {},
                                                       QStringLiteral("Experiments (*.json)"));
     if (path.isEmpty()) return;
-    QSaveFile file(path);
-    if (!file.open(QIODevice::WriteOnly) || file.write(m_text->toPlainText().toUtf8()) < 0 ||
-        !commitWhole(file)) {
-      say(QStringLiteral("%1 cannot be written: %2").arg(path, file.errorString()), true);
-    }
+    const auto written =
+        writeFile(path.toStdString(), m_text->toPlainText().toStdString(), IfExists::Replace);
+    if (!written) return say(QString::fromStdString(written.error().text()), true);
+    say(QStringLiteral("Saved as %1").arg(path));
   }
 
   void startOrCancel() {
@@ -330,6 +236,7 @@ class ExperimentsDock : public QWidget {
     m_choice->setEnabled(!on);
     m_runs->setEnabled(!on);
     m_text->setReadOnly(on);
+    m_tabs->showPlaying(on);
   }
 
   void showProgress(qulonglong done, qulonglong all, double seconds) {
@@ -349,16 +256,9 @@ class ExperimentsDock : public QWidget {
   void showResults(const PlayedPtr& played) {
     setPlaying(false);
     m_shown = played;
-    for (ResultsModel* model : m_models) model->show(played);
-    for (QTableView* table : m_tables) table->resizeColumnsToContents();
-    m_condition->clear();
+    m_tabs->showResults(played);
     std::size_t runs = 0;
-    for (const link::ConditionSummary& condition : played->summary.conditions) {
-      m_condition->addItem(QString::fromStdString(condition.name));
-      runs += condition.runs;
-    }
-    m_distribution->show(played);
-    showChoices();
+    for (const auto& condition : played->summary.conditions) runs += condition.runs;
     const bool complete = runs == played->experiment.allRuns();
     m_report->setEnabled(complete);
     const auto& checks = played->summary.assertions;
@@ -385,15 +285,8 @@ class ExperimentsDock : public QWidget {
   QPushButton* m_report;
   QProgressBar* m_progress;
   QLabel* m_words;
-  QTabWidget* m_tabs;
+  ResultsTabs* m_tabs;
   QPlainTextEdit* m_text;
-  QPushButton* m_seeRuns;
-  QComboBox* m_condition;
-  WaysView* m_ways;
-  DistributionView* m_distribution;
-  std::vector<ResultsModel*> m_models;
-  std::vector<QTableView*> m_tables;
-  QTableView* m_runsTable = nullptr;
   PlayedPtr m_shown;
 };
 

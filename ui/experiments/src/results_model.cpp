@@ -23,6 +23,16 @@ QString text(const std::optional<link::Interval>& interval, bool rate) {
   return QStringLiteral("%1 to %2").arg(text(interval->low, rate), text(interval->high, rate));
 }
 
+/// Of a test: more digits say nothing.
+QString statistic(double value) {
+  return std::isfinite(value) ? QString::number(value, 'f', 2).replace(QLatin1Char('-'), minusSign)
+                              : nothing;
+}
+
+QString probability(double p) {
+  return p < 0.001 ? QStringLiteral("< 0.001") : QString::number(p, 'f', 3);
+}
+
 QString title(const link::MetricInfo& metric) {
   const QString name = QString::fromStdString(metric.title);
   return metric.unit.empty() ? name
@@ -76,8 +86,8 @@ void ResultsModel::fill() {
         const bool rate = s.metrics[one.metric].rate;
         m_rows.append({title(s.metrics[one.metric]), qs(s.conditions[one.second].name),
                        qs(s.conditions[one.first].name), text(one.welch->difference, rate),
-                       text(one.welch->difference95, rate), text(one.welch->t), text(one.welch->p),
-                       text(one.welch->hedgesG)});
+                       text(one.welch->difference95, rate), statistic(one.welch->t),
+                       probability(one.welch->p), statistic(one.welch->hedgesG)});
       }
       for (const link::GivenComparison& one : s.comparisons) {
         if (!one.welch) continue;
@@ -85,7 +95,8 @@ void ResultsModel::fill() {
         m_rows.append({title(s.metrics[one.metric]), qs(s.conditions[one.condition].name),
                        qs(m_played->experiment.given[one.figure].name),
                        text(one.welch->difference, rate), text(one.welch->difference95, rate),
-                       text(one.welch->t), text(one.welch->p), text(one.welch->hedgesG)});
+                       statistic(one.welch->t), probability(one.welch->p),
+                       statistic(one.welch->hedgesG)});
       }
       break;
     case Kind::Assertions:

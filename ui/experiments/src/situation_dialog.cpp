@@ -14,7 +14,6 @@
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QPushButton>
-#include <QSaveFile>
 #include <QSettings>
 #include <QSpinBox>
 #include <QStandardPaths>
@@ -22,9 +21,9 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include <base/file_target.h>
 #include <robotlink/cognition/process_registry.h>
 #include <ui/base/number_box.h>
-#include <ui/base/save_file.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -162,7 +161,7 @@ void SituationDialog::makeRobotRows(QFormLayout* form) {
 QWidget* SituationDialog::makeFolder() {
   m_folder->setObjectName(QStringLiteral("testFolder"));
   auto* browse = new QToolButton(this);
-  browse->setIcon(themedIcon(QStringLiteral("folder-open")));
+  browse->setIcon(themedIcon(QStringLiteral("document-open")));
   browse->setToolTip(QStringLiteral("Choose the folder of the tests…"));
   connect(browse, &QToolButton::clicked, this, [this] {
     const QString chosen = QFileDialog::getExistingDirectory(
@@ -302,12 +301,16 @@ void SituationDialog::check() {
                                       : QStringLiteral("%1");
     words = words.arg(QDir::toNativeSeparators(path()));
   }
-  QPalette colours = palette();
-  colours.setColor(QPalette::WindowText, usable ? theme().secondaryText : theme().errorText);
-  m_problem->setPalette(colours);
-  m_problem->setText(words);
+  tell(words, usable ? theme().secondaryText : theme().errorText);
   m_play->setEnabled(usable);
   m_save->setEnabled(usable);
+}
+
+void SituationDialog::tell(const QString& words, const QColor& colour) {
+  QPalette colours = palette();
+  colours.setColor(QPalette::WindowText, colour);
+  m_problem->setPalette(colours);
+  m_problem->setText(words);
 }
 
 void SituationDialog::save(bool play) {
@@ -315,17 +318,8 @@ void SituationDialog::save(bool play) {
   if (!text) return check();
   const QString to = path();
   QDir().mkpath(QFileInfo(to).path());
-  QSaveFile file(to);
-  const auto size = static_cast<qint64>(text->size());
-  if (!file.open(QIODevice::WriteOnly) || file.write(text->data(), size) != size ||
-      !commitWhole(file)) {
-    QPalette colours = palette();
-    colours.setColor(QPalette::WindowText, theme().errorText);
-    m_problem->setPalette(colours);
-    m_problem->setText(QStringLiteral("%1 cannot be written: %2. Choose another folder.")
-                           .arg(QDir::toNativeSeparators(to), file.errorString()));
-    return;
-  }
+  const auto written = writeFile(to.toStdString(), *text, IfExists::Replace);
+  if (!written) return tell(QString::fromStdString(written.error().text()), theme().errorText);
   if (m_settings != nullptr) m_settings->setValue(folderKey, QFileInfo(to).path());
   emit saved(to, play);
   accept();

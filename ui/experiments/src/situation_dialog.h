@@ -45,6 +45,7 @@ class SituationDialog : public QDialog {
   link::Situation situation() const;
   QString path() const;
   void check();
+  void tell(const QString& words, const QColor& colour);
   void save(bool play);
 
   FramePtr m_frame;

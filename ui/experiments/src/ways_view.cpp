@@ -46,13 +46,30 @@ void paintWay(QPainter& p, const std::vector<Point>& points, QColor colour, int 
   p.drawEllipse(line.last(), 2 * width, 2 * width);
 }
 
+/// What the colours mean, where the field leaves room.
+void paintLegend(QPainter& p, const QRect& room) {
+  const QFont font = themeFont(TypeRole::Secondary);
+  p.setFont(font);
+  const int line = QFontMetrics(font).height(), gap = line / 2;
+  const std::pair<QColor, QString> entries[] = {
+      {theme().blueTeam, QStringLiteral("robots, the run ended with a goal")},
+      {theme().redTeam, QStringLiteral("robots, it ended otherwise")},
+      {theme().ball, QStringLiteral("ball")}};
+  int y = room.top() + gap;
+  for (const auto& [colour, words] : entries) {
+    p.fillRect(QRect(room.left() + gap, y + line / 2 - 1, 2 * line, 3), colour);
+    p.setPen(theme().text);
+    p.drawText(QRect(room.left() + 2 * gap + 2 * line, y, room.width(), line),
+               Qt::AlignLeft | Qt::AlignVCenter, words);
+    y += line + gap / 2;
+  }
+}
+
 }  // namespace
 
 WaysView::WaysView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("experimentWays"));
-  setToolTip(QStringLiteral(
-      "Robots of runs that ended with a goal in blue, of the others in red; the ball in orange. "
-      "Choose one run or several in Runs to bring them out."));
+  setToolTip(QStringLiteral("Choose one run or several in Runs to bring them out."));
 }
 
 void WaysView::show(const PlayedPtr& played, std::size_t condition) {
@@ -76,6 +93,7 @@ void WaysView::paintEvent(QPaintEvent* /*event*/) {
   const double wide = 2 * (field.halfLength() + field.border);
   const double high = 2 * (field.halfWidth() + field.border);
   const double scale = std::min(width() / wide, height() / high);
+  paintLegend(p, rect());
   p.setRenderHint(QPainter::Antialiasing);
   p.translate(width() / 2.0, height() / 2.0);
   p.scale(scale, -scale);
