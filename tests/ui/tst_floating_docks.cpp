@@ -103,12 +103,15 @@ class TestFloatingDocks : public QObject {
     const QRect screen = s.window.screen()->geometry();
     QTRY_VERIFY(screen.contains(s.dock()->geometry()));
     QTRY_VERIFY(s.window.geometry().intersects(s.dock()->geometry()));
-    const auto isAbove = [&s] {
+    QByteArray panel, window;
+    const auto isAbove = [&] {
       const QRect both = s.dock()->geometry() & s.window.geometry();
-      const QByteArray panel = windowAt(both.center()), window = windowAt(s.ground());
+      panel = windowAt(both.center());
+      window = windowAt(s.ground());
       return !panel.isEmpty() && !window.isEmpty() && panel != window;
     };
-    QTRY_VERIFY(isAbove());
+    QTRY_VERIFY2(isAbove(), qPrintable(QStringLiteral("at the panel %1, at the window %2")
+                                           .arg(QLatin1String(panel), QLatin1String(window))));
     // Working in the window does not bury it.
     click(s.ground());
     QTRY_VERIFY(s.window.isActiveWindow());

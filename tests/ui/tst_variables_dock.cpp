@@ -291,6 +291,7 @@ class TestVariablesDock : public QObject {
     bench.controller.open(scenario, true);
     bench.controller.runTo(10);
     QTRY_VERIFY(bench.model->find(QStringLiteral("B11/TRUE_X")).isValid());
+    QTRY_VERIFY(bench.controller.frame());  // rows may be there before it
     bench.press("changedOnly");
     emit bench.selection.blackboardRequested(RobotId{1});
     QCOMPARE(bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"))->text(),

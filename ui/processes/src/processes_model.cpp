@@ -106,7 +106,8 @@ QString ProcessesModel::text(const Row& row, int column) const {
     case Restarts:
       return QString::number(status.restarts);
     case Cpu:
-      return runs ? QStringLiteral("%1 %").arg(status.cpu * 100, 0, 'f', 1) : QString();
+      return runs ? QStringLiteral("%1 %").arg(std::max(0.0, status.cpu) * 100, 0, 'f', 1)
+                  : QString();
     case Memory:
       return runs ? QStringLiteral("%1 MB").arg(static_cast<double>(status.memoryBytes) / 1e6, 0,
                                                 'f', 1)

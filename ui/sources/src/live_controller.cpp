@@ -10,7 +10,8 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr qint64 framePeriod = 32;  // ms
+constexpr qint64 framePeriod = 32;  // ms, while many are heard
+constexpr std::size_t fewRobots = 8;
 }  // namespace
 
 /// Every message as a row of the store. Lives in the watch's thread once it observes.
@@ -216,7 +217,8 @@ void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& ob
 // pictures of them tell as much and cost half.
 void LiveController::deliver() {
   if (m_nextFrame.isActive()) return;  // which shows this one, too
-  const qint64 rested = m_sinceFrame.isValid() ? m_sinceFrame.elapsed() : framePeriod;
+  const bool many = m_frame && m_frame->robots.size() > fewRobots;
+  const qint64 rested = many ? m_sinceFrame.elapsed() : framePeriod;
   if (rested >= framePeriod)
     deliverNow();
   else

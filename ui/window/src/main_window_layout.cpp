@@ -79,8 +79,13 @@ void MainWindow::showEvent(QShowEvent* event) {
   if (std::exchange(m_wasShown, true)) return;
   QTimer::singleShot(0, this, [this] {
     fitScreen();
+    // Panels that float were shown before the window. A window manager that had not seen it then
+    // does not know whose they are, and puts the window over them at the first click.
     for (QDockWidget* dock : m_docks) {
-      if (dock->isFloating() && dock->isVisible()) dock->raise();
+      if (!dock->isFloating() || !dock->isVisible()) continue;
+      dock->hide();
+      dock->show();
+      dock->raise();
     }
   });
 }
