@@ -9,6 +9,8 @@
 #include <cstring>
 #include <random>
 
+#include "../support/recorded_packets.h"
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -206,7 +208,7 @@ class TestGameController : public QObject {
   void survivesMutations() {
     std::mt19937 random(7);
     QList<QByteArray> seeds;
-    for (const QString& name : recordedPackets()) {
+    for (const QString& name : ::recordedPackets()) {
       seeds << recordedPacketFileBytes(name, ".bin");
     }
     int decoded = 0;
@@ -267,5 +269,4 @@ class TestGameController : public QObject {
 };
 
 QTEST_GUILESS_MAIN(TestGameController)
-#include "../support/recorded_packets.h"
 #include "tst_gamecontroller.moc"
