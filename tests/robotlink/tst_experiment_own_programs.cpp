@@ -174,7 +174,8 @@ void TestExperimentOwnPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWer
     if (!played) return played;
     return folder->finish();
   };
-  QVERIFY(play(pathOf("whole"), {1, 2, 3, 4}, 2, false).has_value());
+  const auto whole = play(pathOf("whole"), {1, 2, 3, 4}, 2, false);
+  QVERIFY2(whole.has_value(), whole ? "" : whole.error().text().c_str());
   QVERIFY(play(pathOf("resumed"), {3}, 1, false).has_value());
   QVERIFY(play(pathOf("resumed"), {4, 2, 1}, 1, true).has_value());
   QVERIFY(play(pathOf("part1"), {1, 3}, 1, false).has_value());

@@ -8,7 +8,8 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr std::size_t atOnce = 4;  // pieces; small enough that nobody waits long at the end
+// Pieces; so few that nobody waits long at the end.
+constexpr std::size_t atLeast = 4, atMost = 16;
 
 }  // namespace
 
@@ -34,13 +35,14 @@ StepTeam::~StepTeam() {
 
 void StepTeam::run(std::size_t pieces, const Work& work) {
   if (m_threads.empty() || pieces <= 1) {
-    for (std::size_t i = 0; i < pieces; ++i) work(i);
+    for (std::size_t i = 0; i < pieces; ++i) work(i, pieces);
     return;
   }
   {
     const std::lock_guard lock(m_mutex);
     m_work = &work;
     m_pieces = pieces;
+    m_atOnce = std::clamp(pieces / 64, atLeast, atMost);
     m_next = 0;
     m_busy = m_threads.size();
     ++m_round;
@@ -68,10 +70,10 @@ void StepTeam::serve() {
 
 void StepTeam::takePieces() {
   while (true) {
-    const std::size_t first = m_next.fetch_add(atOnce);
+    const std::size_t first = m_next.fetch_add(m_atOnce);
     if (first >= m_pieces) return;
-    const std::size_t last = std::min(first + atOnce, m_pieces);
-    for (std::size_t i = first; i < last; ++i) (*m_work)(i);
+    const std::size_t last = std::min(first + m_atOnce, m_pieces);
+    for (std::size_t i = first; i < last; ++i) (*m_work)(i, last);
   }
 }
 

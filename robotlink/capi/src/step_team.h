@@ -2,8 +2,9 @@
 #pragma once
 
 // Threads that share work on numbered pieces: run() gives every piece to one of them, the caller's
-// included, and returns when all are done. Which thread takes which piece is nobody's business, so
-// pieces must not know each other. Owned and used by one thread.
+// included, and returns when all are done. Which thread takes which pieces is nobody's business, so
+// pieces must not know each other, but for those up to `end`, which the same thread takes next.
+// Owned and used by one thread.
 
 #include <atomic>
 #include <condition_variable>
@@ -19,7 +20,7 @@ namespace pitchboard::link {
 
 class StepTeam {
  public:
-  using Work = std::function<void(std::size_t piece)>;
+  using Work = std::function<void(std::size_t piece, std::size_t end)>;
 
   StepTeam() = default;
   ~StepTeam();
@@ -37,7 +38,7 @@ class StepTeam {
   std::mutex m_mutex;
   std::condition_variable m_begun, m_done;
   const Work* m_work = nullptr;
-  std::size_t m_pieces = 0;
+  std::size_t m_pieces = 0, m_atOnce = 1;
   std::atomic<std::size_t> m_next = 0;
   std::size_t m_round = 0;
   std::size_t m_busy = 0;

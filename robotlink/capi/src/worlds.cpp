@@ -209,9 +209,9 @@ Result<void> Worlds::step(int ticks) {
   // So few stay in a core's cache by themselves.
   constexpr std::size_t few = 200;
   const bool many = worlds.size() > few;
-  m_parts->team.run(worlds.size(), [&](std::size_t i) {
-    if (many && i + 2 < worlds.size()) worlds[i + 2].fetchSelf();
-    if (many && i + 1 < worlds.size()) worlds[i + 1].fetchParts();
+  m_parts->team.run(worlds.size(), [&](std::size_t i, std::size_t end) {
+    if (many && i + 2 < end) worlds[i + 2].fetchSelf();
+    if (many && i + 1 < end) worlds[i + 1].fetchParts();
     worlds[i].play(ticks);
   });
   return {};

@@ -74,6 +74,7 @@ SimulatedMatch& SimulatedMatch::operator=(SimulatedMatch&& other) noexcept {
 
 SimulatedMatch::~SimulatedMatch() {
   m_processes.reset();
+  m_seats.clear();  // its robots before its number: whoever gets that takes them at once
 }
 
 Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const MatchOptions& options,
