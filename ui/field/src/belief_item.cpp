@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <robotlink/frame/belief.h>
+#include <robotlink/frame/robot_frame.h>
+#include <simcore/world/published_frame.h>
 #include <ui/base/theme.h>
 
 #include "field_stamps.h"
@@ -16,6 +19,29 @@ constexpr double noseReach = 1.75;   // of the ghost's radius
 constexpr double readable_px = 6.5;  // radius of a ring in which a number can be read
 
 }  // namespace
+
+BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) {
+  BeliefLook look;
+  look.team = robot.identity.team;
+  look.ghost = !robot.health;
+  look.believed = robot.health ? robot.pose : link::believedPose(field, *robot.board);
+  if (look.believed) {
+    const double sigma =
+        sim::published_frame::metresFromCm(static_cast<double>(robot.board->belief));
+    look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
+  }
+  look.number = robot.identity.number;
+  if (look.ghost && look.believed) {
+    const Point& there = look.believed->position;
+    if (pitchboard::distance(there, robot.pose.position) >= BeliefItem::apart) {
+      look.stands = robot.pose.position;
+    }
+  }
+  look.origin = link::perceivingPose(field, robot).position;
+  look.ball = link::perceivedBall(field, robot);
+  look.opacity = robot.timedOut() ? 0.45 : 1.0;
+  return look;
+}
 
 void BeliefItem::setLook(const BeliefLook& look) {
   if (look == m_look) return;

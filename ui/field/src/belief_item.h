@@ -9,6 +9,13 @@
 
 #include "field_style.h"
 
+namespace pitchboard::link {
+struct RobotFrame;
+}
+namespace pitchboard::sim {
+struct FieldSpec;
+}
+
 namespace pitchboard::ui {
 
 struct BeliefLook {
@@ -23,6 +30,10 @@ struct BeliefLook {
   double opacity = 1.0;
   bool operator==(const BeliefLook&) const = default;
 };
+
+/// What the robot believes and perceives. One that is heard is drawn where it believes to be: it
+/// has no ghost.
+BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field);
 
 class BeliefItem : public QGraphicsItem {
  public:

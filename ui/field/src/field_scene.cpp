@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <robotlink/frame/belief.h>
-#include <simcore/world/published_frame.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/pose_difference.h>
 
@@ -45,31 +43,6 @@ constexpr double hitMargin_px = 3.0;
 
 double distance(const QPointF& a, const QPointF& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
-
-/// What the robot believes and perceives. One that is heard is drawn where it believes to be: it
-/// has no ghost.
-BeliefLook beliefOf(const link::RobotFrame& robot, const sim::FieldSpec& field) {
-  BeliefLook look;
-  look.team = robot.identity.team;
-  look.ghost = !robot.health;
-  look.believed = robot.health ? robot.pose : link::believedPose(field, *robot.board);
-  if (look.believed) {
-    const double sigma =
-        sim::published_frame::metresFromCm(static_cast<double>(robot.board->belief));
-    look.sigma = std::isfinite(sigma) ? std::clamp(sigma, 0.0, field.length) : field.length;
-  }
-  look.number = robot.identity.number;
-  if (look.ghost && look.believed) {
-    const Point& there = look.believed->position;
-    if (pitchboard::distance(there, robot.pose.position) >= BeliefItem::apart) {
-      look.stands = robot.pose.position;
-    }
-  }
-  look.origin = link::perceivingPose(field, robot).position;
-  look.ball = link::perceivedBall(field, robot);
-  look.opacity = robot.timedOut() ? 0.45 : 1.0;
-  return look;
 }
 
 }  // namespace
