@@ -23,29 +23,17 @@
 #include "plot_page.h"
 #include "plot_pane.h"
 #include "scoreboard.h"
+#include "studio_rig.h"
 
 namespace live_studio {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
-struct Studio {
-  QTemporaryDir folder;
-  QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-  MatchController controller;
-  MainWindow window;
+struct Studio : studio_rig::Studio {
   link::LiveOptions options = live_rig::options();
 
-  Studio() : controller(inside()), window(&controller, &settings) {
-    window.resize(1280, 800);
-    window.show();
-    live()->setOptions(options);
-  }
-  static link::MatchOptions inside() {
-    link::MatchOptions made;
-    made.cognition = link::Cognition::Inline;
-    return made;
-  }
+  Studio() { live()->setOptions(options); }
   LiveController* live() { return window.live(); }
   void change(const std::function<void(link::LiveOptions&)>& edit) {
     edit(options);

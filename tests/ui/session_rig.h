@@ -16,29 +16,19 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "studio_rig.h"
+
 namespace session_rig {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
-struct Studio {
-  QTemporaryDir folder;
-  QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-  MatchController controller;
-  MainWindow window;
-  explicit Studio(std::uint64_t playTo = 600)
-      : controller(options()), window(&controller, &settings) {
+struct Studio : studio_rig::Studio {
+  explicit Studio(std::uint64_t playTo = 600) {
     window.recording()->setFolder(folder.filePath(QStringLiteral("new/recordings")));
-    window.resize(1280, 800);
-    window.show();
     if (playTo == 0) return;
     controller.open(link::loadScenario("match-3v3").value(), true);
     controller.runTo(playTo);
-  }
-  static link::MatchOptions options() {
-    link::MatchOptions made;
-    made.cognition = link::Cognition::Inline;
-    return made;
   }
   bool played(std::uint64_t tick) const {
     return controller.frame() && controller.frame()->snapshot.tick >= tick;

@@ -2,7 +2,6 @@
 // Drawings of robots on the field.
 
 #include <QAction>
-#include <QGraphicsView>
 #include <QMenu>
 #include <QTest>
 #include <QWheelEvent>
@@ -28,7 +27,6 @@ class TestFieldDrawings : public QObject {
   Q_OBJECT
 
   std::unique_ptr<FieldView> m_view;
-  QGraphicsView* m_canvas = nullptr;
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
@@ -36,7 +34,6 @@ class TestFieldDrawings : public QObject {
   void init() {
     m_view = fieldOnScreen();
     QVERIFY(m_view->isVisible());
-    m_canvas = m_view->findChild<QGraphicsView*>();
   }
 
   void cleanup() { m_view.reset(); }

@@ -18,27 +18,15 @@
 #include "alarms.h"
 #include "menu_actions.h"
 #include "plot_page.h"
+#include "studio_rig.h"
 
 namespace window_rig {
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
-struct Studio {
-  QTemporaryDir folder;
-  QSettings settings{folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat};
-  MatchController controller;
-  MainWindow window;
-  explicit Studio(QSize size = {1280, 800})
-      : controller(options()), window(&controller, &settings) {
-    window.resize(size);
-    window.show();
-  }
-  static link::MatchOptions options() {
-    link::MatchOptions made;
-    made.cognition = link::Cognition::Inline;
-    return made;
-  }
+struct Studio : studio_rig::Studio {
+  using studio_rig::Studio::Studio;
   /// A match of five seconds, paused.
   void play() {
     controller.open(link::loadScenario("match-3v3").value(), true);
