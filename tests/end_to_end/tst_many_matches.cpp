@@ -96,7 +96,8 @@ class TestManyMatches : public QObject {
       wanted.push_back(inside.simulation().hash());
     }
     QCOMPARE(std::set<std::uint64_t>(wanted.begin(), wanted.end()).size(), wanted.size());
-    std::set<int> numbers;
+    // How many of them play at the same moment is the machine's affair; that those who do have
+    // numbers of their own is the next test's.
     for (int i = 0; i < matches; ++i) {
       QProcess& program = *programs[static_cast<std::size_t>(i)];
       QVERIFY(program.waitForFinished(240'000));
@@ -106,13 +107,7 @@ class TestManyMatches : public QObject {
       QCOMPARE(outcome["state_hash"].toString(),
                QStringLiteral("0x%1").arg(wanted[static_cast<std::size_t>(i)], 16, 16,
                                           QLatin1Char('0')));
-      // Whoever plays beside others says so, and what its number is.
-      const auto found = QRegularExpression(QStringLiteral("match (\\d+)")).match(said);
-      if (found.hasMatch()) numbers.insert(found.captured(1).toInt());
     }
-    // One at most may have had the published number.
-    QVERIFY2(numbers.size() + 1 >= static_cast<std::size_t>(matches),
-             qPrintable(QString::number(numbers.size())));
   }
 
   void robotsOfOneMatchNeverHearThoseOfAnother() {

@@ -347,6 +347,26 @@ class TestProcessManager : public QObject {
     for (const pid_t pid : pids) QTRY_VERIFY(!runs(pid));
     QTRY_VERIFY(!SystemVSegments::info(m_key));
   }
+
+  // On a busy computer a killed process holds its segments longer than its environment.
+  void aSegmentThatIsStillUsedIsRemovedLater() {
+    QProcess host;
+    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host",
+               {PITCHBOARD_BIN "/pitchboard-robot", QString::number(m_key)});
+    QByteArray output;
+    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
+    QList<pid_t> pids;
+    for (const QByteArray& line : output.trimmed().split('\n')) pids << line.mid(6).toInt();
+    {
+      const auto used = SystemVSegments::open(m_key, AttachMode::ReadOnly);
+      QVERIFY(used);
+      host.kill();
+      QVERIFY(host.waitForFinished());
+      for (const pid_t pid : pids) QTRY_VERIFY(!runs(pid));
+      QVERIFY(SystemVSegments::info(m_key));
+    }
+    QTRY_VERIFY(!SystemVSegments::info(m_key));
+  }
 };
 
 QTEST_GUILESS_MAIN(TestProcessManager)

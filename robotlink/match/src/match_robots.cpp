@@ -53,8 +53,13 @@ Result<std::unique_ptr<SimulatedMatch::Seat>> SimulatedMatch::makeSeat(const Wis
     const int key = keyOf(id);
     auto claim = BridgeClaim::take(key);
     if (!claim) return tl::unexpected(claim.error());
+    // The guard is there before the segment, so that not even a kill between the two leaves it.
+    if (!m_options.robotProgram.empty()) {
+      if (auto guarded = needGuard(); !guarded) return tl::unexpected(guarded.error());
+    }
     auto board = SystemVSegments::open(key, AttachMode::AttachOrCreate);
     if (!board) return tl::unexpected(board.error());
+    m_processes->supervisor().guardSegment(*board);
     fresh = board->created();
     seat->claim = std::move(*claim);
     seat->board = std::move(*board);

@@ -40,18 +40,32 @@ class Guard {
   void tidyUp(const std::string& mark) const {
     if (m_done) return;
     const auto end = std::chrono::steady_clock::now() + patience;
-    for (auto left = markedProcesses(mark); !left.empty(); left = markedProcesses(mark)) {
+    while (true) {
+      const auto left = markedProcesses(mark);
       for (const pid_t pid : left) ::kill(pid, SIGKILL);
-      if (std::chrono::steady_clock::now() > end) break;
+      // A killed process loses its mark before it lets go of its segments, so both are waited for.
+      const bool done = left.empty() && !removeUnused();
+      if (done || std::chrono::steady_clock::now() > end) return;
       std::this_thread::sleep_for(5ms);
-    }
-    for (const auto& [shmid, key] : m_segments) {
-      const auto info = SystemVSegments::info(key);
-      if (info && info->shmid == shmid && info->attached == 0) (void)SystemVSegments::remove(key);
     }
   }
 
  private:
+  /// Removes what nobody uses any more; whether one of the segments is still used.
+  bool removeUnused() const {
+    bool used = false;
+    for (const auto& [shmid, key] : m_segments) {
+      const auto info = SystemVSegments::info(key);
+      if (!info || info->shmid != shmid) continue;
+      if (info->attached == 0) {
+        (void)SystemVSegments::remove(key);
+      } else {
+        used = true;
+      }
+    }
+    return used;
+  }
+
   void take(const std::string& line) {
     int key = 0, shmid = 0;
     if (line == guardWords::done) {
