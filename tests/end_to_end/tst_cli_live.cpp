@@ -78,7 +78,7 @@ class Listener {
   /// Exit code after SIGINT; -1 when it did not end by itself.
   int interrupt() {
     kill(static_cast<pid_t>(process.processId()), SIGINT);
-    if (!process.waitForFinished(10'000) || process.exitStatus() != QProcess::NormalExit) return -1;
+    if (!process.waitForFinished(60'000) || process.exitStatus() != QProcess::NormalExit) return -1;
     err += process.readAllStandardError();
     return process.exitCode();
   }

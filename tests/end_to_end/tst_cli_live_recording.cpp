@@ -71,7 +71,7 @@ class TestCliLiveRecording : public QObject {
         }(),
         5000);
     process.terminate();
-    QVERIFY(process.waitForFinished(10'000));
+    QVERIFY(process.waitForFinished(60'000));
     err += process.readAllStandardError();
     QVERIFY2(process.exitCode() == 0, err.constData());
 

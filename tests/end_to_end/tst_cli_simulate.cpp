@@ -128,7 +128,7 @@ class TestCliSimulate : public QObject {
     };
     QTRY_COMPARE_WITH_TIMEOUT(attached(), 6, 20000);
     ::kill(static_cast<pid_t>(process.processId()), SIGTERM);
-    QVERIFY(process.waitForFinished(10000));
+    QVERIFY(process.waitForFinished(60'000));
     QCOMPARE(process.exitCode(), 0);
     QCOMPARE(QJsonDocument::fromJson(process.readAllStandardOutput()).object()["finished_by"],
              QJsonValue("interrupted"));
@@ -172,7 +172,7 @@ class TestCliSimulate : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(left(), 4, 30000);
     QVERIFY(hasSegment());
     ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
-    QVERIFY(process.waitForFinished(10000));
+    QVERIFY(process.waitForFinished(60'000));
     QTRY_COMPARE_WITH_TIMEOUT(left(), 0, 30000);
     QTRY_VERIFY_WITH_TIMEOUT(!hasSegment(), 30000);
   }

@@ -69,7 +69,7 @@ class TestLiveMatch : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(live.latest()->robots[0].health->messages >= 3, 20000);
     QVERIFY(live.latest()->robots[0].health->rate > 0.3);
     match.terminate();
-    QVERIFY(match.waitForFinished(15000));
+    QVERIFY(match.waitForFinished(60'000));
   }
 };
 

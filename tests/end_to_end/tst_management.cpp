@@ -73,7 +73,7 @@ class TestManagement : public QObject {
       for (const qint64 pid : pidsOf(name)) pids.push_back(pid);
     }
     ::kill(static_cast<pid_t>(m_manager->processId()), signal);
-    QVERIFY(m_manager->waitForFinished(5000));
+    QVERIFY(m_manager->waitForFinished(60'000));
     QCOMPARE(m_manager->exitStatus(), QProcess::NormalExit);
     QCOMPARE(m_manager->exitCode(), 0);
     for (const qint64 pid : pids) QVERIFY2(!alive(pid), qPrintable(QString::number(pid)));
@@ -175,7 +175,7 @@ class TestManagement : public QObject {
     ::kill(static_cast<pid_t>(pidsOf(name).front()), SIGSTOP);
     QElapsedTimer timer;
     timer.start();
-    QTRY_COMPARE_WITH_TIMEOUT(pidsOf(name).size(), std::size_t{2}, 15000);
+    QTRY_COMPARE_WITH_TIMEOUT(pidsOf(name).size(), std::size_t{2}, 30'000);
     QVERIFY(timer.elapsed() > 1000);
     QVERIFY(said(qPrintable(name + " showed no sign of life for 2.5 s and was ended")));
     QVERIFY(!alive(pidsOf(name).front()));

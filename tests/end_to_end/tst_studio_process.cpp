@@ -91,7 +91,7 @@ class TestStudioProcess : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(Studio::robotProcesses() > 0, 20000);
     QTRY_COMPARE_WITH_TIMEOUT(Studio::segments(), std::size_t(6), 20000);
     ::kill(static_cast<pid_t>(studio.processId()), signal);
-    QVERIFY(studio.waitForFinished(10000));
+    QVERIFY(studio.waitForFinished(60'000));
     QTRY_COMPARE(Studio::robotProcesses(), 0);
     QTRY_COMPARE(Studio::segments(), std::size_t(0));
     if (!clean) return;
@@ -121,7 +121,7 @@ class TestStudioProcess : public QObject {
     QFETCH(QString, says);
     Studio studio(m_folder);
     QVERIFY(studio.launch(arguments));
-    QVERIFY(studio.waitForFinished(10000));
+    QVERIFY(studio.waitForFinished(60'000));
     QCOMPARE(studio.exitCode(), 2);
     const QString error = QString::fromUtf8(studio.readAllStandardError());
     QVERIFY2(error.startsWith(QStringLiteral("error: ")), qPrintable(error));
@@ -131,7 +131,7 @@ class TestStudioProcess : public QObject {
   void helpShowsAnExample() {
     Studio studio(m_folder);
     QVERIFY(studio.launch({QStringLiteral("--help")}));
-    QVERIFY(studio.waitForFinished(10000));
+    QVERIFY(studio.waitForFinished(60'000));
     QCOMPARE(studio.exitCode(), 0);
     QVERIFY(studio.readAllStandardOutput().contains("Examples: pitchboard "));
   }

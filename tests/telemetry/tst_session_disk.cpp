@@ -122,7 +122,7 @@ class TestSessionDisk : public QObject, private NewSessions {
     const std::string path = newPath();
     auto writer = SessionWriter::create(path, sessionInfo());
     const auto rows = record(**writer, 10);
-    QTRY_VERIFY_WITH_TIMEOUT(rowsOf(*SessionReader::open(path), everything) == rows, 3000);
+    QTRY_VERIFY_WITH_TIMEOUT(rowsOf(*SessionReader::open(path), everything) == rows, 30'000);
     QVERIFY(!SessionReader::open(path)->complete());
   }
 };

@@ -93,6 +93,8 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
     // Half a metre nearer to the ball, then a third of a turn: the match goes on all the while.
     dragOn(onScreen({-1.5, 0.0}), onScreen({-1.0, 0.0}), {});
     QTRY_VERIFY(std::abs(ballDistance() - 100.0) < 3.0);
+    // What is dragged next is what the window shows, a frame later than the segment.
+    QTRY_VERIFY(std::abs(controller.frame()->robots[0].pose.position.x + 1.0) < 0.05);
     dragOn(onScreen({-1.0, 0.0}), onScreen({-1.0, 1.0}), Qt::ShiftModifier);
     QTRY_VERIFY(std::abs(wrapToPi(yaw() - radiansFromDegrees(90))) < 0.06);
     QVERIFY(!controller.isPaused());

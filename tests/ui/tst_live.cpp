@@ -203,7 +203,7 @@ class TestLive : public QObject {
     QVERIFY(robot.say());
     QTRY_COMPARE(s.robots(), std::size_t(1));
     close(stubborn);
-    QTRY_COMPARE_WITH_TIMEOUT(s.bound(), std::size_t(17), 8000);
+    QTRY_COMPARE_WITH_TIMEOUT(s.bound(), std::size_t(17), 30'000);
   }
 
   void aFloodOfNonsenseIsCounted() {

@@ -39,7 +39,7 @@ class TestWindowLayout : public QObject {
     Studio s;
     s.find<QDockWidget>("processes")->close();
     // As if the studio were killed: what is in the settings by then is what counts.
-    QTRY_VERIFY_WITH_TIMEOUT(s.settings.contains(QStringLiteral("window/layout")), 10'000);
+    QTRY_VERIFY_WITH_TIMEOUT(s.settings.contains(QStringLiteral("window/layout")), 30'000);
     MatchController controller(Studio::options());
     MainWindow again(&controller, &s.settings);
     again.show();
