@@ -169,9 +169,12 @@ function(pitchboard_test name)
          "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1"
          "LSAN_OPTIONS=suppressions=${suppressions}/lsan.supp:print_suppressions=0"
          "UBSAN_OPTIONS=print_stacktrace=1" "QTEST_FUNCTION_TIMEOUT=1800000"  # TIMEOUT is the limit
-         # QProcess starts programs with vfork(), after which the sanitizer takes the parent for the child.
+         # The child of a process with threads: it soon becomes another program.
          "TSAN_OPTIONS=suppressions=${suppressions}/tsan.supp:second_deadlock_stack=1:die_after_fork=0")
     math(EXPR ARG_TIMEOUT "${ARG_TIMEOUT} * 4")
+    if(PITCHBOARD_SANITIZE MATCHES thread)
+      target_sources(${name} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
+    endif()
   endif()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
   list(PREPEND ARG_LABELS ${folder})

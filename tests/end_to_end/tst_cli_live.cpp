@@ -57,7 +57,7 @@ class Listener {
   bool start() {
     process.start(program, arguments);
     while (!err.contains("listening at")) {
-      if (!process.waitForReadyRead(10'000) && process.state() != QProcess::Running) return false;
+      if (!process.waitForReadyRead(60'000) && process.state() != QProcess::Running) return false;
       err += process.readAllStandardError();
     }
     return true;
@@ -67,7 +67,7 @@ class Listener {
     QList<QJsonObject> list;
     process.setReadChannel(QProcess::StandardOutput);
     while (list.size() < count) {
-      if (!process.canReadLine() && !process.waitForReadyRead(10'000)) break;
+      if (!process.canReadLine() && !process.waitForReadyRead(60'000)) break;
       while (process.canReadLine()) {
         const QJsonObject object = QJsonDocument::fromJson(process.readLine()).object();
         if (object["type"] != "health") list << object;
@@ -182,7 +182,7 @@ class TestCliLive : public QObject {
     }
     listener.process.setReadChannel(QProcess::StandardOutput);
     // The line of this second, without asking for it.
-    QVERIFY(listener.process.waitForReadyRead(10'000));
+    QVERIFY(listener.process.waitForReadyRead(60'000));
     QCOMPARE(listener.interrupt(), 0);
     QList<QByteArray> lines = listener.process.readAllStandardOutput().trimmed().split('\n');
     const QByteArray last = lines.last();

@@ -47,7 +47,7 @@ class TestCliLiveRecording : public QObject {
                             QString::number(referee), "-o", path});
     QByteArray err;
     QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"),
-                             10'000);
+                             30'000);
     const auto robotPort = static_cast<std::uint16_t>(base + 1);
     const auto refereePort = static_cast<std::uint16_t>(referee);
     const QByteArray packet = bytesOf(QStringLiteral(PITCHBOARD_TEST_DATA) +
@@ -69,7 +69,7 @@ class TestCliLiveRecording : public QObject {
           return session && session->count(SessionStream::Telemetry) == 41 &&
                  session->count(SessionStream::RefereeRaw) == 2;
         }(),
-        5000);
+        30000);
     process.terminate();
     QVERIFY(process.waitForFinished(60'000));
     err += process.readAllStandardError();

@@ -80,7 +80,7 @@ class TestSessionDisk : public QObject, private NewSessions {
     std::filesystem::remove(path);
     int tick = 10;
     QTRY_VERIFY_WITH_TIMEOUT((append(**writer, rowOf(0, tick++)), !(*writer)->status().recording),
-                             5000);
+                             30000);
     QVERIFY((*writer)->status().problem.find("removed") != std::string::npos);
     QVERIFY(!(*writer)->finish());
   }

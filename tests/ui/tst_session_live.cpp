@@ -53,7 +53,7 @@ class TestSessionLive : public QObject {
           return !ports.empty() && std::all_of(ports.begin(), ports.end(),
                                                [](const auto& port) { return port.bound; });
         },
-        10'000);
+        30'000);
     return bound && talk(s, options, 10);
   }
   static bool talk(Studio& s, const link::LiveOptions& options, int times) {
@@ -67,7 +67,7 @@ class TestSessionLive : public QObject {
             return live->frame() && live->frame()->robots.size() == 2 &&
                    live->frame()->snapshot.time > before;
           },
-          10'000);
+          30'000);
       if (!heard) return false;
     }
     return true;
@@ -101,7 +101,7 @@ class TestSessionLive : public QObject {
     said.x = place;
     LiveController* live = s.window.live();
     return robot.say(said) &&
-           QTest::qWaitFor([&] { return placeIn(live->frame()) == place; }, 10'000);
+           QTest::qWaitFor([&] { return placeIn(live->frame()) == place; }, 30'000);
   }
   /// The file that has been written since `work` began.
   static QString record(Studio& s, const std::function<bool()>& work) {
@@ -322,8 +322,8 @@ class TestSessionLive : public QObject {
       }
       return found;
     };
-    QCOMPARE(tick(lists[0], QStringLiteral("Robot 2")), 1);
-    QCOMPARE(tick(lists[1], QStringLiteral("X")), 1);
+    QTRY_COMPARE(tick(lists[0], QStringLiteral("Robot 2")), 1);
+    QTRY_COMPARE(tick(lists[1], QStringLiteral("X")), 1);
     QSignalSpy written(dialog, &ExportDialog::written);
     const QString to = s.folder.filePath(QStringLiteral("one robot.csv"));
     dialog->exportTo(to);
