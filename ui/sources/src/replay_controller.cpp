@@ -97,6 +97,7 @@ struct ReplayController::File {
   double start = 0.0;
   QStringList notes;
   FramePtr first;
+  std::vector<telemetry::GroupInfo> groups;
 
   explicit File(telemetry::SessionReader reader)
       : session(std::move(reader)),
@@ -105,7 +106,9 @@ struct ReplayController::File {
         memoryFrames(link::backdropOf(session)),
         tickRate(link::backdropOf(session).tickRate),
         live(session.count(telemetry::SessionStream::LiveState) > 0 ||
-             session.count(telemetry::SessionStream::Telemetry) > 0) {}
+             session.count(telemetry::SessionStream::Telemetry) > 0) {
+    for (const telemetry::SessionGroup& group : session.groups()) groups.push_back(group.info);
+  }
 
   void readEvents() {
     events = link::eventsOf(session);
@@ -148,6 +151,10 @@ std::string ReplayController::attachedScenario() const {
 
 std::shared_ptr<const telemetry::SeriesStore> ReplayController::series() const {
   return m_file ? m_file->rows : nullptr;
+}
+
+std::vector<telemetry::GroupInfo> ReplayController::groups() const {
+  return m_file ? m_file->groups : std::vector<telemetry::GroupInfo>();
 }
 
 QString ReplayController::emptyText() const {

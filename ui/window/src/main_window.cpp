@@ -284,6 +284,7 @@ void MainWindow::showExport() {
     source.session = m_replay->path();
     source.folder = file.path();
     source.name = file.completeBaseName() + QStringLiteral(" part");
+    source.groups = m_replay->groups();
   } else {
     source.make = [this] {
       return m_recording->recentPast(std::numeric_limits<double>::infinity());
@@ -292,10 +293,10 @@ void MainWindow::showExport() {
     source.name = m_source->kind() == SourceKind::Live
                       ? QStringLiteral("live")
                       : QString::fromStdString(m_controller->scenario().title);
-  }
-  if (const auto rows = m_source->series()) {
-    for (telemetry::GroupId id = 0; id < rows->groups(); ++id) {
-      if (const auto view = rows->view(id)) source.groups.push_back(view->info());
+    if (const auto rows = m_source->series()) {
+      for (telemetry::GroupId id = 0; id < rows->groups(); ++id) {
+        if (const auto view = rows->view(id)) source.groups.push_back(view->info());
+      }
     }
   }
   source.clock = m_source->clock();

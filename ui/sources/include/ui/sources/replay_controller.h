@@ -34,6 +34,8 @@ class ReplayController : public FrameSource {
   bool isBroken() const;
   /// JSON text of what the session was played with; empty when it has none.
   std::string attachedScenario() const;
+  /// What the file has rows of, from the moment it is open; series() gets them while it is read.
+  std::vector<telemetry::GroupInfo> groups() const;
 
   SourceKind kind() const override { return SourceKind::Replay; }
   FramePtr frame() const override { return m_frame; }
