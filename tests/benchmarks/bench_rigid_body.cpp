@@ -2,12 +2,20 @@
 
 // Ticks per second of the rigid-body model beside a bare Box2D world with the same bodies: robots
 // that walk where their commands send them, ball, posts, walls and nets. Argument: robots. Spread
-// out they never meet; in a heap all push towards the middle, and in a scrum towards the ball.
+// out they never meet; in a heap all push towards the middle, and six of them make a scrum for the
+// ball.
+//
+// A crowd does not last: robots that only push forward slip past each other, and after some
+// thousand ticks the model's stand at the walls while those of the bare world are still in a heap.
+// So both begin again, every few seconds, with the same robots at the same places, touching
+// already. The counter `contacts` tells how many pairs touch in a tick; only with as many on both
+// sides does the comparison say anything.
 
 #include <benchmark/benchmark.h>
 #include <box2d/box2d.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <simcore/simulation/simulation.h>
@@ -21,6 +29,9 @@ using namespace pitchboard::sim;
 
 constexpr int ticksPerAction = 120;
 constexpr int actions[] = {1, 17, 8, 18, 6, 7};
+constexpr int settlingTicks = 240;         // from the spiral until all push
+constexpr std::uint64_t crowdTicks = 240;  // until a crowd begins again
+constexpr double touching = 0.001;         // m
 
 enum class Crowd { Spread, Heap };
 
@@ -34,9 +45,6 @@ Pose startOf(int robot, Crowd crowd) {
   return {{away * std::cos(angle), away * std::sin(angle)}, angle + 3.14159};
 }
 
-Point ballOf(Crowd crowd) {
-  return crowd == Crowd::Spread ? Point{0.35, 0.1} : Point{0.0, 0.0};
-}
 Velocity ballSpeedOf(Crowd crowd) {
   return crowd == Crowd::Spread ? Velocity{1.0, 0.5} : Velocity{};
 }
@@ -46,38 +54,121 @@ int actionOf(int robot, std::uint64_t tick, Crowd crowd) {
   return actions[(static_cast<std::uint64_t>(robot) + tick / ticksPerAction) % std::size(actions)];
 }
 
-Simulation makeSimulation(int robots, const NoiseParameters& noise, Crowd crowd) {
-  SimulationSettings settings;
-  settings.noise = noise;
-  Simulation simulation = Simulation::create(settings).value();
-  for (int i = 0; i < robots; ++i) {
-    RobotIdentity identity;
-    identity.id = {i + 1};
-    identity.team = i % 2 == 0 ? TeamColor::Blue : TeamColor::Red;
-    (void)simulation.addRobot(identity, startOf(i, crowd));
+bool beginsAgain(std::uint64_t tick, Crowd crowd) {
+  return crowd == Crowd::Heap && tick % crowdTicks == 0;
+}
+
+/// Where everybody stands.
+struct Places {
+  std::vector<Pose> robots;
+  Point ball;
+};
+
+/// Pairs of robots, of robots and the ball, and of either with posts, walls and nets.
+int contactsOf(const Places& places, const FieldSpec& field) {
+  const rigid::Obstacles obstacles = rigid::obstaclesOf(field);
+  std::vector<std::pair<Point, double>> bodies{{places.ball, field.ballRadius}};
+  for (const Pose& robot : places.robots) bodies.emplace_back(robot.position, field.robotRadius);
+  int count = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto& [place, radius] = bodies[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point& other = bodies[j].first;
+      const double distance = std::hypot(place.x - other.x, place.y - other.y);
+      count += distance < radius + bodies[j].second + touching ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+      const double distance = rigid::clearance(obstacles, k, place).distance;
+      count += distance < radius + obstacles[k].radius + touching ? 1 : 0;
+    }
   }
-  return simulation;
+  return count;
+}
+
+/// Plays one crowd and tells how many pairs touched in a tick, as the benchmark's counter.
+template <class Game>
+void countContacts(benchmark::State& state, Game& game) {
+  int contacts = 0;
+  for (std::uint64_t i = 0; i < crowdTicks; ++i) {
+    game.tick();
+    contacts += contactsOf(game.places(), FieldSpec{});
+  }
+  state.counters["contacts"] = static_cast<double>(contacts) / static_cast<double>(crowdTicks);
+}
+
+/// Our model.
+class ModelGame {
+ public:
+  ModelGame(const Places& begin, const NoiseParameters& noise, Crowd crowd)
+      : m_begin(begin),
+        m_crowd(crowd),
+        m_simulation(make(noise)),
+        m_commands(begin.robots.size()),
+        m_percepts(begin.robots.size()) {
+    for (std::size_t i = 0; i < begin.robots.size(); ++i) {
+      RobotIdentity identity;
+      identity.id = {static_cast<int>(i) + 1};
+      identity.team = i % 2 == 0 ? TeamColor::Blue : TeamColor::Red;
+      (void)m_simulation.addRobot(identity, begin.robots[i]);
+      m_commands[i].actionB = 10;
+    }
+    (void)m_simulation.placeBall(begin.ball, {});
+  }
+
+  void tick() {
+    const std::uint64_t tick = m_simulation.state().tick;
+    if (beginsAgain(tick, m_crowd)) begin();
+    if (tick % ticksPerAction == 0) {
+      for (std::size_t i = 0; i < m_commands.size(); ++i) {
+        m_commands[i].actionA = actionOf(static_cast<int>(i), tick, m_crowd);
+      }
+      (void)m_simulation.placeBall(m_simulation.snapshot().ball, ballSpeedOf(m_crowd));
+    }
+    m_simulation.step(m_commands, m_percepts);
+    benchmark::DoNotOptimize(m_percepts.data());
+  }
+
+  Places places() const {
+    const Snapshot now = m_simulation.snapshot();
+    Places places{{}, now.ball};
+    for (const RobotSnapshot& robot : now.robots) places.robots.push_back(robot.pose);
+    return places;
+  }
+
+ private:
+  static Simulation make(const NoiseParameters& noise) {
+    SimulationSettings settings;
+    settings.noise = noise;
+    return Simulation::create(settings).value();
+  }
+  void begin() {
+    for (std::size_t i = 0; i < m_begin.robots.size(); ++i) {
+      (void)m_simulation.placeRobot({static_cast<int>(i) + 1}, m_begin.robots[i]);
+    }
+    (void)m_simulation.placeBall(m_begin.ball, {});
+  }
+
+  Places m_begin;
+  Crowd m_crowd;
+  Simulation m_simulation;
+  std::vector<RobotCommand> m_commands;
+  std::vector<Percepts> m_percepts;
+};
+
+/// Of a crowd: when all have reached it and push.
+Places placesOf(int robots, Crowd crowd) {
+  Places spiral{{}, crowd == Crowd::Spread ? Point{0.35, 0.1} : Point{}};
+  for (int i = 0; i < robots; ++i) spiral.robots.push_back(startOf(i, crowd));
+  if (crowd == Crowd::Spread) return spiral;
+  ModelGame game(spiral, {}, crowd);
+  for (int i = 0; i < settlingTicks; ++i) game.tick();
+  return game.places();
 }
 
 void run(benchmark::State& state, const NoiseParameters& noise, Crowd crowd) {
-  const int robots = static_cast<int>(state.range(0));
-  Simulation simulation = makeSimulation(robots, noise, crowd);
-  (void)simulation.placeBall(ballOf(crowd), ballSpeedOf(crowd));
-  std::vector<RobotCommand> commands(static_cast<std::size_t>(robots));
-  std::vector<Percepts> percepts(commands.size());
-  for (auto _ : state) {
-    const std::uint64_t tick = simulation.state().tick;
-    if (tick % ticksPerAction == 0) {
-      for (int i = 0; i < robots; ++i) {
-        auto& command = commands[static_cast<std::size_t>(i)];
-        command.actionA = actionOf(i, tick, crowd);
-        command.actionB = 10;
-      }
-      (void)simulation.placeBall(simulation.snapshot().ball, ballSpeedOf(crowd));
-    }
-    simulation.step(commands, percepts);
-    benchmark::DoNotOptimize(percepts.data());
-  }
+  ModelGame game(placesOf(static_cast<int>(state.range(0)), crowd), noise, crowd);
+  countContacts(state, game);
+  for (auto _ : state) game.tick();
   state.SetItemsProcessed(state.iterations());
 }
 
@@ -114,61 +205,110 @@ void rigidBodyHeapRealisticNoise(benchmark::State& state) {
   run(state, realistic(), Crowd::Heap);
 }
 
-void bare(benchmark::State& state, Crowd crowd) {
-  const int robots = static_cast<int>(state.range(0));
-  const FieldSpec field;
-  b2World world(b2Vec2(0.0F, 0.0F));
-  b2BodyDef groundDef;
-  b2Body* ground = world.CreateBody(&groundDef);
-  for (const rigid::Obstacle& o : rigid::obstaclesOf(field)) {
-    if (o.first == o.last) {
-      b2CircleShape shape;
-      shape.m_p.Set(static_cast<float>(o.first.x), static_cast<float>(o.first.y));
-      shape.m_radius = static_cast<float>(o.radius);
-      ground->CreateFixture(&shape, 0.0F);
-    } else {
-      b2EdgeShape shape;
-      shape.SetTwoSided({static_cast<float>(o.first.x), static_cast<float>(o.first.y)},
-                        {static_cast<float>(o.last.x), static_cast<float>(o.last.y)});
-      ground->CreateFixture(&shape, 0.0F);
+/// Box2D as one uses it: the robots' velocities in, a step, everybody's place out.
+class BareGame {
+ public:
+  BareGame(const Places& begin, Crowd crowd) : m_begin(begin), m_now(begin), m_crowd(crowd) {
+    addObstacles();
+    const RobotModel model;
+    for (const Pose& robot : begin.robots) {
+      m_robots.push_back(addCircle(robot.position, m_field.robotRadius, model.mass, false));
+    }
+    m_ball = addCircle(begin.ball, m_field.ballRadius, RigidBodySettings{}.ballMass, true);
+    m_ball->SetLinearDamping(3.0F);
+    m_velocities.resize(m_robots.size());
+  }
+
+  void tick() {
+    if (beginsAgain(m_tick, m_crowd)) begin();
+    if (m_tick % ticksPerAction == 0) {
+      for (std::size_t i = 0; i < m_robots.size(); ++i) choose(i);
+      const Velocity speed = ballSpeedOf(m_crowd);
+      m_ball->SetLinearVelocity({static_cast<float>(speed.x), static_cast<float>(speed.y)});
+    }
+    for (std::size_t i = 0; i < m_robots.size(); ++i) {
+      m_robots[i]->SetLinearVelocity(m_velocities[i]);
+    }
+    m_world.Step(1.0F / 60.0F, 8, 3);
+    for (std::size_t i = 0; i < m_robots.size(); ++i) {
+      m_now.robots[i].position = placeOf(*m_robots[i]);
+    }
+    m_now.ball = placeOf(*m_ball);
+    benchmark::DoNotOptimize(m_now.robots.data());
+    ++m_tick;
+  }
+
+  const Places& places() const { return m_now; }
+
+ private:
+  static b2Vec2 vector(const Point& place) {
+    return {static_cast<float>(place.x), static_cast<float>(place.y)};
+  }
+  static Point placeOf(const b2Body& body) {
+    return {static_cast<double>(body.GetPosition().x), static_cast<double>(body.GetPosition().y)};
+  }
+
+  void addObstacles() {
+    const b2BodyDef def;
+    b2Body* ground = m_world.CreateBody(&def);
+    for (const rigid::Obstacle& o : rigid::obstaclesOf(m_field)) {
+      if (o.first == o.last) {
+        b2CircleShape shape;
+        shape.m_p = vector(o.first);
+        shape.m_radius = static_cast<float>(o.radius);
+        ground->CreateFixture(&shape, 0.0F);
+      } else {
+        b2EdgeShape shape;
+        shape.SetTwoSided(vector(o.first), vector(o.last));
+        ground->CreateFixture(&shape, 0.0F);
+      }
     }
   }
-  const auto addCircle = [&](const Point& place, double radius, bool bullet) {
+
+  b2Body* addCircle(const Point& place, double radius, double mass, bool bullet) {
     b2BodyDef def;
     def.type = b2_dynamicBody;
-    def.position.Set(static_cast<float>(place.x), static_cast<float>(place.y));
+    def.position = vector(place);
     def.fixedRotation = true;
     def.bullet = bullet;
-    b2Body* body = world.CreateBody(&def);
+    b2Body* body = m_world.CreateBody(&def);
     b2CircleShape shape;
     shape.m_radius = static_cast<float>(radius);
-    body->CreateFixture(&shape, 1.0F);
+    const double area = static_cast<double>(b2_pi) * radius * radius;
+    body->CreateFixture(&shape, static_cast<float>(mass / area));
     return body;
-  };
-  std::vector<b2Body*> bodies;
-  for (int i = 0; i < robots; ++i) {
-    bodies.push_back(addCircle(startOf(i, crowd).position, field.robotRadius, false));
   }
-  b2Body* ball = addCircle(ballOf(crowd), field.ballRadius, true);
-  ball->SetLinearDamping(3.0F);
-  std::vector<b2Vec2> velocities(bodies.size());
-  std::uint64_t tick = 0;
-  for (auto _ : state) {
-    if (tick % ticksPerAction == 0) {
-      for (int i = 0; i < robots; ++i) {
-        const int action = actionOf(i, tick, crowd);
-        const double yaw = startOf(i, crowd).yaw + (action == 6 ? 1.57 : action == 7 ? -1.57 : 0.0);
-        const double speed = action == 17 || action == 18 ? -0.15 : 0.15;
-        velocities[static_cast<std::size_t>(i)].Set(static_cast<float>(speed * std::cos(yaw)),
-                                                    static_cast<float>(speed * std::sin(yaw)));
-      }
-      const Velocity speed = ballSpeedOf(crowd);
-      ball->SetLinearVelocity({static_cast<float>(speed.x), static_cast<float>(speed.y)});
+
+  void begin() {
+    for (std::size_t i = 0; i < m_robots.size(); ++i) {
+      m_robots[i]->SetTransform(vector(m_begin.robots[i].position), 0.0F);
     }
-    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i]->SetLinearVelocity(velocities[i]);
-    world.Step(1.0F / 60.0F, 8, 3);
-    ++tick;
+    m_ball->SetTransform(vector(m_begin.ball), 0.0F);
+    m_ball->SetLinearVelocity(b2Vec2_zero);
   }
+
+  void choose(std::size_t robot) {
+    const int action = actionOf(static_cast<int>(robot), m_tick, m_crowd);
+    const double yaw = m_begin.robots[robot].yaw;
+    const GaitSpeed gait = gaitSpeed(RobotModel{}, action, 10);
+    m_velocities[robot] = vector({gait.forward * std::cos(yaw) - gait.left * std::sin(yaw),
+                                  gait.forward * std::sin(yaw) + gait.left * std::cos(yaw)});
+  }
+
+  const FieldSpec m_field;
+  Places m_begin, m_now;
+  Crowd m_crowd;
+  b2World m_world{b2Vec2(0.0F, 0.0F)};
+  std::vector<b2Body*> m_robots;
+  b2Body* m_ball = nullptr;
+  std::vector<b2Vec2> m_velocities;
+  std::uint64_t m_tick = 0;
+};
+
+void bare(benchmark::State& state, Crowd crowd) {
+  BareGame game(placesOf(static_cast<int>(state.range(0)), crowd), crowd);
+  countContacts(state, game);
+  for (auto _ : state) game.tick();
   state.SetItemsProcessed(state.iterations());
 }
 

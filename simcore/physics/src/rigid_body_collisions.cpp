@@ -14,9 +14,6 @@ constexpr double margin = 0.005;      // m, so that nearly touching things count
 constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
 constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
 constexpr double fastestBall = 50.0;  // m/s
-constexpr int separationRounds = 40;
-constexpr int roundsForBallAlone = 10;        // after these robots give way to a ball that is stuck
-constexpr double separationTolerance = 1e-5;  // m
 
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
@@ -145,46 +142,15 @@ void Collisions::findNeighbours(const Tick& tick) {
 }
 
 void Collisions::separate(const Tick& tick) {
-  const FieldSpec& field = tick.settings().field;
-  const Obstacles& obstacles = m_solver.obstacles();
   const std::size_t ball = tick.state.robots.size();
-  const auto radius = [&](const MovingBody& moving) {
-    return moving.body == ball ? field.ballRadius : m_radius[moving.body];
-  };
   const double parting = partingSpeed * tick.dt;
   for (NearPair& pair : m_pairs) pair.overlap = std::max(0.0, pair.overlap - parting);
-  for (int round = 0; round < separationRounds; ++round) {
-    bool apart = true;
-    for (const NearPair& pair : m_pairs) {
-      MovingBody& a = m_bodies[pair.first];
-      if (pair.obstacle) {
-        const Clearance gap = clearance(obstacles, pair.second, a.position);
-        const double push = obstacles[pair.second].radius + radius(a) - gap.distance;
-        if (push - pair.overlap <= separationTolerance) continue;
-        apart = false;
-        a.position.x += gap.direction.x * (push - pair.overlap);
-        a.position.y += gap.direction.y * (push - pair.overlap);
-        continue;
-      }
-      MovingBody& b = m_bodies[pair.second];
-      const double dx = b.position.x - a.position.x;
-      const double dy = b.position.y - a.position.y;
-      const double distance = length(dx, dy);
-      const double push = radius(a) + radius(b) - distance - pair.overlap;
-      if (push <= separationTolerance) continue;
-      apart = false;
-      // Exactly on each other: part along x, whichever came first to the left.
-      const double nx = distance > 0.0 ? dx / distance : 1.0;
-      const double ny = distance > 0.0 ? dy / distance : 0.0;
-      const bool ballAlone = b.body == ball && round < roundsForBallAlone;
-      const double share = ballAlone ? 1.0 : 0.5;
-      a.position.x -= nx * push * (1.0 - share);
-      a.position.y -= ny * push * (1.0 - share);
-      b.position.x += nx * push * share;
-      b.position.y += ny * push * share;
-    }
-    if (apart) return;
+  m_radii.clear();
+  for (const MovingBody& moving : m_bodies) {
+    const double ballRadius = tick.settings().field.ballRadius;
+    m_radii.push_back(moving.body == ball ? ballRadius : m_radius[moving.body]);
   }
+  m_separation.separate(m_bodies, m_radii, m_pairs, m_solver.obstacles(), ball);
 }
 
 void Collisions::writeBack(Tick& tick) {
@@ -219,7 +185,7 @@ void Collisions::advance(Tick& tick) {
   m_solver.prepare(tick.world);
   if (m_bodies.capacity() <= robots) {
     m_bodies.reserve(robots + 1);
-    m_pairs.reserve((robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount);
+    m_pairs.reserve(mostPairs(robots));
   }
   updateRolling(settings.rigidBody.ballFriction, tick.dt);
 
@@ -238,7 +204,7 @@ void Collisions::advance(Tick& tick) {
       {ball.position.x + m_ballVelocity.x * tick.dt, ball.position.y + m_ballVelocity.y * tick.dt}};
   findNeighbours(tick);
   if (!m_pairs.empty()) {
-    m_solver.solve(m_bodies, m_pairs, tick.dt);
+    m_solver.solve(m_bodies, m_pairs, tick.dt, settings.rigidBody.falls);
     // Noise is no push: it displaces the robot as far as there is room.
     for (MovingBody& moving : m_bodies) {
       if (moving.body == robots) continue;

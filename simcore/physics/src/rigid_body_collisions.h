@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rigid_body_contacts.h"
+#include "rigid_body_separation.h"
 #include "rigid_body_tick.h"
 
 namespace pitchboard::sim::rigid {
@@ -36,10 +37,12 @@ class Collisions {
 
   Rolling m_rolling;
   ContactSolver m_solver;
+  Separation m_separation;
   Velocity m_ballVelocity;                 ///< mean over the tick, m/s
   std::vector<double> m_x, m_y, m_radius;  ///< of the robots, side by side for the search
   std::vector<MovingBody> m_bodies;        ///< those that may touch something
   std::vector<std::size_t> m_slots;        ///< per body: index into m_bodies + 1, 0 = not there
+  std::vector<double> m_radii;             ///< of these, m
   std::vector<NearPair> m_pairs;
 };
 

@@ -1,201 +1,163 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rigid_body_contacts.h"
 
-#include <box2d/box2d.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <mutex>
+
+#include "rigid_body_contact_world.h"
 
 namespace pitchboard::sim::rigid {
 namespace {
 
-constexpr double unitsPerMetre = 10.0;
 constexpr double longestStep = 1.0 / 60.0;  // s; slower ticks are divided
 // Box2D caps the way of one step at b2_maxTranslation; stay below.
 constexpr double longestWay = 1.5 / unitsPerMetre;  // m
-constexpr int velocityIterations = 8;
-constexpr std::size_t mostWorlds = 4;  // kinds of matches in one thread, in turn
-// Overlaps are the caller's to resolve, in double and smoothly.
-constexpr int positionIterations = 0;
+constexpr std::size_t mostWorlds = 4;               // kinds of matches in one thread, in turn
 
-float units(double metres) {
-  return static_cast<float>(metres * unitsPerMetre);
+// Of distances in Box2D's units, on the side that asks Box2D: more than its rounding.
+constexpr double doubt = 1e-3;
+
+/// Box2D finds an impact where things are three slops, less a quarter of tolerance, nearer than
+/// touching, or a slop and a quarter from each other; with another quarter of doubt.
+double impactDistance(double touching) {
+  constexpr double slop = static_cast<double>(b2_linearSlop);
+  return std::max(touching - 2.5 * slop, 1.5 * slop);
 }
-b2Vec2 units(double x, double y) {
-  return {units(x), units(y)};
+
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
 }
-
-/// Refuses the contacts that Box2D finds by itself.
-class OnlyListedContacts final : public b2ContactFilter {
- public:
-  bool ShouldCollide(b2Fixture*, b2Fixture*) override { return open; }
-  bool open = false;
-};
-
-/// Adds up the impulses of each body's contacts.
-class ImpulseSum final : public b2ContactListener {
- public:
-  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
-    b2WorldManifold manifold;
-    contact->GetWorldManifold(&manifold);
-    float sum = 0.0F;
-    for (int i = 0; i < impulse->count; ++i) sum += impulse->normalImpulses[i];
-    add(contact->GetFixtureA(), -sum * manifold.normal);
-    add(contact->GetFixtureB(), sum * manifold.normal);
-  }
-
-  std::vector<b2Vec2> sums;  // by body
-
- private:
-  void add(b2Fixture* fixture, const b2Vec2& impulse) {
-    const std::uintptr_t body = fixture->GetUserData().pointer;
-    if (body < sums.size()) sums[body] += impulse;
-  }
-};
-
-/// Collects the broad-phase proxy of every fixture.
-class ProxyCollector {
- public:
-  ProxyCollector(const b2BroadPhase& broadPhase, std::vector<b2FixtureProxy*>& out)
-      : m_broadPhase(broadPhase), m_out(out) {}
-  bool QueryCallback(int32 id) {
-    auto* proxy = static_cast<b2FixtureProxy*>(m_broadPhase.GetUserData(id));
-    m_out[proxy->fixture->GetUserData().pointer] = proxy;
-    return true;
-  }
-
- private:
-  const b2BroadPhase& m_broadPhase;
-  std::vector<b2FixtureProxy*>& m_out;
-};
 
 }  // namespace
 
-struct ContactSolver::World {
-  struct Size {
-    double radius = 0.0, mass = 0.0;
-    bool operator==(const Size&) const = default;
+/// What a step needs beside the world: as scratch, for it is made anew in every step.
+struct ContactSolver::World : ContactWorld {
+  explicit World(const WorldState& state) : ContactWorld(state) {
+    chosen.reserve(mostPairs(robots()));
+    touches.reserve(mostPairs(robots()));
+    ways.reserve(robots() + 1);
+    inside.reserve(robots() + 1);
+  }
+
+  /// In Box2D's units.
+  struct Way {
+    b2Vec2 from, to;
   };
-  static Size sizeOf(const WorldState& state, std::size_t robot) {
-    return {robotRadius(state, robot), state.models[robot].mass};
+
+  /// At least how far the way of a body stays away from an obstacle, its radius left out: posts are
+  /// points, nets and walls run along an axis, and so each is a box.
+  static double awayFrom(const Obstacle& o, const Way& way) {
+    const auto gap = [](float from, float to, double first, double last) {
+      const double low = static_cast<double>(std::min(from, to));
+      const double high = static_cast<double>(std::max(from, to));
+      return std::max(
+          {0.0, static_cast<double>(units(first)) - high, low - static_cast<double>(units(last))});
+    };
+    return length(gap(way.from.x, way.to.x, o.first.x, o.last.x),
+                  gap(way.from.y, way.to.y, o.first.y, o.last.y));
   }
-  bool fits(const WorldState& state) const {
-    if (robots != state.robots.size() || !(field == state.settings.field) ||
-        !(constants == state.settings.rigidBody)) {
-      return false;
+
+  /// How near the middles of two bodies come to each other.
+  static double awayFrom(const Way& one, const Way& other) {
+    const b2Vec2 from = other.from - one.from, way = (other.to - one.to) - from;
+    const double x = static_cast<double>(from.x), y = static_cast<double>(from.y);
+    const double dx = static_cast<double>(way.x), dy = static_cast<double>(way.y);
+    const double length2 = dx * dx + dy * dy;
+    const double along = length2 > 0.0 ? std::clamp(-(x * dx + y * dy) / length2, 0.0, 1.0) : 0.0;
+    return length(x + along * dx, y + along * dy);
+  }
+
+  double apart(const NearPair& pair) const {
+    return pair.obstacle ? awayFrom(obstacles()[pair.second], ways[pair.first])
+                         : awayFrom(ways[pair.first], ways[pair.second]);
+  }
+
+  bool isBall(const MovingBody& moving) const { return moving.body == robots(); }
+
+  /// Box2D looks for impacts on what stands still, and for those of a bullet: the ball.
+  bool looksForImpacts(std::span<const MovingBody> moving, const NearPair& pair) const {
+    return pair.obstacle || isBall(moving[pair.second]);
+  }
+
+  /// Chooses the bodies that touch something as the step begins, with `impacts` also those that may
+  /// hit something within it, and the pairs among them.
+  void choose(std::span<const MovingBody> moving, std::span<const NearPair> pairs, bool impacts) {
+    inside.assign(moving.size(), 0);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const NearPair& pair = pairs[k];
+      if (!touches[k] && !(impacts && looksForImpacts(moving, pair))) continue;
+      inside[pair.first] = 1;
+      if (!pair.obstacle) inside[pair.second] = 1;
     }
-    for (std::size_t i = 0; i < robots; ++i) {
-      if (!(sizes[i] == sizeOf(state, i))) return false;
+    // Pairs that do not touch change nothing; with them the list stays the same for longer.
+    chosen.clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const NearPair& pair = pairs[k];
+      if (inside[pair.first] && (pair.obstacle || inside[pair.second])) chosen.push_back(k);
     }
-    return true;
   }
 
-  explicit World(const WorldState& state)
-      : field(state.settings.field),
-        obstacles(obstaclesOf(field)),
-        constants(state.settings.rigidBody),
-        robots(state.robots.size()) {
-    for (std::size_t i = 0; i < robots; ++i) sizes.push_back(sizeOf(state, i));
-    world.SetContactFilter(&filter);
-    world.SetContactListener(&impulses);
-    world.SetWarmStarting(false);
-    world.SetContinuousPhysics(true);
-    impulses.sums.resize(robots + 1);
-    for (std::size_t i = 0; i <= robots; ++i) addBody(i);
-    addObstacles();
-    proxies.resize(robots + 1 + obstacleCount);
-    ProxyCollector collector(manager().m_broadPhase, proxies);
-    b2AABB everywhere;
-    everywhere.lowerBound.Set(-1e6F, -1e6F);
-    everywhere.upperBound.Set(1e6F, 1e6F);
-    manager().m_broadPhase.Query(&collector, everywhere);
-    warmUp();
-  }
-
-  /// The world hands its contact manager out as constant; it is our own world all the same.
-  b2ContactManager& manager() { return const_cast<b2ContactManager&>(world.GetContactManager()); }
-
-  void addBody(std::size_t index) {
-    const bool isBall = index == robots;
-    b2BodyDef def;
-    def.type = b2_dynamicBody;
-    def.fixedRotation = true;
-    def.bullet = isBall;
-    def.awake = false;
-    b2Body* body = world.CreateBody(&def);
-    b2CircleShape shape;
-    shape.m_radius = units(isBall ? field.ballRadius : sizes[index].radius);
-    const double mass = isBall ? constants.ballMass : sizes[index].mass;
-    b2FixtureDef fixture;
-    fixture.shape = &shape;
-    fixture.density =
-        static_cast<float>(mass / (static_cast<double>(b2_pi) * shape.m_radius * shape.m_radius));
-    fixture.friction = 0.0F;
-    fixture.userData.pointer = index;
-    body->CreateFixture(&fixture);
-    bodies.push_back(body);
-  }
-
-  void addObstacles() {
-    const b2BodyDef def;
-    b2Body* ground = world.CreateBody(&def);
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      const Obstacle& o = obstacles[i];
-      b2FixtureDef fixture;
-      b2CircleShape circle;
-      b2EdgeShape edge;
-      if (o.first == o.last) {
-        circle.m_p = units(o.first.x, o.first.y);
-        circle.m_radius = units(o.radius);
-        fixture.shape = &circle;
-      } else {
-        edge.SetTwoSided(units(o.first.x, o.first.y), units(o.last.x, o.last.y));
-        fixture.shape = &edge;
+  /// Steps what was chosen, from the beginning.
+  void stepChosen(std::span<const MovingBody> moving, std::span<const NearPair> pairs, float dt,
+                  int steps, bool impacts) {
+    if (chosen.empty()) return;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      if (inside[i]) place(moving[i]);
+    }
+    list(moving, pairs, chosen);
+    for (int step = 0; step < steps; ++step) {
+      for (std::size_t i = 0; impacts && i < moving.size(); ++i) {
+        if (inside[i]) spreadBox(moving[i]);
       }
-      fixture.friction = 0.0F;
-      fixture.userData.pointer = robots + 1 + i;
-      ground->CreateFixture(&fixture);
+      ContactWorld::step(dt, impacts);
     }
   }
 
-  /// Everything at one place and in contact once, so that Box2D's pools and buffers have the size
-  /// that they can ever need.
-  void warmUp() {
-    // Box2D registers its kinds of contact on first use, in a static table.
-    static std::mutex registration;
-    const std::lock_guard lock(registration);
-    for (b2Body* body : bodies) body->SetTransform({0.0F, 0.0F}, 0.0F);
-    world.Step(0.0F, velocityIterations, positionIterations);
-    filter.open = true;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-        manager().AddPair(proxies[i], proxies[j]);
-      }
-      for (std::size_t k = 0; k < obstacleCount; k += obstacleCount / 4) {
-        manager().AddPair(proxies[i], proxies[robots + 1 + k]);
-      }
+  /// One step: first without looking for impacts, and with it when the ways show that some are
+  /// possible. A ball among many is nearly always pressed into one of them.
+  void stepOnce(std::span<const MovingBody> moving, std::span<const NearPair> pairs, float dt) {
+    constexpr int many = 3;
+    ways.resize(moving.size());
+    touches.resize(pairs.size());
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const b2Vec2 from = units(moving[i].position.x, moving[i].position.y);
+      ways[i] = {from, from};
     }
-    filter.open = false;
-    clearContacts();
-    for (b2Body* body : bodies) body->SetAwake(false);
+    int atBall = 0;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      touches[k] = apart(pairs[k]) <= touchingOf(moving, pairs[k]) + doubt;
+      atBall += touches[k] && !pairs[k].obstacle && isBall(moving[pairs[k].second]);
+    }
+    const bool surely = atBall >= many;
+    choose(moving, pairs, surely);
+    stepChosen(moving, pairs, dt, 1, surely);
+    if (surely) return;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const MovingBody& one = moving[i];
+      ways[i].to = inside[i] ? body(one).GetPosition()
+                             : ways[i].from + dt * units(one.velocity.x, one.velocity.y);
+    }
+    const bool hits = std::any_of(pairs.begin(), pairs.end(), [&](const NearPair& pair) {
+      return looksForImpacts(moving, pair) &&
+             apart(pair) <= impactDistance(touchingOf(moving, pair));
+    });
+    if (!hits) return;
+    choose(moving, pairs, true);
+    stepChosen(moving, pairs, dt, 1, true);
   }
 
-  void clearContacts() {
-    while (manager().m_contactList) manager().Destroy(manager().m_contactList);
+  /// Several steps, with all pairs in each.
+  void stepAll(std::span<const MovingBody> moving, std::span<const NearPair> pairs, float dt,
+               int steps) {
+    touches.assign(pairs.size(), 1);
+    choose(moving, pairs, true);
+    stepChosen(moving, pairs, dt, steps, true);
   }
 
-  OnlyListedContacts filter;
-  ImpulseSum impulses;
-  b2World world{b2Vec2{0.0F, 0.0F}};
-  FieldSpec field;
-  Obstacles obstacles;
-  RigidBodySettings constants;
-  std::size_t robots;
-  std::vector<Size> sizes;
-  std::vector<b2Body*> bodies;           // robots, then the ball
-  std::vector<b2FixtureProxy*> proxies;  // robots, ball, obstacles
+  std::vector<std::size_t> chosen;  // of the pairs
+  std::vector<char> touches;        // of the pairs, as the step begins
+  std::vector<Way> ways;            // of the bodies
+  std::vector<char> inside;         // of the bodies: whether Box2D moves them
 };
 
 ContactSolver::ContactSolver() = default;
@@ -214,58 +176,34 @@ void ContactSolver::prepare(const WorldState& world) {
 }
 
 const Obstacles& ContactSolver::obstacles() const {
-  return m_worlds.front()->obstacles;
+  return m_worlds.front()->obstacles();
 }
 
-void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs,
-                          double dt) {
+void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair> pairs, double dt,
+                          bool impulses) {
   World& w = *m_worlds.front();
+  w.sumImpulses(impulses);
   double longest = 0.0;
-  for (const MovingBody& moving : bodies) {
-    b2Body* body = w.bodies[moving.body];
-    body->SetTransform(units(moving.position.x, moving.position.y), 0.0F);
-    body->SetAwake(true);
-    body->SetLinearVelocity(units(moving.velocity.x, moving.velocity.y));
-    w.impulses.sums[moving.body].SetZero();
-    longest = std::max(longest, moving.reach);
-  }
-
-  w.filter.open = true;
-  for (const NearPair& pair : pairs) {
-    b2FixtureProxy* first = w.proxies[bodies[pair.first].body];
-    b2FixtureProxy* second =
-        w.proxies[pair.obstacle ? w.robots + 1 + pair.second : bodies[pair.second].body];
-    w.manager().AddPair(first, second);
-    w.manager().m_contactList->SetRestitution(static_cast<float>(pair.restitution));
-  }
-  w.filter.open = false;
-
+  for (const MovingBody& moving : bodies) longest = std::max(longest, moving.reach);
   const double steps = std::ceil(std::max({1.0, dt / longestStep - 1e-6, longest / longestWay}));
   const auto step = static_cast<float>(dt / steps);
-  for (int i = 0; i < static_cast<int>(steps); ++i) {
-    // A contact lives while its boxes overlap: make them cover all that can be reached.
-    for (const MovingBody& moving : bodies) {
-      const b2FixtureProxy* proxy = w.proxies[moving.body];
-      const float half = proxy->fixture->GetShape()->m_radius + units(moving.reach) + 0.1F;
-      const b2Vec2 centre = w.bodies[moving.body]->GetPosition();
-      b2AABB box;
-      box.lowerBound = centre - b2Vec2(half, half);
-      box.upperBound = centre + b2Vec2(half, half);
-      w.manager().m_broadPhase.MoveProxy(proxy->proxyId, box, b2Vec2_zero);
-    }
-    w.world.Step(step, velocityIterations, positionIterations);
+  if (steps > 1.0) {
+    w.stepAll(bodies, pairs, step, static_cast<int>(steps));
+  } else {
+    w.stepOnce(bodies, pairs, step);
   }
 
-  for (MovingBody& moving : bodies) {
-    const b2Body* body = w.bodies[moving.body];
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    MovingBody& moving = bodies[i];
+    b2Body& body = w.body(moving);
     const b2Vec2 before = units(moving.velocity.x, moving.velocity.y);
-    b2Vec2 expected = units(moving.position.x, moving.position.y);
-    const b2Vec2 start = expected;
-    for (int i = 0; i < static_cast<int>(steps); ++i) expected += step * before;
-    const b2Vec2 after = body->GetLinearVelocity();
-    moving.deflected = !(after == before) || !(body->GetPosition() == expected);
+    const b2Vec2 start = units(moving.position.x, moving.position.y);
+    b2Vec2 expected = start;
+    for (int k = 0; k < static_cast<int>(steps); ++k) expected += step * before;
+    const b2Vec2 after = body.GetLinearVelocity();
+    moving.deflected = w.inside[i] && (!(after == before) || !(body.GetPosition() == expected));
     if (moving.deflected) {
-      const b2Vec2 way = body->GetPosition() - start;
+      const b2Vec2 way = body.GetPosition() - start;
       moving.position.x += static_cast<double>(way.x) / unitsPerMetre;
       moving.position.y += static_cast<double>(way.y) / unitsPerMetre;
       moving.velocity = {static_cast<double>(after.x) / unitsPerMetre,
@@ -274,12 +212,13 @@ void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair
       moving.position.x += moving.velocity.x * dt;
       moving.position.y += moving.velocity.y * dt;
     }
-    const b2Vec2& sum = w.impulses.sums[moving.body];
+    moving.impulse = {};
+    if (!w.inside[i]) continue;
+    const b2Vec2& sum = w.impulseOf(moving);
     moving.impulse = {static_cast<double>(sum.x) / unitsPerMetre,
                       static_cast<double>(sum.y) / unitsPerMetre};
+    body.SetAwake(false);
   }
-  w.clearContacts();
-  for (const MovingBody& moving : bodies) w.bodies[moving.body]->SetAwake(false);
 }
 
 }  // namespace pitchboard::sim::rigid

@@ -59,6 +59,11 @@ class Image {
 
   /// From the lens, along the ground.
   Polar fromLens(const Point& place) const { return polar(m_camera, place); }
+  /// Of the ball, which both landmark vision and ball vision look at.
+  const Polar& ballFromLens() {
+    if (!m_ball) m_ball = fromLens(ball());
+    return *m_ball;
+  }
   /// As vision tells it, of something whose middle is `height` above the ground.
   Polar told(const Point& place, const Polar& seen, double height) const {
     const RobotModel& model = m_tick.model(m_index);
@@ -80,17 +85,29 @@ class Image {
   const PastMoment* m_past = nullptr;  // none: what is seen is the present
   PastRobot m_self;
   Point m_camera;
+  std::optional<Polar> m_ball;  // once it was asked for
+
+  bool inRange(const Point& place) const {
+    const RobotModel& model = m_tick.model(m_index);
+    const double dx = place.x - m_camera.x;
+    const double dy = place.y - m_camera.y;
+    return dx * dx + dy * dy < model.visionRange * model.visionRange;
+  }
+  bool inField(const Polar& seen) const {
+    return std::abs(wrapped(seen.bearing - headYaw())) < m_tick.model(m_index).fieldOfView / 2.0;
+  }
 
  public:
   /// Where something stands if it is within range and field of view of the head.
   std::optional<Polar> inView(const Point& place, double height) const {
-    const RobotModel& model = m_tick.model(m_index);
-    const double dx = place.x - m_camera.x;
-    const double dy = place.y - m_camera.y;
-    if (dx * dx + dy * dy >= model.visionRange * model.visionRange) return {};
+    if (!inRange(place)) return {};
     const Polar seen = fromLens(place);
-    if (std::abs(wrapped(seen.bearing - headYaw())) >= model.fieldOfView / 2.0) return {};
+    if (!inField(seen)) return {};
     return told(place, seen, height);
+  }
+  std::optional<Polar> ballInView(double height) {
+    if (!inRange(ball()) || !inField(ballFromLens())) return {};
+    return told(ball(), ballFromLens(), height);
   }
 };
 
@@ -111,8 +128,8 @@ bool ballVisionIsNoisy(const NoiseParameters& noise) {
   return noise.missedDetection != 0.0 || noise.visionDistance != 0.0 || noise.visionBearing != 0.0;
 }
 
-std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, const Image& image) {
-  const auto seen = image.inView(image.ball(), tick.settings().field.ballRadius);
+std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, Image& image) {
+  const auto seen = image.ballInView(tick.settings().field.ballRadius);
   if (!seen) return {};
   const NoiseParameters& noise = tick.noise(index);
   if (!ballVisionIsNoisy(noise)) return seen;
@@ -137,8 +154,8 @@ bool follow(const Tick& tick, std::size_t index, RigidRobot& robot, double beari
   return std::abs(goal - robot.headYaw) <= pointingTolerance;
 }
 
-void publishBall(const Tick& tick, std::size_t index, const Image& image,
-                 const RobotCommand& command, Percepts& percept) {
+void publishBall(const Tick& tick, std::size_t index, Image& image, const RobotCommand& command,
+                 Percepts& percept) {
   const auto ball = lookAtBall(tick, index, image);
   percept.ball.lost = ball ? 0 : 1;
   if (!ball) return;
@@ -199,10 +216,10 @@ void unseenLandmarks(const RobotCommand& command, LandmarkPercept& percept) {
 
 /// The published VISION_TILT_DEG: the ball's distance as landmark vision sees it, with the whole
 /// front of the body as its view.
-void lookAtBallAsLandmark(const Tick& tick, std::size_t index, const Image& image,
+void lookAtBallAsLandmark(const Tick& tick, std::size_t index, Image& image,
                           LandmarkPercept& percept) {
   const NoiseParameters& noise = tick.noise(index);
-  const Polar seen = image.fromLens(image.ball());
+  const Polar& seen = image.ballFromLens();
   if (std::abs(seen.bearing) >= landmarkHalfView) {
     percept.ballTiltDeg = unseenBall;
     percept.ballPanDeg = unseenBall;
@@ -236,7 +253,7 @@ std::size_t longestDelay(const WorldState& world) {
 void stepVision(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {
   RigidRobot& robot = tick.state.robots[index];
   if (!isDown(robot) && command.searchOn == 1) search(tick, index, robot);
-  const Image image(tick, index);
+  Image image(tick, index);
   if (isDown(robot) || !image.taken()) {
     unseenLandmarks(command, percept.landmarks);
     if (command.actionVision == lookForBall) percept.ball.lost = 1;
