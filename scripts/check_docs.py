@@ -5,7 +5,8 @@
 Of README, ARCHITECTURE, CONVENTIONS and docs/ (or the given files) it checks
   - links to files of this repository, and to headings (#...);
   - paths and file names in `code`: `robotlink/match`, `docs/LIVE.md`, `resources/**/*.json`, `skills.h`;
-  - options in `code` and in blocks of commands: a program or a script of ours has to know `--thoughts`.
+  - options in `code` and in blocks of commands: a program or a script of ours has to know `--thoughts`;
+  - without files given, that every command of pitchboard-cli is shown by one of them.
 Prints "file:line: what" for each that is not, and ends with 1. Example: scripts/check_docs.py docs/LIVE.md
 """
 import re
@@ -136,6 +137,19 @@ def check(document, options):
     return problems
 
 
+def commands_without_document():
+    """A new command is not finished before a document shows how it is used."""
+    everything = "\n".join(path.read_text(encoding="utf-8") for pattern in DOCUMENTS for path in ROOT.glob(pattern))
+    for name in FILES:
+        if not re.match(r"app/cli/\w+\.cpp$", name):
+            continue
+        source = (ROOT / name).read_text(encoding="utf-8")
+        for command in re.findall(r"parent\.add_subcommand\(\s*\"([\w-]+)\"", source):
+            # A command of a group stands behind the group: `pitchboard-cli blackboard dump`.
+            if not re.search(rf"pitchboard-cli (?:[\w-]+ )?{command}\b", everything):
+                yield f"{name}: no document shows `pitchboard-cli {command}`"
+
+
 def main():
     if "--help" in sys.argv or "-h" in sys.argv:
         print(__doc__)
@@ -144,6 +158,8 @@ def main():
     documents = given or sorted(path for pattern in DOCUMENTS for path in ROOT.glob(pattern))
     options = own_options()
     problems = [problem for document in documents for problem in check(document, options)]
+    if not given:
+        problems += commands_without_document()
     print("\n".join(problems) if problems else f"{len(documents)} documents name nothing that is not there")
     return 1 if problems else 0
 
