@@ -32,7 +32,8 @@ int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) 
     if (!turns) return shared::reportError(turns.error());
     arguments.process.turns = std::move(*turns);
   }
-  auto process = info.make(arguments.process);
+  const auto make = [&] { return info.make(arguments.process); };
+  auto process = make();
   if (!process) return shared::reportError(process.error());
   const int key = arguments.blackboardKey();
   Result<link::Blackboard> board = joinBlackboard(key);
@@ -54,7 +55,9 @@ int run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) 
   const RobotId robot = arguments.process.robot;
   link::ThoughtsSender* const shown = display ? &*display : nullptr;
   if (arguments.process.turns) {
-    takeTurnsUntilAsked(**process, *board, robot, *arguments.process.turns, shown);
+    const auto taken = takeTurnsUntilAsked(std::move(*process), make, *board, robot,
+                                           *arguments.process.turns, shown);
+    if (!taken) return shared::reportError(taken.error());
   } else {
     runUntilAsked(**process, *board, robot, shown);
   }

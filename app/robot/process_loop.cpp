@@ -20,22 +20,20 @@ sigset_t endSignals() {
 
 class Display {
  public:
-  Display(const link::CognitiveProcess& process, RobotId robot, link::ThoughtsSender* sender)
-      : m_process(process), m_robot(robot), m_sender(sender) {}
+  Display(RobotId robot, link::ThoughtsSender* sender) : m_robot(robot), m_sender(sender) {}
 
   /// Tells what the process has in mind, unless it was told less than `period` ago.
-  void tell(std::chrono::milliseconds period) {
+  void tell(const link::CognitiveProcess& process, std::chrono::milliseconds period) {
     const Clock::time_point now = Clock::now();
     if (m_sender == nullptr || now < m_last + period) return;
     link::RobotThoughts thoughts;
     thoughts.robot = m_robot;
-    m_process.tellThoughts(thoughts);
+    process.tellThoughts(thoughts);
     m_sender->send(thoughts);
     m_last = now;
   }
 
  private:
-  const link::CognitiveProcess& m_process;
   RobotId m_robot;
   link::ThoughtsSender* m_sender;
   Clock::time_point m_last{};
@@ -71,10 +69,10 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
   Clock::time_point next = start;
-  Display shown(process, robot, display);
+  Display shown(robot, display);
   while (true) {
     process.step(board, {std::chrono::duration<double>(Clock::now() - start).count()});
-    shown.tell(displayPeriod);
+    shown.tell(process, displayPeriod);
     next += period;
     const Clock::time_point now = Clock::now();
     if (next < now) next += (now - next) / period * period + period;
@@ -83,24 +81,34 @@ void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, Rob
   }
 }
 
-void takeTurnsUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                         link::ProcessTurns& turns, link::ThoughtsSender* display) {
+Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process,
+                                 const ProcessMaker& make, link::Blackboard& board, RobotId robot,
+                                 link::ProcessTurns& turns, link::ThoughtsSender* display) {
   // While the match stands still: how soon a signal is noticed, and how often a display is told
   // again, because it forgets what it does not hear of.
   constexpr std::chrono::milliseconds longestWait{100}, remindPeriod{1000};
-  Display shown(process, robot, display);
-  turns.ready(process.period());
+  Display shown(robot, display);
+  turns.ready(process->period());
+  double last = 0.0;
   while (true) {
     const auto turn = turns.wait(longestWait);
     if (turn) {
-      process.step(board, {turn->seconds});
+      if (turn->seconds < last) {
+        process.reset();  // its ports are free again
+        auto made = make();
+        if (!made) return tl::unexpected(made.error());
+        process = std::move(*made);
+        process->resume(board);
+      }
+      last = turn->seconds;
+      process->step(board, {last});
       turns.done();
     }
-    shown.tell(turn ? displayPeriod : remindPeriod);
+    shown.tell(*process, turn ? displayPeriod : remindPeriod);
     sigset_t pending;
     sigpending(&pending);
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-      if (sigismember(&pending, signal) == 1) return;
+      if (sigismember(&pending, signal) == 1) return {};
     }
   }
 }

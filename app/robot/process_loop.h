@@ -5,6 +5,8 @@
 // first thread of pitchboard-robot; times are wall times.
 
 #include <chrono>
+#include <functional>
+#include <memory>
 
 #include <robotlink/cognition/cognitive_process.h>
 #include <robotlink/processes/match_turns.h>
@@ -25,8 +27,13 @@ bool askedToEnd(std::chrono::nanoseconds wait);
 void runUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
                    link::ThoughtsSender* display);
 
-/// The same with the time of a match: a step for every turn that it gives, and none without.
-void takeTurnsUntilAsked(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                         link::ProcessTurns& turns, link::ThoughtsSender* display);
+using ProcessMaker = std::function<Result<std::unique_ptr<link::CognitiveProcess>>()>;
+
+/// The same with the time of a match: a step for every turn that it gives, and none without. When
+/// the match was put back to an earlier moment, `make` gives the process that goes on, with the
+/// belief that stands on the blackboard. Fails when `make` does.
+Result<void> takeTurnsUntilAsked(std::unique_ptr<link::CognitiveProcess> process,
+                                 const ProcessMaker& make, link::Blackboard& board, RobotId robot,
+                                 link::ProcessTurns& turns, link::ThoughtsSender* display);
 
 }  // namespace pitchboard::robot

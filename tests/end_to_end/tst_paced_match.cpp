@@ -72,13 +72,14 @@ class Witness : public TickObserver {
     for (const auto& robot : m_now.robots) all.push_back(poseError(match, robot, nullptr));
   }
 
-  std::vector<double> errorsFrom(std::uint64_t first) const {
+  std::vector<double> errorsIn(std::uint64_t first, std::uint64_t last) const {
     std::vector<double> all;
-    for (auto at = errors.lower_bound(first); at != errors.end(); ++at) {
+    for (auto at = errors.lower_bound(first); at != errors.upper_bound(last); ++at) {
       all.insert(all.end(), at->second.begin(), at->second.end());
     }
     return all;
   }
+  std::vector<double> allErrors() const { return errorsIn(0, end); }
 
   std::uint64_t end = 0;
   std::map<std::uint64_t, std::uint64_t> hashes;
@@ -127,6 +128,16 @@ struct Played {
     if (!reached || !runner->waitUntilStill(60s)) qFatal("the match does not go on");
   }
   bool over() const { return runner->latest()->finishedBy == "full_time"; }
+  /// Gives the tick from which it goes on.
+  std::uint64_t goBack(std::uint64_t ticks) {
+    const std::uint64_t to = tick() - ticks;
+    const auto moment = momentFromMemory(*archive, rows, to, VariableCatalog::published());
+    if (!moment) qFatal("%s", moment.error().text().c_str());
+    Result<void> entered;
+    runner->execute([&](SimulatedMatch& match) { entered = match.reenter(*moment); });
+    if (!entered) qFatal("%s", entered.error().text().c_str());
+    return to;
+  }
   void toTheFinalWhistle() {
     runner->setSpeed(MatchRunner::unlimitedSpeed);
     runner->setPaused(false);
@@ -204,7 +215,7 @@ class TestPacedMatch : public QObject {
     QVERIFY(wanted.end > 80 * tickRate);
     QVERIFY2(match.witness->hashes == wanted.hashes, differs(*match.witness, wanted).constData());
     QVERIFY(match.witness->errors == wanted.errors);
-    const Errors errors(wanted.errorsFrom(0));
+    const Errors errors(wanted.allErrors());
     qInfo("%.0f s, belief error %.1f cm, 95 of 100 below %.1f cm",
           static_cast<double>(wanted.end) / tickRate, 100 * errors.mean, 100 * errors.p95);
   }
@@ -216,35 +227,47 @@ class TestPacedMatch : public QObject {
     playWithEverything(match, 75);
     QVERIFY(match.over());
     match.runner.reset();
-    compare(*match.witness, 0, inOneGo(Size::Small, "realistic"));
+    compare(match.witness->allErrors(), inOneGo(Size::Small, "realistic").allErrors());
   }
 
-  // Played on from an earlier moment: what localization remembers is then of a future that never
-  // comes, and it finds its way back as it does when a robot is dragged.
-  void beliefsAreAsGoodAfterGoingOnFromAnEarlierMoment_data() {
+  // Played on from an earlier moment, inside: the robots know what they knew then, across the
+  // half-time and whatever the referee says.
+  void aMatchThatGoesOnFromAnEarlierMomentIsTheSame_data() {
     QTest::addColumn<QString>("noise");
     QTest::newRow("none") << "none";
     QTest::newRow("realistic") << "realistic";
   }
-  void beliefsAreAsGoodAfterGoingOnFromAnEarlierMoment() {
+  void aMatchThatGoesOnFromAnEarlierMomentIsTheSame() {
     QFETCH(QString, noise);
+    const Witness& wanted = inOneGo(Size::Large, noise);
     Played match(wholeMatch(qPrintable(noise), Size::Large), optionsFor(Cognition::Inline));
-    std::uint64_t last = 0;
-    for (const std::uint64_t seconds : {40, 60, 80}) {
-      match.playTo(seconds * tickRate);
-      last = match.tick() - 15 * tickRate;
-      const auto moment =
-          momentFromMemory(*match.archive, match.rows, last, VariableCatalog::published());
-      QVERIFY2(moment, moment ? "" : moment.error().text().c_str());
-      bool entered = false;
-      match.runner->execute([&](SimulatedMatch& it) { entered = it.reenter(*moment).has_value(); });
-      QVERIFY(entered);
-      QCOMPARE(match.tick(), last);
+    for (const std::uint64_t seconds : {40, 60, 80, 100}) {
+      match.playTo(seconds * tickRate + 7);
+      match.goBack(15 * tickRate);
     }
     match.toTheFinalWhistle();
     QVERIFY(match.over());
     match.runner.reset();
-    compare(*match.witness, last + foundThemselves, inOneGo(Size::Large, noise));
+    QCOMPARE(match.witness->end, wanted.end);
+    QVERIFY2(match.witness->hashes == wanted.hashes, differs(*match.witness, wanted).constData());
+    QVERIFY(match.witness->errors == wanted.errors);
+  }
+
+  // Separate processes begin again with the belief on their blackboards: as good as that of a match
+  // in one go, from the first second on.
+  void beliefsOfSeparateProcessesAreAsGoodAtOnce() {
+    const Witness& oneGo = inOneGo(Size::Small, "realistic");
+    Played match(wholeMatch("realistic", Size::Small), optionsFor(Cognition::External));
+    std::vector<double> played, wanted;
+    for (const std::uint64_t seconds : {35, 50, 65}) {
+      match.playTo(seconds * tickRate);
+      const std::uint64_t from = match.goBack(12 * tickRate), until = from + 8 * tickRate;
+      match.playTo(until);
+      for (const double error : match.witness->errorsIn(from + 1, until)) played.push_back(error);
+      for (const double error : oneGo.errorsIn(from + 1, until)) wanted.push_back(error);
+    }
+    QVERIFY(played.size() >= 3 * 2 * 7);
+    compare(played, wanted);
   }
 
   void cleanupTestCase() { m_inOneGo.clear(); }
@@ -256,8 +279,8 @@ class TestPacedMatch : public QObject {
     return "another state from tick " +
            QByteArray::number(at.second == wanted.hashes.end() ? 0ULL : at.second->first + 0ULL);
   }
-  static void compare(const Witness& played, std::uint64_t from, const Witness& oneGo) {
-    const Errors errors(played.errorsFrom(from)), wanted(oneGo.errorsFrom(from));
+  static void compare(const std::vector<double>& played, const std::vector<double>& oneGo) {
+    const Errors errors(played), wanted(oneGo);
     qInfo("belief error %.1f cm (in one go %.1f), 95 of 100 below %.1f cm (%.1f)",
           100 * errors.mean, 100 * wanted.mean, 100 * errors.p95, 100 * wanted.p95);
     QVERIFY(errors.mean < 1.5 * wanted.mean + 0.05);

@@ -215,6 +215,7 @@ class TestStateArchive : public QObject {
   void memoryHasABudget() {
     ArchiveOptions options;
     options.memoryBudget = 20'000;
+    options.robotsBudget = 0;
     StateArchive archive(options);
     auto match = SimulatedMatch::create(scenarioOf("match-3v3", "rigid-body"), {}).value();
     archive.ticked(match, {});

@@ -78,30 +78,31 @@ bool MatchReferee::listen(sim::Simulation& simulation) {
   return heard;
 }
 
-bool MatchReferee::tick(sim::Simulation& simulation) {
+bool MatchReferee::tick(sim::Simulation& simulation, bool again) {
   const sim::WorldState& world = simulation.state();
   if (!world.game) return false;
-  if (m_receiver) return listen(simulation);
+  if (m_receiver) return !again && listen(simulation);
   const double rate = world.settings.tickRate;
   const auto every = [rate](double seconds) {
     return static_cast<std::uint64_t>(std::max(1.0, std::round(seconds * rate)));
   };
-  bool due = world.tick % every(period) == 0 || m_lastTick == 0 || world.tick < m_lastTick;
+  bool due =
+      world.tick % every(period) == 0 || m_rhythm.lastTick == 0 || world.tick < m_rhythm.lastTick;
   const bool soccer = world.settings.referee->style == sim::RefereeStyle::HumanoidSoccer2026;
   if (soccer) {
-    if (world.game->stopped && !m_stopped) {
+    if (world.game->stopped && !m_rhythm.stopped) {
       due = true;
-      m_quick = quickPackets;
-    } else if (m_quick > 0 && world.tick - m_lastTick >= every(quickPeriod)) {
+      m_rhythm.quick = quickPackets;
+    } else if (m_rhythm.quick > 0 && world.tick - m_rhythm.lastTick >= every(quickPeriod)) {
       due = true;
-      --m_quick;
+      --m_rhythm.quick;
     }
-    m_stopped = world.game->stopped;
+    m_rhythm.stopped = world.game->stopped;
   }
   if (!due) return false;
-  m_lastTick = std::max<std::uint64_t>(1, world.tick);
+  m_rhythm.lastTick = std::max<std::uint64_t>(1, world.tick);
   m_packet = refereePacket(world, static_cast<int>((world.tick / every(period)) & 0xffU));
-  if (m_sender) send();
+  if (m_sender && !again) send();
   return true;
 }
 

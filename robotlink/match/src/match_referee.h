@@ -11,6 +11,7 @@
 #include <string>
 
 #include <base/result.h>
+#include <robotlink/match/robots_memory.h>
 #include <simcore/simulation/simulation.h>
 #include <telemetry/wire/referee_tracker.h>
 #include <telemetry/wire/udp_receiver.h>
@@ -26,8 +27,11 @@ class MatchReferee {
   Result<void> obey(int port, sim::Simulation& simulation);
 
   /// After a tick: takes what an external referee has said, and sends what is due. True when
-  /// robots hear the referee now: packet() is news.
-  bool tick(sim::Simulation& simulation);
+  /// robots hear the referee now: packet() is news. A tick that is played `again` hears and sends
+  /// nothing.
+  bool tick(sim::Simulation& simulation, bool again = false);
+  const RefereeRhythm& rhythm() const { return m_rhythm; }
+  void setRhythm(const RefereeRhythm& rhythm) { m_rhythm = rhythm; }
   const telemetry::RefereeState& packet() const { return m_packet; }
   /// An external GameController is obeyed.
   bool obeys() const { return m_receiver != nullptr; }
@@ -42,9 +46,7 @@ class MatchReferee {
   telemetry::RefereeTracker m_tracker;
   telemetry::DatagramBatch m_batch;
   telemetry::RefereeState m_packet;
-  std::uint64_t m_lastTick = 0;
-  bool m_stopped = false;
-  int m_quick = 0;
+  RefereeRhythm m_rhythm;
 };
 
 }  // namespace pitchboard::link

@@ -127,7 +127,7 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   std::vector<std::unique_ptr<Seat>> added;
   const auto addedSeat = [&](RobotId id) -> Seat* {
     for (const auto& one : added) {
-      if (one->id == id) return one.get();
+      if (one && one->id == id) return one.get();
     }
     return nullptr;
   };
@@ -141,6 +141,12 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
       if (one.identity.id == identity.id) (*made)->parameters = one.parameters;
     }
     added.push_back(std::move(*made));
+  }
+  for (const sim::RobotIdentity& identity : moment.state.robots) {
+    const MomentRobot* known = moment.robot(identity.id);
+    const Seat* here = seat(identity.id);
+    if (!known || !here || known->behaviour == here->behaviour) continue;
+    if (auto set = setBehaviour(identity.id, known->behaviour); !set) return set;
   }
   if (auto put = m_simulation.restore(moment.state); !put) return put;
   for (const auto& one : added) {
@@ -163,10 +169,20 @@ Result<void> SimulatedMatch::reenter(const Moment& moment) {
   m_seats = std::move(seats);
   m_commands.assign(m_seats.size(), {});
   m_percepts.resize(m_seats.size());
-  for (const auto& one : m_seats) {
-    if (const MomentRobot* known = moment.robot(one->id)) known->writeTo(one->board);
-  }
   m_scenario.settings = moment.state.settings;
+  const auto writeBoards = [&] {
+    for (const auto& one : m_seats) {
+      if (const MomentRobot* known = moment.robot(one->id)) known->writeTo(one->board);
+    }
+  };
+  writeBoards();
+  startAnew();
+  if (moment.past && moment.past->memory) {
+    playThrough(*moment.past);
+    (void)m_simulation.restore(moment.state);
+    m_scenario.settings = moment.state.settings;
+    writeBoards();
+  }
   followJump();
   m_expectedTick = moment.state.tick;
   return {};

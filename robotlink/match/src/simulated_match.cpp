@@ -136,8 +136,8 @@ bool SimulatedMatch::hearsThroughMatch(const Seat& seat) const {
          });
 }
 
-void SimulatedMatch::hearReferee() {
-  if (!m_referee->tick(m_simulation)) return;
+void SimulatedMatch::hearReferee(bool again) {
+  if (!m_referee->tick(m_simulation, again)) return;
   const sim::WorldState& world = m_simulation.state();
   for (std::size_t i = 0; i < m_seats.size(); ++i) {
     const sim::RobotIdentity& robot = world.robots[i];
@@ -218,8 +218,13 @@ void SimulatedMatch::tick() {
   if (m_simulation.state().tick != m_expectedTick) followJump();
   applyDueWrites();
   for (std::size_t i = 0; i < m_seats.size(); ++i) m_commands[i] = m_bridge.read(m_seats[i]->board);
+  advance(false);
+}
+
+/// One tick with the commands that were read. One that is played `again` was told of already.
+void SimulatedMatch::advance(bool again) {
   m_simulation.step(m_commands, m_percepts);
-  m_events->stepped(m_simulation);
+  if (!again) m_events->stepped(m_simulation);
   for (const sim::Event& event : m_simulation.events()) {
     m_goalSeen = m_goalSeen || event.kind == sim::EventKind::Goal;
     m_outSeen = m_outSeen || event.kind == sim::EventKind::BallOut;
@@ -230,7 +235,7 @@ void SimulatedMatch::tick() {
   m_expectedTick = m_simulation.state().tick;
   if (m_simulation.state().game) {
     followSides();
-    hearReferee();
+    hearReferee(again);
   }
   runProcesses();
 }

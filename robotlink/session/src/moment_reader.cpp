@@ -59,7 +59,7 @@ Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::Se
                                 std::uint64_t tick, const VariableCatalog& catalog) {
   auto state = archive.reenter(tick);
   if (!state) return tl::unexpected(state.error());
-  Moment moment{std::move(*state), {}};
+  Moment moment{std::move(*state), {}, archive.past(tick)};
   const double rate = moment.state.settings.tickRate;
   const double time = (static_cast<double>(tick) + tickTolerance) / rate;
   std::vector<std::uint32_t> words;
@@ -74,8 +74,13 @@ Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::Se
     }
     if (rowTime * rate < static_cast<double>(tick) - 1.5)
       continue;  // an earlier robot of its number
-    moment.robots.push_back(
-        {*robot, behaviourOf(view->info()), boardWords(view->info(), words, catalog)});
+    MomentRobot& known = moment.robots.emplace_back(
+        MomentRobot{*robot, behaviourOf(view->info()), boardWords(view->info(), words, catalog)});
+    // The rows tell only the newest one.
+    if (!moment.past) continue;
+    for (const RobotsMemory::Robot& remembered : moment.past->memory->robots) {
+      if (remembered.id == *robot) known.behaviour = remembered.behaviour;
+    }
   }
   return moment;
 }
@@ -92,7 +97,7 @@ Result<Moment> momentFromSession(const telemetry::SessionReader& session, double
   auto state =
       segment->segment.at(segment->segment.firstTick() + static_cast<std::uint64_t>(inside));
   if (!state) return tl::unexpected(state.error());
-  Moment moment{std::move(*state), {}};
+  Moment moment{std::move(*state), {}, {}};
 
   const double time = segment->time + (inside + tickTolerance) / rate;
   std::vector<telemetry::SessionRow> rows;

@@ -37,11 +37,13 @@ StateArchive::StateArchive(ArchiveOptions options)
 void StateArchive::ticked(const SimulatedMatch& match, std::chrono::nanoseconds /*tickTime*/) {
   const std::lock_guard lock(m_mutex);
   keep(m_segmenter.ticked(match));
+  remember(match);
 }
 
 void StateArchive::worldChanged(const SimulatedMatch& match) {
   const std::lock_guard lock(m_mutex);
   keep(m_segmenter.worldChanged(match));
+  remember(match);
 }
 
 void StateArchive::keep(std::optional<StateSegment> ended) {
@@ -59,6 +61,70 @@ void StateArchive::keep(std::optional<StateSegment> ended) {
     m_bytes -= m_segments.front()->bytes();
     m_segments.pop_front();
   }
+}
+
+void StateArchive::dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::iterator memory) {
+  m_memoriesBytes -= (*memory)->bytes;
+  m_memories.erase(memory);
+}
+
+bool StateArchive::remembersRobotsOf(const SimulatedMatch& match) const {
+  return std::ranges::equal(m_memories.back()->robots, match.simulation().state().robots,
+                            [&](const auto& known, const auto& robot) {
+                              return known.id == robot.id &&
+                                     known.behaviour == match.behaviour(robot.id);
+                            });
+}
+
+void StateArchive::remember(const SimulatedMatch& match) {
+  const sim::WorldState& state = match.simulation().state();
+  while (!m_memories.empty() && m_memories.back()->tick > state.tick) {
+    dropMemory(std::prev(m_memories.end()));
+  }
+  if (!m_memories.empty()) {
+    if (!remembersRobotsOf(match)) {
+      // From here on, not from the next piece on.
+      if (m_segmenter.open()->firstTick() != state.tick) keep(m_segmenter.worldChanged(match));
+      if (m_memories.back()->tick == state.tick) dropMemory(std::prev(m_memories.end()));
+    } else {
+      const double ticks = m_options.memoryInterval * state.settings.tickRate;
+      if (static_cast<double>(state.tick - m_memories.back()->tick) < ticks) return;
+    }
+  }
+  if (m_segmenter.open()->firstTick() != state.tick) return;
+  auto memory = match.robotsMemory();
+  if (!memory) return;
+  m_memoriesBytes += memory->bytes;
+  m_memories.push_back(std::move(memory));
+  while (m_memoriesBytes > m_options.robotsBudget) dropMemory(m_memories.begin());
+}
+
+std::shared_ptr<const MomentPast> StateArchive::past(std::uint64_t tick) const {
+  MomentPast past;
+  {
+    const std::lock_guard lock(m_mutex);
+    const auto after =
+        std::upper_bound(m_memories.begin(), m_memories.end(), tick,
+                         [](std::uint64_t t, const auto& memory) { return t < memory->tick; });
+    if (after == m_memories.begin()) return nullptr;
+    past.memory = *std::prev(after);
+  }
+  const std::uint64_t begin = past.memory->tick;
+  const auto pieces = segments(begin, tick);
+  std::uint64_t at = begin;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i]->firstTick() < begin) continue;
+    const std::uint64_t next = i + 1 < pieces.size() ? pieces[i + 1]->firstTick() : tick;
+    const std::uint64_t until = std::min(next, tick);
+    if (pieces[i]->firstTick() != at || pieces[i]->lastTick() < until) return nullptr;
+    if (until == at) continue;
+    auto played = pieces[i]->playedTo(until);
+    if (!played) return nullptr;
+    past.played.push_back(std::move(*played));
+    at = until;
+  }
+  if (at != tick) return nullptr;
+  return std::make_shared<const MomentPast>(std::move(past));
 }
 
 std::optional<StateArchive::TickRange> StateArchive::range() const {
@@ -109,7 +175,7 @@ std::vector<std::shared_ptr<const StateSegment>> StateArchive::segments(std::uin
 
 std::size_t StateArchive::memoryBytes() const {
   const std::lock_guard lock(m_mutex);
-  return m_bytes + (m_segmenter.open() ? m_segmenter.open()->bytes() : 0);
+  return m_bytes + m_memoriesBytes + (m_segmenter.open() ? m_segmenter.open()->bytes() : 0);
 }
 
 }  // namespace pitchboard::link

@@ -99,12 +99,32 @@ void StateSegment::add(std::span<const sim::RobotCommand> commands) {
   }
 }
 
-Result<sim::WorldState> StateSegment::at(std::uint64_t tick) const {
-  if (tick < firstTick() || tick > lastTick()) {
-    return failure(ErrorCode::NotFound, "tick " + std::to_string(tick) + " is not in this piece (" +
-                                            std::to_string(firstTick()) + " to " +
-                                            std::to_string(lastTick()) + ")");
+Result<void> StateSegment::holds(std::uint64_t tick) const {
+  if (tick >= firstTick() && tick <= lastTick()) return {};
+  return failure(ErrorCode::NotFound, "tick " + std::to_string(tick) + " is not in this piece (" +
+                                          std::to_string(firstTick()) + " to " +
+                                          std::to_string(lastTick()) + ")");
+}
+
+Result<PlayedStretch> StateSegment::playedTo(std::uint64_t tick) const {
+  if (auto held = holds(tick); !held) return tl::unexpected(held.error());
+  std::string_view bytes = m_state;
+  auto state = decodeState(bytes);
+  if (!state) return tl::unexpected(state.error());
+  std::string commands = m_commands;
+  putVarint(commands, m_same);
+  CommandReader reader(commands, state->robots.size());
+  PlayedStretch played{std::move(*state), {}};
+  for (std::uint64_t at = firstTick(); at < tick; ++at) {
+    const auto told = reader.next();
+    if (!reader.in().ok()) return tl::unexpected(damaged(reader.in()));
+    played.commands.emplace_back(told.begin(), told.end());
   }
+  return played;
+}
+
+Result<sim::WorldState> StateSegment::at(std::uint64_t tick) const {
+  if (auto held = holds(tick); !held) return tl::unexpected(held.error());
   std::string_view bytes = m_state;
   auto state = decodeState(bytes);
   if (!state || tick == firstTick()) return state;

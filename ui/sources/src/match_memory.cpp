@@ -6,6 +6,7 @@
 
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/moment_reader.h>
+#include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
 
 #include "match_rows.h"
@@ -96,6 +97,16 @@ void MatchMemory::continueFrom(double time) {
     return;
   }
   m_match->edits()->adopt(*moment);
+  if (!moment->past && m_match->cognition() != link::Cognition::None) {
+    emit continuedWithout(
+        m_match->cognition() == link::Cognition::External
+            ? QStringLiteral("Reference processes that run separately begin again with the belief "
+                             "that they had at %1. A team's own programs are not told.")
+                  .arg(clockText(time))
+            : QStringLiteral("What the robots' processes remembered at %1 is not kept any more: "
+                             "they begin again with the belief that they had then.")
+                  .arg(clockText(time)));
+  }
   m_match->post({QStringLiteral("The match cannot be continued from this moment"),
                  [moment = std::move(*moment)](link::SimulatedMatch& match) {
                    return match.reenter(moment);

@@ -9,6 +9,7 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/session_recording.h>
 #include <ui/window/scenario_files.h>
@@ -47,6 +48,7 @@ void MainWindow::connectNotices() {
   });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
+  connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(match));
   connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
   connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
   connect(m_controller, &MatchController::frameReceived, this,

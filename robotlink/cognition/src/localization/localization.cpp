@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <base/angles.h>
 #include <robotlink/blackboard/robot_variables.h>
@@ -15,6 +16,7 @@ namespace {
 constexpr float unseen = -999.0F;
 constexpr double cycle = 0.05;         // s
 constexpr double longestGap = 1.0;     // s; a process that was stopped does not walk on
+constexpr double leastSigma = 0.1;     // m; the blackboard has whole centimetres and degrees
 constexpr double sureEnough_cm = 1.0;  // published: landmarks are asked for above this sigma
 
 // Reads CONTROL_ACTION, the four landmarks and IMU_EULER_Z; writes LOCALIZATION_X, _Y, _THETA
@@ -29,7 +31,7 @@ class Localization final : public CognitiveProcess {
 
   void step(Blackboard& board, const Clock& clock) override {
     LocalizationInput input;
-    input.seconds = std::clamp(clock.seconds - m_last, 0.0, longestGap);
+    input.seconds = m_last ? std::clamp(clock.seconds - *m_last, 0.0, longestGap) : 0.0;
     m_last = clock.seconds;
     const sim::GaitSpeed speed = sim::gaitSpeed(m_body, board.read(m_variables.controlAction),
                                                 board.read(m_variables.decisionActionB));
@@ -68,6 +70,38 @@ class Localization final : public CognitiveProcess {
     thoughts.cloud = std::move(cloud);
   }
 
+  void resume(const Blackboard& board) override {
+    const auto sigma_cm = static_cast<double>(board.read(m_variables.localizationBelief));
+    // Fresh memory holds zeros, and no filter is that sure.
+    if (!std::isfinite(sigma_cm) || sigma_cm <= 0.0) return;
+    const Pose pose = sim::published_frame::studioFromLocalization(
+        m_field, {static_cast<double>(board.read(m_variables.localizationX)),
+                  static_cast<double>(board.read(m_variables.localizationY)),
+                  static_cast<double>(board.read(m_variables.localizationTheta))});
+    m_filter.reset(pose, std::max(leastSigma, sim::published_frame::metresFromCm(sigma_cm)));
+    m_last.reset();
+    m_first = false;
+  }
+
+  std::unique_ptr<const CognitiveProcess> remembered() const override {
+    auto memory = std::make_unique<Localization>(m_filter.compact(), m_field, m_body);
+    memory->m_last = m_last;
+    memory->m_first = m_first;
+    return memory;
+  }
+
+  bool recall(const CognitiveProcess& memory) override {
+    const auto* other = dynamic_cast<const Localization*>(&memory);
+    if (!other) return false;
+    m_filter = other->m_filter;
+    m_filter.expand();
+    m_last = other->m_last;
+    m_first = other->m_first;
+    return true;
+  }
+
+  std::size_t memoryBytes() const override { return sizeof *this + m_filter.compactBytes(); }
+
  private:
   void takeLandmarks(Blackboard& board, LocalizationInput& input) {
     for (std::size_t i = 0; i < input.corners.size(); ++i) {
@@ -96,7 +130,7 @@ class Localization final : public CognitiveProcess {
   sim::FieldSpec m_field;
   sim::RobotModel m_body;
   RobotVariables m_variables;
-  double m_last = 0.0;
+  std::optional<double> m_last = 0.0;  // nothing: it came into a match that goes on
   bool m_first = true;
 };
 

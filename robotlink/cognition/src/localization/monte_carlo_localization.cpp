@@ -18,7 +18,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int headingCells = 16;
 constexpr int mostCells = 1 << 21;
 constexpr double imuJump = 0.26;          // rad: beyond it the IMU was reset or the robot carried
 constexpr double clusterRadius = 1.0;     // m
@@ -42,7 +41,8 @@ double cube(double x) {
 int headingCell(float c, float s) {
   const float d = s / (std::abs(c) + std::abs(s) + 1e-20F);
   const float around = c >= 0 ? d + 1.0F : 3.0F - d;  // 0..4
-  return std::clamp(static_cast<int>(around * (headingCells / 4.0F)), 0, headingCells - 1);
+  return std::clamp(static_cast<int>(around * (MonteCarloLocalization::headingCells / 4.0F)), 0,
+                    MonteCarloLocalization::headingCells - 1);
 }
 
 /// Where the first of the largest stands. Lanes side by side are what compilers make vectors of.
@@ -127,17 +127,7 @@ MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
   }
   m_columns = static_cast<int>(std::ceil(lengthAll / m_parameters.kldCell)) + 1;
   m_rows = static_cast<int>(std::ceil(widthAll / m_parameters.kldCell)) + 1;
-  const auto cells = static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows);
-  m_cellStamp.resize(cells * headingCells, 0);
-  m_cellWeight.resize(cells, 0.0F);
-  const int room = particles::roomFor(parameters.mostParticles);
-  for (Particles* set : {&m_now, &m_next}) {
-    for (Array* a : {&set->x, &set->y, &set->c, &set->s}) {
-      a->setZero(room);
-    }
-  }
-  for (Array* a : {&m_weight, &m_a, &m_b, &m_d}) a->setZero(room);
-  m_cells.resize(static_cast<std::size_t>(room));
+  expand();
 }
 
 particles::Grid MonteCarloLocalization::grid() const {

@@ -91,6 +91,8 @@ struct Belief {
 
 class MonteCarloLocalization {
  public:
+  static constexpr int headingCells = 16;  ///< of the histogram by which the number adapts
+
   /// The pose is unknown at first: anywhere on the field. Fails with a sentence on parameters that
   /// cannot work (counts outside 1..100000, sigmas that are not positive).
   static Result<MonteCarloLocalization> create(const sim::FieldSpec& field,
@@ -110,6 +112,12 @@ class MonteCarloLocalization {
   const Belief& belief() const { return m_belief; }
   /// Share of the particles that the last update drew from the sensors, 0..1.
   double resetShare() const { return m_resetShare; }
+
+  /// A copy without scratch memory and room for more particles, to be kept; expand() makes a filter
+  /// of it that goes on to the same last bit.
+  MonteCarloLocalization compact() const;
+  void expand();
+  std::size_t compactBytes() const;
 
   int size() const { return m_count; }
   /// Pose of particle i, for drawing.

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double memory = 1.5;  // s for which a bearing serves
+constexpr double bearingMemory = 1.5;  // s for which a bearing serves
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Pose MonteCarloLocalization::drawFromSensors(CounterRandom& random) const {
   std::array<std::size_t, 4> known{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < m_remembered.size(); ++i) {
-    if (m_remembered[i].age < memory) known[count++] = i;
+    if (m_remembered[i].age < bearingMemory) known[count++] = i;
   }
   const double yaw = drawYaw(random);
   const auto lineOf = [&](std::size_t i) {

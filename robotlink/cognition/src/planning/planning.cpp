@@ -54,6 +54,16 @@ class Planning final : public CognitiveProcess {
     thoughts.path = std::move(path);
   }
 
+  std::unique_ptr<const CognitiveProcess> remembered() const override {
+    return std::make_unique<Planning>(*this);
+  }
+
+  bool recall(const CognitiveProcess& memory) override {
+    const auto* other = dynamic_cast<const Planning*>(&memory);
+    if (other) *this = *other;
+    return other != nullptr;
+  }
+
  private:
   sim::FieldSpec m_field;
   Walk m_walk;

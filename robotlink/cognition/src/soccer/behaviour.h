@@ -4,6 +4,7 @@
 // A behaviour: chooses one action a cycle from the world model. To add one, derive from it here or
 // in a file of your own and add a line to the list in process_registry.cpp.
 
+#include <memory>
 #include <span>
 
 #include "soccer/skills.h"
@@ -31,6 +32,9 @@ class Behaviour {
   /// What it tells its team on the way there.
   virtual Intention atKickOff() const { return Intention::Walk; }
 
+  /// A copy with all that it has in mind.
+  virtual std::unique_ptr<Behaviour> clone() const = 0;
+
   /// Referee and falls first, then play().
   Choice choose(const WorldModel& world);
 
@@ -49,6 +53,7 @@ class Behaviour {
 class Striker : public Behaviour {
  public:
   using Behaviour::Behaviour;
+  std::unique_ptr<Behaviour> clone() const override { return std::make_unique<Striker>(*this); }
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
 
@@ -62,6 +67,7 @@ class Striker : public Behaviour {
 class Supporter : public Striker {
  public:
   using Striker::Striker;
+  std::unique_ptr<Behaviour> clone() const override { return std::make_unique<Supporter>(*this); }
   Pose kickOff(const WorldModel& world) override;
   Intention atKickOff() const override { return Intention::Support; }
 
@@ -84,6 +90,7 @@ class Supporter : public Striker {
 class Keeper : public Behaviour {
  public:
   using Behaviour::Behaviour;
+  std::unique_ptr<Behaviour> clone() const override { return std::make_unique<Keeper>(*this); }
   Choice play(const WorldModel& world) override;
   Pose kickOff(const WorldModel& world) override;
   Intention atKickOff() const override { return Intention::Keep; }
@@ -96,6 +103,7 @@ class Keeper : public Behaviour {
 class Idle : public Behaviour {
  public:
   using Behaviour::Behaviour;
+  std::unique_ptr<Behaviour> clone() const override { return std::make_unique<Idle>(*this); }
   Choice play(const WorldModel&) override { return {}; }
   Pose kickOff(const WorldModel& world) override { return world.pose(); }
 };

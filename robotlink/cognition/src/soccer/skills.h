@@ -5,6 +5,7 @@
 // model and answers with one action, or with a target for planning; none of them touches the
 // blackboard. Metres, radians. Use from one thread.
 
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -27,15 +28,15 @@ std::optional<Target> walkTo(const WorldModel& world, const Pose& pose, double n
 /// turning and walking round the field from there.
 class Search {
  public:
-  /// `numbers` must outlive it.
-  explicit Search(const BehaviourParameters& numbers) : m_numbers(&numbers) {}
+  explicit Search(const BehaviourParameters& numbers)
+      : m_numbers(std::make_shared<const BehaviourParameters>(numbers)) {}
   Move step(const WorldModel& world);
   void restart() { m_since.reset(); }
 
  private:
   void begin(const WorldModel& world);
   Move walk(const WorldModel& world, double time);
-  const BehaviourParameters* m_numbers;
+  std::shared_ptr<const BehaviourParameters> m_numbers;  // of its copies, too
   std::optional<double> m_since;
   std::optional<Point> m_lost;  // where it was seen last, until this robot has been there
   double m_patience = 0.0;      // s, for the way there
@@ -47,15 +48,15 @@ class Search {
 /// ball's side. Never kicks towards its own goal.
 class Attack {
  public:
-  /// `numbers` must outlive it.
-  explicit Attack(const BehaviourParameters& numbers) : m_numbers(&numbers) {}
+  explicit Attack(const BehaviourParameters& numbers)
+      : m_numbers(std::make_shared<const BehaviourParameters>(numbers)) {}
   Move step(const WorldModel& world, const Point& aim);
 
  private:
   double tolerance(const WorldModel& world, const Point& ball, double goalDistance) const;
   double kicksFrom(const WorldModel& world) const;
   Act atBall(const WorldModel& world, double error, double tolerance);
-  const BehaviourParameters* m_numbers;
+  std::shared_ptr<const BehaviourParameters> m_numbers;  // of its copies, too
   bool m_engaged = false;
   bool m_aligned = false;
 };

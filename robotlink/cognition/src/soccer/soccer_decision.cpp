@@ -3,6 +3,8 @@
 // second. Where to walk it leaves to planning.
 #include "soccer/behaviour.h"
 
+#include <typeinfo>
+
 namespace pitchboard::link {
 namespace {
 
@@ -33,6 +35,27 @@ class SoccerDecision final : public CognitiveProcess {
   }
 
   double period() const override { return 0.1; }
+
+  SoccerDecision(const SoccerDecision& other)
+      : m_world(other.m_world),
+        m_behaviour(other.m_behaviour->clone()),
+        m_variables(other.m_variables),
+        m_target(other.m_target) {}
+
+  std::unique_ptr<const CognitiveProcess> remembered() const override {
+    return std::make_unique<SoccerDecision>(*this);
+  }
+
+  bool recall(const CognitiveProcess& memory) override {
+    const auto* other = dynamic_cast<const SoccerDecision*>(&memory);
+    if (!other) return false;
+    const Behaviour& mine = *m_behaviour;
+    const Behaviour& theirs = *other->m_behaviour;
+    if (typeid(mine) != typeid(theirs)) return false;
+    m_world = other->m_world;
+    m_behaviour = theirs.clone();
+    return true;
+  }
 
  private:
   Target turned(Target target) const {

@@ -99,6 +99,10 @@ std::vector<std::string> InProcessTeamChannel::take(RobotId to) {
   return messages;
 }
 
+void InProcessTeamChannel::clear() {
+  for (Box& box : m_boxes) box.messages.clear();
+}
+
 std::unique_ptr<TeamChannel> makeTurnsChannel(std::shared_ptr<ProcessTurns> turns,
                                               std::unique_ptr<TeamChannel> udp) {
   return std::make_unique<TurnsChannel>(std::move(turns), std::move(udp));

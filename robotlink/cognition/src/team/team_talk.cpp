@@ -74,6 +74,18 @@ class TeamTalk final : public CognitiveProcess {
 
   double period() const override { return cycle; }
 
+  std::unique_ptr<const CognitiveProcess> remembered() const override {
+    auto memory = std::make_unique<TeamTalk>(*this);
+    memory->m_channel.reset();
+    return memory;
+  }
+
+  bool recall(const CognitiveProcess& memory) override {
+    const auto* other = dynamic_cast<const TeamTalk*>(&memory);
+    if (other) m_mates = other->m_mates;
+    return other != nullptr;
+  }
+
  private:
   struct Mate {
     TeamMessage message;

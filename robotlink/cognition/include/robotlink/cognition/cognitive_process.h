@@ -4,6 +4,7 @@
 // A process of the Cross Architecture as a class: the same object runs as its own OS process on a
 // System V blackboard (pitchboard-robot) and in lock-step on a heap blackboard.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -37,6 +38,21 @@ class CognitiveProcess {
   /// What it has in mind, for a display: fills its own part (particles or path), leaves the rest.
   /// Called between steps, as seldom as the display likes; changes nothing.
   virtual void tellThoughts(RobotThoughts& thoughts) const { (void)thoughts; }
+
+  // A match that is put back to an earlier moment starts its robots' processes anew, and then:
+  /// Before the first step, of a robot that has been playing: begins with what stands on its
+  /// blackboard instead of with nothing.
+  virtual void resume(const Blackboard& board) { (void)board; }
+  /// All that it remembers now, for recall(); null when it remembers nothing. Not to be stepped.
+  virtual std::unique_ptr<const CognitiveProcess> remembered() const { return nullptr; }
+  /// Goes on as the one would have that remembered this. False, and nothing has changed, when that
+  /// was of another kind.
+  virtual bool recall(const CognitiveProcess& memory) {
+    (void)memory;
+    return false;
+  }
+  /// Roughly what remembered() takes.
+  virtual std::size_t memoryBytes() const { return 2048; }
 };
 
 /// What a process is told when it is made.

@@ -31,6 +31,8 @@ class InProcessTeamChannel final : public TeamChannel {
  public:
   void post(RobotId from, std::string_view message) override;
   std::vector<std::string> take(RobotId to) override;
+  /// Everything that nobody has taken yet is lost.
+  void clear();
 
  private:
   struct Box {

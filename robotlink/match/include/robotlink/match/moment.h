@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A recorded moment of a simulated match: the exact state of the world, and what stood on the
-// robots' blackboards. Plain values.
+// A recorded moment of a simulated match: the exact state of the world, what stood on the robots'
+// blackboards and, where it is known, what their processes remembered. Plain values.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <base/ids.h>
 #include <robotlink/blackboard/blackboard.h>
+#include <robotlink/match/robots_memory.h>
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::link {
@@ -31,6 +33,8 @@ struct MomentRobot {
 struct Moment {
   sim::WorldState state;
   std::vector<MomentRobot> robots;
+  /// Null: of the processes nothing is known but what they wrote on their blackboards.
+  std::shared_ptr<const MomentPast> past;
   /// Null when nothing is known of this robot.
   const MomentRobot* robot(RobotId id) const;
 };

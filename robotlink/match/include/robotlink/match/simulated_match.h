@@ -71,6 +71,8 @@ class MatchEvents;
 class MatchReferee;
 struct HeardDrawing;
 struct Moment;
+struct MomentPast;
+struct RobotsMemory;
 struct SeatProcess;
 
 class SimulatedMatch {
@@ -176,10 +178,14 @@ class SimulatedMatch {
   RobotId freeRobotId() const;
 
   /// Puts a recorded moment back exactly: robots come and go until they are those of the moment,
-  /// and what is known of their blackboards is written. Stepping on repeats what followed as long
-  /// as the robots are told the same; what their processes remember is not part of a moment. Errors
-  /// leave the match as it was.
+  /// with its behaviours, and what is known of their blackboards is written. Reference processes
+  /// inside this program remember what they remembered then when the moment has a past, and the
+  /// match goes on as it did; else they start anew with the belief on their blackboards, as
+  /// separate ones do at their next turn. Errors leave the match as it was.
   Result<void> reenter(const Moment& moment);
+
+  /// What the reference processes remember after this tick; null when none run inside.
+  std::shared_ptr<const RobotsMemory> robotsMemory() const;
 
   /// The present moment as a scenario that starts from it. Scripted writes of the past are kept at
   /// time 0, each variable's last; what processes remember is not part of it.
@@ -205,10 +211,14 @@ class SimulatedMatch {
   void apply(const ResolvedWrite& write);
   void applyDueWrites();
   void followJump();
+  void advance(bool again);
   void runProcesses();
+  void startAnew();
+  void playThrough(const MomentPast& past);
+  void recall(const RobotsMemory& memory);
   std::uint64_t nextDueTick(double period, std::uint64_t after) const;
   Result<void> beginGame();
-  void hearReferee();
+  void hearReferee(bool again = false);
   bool hearsThroughMatch(const Seat& seat) const;
   void followSides();
   Seat* seat(RobotId id) const;
@@ -252,7 +262,7 @@ class SimulatedMatch {
   std::size_t m_nextWrite = 0;
   std::uint64_t m_expectedTick = 0;  // another one means that a moment was restored
   bool m_goalSeen = false, m_outSeen = false;
-  std::array<std::shared_ptr<TeamChannel>, teamColors.size()> m_teamChannels;
+  std::array<std::shared_ptr<InProcessTeamChannel>, teamColors.size()> m_teamChannels;
   std::optional<ThoughtsReceiver> m_thoughts;
   std::unique_ptr<MatchEvents> m_events;
   std::unique_ptr<MatchReferee> m_referee;

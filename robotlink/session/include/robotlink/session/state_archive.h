@@ -2,7 +2,8 @@
 #pragma once
 
 // Remembers a match so that every recent moment can be entered again exactly: a checkpoint a second
-// (and after every change by hand), and what the robots were told in between. Memory has a budget;
+// (and after every change by hand), what the robots were told in between, and every ten seconds
+// what their processes remember, when these run inside the match. Memory has a budget;
 // the oldest seconds go first. Written on the match's thread, read from any.
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <robotlink/match/match_runner.h>
+#include <robotlink/match/robots_memory.h>
 #include <robotlink/session/state_segment.h>
 
 namespace pitchboard::link {
@@ -40,6 +42,8 @@ class StateSegmenter {
 struct ArchiveOptions {
   double interval = 1.0;                             ///< simulated s between checkpoints
   std::size_t memoryBudget = std::size_t{64} << 20;  ///< bytes; about 10 hours of six robots
+  double memoryInterval = 10.0;  ///< simulated s between two looks at what processes remember
+  std::size_t robotsBudget = std::size_t{64} << 20;  ///< bytes of these; see docs/STUDIO.md
 };
 
 class StateArchive : public TickObserver {
@@ -62,6 +66,9 @@ class StateArchive : public TickObserver {
   /// The state that the match went on from at this tick: after changes by hand, where there were
   /// some. Error NotFound when the tick is not (or no longer) there.
   Result<sim::WorldState> reenter(std::uint64_t tick) const;
+  /// From what the robots' processes remembered to this tick; null when that is not (or no longer)
+  /// there, or when none run inside the match.
+  std::shared_ptr<const MomentPast> past(std::uint64_t tick) const;
   /// The pieces that have a tick in [first, last], in order.
   std::vector<std::shared_ptr<const StateSegment>> segments(std::uint64_t first,
                                                             std::uint64_t last) const;
@@ -69,11 +76,17 @@ class StateArchive : public TickObserver {
 
  private:
   void keep(std::optional<StateSegment> ended);
+  void remember(const SimulatedMatch& match);
+  void dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::iterator memory);
+  bool remembersRobotsOf(const SimulatedMatch& match) const;
   const ArchiveOptions m_options;
   mutable std::mutex m_mutex;  // guards everything below
   StateSegmenter m_segmenter;
   std::deque<std::shared_ptr<const StateSegment>> m_segments;  // by first tick
   std::size_t m_bytes = 0;
+  std::deque<std::shared_ptr<const RobotsMemory>>
+      m_memories;  // by tick, each where a segment begins
+  std::size_t m_memoriesBytes = 0;
 };
 
 }  // namespace pitchboard::link

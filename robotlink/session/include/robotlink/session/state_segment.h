@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <base/result.h>
+#include <robotlink/match/robots_memory.h>
 #include <simcore/world/robot_io.h>
 #include <simcore/world/world_state.h>
 
@@ -39,12 +40,17 @@ class StateSegment {
   /// the commands are damaged (only in a segment from a file).
   Result<sim::WorldState> at(std::uint64_t tick) const;
 
+  /// How it was played from firstTick() to this tick. Errors as of at().
+  Result<PlayedStretch> playedTo(std::uint64_t tick) const;
+
   /// For files. decode() refuses bytes that are no segment, with the offset; what it returns may
   /// still hold damaged commands, which at() finds.
   std::string encode() const;
   static Result<StateSegment> decode(std::string_view bytes);
 
  private:
+  Result<void> holds(std::uint64_t tick) const;
+
   std::uint64_t m_firstTick = 0;
   std::uint64_t m_ticks = 0;
   double m_tickRate = 60.0;

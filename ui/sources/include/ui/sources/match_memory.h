@@ -56,12 +56,15 @@ class MatchMemory : public QObject {
   std::shared_ptr<const link::StateArchive> archive() const { return m_archive; }
   /// What programs have drawn in the recent past; as archive().
   std::shared_ptr<const link::LiveHistory> drawn() const;
-  /// Puts the match back to this moment (s) exactly, pauses, and forgets what came after it and
-  /// what could be undone. The controller's `errorOccurred` when memory does not hold it any more.
+  /// Puts the match back to this moment (s) exactly, with what the processes inside it remembered,
+  /// pauses, and forgets what came after it and what could be undone. The controller's
+  /// `errorOccurred` when memory does not hold it any more.
   void continueFrom(double time);
 
  signals:
   void failed(const QString& sentence);
+  /// The match goes on, but not with all that its robots knew: what is lost.
+  void continuedWithout(const QString& sentence);
 
  private:
   MatchController* m_match;
