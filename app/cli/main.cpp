@@ -13,10 +13,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PITCHBOARD_VERSION);
 
   int exitCode = 0;
-  constexpr std::array<AddCommand, 12> commands{
-      &addSimulateCommand, &addConformanceCommand, &addBlackboardCommands, &addCatalogCommands,
-      &addListenCommand,   &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
-      &addRepairCommand,   &addExportCommand,      &addExperimentCommand,  &addTestCommand};
+  constexpr std::array commands{&addSimulateCommand, &addConformanceCommand, &addBlackboardCommands,
+                                &addCatalogCommands, &addListenCommand,      &addDecodeCommand,
+                                &addRecordCommand,   &addInspectCommand,     &addRepairCommand,
+                                &addExportCommand,   &addExperimentCommand,  &addTestCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;

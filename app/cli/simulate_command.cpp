@@ -337,10 +337,12 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
                    "blackboards; none: blackboards for your own processes")
       ->type_name("inline|external|none")
       ->capture_default_str();
+  std::string ruleSets;
+  for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
   command
       ->add_option("--referee", a.rules,
-                   "Rules of the match instead of the scenario's: published (no referee), "
-                   "humanoid-2014, humanoid-2021 or humanoid-soccer-2026")
+                   "Rules of the match instead of the scenario's: " + ruleSets.substr(2) +
+                       "; published is no referee")
       ->type_name("RULES");
   command
       ->add_option("--obey-referee", a.obeyReferee,

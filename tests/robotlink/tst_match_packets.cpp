@@ -8,6 +8,7 @@
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/referee.h>
+#include <simcore/world/referee_parameters.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "../support/test_socket.h"
@@ -75,6 +76,21 @@ class TestMatchPackets : public QObject {
   }
 
  private slots:
+  void everyVersionCanBeChosen() {
+    for (const auto& parameter : sim::refereeParameters) {
+      if (parameter.member != &sim::RefereeRules::packetVersion) continue;
+      for (int version = 0; version < 256; ++version) {
+        if (!telemetry::refereePacketSize(version)) continue;
+        const bool inside = version >= parameter.least && version <= parameter.most;
+        QVERIFY2(inside, qPrintable(QString("version %1 of the packets is outside the range of "
+                                            "packet_version: change it in referee_parameters.h")
+                                        .arg(version)));
+      }
+      return;
+    }
+    QFAIL("packet_version has no row");
+  }
+
   void sentTwiceASecond_data() { everyVersion(); }
   void sentTwiceASecond() {
     QFETCH(int, version);

@@ -39,10 +39,8 @@ const std::vector<WorldRequest::Verb>& WorldRequest::verbs() {
 
 void WorldRequest::carryOut() {
   if (failed()) return;
-  std::vector<std::string_view> names;
-  for (const Verb& verb : verbs()) names.push_back(verb.name);
   m_request.require("do");
-  const auto chosen = m_request.choice("do", names, "request");
+  const auto chosen = m_request.choice("do", WorldLines::requests(), "request");
   if (!chosen) return;
   const Verb& verb = verbs()[*chosen];
   std::vector<std::string_view> keys = verb.keys;
@@ -225,6 +223,12 @@ void WorldRequest::hashes() {
 
 WorldLines::WorldLines(Scenario usual, const Limits& limits)
     : m_usual(std::move(usual)), m_limits(limits) {}
+
+std::vector<std::string_view> WorldLines::requests() {
+  std::vector<std::string_view> names;
+  for (const WorldRequest::Verb& verb : WorldRequest::verbs()) names.push_back(verb.name);
+  return names;
+}
 
 std::string WorldLines::answer(std::string_view line) {
   JsonReport report("line");

@@ -30,7 +30,6 @@ class WorldRequest {
 
   void carryOut();
 
- private:
   struct Verb {
     std::string_view name;
     void (WorldRequest::*carryOut)();
@@ -38,6 +37,7 @@ class WorldRequest {
   };
   static const std::vector<Verb>& verbs();
 
+ private:
   void create();
   void columns();
   void behaviour();

@@ -202,14 +202,12 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
 
 std::vector<ExperimentName> namesIn(std::string_view folder) {
   std::vector<ExperimentName> out;
-  for (const Resource& resource : resources()) {
-    if (!resource.path.starts_with(folder)) continue;
-    std::string name(resource.path.substr(folder.size()));
-    name.resize(name.size() - std::string_view(".json").size());
-    JsonReport report(resource.path);
-    const auto root = parseJson(resource.text, report);
+  for (const std::string_view name : resourceNames(folder.substr(0, folder.size() - 1))) {
+    const std::string path = std::string(folder) + std::string(name) + ".json";
+    JsonReport report(path);
+    const auto root = parseJson(resourceText(path), report);
     const JsonNode* title = root ? root->find("title") : nullptr;
-    out.push_back({name, title ? title->text : name});
+    out.push_back({std::string(name), title ? title->text : std::string(name)});
   }
   return out;
 }

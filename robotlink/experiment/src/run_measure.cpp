@@ -163,6 +163,70 @@ void RunMeasure::followPossession() {
   m_ours += owner->ours;
 }
 
+RunMeasure::Sums RunMeasure::sumsOfTeam() const {
+  Sums out;
+  for (std::size_t i = 0; i < m_robots.size(); ++i) {
+    if (!m_robots[i].ours) continue;
+    const sim::RobotSnapshot& now = m_now.robots[i];
+    out.walked += now.statistics.distanceWalked;
+    out.displacement += distance(m_robots[i].start, now.pose.position);
+    out.kicks += now.statistics.kicks;
+    out.falls += now.statistics.falls;
+    out.belief.add(m_robots[i].belief.mean());
+    if (std::isfinite(m_robots[i].belief.mean())) out.beliefEnd.add(m_robots[i].belief.last());
+  }
+  return out;
+}
+
+// Without a default: the compiler names the value that is not measured.
+double RunMeasure::teamValue(TeamValue which, const Sums& sums) const {
+  switch (which) {
+    case TeamValue::Success:  // judged when the run's values are known
+      return 0.0;
+    case TeamValue::Goal:
+      return m_goals > 0;
+    case TeamValue::GoalAgainst:
+      return m_goalsAgainst > 0;
+    case TeamValue::BallOut:
+      return m_ballsOut > 0;
+    case TeamValue::Stuck:
+      return m_stuck;
+    case TeamValue::Fell:
+      return m_fell;
+    case TeamValue::Timeout:
+      return m_endedBy == "time";
+    case TeamValue::Goals:
+      return m_goals;
+    case TeamValue::GoalsAgainst:
+      return m_goalsAgainst;
+    case TeamValue::Time:
+      return m_now.time;
+    case TeamValue::TimeToGoal:
+      return m_firstGoal.value_or(nan);
+    case TeamValue::Walked:
+      return sums.walked;
+    case TeamValue::Displacement:
+      return sums.displacement;
+    case TeamValue::Kicks:
+      return sums.kicks;
+    case TeamValue::Falls:
+      return sums.falls;
+    case TeamValue::BallsOut:
+      return m_ballsOut;
+    case TeamValue::BeliefError:
+      return sums.belief.mean();
+    case TeamValue::BeliefErrorEnd:
+      return sums.beliefEnd.mean();
+    case TeamValue::Possession:
+      return m_anybodys > 0.0 ? m_ours / m_anybodys : nan;
+    case TeamValue::Collisions:
+      return m_collisions;
+    case TeamValue::Penalties:
+      return m_penalties;
+  }
+  return nan;
+}
+
 RunResult RunMeasure::result(const SimulatedMatch& match) {
   match.simulation().snapshot(m_now);
   if (match.finished()) end(match.finishedBy());
@@ -173,43 +237,9 @@ RunResult RunMeasure::result(const SimulatedMatch& match) {
   out.ticks = m_now.tick;
   out.hash = match.simulation().hash();
 
-  std::vector<double> team(teamValueCount, 0.0);
-  const auto put = [&team](TeamValue which, double value) {
-    team[static_cast<std::size_t>(which)] = value;
-  };
-  MeanOf belief, beliefEnd;
-  double walked = 0.0, displacement = 0.0, kicks = 0.0, falls = 0.0;
-  for (std::size_t i = 0; i < m_robots.size(); ++i) {
-    if (!m_robots[i].ours) continue;
-    const sim::RobotSnapshot& now = m_now.robots[i];
-    walked += now.statistics.distanceWalked;
-    displacement += distance(m_robots[i].start, now.pose.position);
-    kicks += now.statistics.kicks;
-    falls += now.statistics.falls;
-    belief.add(m_robots[i].belief.mean());
-    if (std::isfinite(m_robots[i].belief.mean())) beliefEnd.add(m_robots[i].belief.last());
-  }
-  put(TeamValue::Goal, m_goals > 0);
-  put(TeamValue::GoalAgainst, m_goalsAgainst > 0);
-  put(TeamValue::BallOut, m_ballsOut > 0);
-  put(TeamValue::Stuck, m_stuck);
-  put(TeamValue::Fell, m_fell);
-  put(TeamValue::Timeout, m_endedBy == "time");
-  put(TeamValue::Goals, m_goals);
-  put(TeamValue::GoalsAgainst, m_goalsAgainst);
-  put(TeamValue::Time, m_now.time);
-  put(TeamValue::TimeToGoal, m_firstGoal.value_or(nan));
-  put(TeamValue::Walked, walked);
-  put(TeamValue::Displacement, displacement);
-  put(TeamValue::Kicks, kicks);
-  put(TeamValue::Falls, falls);
-  put(TeamValue::BallsOut, m_ballsOut);
-  put(TeamValue::BeliefError, belief.mean());
-  put(TeamValue::BeliefErrorEnd, beliefEnd.mean());
-  put(TeamValue::Possession, m_anybodys > 0.0 ? m_ours / m_anybodys : nan);
-  put(TeamValue::Collisions, m_collisions);
-  put(TeamValue::Penalties, m_penalties);
-  out.values = std::move(team);
+  const Sums sums = sumsOfTeam();
+  for (std::size_t i = 0; i < teamValueCount; ++i)
+    out.values.push_back(teamValue(static_cast<TeamValue>(i), sums));
 
   for (const std::string& name : robotsOf(m_experiment)) {
     const auto robot = std::find_if(m_robots.begin(), m_robots.end(),

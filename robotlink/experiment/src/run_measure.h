@@ -42,6 +42,13 @@ class RunMeasure : public TickObserver {
     MeanOf belief;
     Point start;
   };
+  /// Over the robots of the team.
+  struct Sums {
+    double walked = 0.0, displacement = 0.0, kicks = 0.0, falls = 0.0;
+    MeanOf belief, beliefEnd;
+  };
+  Sums sumsOfTeam() const;
+  double teamValue(TeamValue which, const Sums& sums) const;
   void begin(const SimulatedMatch& match);
   void sample(const SimulatedMatch& match);
   void watchMovement();

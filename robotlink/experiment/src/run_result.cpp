@@ -38,6 +38,7 @@ constexpr std::array<TeamMetric, teamValueCount> teamTable{{
     {"collisions", "", "Collisions"},
     {"penalties", "", "Penalties"},
 }};
+static_assert(teamTable.back().name != nullptr, "every TeamValue needs its row");
 
 constexpr std::array<TeamMetric, robotValueCount> robotTable{{
     {"walked_m", "m", "Distance walked"},

@@ -2,7 +2,6 @@
 #include <robotlink/models/noise_presets.h>
 
 #include <algorithm>
-#include <array>
 
 #include <resources/resources.h>
 #include <simcore/world/parameter_reading.h>
@@ -10,18 +9,22 @@
 namespace pitchboard::link {
 namespace {
 
-// In the order in which people see them; each is resources/noise/<name>.json.
-constexpr std::array<std::string_view, 5> names{"none", "published", "paper", "realistic", "robot"};
+/// In the order in which people see them.
+const std::vector<std::string_view>& presetNames() {
+  static const auto all =
+      resourceNames("noise", {"none", "published", "paper", "realistic", "robot"});
+  return all;
+}
 
 }  // namespace
 
 std::vector<std::string> noisePresets() {
-  return {names.begin(), names.end()};
+  return {presetNames().begin(), presetNames().end()};
 }
 
 Result<sim::NoiseParameters> noisePreset(std::string_view name) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    return failure(ErrorCode::NotFound, unknownName("noise preset", name, names));
+  if (std::find(presetNames().begin(), presetNames().end(), name) == presetNames().end()) {
+    return failure(ErrorCode::NotFound, unknownName("noise preset", name, presetNames()));
   }
   const std::string path = "noise/" + std::string(name) + ".json";
   JsonReport report(path);
@@ -44,10 +47,10 @@ std::optional<sim::NoiseParameters> readNoise(const JsonObject& parent, JsonRepo
   if (!node) return {};
   sim::NoiseParameters noise;
   const auto take = [&](std::size_t index) {
-    if (auto preset = noisePreset(names[index])) noise = *preset;
+    if (auto preset = noisePreset(presetNames()[index])) noise = *preset;
   };
   if (node->kind == JsonNode::Kind::Text) {
-    if (const auto preset = parent.choice(key, names, "noise preset")) take(*preset);
+    if (const auto preset = parent.choice(key, presetNames(), "noise preset")) take(*preset);
     return noise;
   }
   if (node->kind != JsonNode::Kind::Object) {
@@ -56,7 +59,7 @@ std::optional<sim::NoiseParameters> readNoise(const JsonObject& parent, JsonRepo
   }
   const JsonObject object(report, *node, parent.pathOf(key),
                           sim::withKeys({"preset", noiseOfModelKey}, sim::noiseParameters));
-  if (const auto preset = object.choice("preset", names, "noise preset")) take(*preset);
+  if (const auto preset = object.choice("preset", presetNames(), "noise preset")) take(*preset);
   noise.ofModel = object.boolean(noiseOfModelKey, noise.ofModel);
   sim::readNumbers(object, sim::noiseParameters, noise);
   return noise;

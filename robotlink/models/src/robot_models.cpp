@@ -2,7 +2,6 @@
 #include <robotlink/models/robot_models.h>
 
 #include <algorithm>
-#include <array>
 
 #include <base/read_file.h>
 #include <resources/resources.h>
@@ -12,11 +11,16 @@
 namespace pitchboard::link {
 namespace {
 
-// In the order in which people see them; each is resources/robots/<name>.json.
-constexpr std::array<std::string_view, 4> names{"published", "darwin-op", "kid-size", "adult-size"};
 constexpr std::size_t longestName = 64;
 constexpr std::size_t longestText = 2000;
 constexpr std::size_t mostFileBytes = 64 * 1024;
+
+/// In the order in which people see them.
+const std::vector<std::string_view>& modelNames() {
+  static const auto all =
+      resourceNames("robots", {"published", "darwin-op", "kid-size", "adult-size"});
+  return all;
+}
 
 std::string pathOf(std::string_view name) {
   return "robots/" + std::string(name) + ".json";
@@ -51,8 +55,8 @@ sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
                                          "distance_from", "noise", "sources"},
                                         sim::robotModelParameters));
   sim::RobotModel model;
-  if (const auto base = object.choice("base", names, "robot model")) {
-    if (auto built = robotModelFromText(names[*base], "base")) model = *built;
+  if (const auto base = object.choice("base", modelNames(), "robot model")) {
+    if (auto built = robotModelFromText(modelNames()[*base], "base")) model = *built;
   }
   model.name = object.text("name", "custom", longestName);
   if (model.name.empty()) object.fail("name", "must not be empty");
@@ -81,7 +85,7 @@ sim::RobotModel readRobotModelObject(JsonReport& report, const JsonNode& node,
 }  // namespace
 
 std::vector<std::string> robotModels() {
-  return {names.begin(), names.end()};
+  return {modelNames().begin(), modelNames().end()};
 }
 
 std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonReport& report,
@@ -95,15 +99,15 @@ std::optional<sim::RobotModel> readRobotModel(const JsonObject& parent, JsonRepo
     parent.fail(key, "must be the name of a robot model, in quotes, or an object in braces");
     return {};
   }
-  const auto built = parent.choice(key, names, "robot model");
+  const auto built = parent.choice(key, modelNames(), "robot model");
   if (!built) return {};
-  const auto model = robotModelFromText(names[*built], "");
+  const auto model = robotModelFromText(modelNames()[*built], "");
   return model ? std::optional<sim::RobotModel>(*model) : std::nullopt;
 }
 
 RobotModelText robotModelText(std::string_view name) {
   RobotModelText text{std::string(name), {}};
-  if (std::find(names.begin(), names.end(), name) == names.end()) return text;
+  if (std::find(modelNames().begin(), modelNames().end(), name) == modelNames().end()) return text;
   JsonReport report(name);
   const auto root = parseJson(resourceText(pathOf(name)), report);
   if (!root) return text;
@@ -115,22 +119,22 @@ RobotModelText robotModelText(std::string_view name) {
 
 Result<sim::RobotModel> robotModelFromText(std::string_view nameOrJson, std::string_view source) {
   if (nameOrJson.find('{') != std::string_view::npos) return modelFromJson(nameOrJson, source);
-  if (std::find(names.begin(), names.end(), nameOrJson) != names.end()) {
+  if (std::find(modelNames().begin(), modelNames().end(), nameOrJson) != modelNames().end()) {
     return modelFromJson(resourceText(pathOf(nameOrJson)), pathOf(nameOrJson));
   }
-  return failure(ErrorCode::NotFound, unknownName("robot model", nameOrJson, names),
+  return failure(ErrorCode::NotFound, unknownName("robot model", nameOrJson, modelNames()),
                  std::string(source));
 }
 
 Result<sim::RobotModel> loadRobotModel(const std::string& nameOrPath) {
-  if (std::find(names.begin(), names.end(), nameOrPath) != names.end()) {
+  if (std::find(modelNames().begin(), modelNames().end(), nameOrPath) != modelNames().end()) {
     return robotModelFromText(nameOrPath, nameOrPath);
   }
   const auto text = readFile(nameOrPath, mostFileBytes, "the robot model");
   if (!text && text.error().code == ErrorCode::NotFound &&
       nameOrPath.find_first_of("/.") == std::string::npos) {
     return failure(ErrorCode::NotFound,
-                   unknownName("built-in robot model and no file", nameOrPath, names));
+                   unknownName("built-in robot model and no file", nameOrPath, modelNames()));
   }
   if (!text) return tl::unexpected(text.error());
   return modelFromJson(*text, nameOrPath);

@@ -19,10 +19,14 @@ constexpr std::size_t mostWords = 100;
 constexpr std::size_t longestText = 4096;
 constexpr double longestTime = 3600.0;  // s
 
-constexpr std::array<std::string_view, 3> builtIn{referenceRuntime, ownRuntime, "published-tree"};
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
 constexpr std::array<std::string_view, 5> conditions{"everyone", "behaviour", "pose", "separate",
                                                      "target"};
+
+const std::vector<std::string_view>& runtimeNames() {
+  static const auto all = resourceNames("runtime", {referenceRuntime, ownRuntime});
+  return all;
+}
 
 struct SignalName {
   std::string_view name;
@@ -158,12 +162,12 @@ class Reader {
 
 Result<RuntimeProfile> named(const std::string& nameOrPath) {
   const std::string name = nameOrPath.empty() ? std::string(referenceRuntime) : nameOrPath;
-  if (std::find(builtIn.begin(), builtIn.end(), name) != builtIn.end()) {
+  if (std::find(runtimeNames().begin(), runtimeNames().end(), name) != runtimeNames().end()) {
     return runtimeProfileFromJson(resourceText("runtime/" + name + ".json"), name);
   }
   if (name.find_first_of("/.") == std::string::npos) {
     return failure(ErrorCode::NotFound,
-                   unknownName("built-in runtime profile and no file", name, builtIn));
+                   unknownName("built-in runtime profile and no file", name, runtimeNames()));
   }
   const auto text = readFile(name, mostBytes, "the runtime profile");
   if (!text) return tl::unexpected(text.error());
@@ -196,7 +200,7 @@ bool RuntimeProfile::usesExtension() const {
 }
 
 std::vector<std::string> builtInRuntimes() {
-  return {builtIn.begin(), builtIn.end()};
+  return {runtimeNames().begin(), runtimeNames().end()};
 }
 
 Result<RuntimeProfile> runtimeProfileFromJson(std::string_view text, std::string_view source) {

@@ -2,7 +2,6 @@
 #include <robotlink/scenario/referee_rule_sets.h>
 
 #include <algorithm>
-#include <array>
 
 #include <resources/resources.h>
 #include <simcore/world/referee_parameters.h>
@@ -13,9 +12,11 @@
 namespace pitchboard::link {
 namespace {
 
-// In the order in which people see them; each is resources/rules/<name>.json.
-constexpr std::array<std::string_view, 3> names{"humanoid-2014", "humanoid-2021",
-                                                "humanoid-soccer-2026"};
+const std::vector<std::string_view>& setNames() {
+  static const auto all = resourceNames("rules");
+  return all;
+}
+
 constexpr std::string_view noReferee = "published";
 
 std::vector<std::string_view> keysOfRules(std::vector<std::string_view> keys) {
@@ -26,7 +27,7 @@ std::vector<std::string_view> keysOfRules(std::vector<std::string_view> keys) {
 }
 
 void readRules(const JsonObject& object, sim::RefereeRules& rules) {
-  if (const auto style = object.choice("style", names, "style of referee")) {
+  if (const auto style = object.choice("style", sim::refereeStyleNames, "style of referee")) {
     rules.style = static_cast<sim::RefereeStyle>(*style);
   }
   readNumbers(object, sim::refereeParameters, rules);
@@ -64,7 +65,7 @@ Result<RuleFile> builtIn(std::string_view name) {
 
 std::vector<std::string_view> knownNames() {
   std::vector<std::string_view> known{noReferee};
-  known.insert(known.end(), names.begin(), names.end());
+  known.insert(known.end(), setNames().begin(), setNames().end());
   return known;
 }
 
@@ -74,7 +75,7 @@ std::vector<RuleSetInfo> refereeRuleSets() {
   std::vector<RuleSetInfo> all{
       {std::string(noReferee), "No referee",
        "As the published simulator: goals count, a ball that is out is put back."}};
-  for (const std::string_view name : names) {
+  for (const std::string_view name : setNames()) {
     if (const auto file = builtIn(name)) all.push_back(file->info);
   }
   return all;
@@ -82,7 +83,7 @@ std::vector<RuleSetInfo> refereeRuleSets() {
 
 Result<std::optional<sim::RefereeRules>> refereeRuleSet(std::string_view name) {
   if (name == noReferee) return std::optional<sim::RefereeRules>();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+  if (std::find(setNames().begin(), setNames().end(), name) == setNames().end()) {
     return failure(ErrorCode::NotFound, unknownName("rule set", name, knownNames()));
   }
   auto file = builtIn(name);

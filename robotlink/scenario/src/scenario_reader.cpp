@@ -25,10 +25,13 @@ constexpr std::size_t mostWrites = 100000;
 constexpr std::size_t longestRuntime = 4096;
 constexpr std::size_t mostFileBytes = 1024 * 1024;
 
-// The default first, as in choosers; each is resources/scenarios/<name>.json.
-constexpr std::array<std::string_view, 9> builtInNames{
-    "match",     "match-4v4",   "match-3v3", "published-match-3v3", "scenario-1", "scenario-2",
-    "one-robot", "match-11v11", "empty"};
+/// The default first, as in choosers.
+const std::vector<std::string_view>& builtInNames() {
+  static const auto all =
+      resourceNames("scenarios", {"match", "match-4v4", "match-3v3", "published-match-3v3",
+                                  "scenario-1", "scenario-2", "one-robot", "match-11v11", "empty"});
+  return all;
+}
 
 /// What version 0.2 called a number of a robot, in "rigid_body".
 struct EarlierKey {
@@ -359,7 +362,7 @@ class Reader {
 
 std::vector<ScenarioName> builtInScenarios() {
   std::vector<ScenarioName> all;
-  for (const std::string_view name : builtInNames) {
+  for (const std::string_view name : builtInNames()) {
     const auto scenario = scenarioFromJson(resourceText(resourcePath(name)), name);
     all.push_back({std::string(name), scenario ? scenario->title : std::string(name)});
   }
@@ -367,14 +370,14 @@ std::vector<ScenarioName> builtInScenarios() {
 }
 
 Result<Scenario> loadScenario(const std::string& nameOrPath, const VariableCatalog& catalog) {
-  if (std::find(builtInNames.begin(), builtInNames.end(), nameOrPath) != builtInNames.end()) {
+  if (std::find(builtInNames().begin(), builtInNames().end(), nameOrPath) != builtInNames().end()) {
     return scenarioFromJson(resourceText(resourcePath(nameOrPath)), nameOrPath, catalog);
   }
   auto text = readFile(nameOrPath, mostFileBytes, "the scenario");
   if (!text && text.error().code == ErrorCode::NotFound &&
       nameOrPath.find_first_of("/.") == std::string::npos) {
     return failure(ErrorCode::NotFound,
-                   unknownName("built-in scenario and no file", nameOrPath, builtInNames));
+                   unknownName("built-in scenario and no file", nameOrPath, builtInNames()));
   }
   if (!text) return tl::unexpected(text.error());
   return scenarioFromJson(*text, nameOrPath, catalog);

@@ -18,7 +18,7 @@ constexpr std::string_view magic = "PBst";
 // 2: the referee and the game; 3: kinds of robots, past moments; 4: a kind that several have, once.
 constexpr std::uint64_t version = 4;
 constexpr std::size_t longestText = 256;
-// Physics stays well-behaved within these; a match never comes near them.
+// Physics stays well-behaved within this.
 constexpr double farthest = 1e6;
 
 class Writer {
@@ -127,12 +127,11 @@ class Reader {
   void sameCount(std::vector<T>& list, std::size_t size) {
     list.resize(size);
   }
-  void alternative(std::variant<sim::RigidBodyState, sim::PublishedState>& physics) {
-    if (limited(1) == 1) {
-      physics.emplace<sim::PublishedState>();
-    } else {
-      physics.emplace<sim::RigidBodyState>();
-    }
+  template <class... States>
+  void alternative(std::variant<States...>& physics) {
+    const std::uint64_t chosen = limited(sizeof...(States) - 1);
+    std::uint64_t index = 0;
+    ((index++ == chosen ? void(physics.template emplace<States>()) : void()), ...);
   }
 
  private:
@@ -145,33 +144,23 @@ class Reader {
   CodecReader& m_in;
 };
 
-bool isNear(double value) {
-  return std::abs(value) <= farthest;
-}
+/// Whether every number of the physics is near: a match never comes near the limit.
+struct IsNear {
+  bool all = true;
+  void value(double value) { all = all && std::abs(value) <= farthest; }
+  template <class Other>
+  void value(const Other& /*value*/) {}
+  template <class List>
+  void count(const List& /*list*/) {}
+  template <class List>
+  void sameCount(const List& /*list*/, std::size_t /*size*/) {}
+};
 
-bool plausible(const sim::RigidBodyState& state) {
-  for (const sim::RigidRobot& r : state.robots) {
-    for (const double value : {r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed,
-                               r.sidewaysSpeed, r.yawRate, r.velocity.x, r.velocity.y, r.headYaw,
-                               r.getUpRemaining, r.kickElapsed, r.imuZero, r.imuDrift}) {
-      if (!isNear(value)) return false;
-    }
-  }
-  const sim::RigidBall& ball = state.ball;
-  return isNear(ball.position.x) && isNear(ball.position.y) && isNear(ball.velocity.x) &&
-         isNear(ball.velocity.y);
-}
-
-bool plausible(const sim::PublishedState& state) {
-  for (const sim::PublishedRobot& r : state.robots) {
-    for (const double value :
-         {r.x, r.y, r.rotate, r.view, r.front, r.turn, r.drift, r.orientationError}) {
-      if (!isNear(value)) return false;
-    }
-  }
-  const sim::PublishedBall& ball = state.ball;
-  return isNear(ball.x) && isNear(ball.y) && isNear(ball.vx) && isNear(ball.vy) &&
-         isNear(ball.friction);
+bool plausible(const sim::WorldState& state) {
+  IsNear near;
+  std::visit([&near](const auto& physics) { sim::state_values::physics(physics, near); },
+             state.physics);
+  return near.all;
 }
 
 bool robotsAreDistinct(const sim::WorldState& state) {
@@ -223,9 +212,9 @@ Result<sim::WorldState> decodeState(std::string_view& bytes) {
     return failure(ErrorCode::ParseError, "the saved state is cut or damaged",
                    "byte " + std::to_string(in.offset()));
   }
-  const bool usable =
-      robotsAreDistinct(state) && state.game.has_value() == state.settings.referee.has_value() &&
-      std::visit([](const auto& physics) { return plausible(physics); }, state.physics);
+  const bool usable = robotsAreDistinct(state) &&
+                      state.game.has_value() == state.settings.referee.has_value() &&
+                      plausible(state);
   if (!usable) {
     return failure(ErrorCode::ParseError,
                    "the saved state has numbers that no match has (robots or places)");

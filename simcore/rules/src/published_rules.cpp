@@ -49,7 +49,8 @@ void putBackWhenOut(const PublishedGeometry& g, PublishedBall& ball, std::uint64
   }
 }
 
-void applyRules(WorldState& world, PublishedState& state, std::vector<Event>& events) {
+void applyRules(WorldState& world, PublishedState& state, const BallWay& /*way*/,
+                std::vector<Event>& events) {
   const PublishedGeometry g(world.settings.field);
   PublishedBall& ball = state.ball;
   if (liesInGoal(g, ball, g.left - g.goalDepth, g.left)) {
@@ -108,11 +109,7 @@ void applyRules(WorldState& world, RigidBodyState& state, const BallWay& way,
 }  // namespace
 
 void applyPublishedRules(WorldState& world, const BallWay& way, std::vector<Event>& events) {
-  if (auto* published = std::get_if<PublishedState>(&world.physics)) {
-    applyRules(world, *published, events);
-  } else {
-    applyRules(world, std::get<RigidBodyState>(world.physics), way, events);
-  }
+  std::visit([&](auto& state) { applyRules(world, state, way, events); }, world.physics);
 }
 
 }  // namespace pitchboard::sim

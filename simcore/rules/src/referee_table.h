@@ -89,8 +89,8 @@ class RefereeTable {
   bool plays(std::size_t robot) const;  ///< belongs to one of the two teams, is not penalised
   /// m; the published physics knows one robot only, that of the field.
   double radiusOf(std::size_t robot) const {
-    return std::holds_alternative<RigidBodyState>(m_world.physics) ? robotRadius(m_world, robot)
-                                                                   : m_field.robotRadius;
+    return std::holds_alternative<PublishedState>(m_world.physics) ? m_field.robotRadius
+                                                                   : robotRadius(m_world, robot);
   }
   int teamOf(std::size_t robot) const { return m_game.teamOf(m_world.robots[robot].team); }
   GamePlayer* player(std::size_t robot);

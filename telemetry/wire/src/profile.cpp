@@ -38,13 +38,8 @@ std::optional<std::size_t> Profile::indexOf(FieldMeaning meaning) const {
 }
 
 std::vector<std::string> builtInProfiles() {
-  std::vector<std::string> names;
-  for (const Resource& resource : resources()) {
-    if (!resource.path.starts_with(folder)) continue;
-    const std::string_view file = resource.path.substr(folder.size());
-    names.emplace_back(file.substr(0, file.size() - suffix.size()));
-  }
-  return names;
+  const std::vector<std::string_view> names = resourceNames("profiles");
+  return {names.begin(), names.end()};
 }
 
 Result<Profile> loadProfile(const std::string& pathOrName) {

@@ -30,6 +30,9 @@ inline constexpr std::array<std::string_view, 3> robotSources{"message", "port",
 inline constexpr std::array<std::string_view, 2> encodings{"ascii", "utf-8"};
 inline constexpr std::array<std::string_view, 4> messages{"robocup", "nubots", "rhoban", "utra"};
 
+static_assert(!meanings.back().empty() && !formats.back().empty() && !wireTypes.back().empty(),
+              "every value of an enumeration of profile.h needs its word here");
+
 inline constexpr std::size_t maxNameBytes = 60;
 inline constexpr std::size_t maxFileBytes = 1024 * 1024;
 inline constexpr std::size_t maxLabels = 64;

@@ -108,16 +108,17 @@ class Idle : public Behaviour {
   Pose kickOff(const WorldModel& world) override { return world.pose(); }
 };
 
-template <class B>
-Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOptions& options);
+/// The decision process of one behaviour.
+Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(
+    const ProcessOptions& options,
+    std::unique_ptr<Behaviour> (*make)(const BehaviourParameters& parameters));
 
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(
-    const ProcessOptions&);
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Supporter>(
-    const ProcessOptions&);
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Keeper>(
-    const ProcessOptions&);
-extern template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Idle>(
-    const ProcessOptions&);
+template <class B>
+Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOptions& options) {
+  return makeSoccerDecision(
+      options, [](const BehaviourParameters& parameters) -> std::unique_ptr<Behaviour> {
+        return std::make_unique<B>(parameters);
+      });
+}
 
 }  // namespace pitchboard::link

@@ -72,8 +72,9 @@ class SoccerDecision final : public CognitiveProcess {
 
 }  // namespace
 
-template <class B>
-Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOptions& options) {
+Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(
+    const ProcessOptions& options,
+    std::unique_ptr<Behaviour> (*make)(const BehaviourParameters& parameters)) {
   if (const Result<void> valid = sim::validate(options.field); !valid) {
     return tl::unexpected<Error>(valid.error());
   }
@@ -85,15 +86,7 @@ Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision(const ProcessOption
   }
   sim::FieldSpec field = options.field;
   if (options.model.radius > 0.0) field.robotRadius = options.model.radius;
-  return std::make_unique<SoccerDecision>(options, field, std::make_unique<B>(options.parameters));
+  return std::make_unique<SoccerDecision>(options, field, make(options.parameters));
 }
-
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Striker>(
-    const ProcessOptions&);
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Supporter>(
-    const ProcessOptions&);
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Keeper>(
-    const ProcessOptions&);
-template Result<std::unique_ptr<CognitiveProcess>> makeSoccerDecision<Idle>(const ProcessOptions&);
 
 }  // namespace pitchboard::link

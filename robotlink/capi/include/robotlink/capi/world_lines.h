@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <robotlink/capi/worlds.h>
 
@@ -36,6 +37,8 @@ class WorldLines {
   /// The answer: an object on one line, without the line's end. It has "ok", and an "error" when
   /// that is false; the "id" of the request is repeated.
   std::string answer(std::string_view line);
+  /// What "do" may say; the table of docs/LEARNING.md has a row for each.
+  static std::vector<std::string_view> requests();
 
  private:
   friend class WorldRequest;  // carries one line out; private to the library

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one table of what people may set in a referee's rules: files, checks, screens and the tables
-// of docs/REFEREE.md are made from it. As parameters.h. Constant data, for any thread.
+// The one table of what people may set in a referee's rules: files, checks and the tables of
+// docs/REFEREE.md are made from it. As parameters.h. Constant data, for any thread.
 
 #include <array>
+#include <string_view>
 
 #include <simcore/world/parameters.h>
 #include <simcore/world/referee_rules.h>
 
 namespace pitchboard::sim {
+
+/// Names of the values of RefereeStyle, in its order.
+inline constexpr std::array<std::string_view, 3> refereeStyleNames{"humanoid-2014", "humanoid-2021",
+                                                                   "humanoid-soccer-2026"};
+static_assert(refereeStyleNames.size() == std::size_t(lastOf(RefereeStyle{})) + 1,
+              "every RefereeStyle needs its name in refereeStyleNames, and lastOf() the last one");
 
 /// A rule that is judged or not.
 struct RefereeSwitch {

@@ -11,6 +11,8 @@
 // reader makes it there), true when it is. A saved form may have repeats(vector, index), too: true
 // when this element is the one before it once more, and is not visited.
 
+#include <type_traits>
+
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::sim {
@@ -53,22 +55,18 @@ void robotModel(Model& m, Visitor& v) {
   noise(m.noise, v);
 }
 
-/// One of the alternatives of WorldState::physics, told apart by what its robots have.
+/// One of the alternatives of WorldState::physics.
 template <class Physics, class Visitor>
 void physics(Physics& state, Visitor& v) {
-  v.count(state.robots);
-  for (auto& r : state.robots) {
-    if constexpr (requires { r.posture; }) {
+  using State = std::remove_const_t<Physics>;
+  if constexpr (std::is_same_v<State, RigidBodyState>) {
+    v.count(state.robots);
+    for (auto& r : state.robots) {
       all(v, r.pose.position.x, r.pose.position.y, r.pose.yaw, r.forwardSpeed, r.sidewaysSpeed,
           r.yawRate, r.velocity.x, r.velocity.y, r.headYaw, r.panRight, r.action, r.actionB,
           r.inMotion, r.posture, r.getUpRemaining, r.kickElapsed, r.imuZero, r.imuDrift);
-    } else {
-      all(v, r.x, r.y, r.rotate, r.view, r.panRight, r.action, r.front, r.turn, r.drift, r.inMotion,
-          r.orientationError);
     }
-  }
-  auto& ball = state.ball;
-  if constexpr (requires { ball.position; }) {
+    auto& ball = state.ball;
     all(v, ball.position.x, ball.position.y, ball.velocity.x, ball.velocity.y);
     v.count(state.past);
     for (auto& moment : state.past) {
@@ -78,8 +76,16 @@ void physics(Physics& state, Visitor& v) {
         all(v, r.there, r.down, r.pose.position.x, r.pose.position.y, r.pose.yaw, r.headYaw);
       }
     }
-  } else {
+  } else if constexpr (std::is_same_v<State, PublishedState>) {
+    v.count(state.robots);
+    for (auto& r : state.robots) {
+      all(v, r.x, r.y, r.rotate, r.view, r.panRight, r.action, r.front, r.turn, r.drift, r.inMotion,
+          r.orientationError);
+    }
+    auto& ball = state.ball;
     all(v, ball.x, ball.y, ball.vx, ball.vy, ball.friction);
+  } else {
+    static_assert(sizeof(Physics) == 0, "list the values of this state of a physics model here");
   }
 }
 
