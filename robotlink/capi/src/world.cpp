@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <set>
 
 #include "world_columns.h"
 
@@ -12,16 +14,51 @@ namespace {
 // Nobody reads the events of these matches; they are thrown away before their list is full.
 constexpr int ticksBetweenForgetting = 200;
 
-constexpr std::size_t cacheLine = 64;
+constexpr std::uintptr_t cacheLine = 64;
 
-void fetch(const void* begin, std::size_t bytes) {
-  const char* line = static_cast<const char*>(begin);
-  for (std::size_t at = 0; at < bytes; at += cacheLine) __builtin_prefetch(line + at, 1);
+void fetch(const void* begin, const void* end) {
+  const auto last = reinterpret_cast<std::uintptr_t>(end);
+  auto line = reinterpret_cast<std::uintptr_t>(begin) / cacheLine * cacheLine;
+  for (; line < last; line += cacheLine) {
+    __builtin_prefetch(reinterpret_cast<const void*>(line), 1);
+  }
+}
+
+/// One variable in each cache line of a blackboard that the bridge reads or writes in a tick.
+std::vector<IntVar> boardLines() {
+  const RobotVariables v;
+  const IntVar ints[] = {v.decisionActionA,
+                         v.decisionActionB,
+                         v.decisionSearchOn,
+                         v.imuReset,
+                         v.decisionActionVision,
+                         v.decisionLocalization,
+                         v.imuState,
+                         v.controlAction,
+                         v.controlMoving,
+                         v.voltage,
+                         v.visionLost,
+                         v.controlWorking,
+                         v.visionWorking,
+                         v.imuWorking};
+  const FloatVar floats[] = {v.imuEulerX,     v.imuEulerY,      v.imuEulerZ,       v.imuGyroX,
+                             v.imuGyroY,      v.imuGyroZ,       v.imuAccelX,       v.imuAccelY,
+                             v.imuAccelZ,     v.visionBallDist, v.visionBallAngle, v.visionPanDeg,
+                             v.visionTiltDeg, v.landmarkDeg[0], v.landmarkDeg[3]};
+  constexpr int wordsOfLine = cacheLine / sizeof(std::uint32_t);
+  std::set<int> lines;
+  for (const IntVar variable : ints) lines.insert(variable.index / wordsOfLine);
+  for (const FloatVar variable : floats) {
+    lines.insert((Blackboard::floatOffset + variable.index) / wordsOfLine);
+  }
+  std::vector<IntVar> first;
+  for (const int line : lines) first.push_back(IntVar{line * wordsOfLine});
+  return first;
 }
 
 template <class Values>
 void fetchAll(const Values& values) {
-  fetch(values.data(), values.size() * sizeof(*values.data()));
+  fetch(values.data(), values.data() + values.size());
 }
 
 }  // namespace
@@ -64,7 +101,15 @@ void World::play(int ticks) {
 }
 
 void World::fetchSelf() const {
-  fetch(this, sizeof *this);
+  // Of its 6.5 KB what a tick reads, as its parts lie in memory.
+  const Scenario& scenario = m_match.scenario();
+  fetch(&scenario.settings.tickRate, &scenario.settings.tickRate + 1);
+  fetch(&scenario.stop, &scenario.stop + 1);
+  const sim::WorldState& state = m_match.simulation().state();
+  fetch(&state.settings, &state.settings.referee);
+  fetch(&state.tick, &state.game);
+  fetch(&state + 1, &m_match.simulation() + 1);
+  fetch(&m_match.variables() + 1, this + 1);
 }
 
 void World::fetchParts() const {
@@ -78,11 +123,9 @@ void World::fetchParts() const {
   fetchAll(m_match.commands());
   fetchAll(m_match.percepts());
   for (const Blackboard* board : m_boards) {
-    // Reads that nobody waits for; its variables are in the first half.
-    constexpr int wordsOfLine = cacheLine / sizeof(std::uint32_t);
-    for (int word = 0; word < Blackboard::words / 2; word += wordsOfLine) {
-      (void)board->read(IntVar{word});
-    }
+    // Reads that nobody waits for.
+    static const std::vector<IntVar> lines = boardLines();
+    for (const IntVar word : lines) (void)board->read(word);
   }
 }
 

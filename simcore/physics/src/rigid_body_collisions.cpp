@@ -19,6 +19,12 @@ double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
+/// Whether a place is so far from a post or net along one axis that it is farther in all.
+bool isBeside(const Obstacle& o, const Point& place, double distance) {
+  return place.x - o.last.x >= distance || o.first.x - place.x >= distance ||
+         place.y - o.last.y >= distance || o.first.y - place.y >= distance;
+}
+
 /// A speed of the gait after contacts changed it. Being slowed down is taken as it is; being pushed
 /// faster or backwards is resisted by the feet, which lose `grip` of it in this tick.
 double afterContact(double gait, double change, double grip) {
@@ -95,6 +101,7 @@ void Collisions::findNeighbours(const Tick& tick) {
     }
     for (std::size_t k = 0; k < obstacleCount; ++k) {
       const double limit = obstacles[k].radius + radius;
+      if (k >= wallCount && isBeside(obstacles[k], place, limit + way + margin)) continue;
       const double distance = clearance(obstacles, k, place).distance;
       if (distance >= limit + way + margin) continue;
       m_pairs.push_back(
@@ -120,7 +127,10 @@ void Collisions::findNeighbours(const Tick& tick) {
       any += dx * dx + dy * dy < near2 ? 1 : 0;
     }
     for (std::size_t j = 0; any > 0 && j < i; ++j) {
-      const double distance = length(m_x[j] - x, m_y[j] - y);
+      const double dx = m_x[j] - x;
+      const double dy = m_y[j] - y;
+      if (dx * dx + dy * dy > 1.001 * near2) continue;  // surely; roots cost more
+      const double distance = length(dx, dy);
       const double touching = m_radius[i] + m_radius[j];
       if (distance >= touching + 2.0 * reach + margin) continue;
       const std::size_t first = addBody(tick, j);

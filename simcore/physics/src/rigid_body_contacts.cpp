@@ -123,15 +123,16 @@ struct ContactSolver::World : ContactWorld {
       const b2Vec2 from = units(moving[i].position.x, moving[i].position.y);
       ways[i] = {from, from};
     }
-    int atBall = 0;
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      touches[k] = apart(pairs[k]) <= touchingOf(moving, pairs[k]) + doubt;
-      atBall += touches[k] && !pairs[k].obstacle && isBall(moving[pairs[k].second]);
-    }
-    const bool surely = atBall >= many;
-    choose(moving, pairs, surely);
-    stepChosen(moving, pairs, dt, 1, surely);
-    if (surely) return;
+    const auto touch = [&](const NearPair& pair) {
+      return apart(pair) <= touchingOf(moving, pair) + doubt;
+    };
+    const auto pressed = std::count_if(pairs.begin(), pairs.end(), [&](const NearPair& pair) {
+      return !pair.obstacle && isBall(moving[pair.second]) && touch(pair);
+    });
+    if (pressed >= many) return stepAll(moving, pairs, dt, 1);
+    std::transform(pairs.begin(), pairs.end(), touches.begin(), touch);
+    choose(moving, pairs, false);
+    stepChosen(moving, pairs, dt, 1, false);
     for (std::size_t i = 0; i < moving.size(); ++i) {
       const MovingBody& one = moving[i];
       ways[i].to = inside[i] ? body(one).GetPosition()
@@ -146,7 +147,7 @@ struct ContactSolver::World : ContactWorld {
     stepChosen(moving, pairs, dt, 1, true);
   }
 
-  /// Several steps, with all pairs in each.
+  /// Every step with all pairs, looking for impacts.
   void stepAll(std::span<const MovingBody> moving, std::span<const NearPair> pairs, float dt,
                int steps) {
     touches.assign(pairs.size(), 1);
