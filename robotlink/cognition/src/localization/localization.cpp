@@ -16,7 +16,8 @@ namespace {
 constexpr float unseen = -999.0F;
 constexpr double cycle = 0.05;         // s
 constexpr double longestGap = 1.0;     // s; a process that was stopped does not walk on
-constexpr double leastSigma = 0.1;     // m; the blackboard has whole centimetres and degrees
+constexpr double leastSigma = 0.1;     // m; the blackboard has whole centimetres and degrees,
+constexpr double yawSigma = 0.035;     // rad (2 deg); and nothing of how sure the heading is
 constexpr double sureEnough_cm = 1.0;  // published: landmarks are asked for above this sigma
 
 // Reads CONTROL_ACTION, the four landmarks and IMU_EULER_Z; writes LOCALIZATION_X, _Y, _THETA
@@ -78,7 +79,8 @@ class Localization final : public CognitiveProcess {
         m_field, {static_cast<double>(board.read(m_variables.localizationX)),
                   static_cast<double>(board.read(m_variables.localizationY)),
                   static_cast<double>(board.read(m_variables.localizationTheta))});
-    m_filter.reset(pose, std::max(leastSigma, sim::published_frame::metresFromCm(sigma_cm)));
+    m_filter.reset(pose, std::max(leastSigma, sim::published_frame::metresFromCm(sigma_cm)),
+                   yawSigma);
     m_last.reset();
     m_first = false;
   }

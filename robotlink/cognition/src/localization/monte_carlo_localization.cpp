@@ -147,14 +147,14 @@ void MonteCarloLocalization::reset() {
   m_remembered = {};
 }
 
-void MonteCarloLocalization::reset(const Pose& pose, double sigma) {
+void MonteCarloLocalization::reset(const Pose& pose, double sigma, std::optional<double> yawSigma) {
   reset();
   CounterRandom random(m_seed, m_robot, NoiseStream::Behaviour, m_updates++);
   m_count = m_parameters.mostParticles;
   for (int i = 0; i < m_count; ++i) {
     const double x = random.normal(pose.position.x, sigma);
     const double y = random.normal(pose.position.y, sigma);
-    put(i, {{x, y}, random.normal(pose.yaw, sigma * 0.1)});
+    put(i, {{x, y}, random.normal(pose.yaw, yawSigma.value_or(sigma * 0.1))});
   }
   makeAllAlike();
   m_spread = true;

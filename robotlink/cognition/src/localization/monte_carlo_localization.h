@@ -102,8 +102,9 @@ class MonteCarloLocalization {
 
   /// Forgets everything; the next update spreads the particles over the field.
   void reset();
-  /// Starts over round a known pose. `sigma` in metres (and tenths of a radian per metre of it).
-  void reset(const Pose& pose, double sigma);
+  /// Starts over round a known pose. `sigma` in metres, of the heading `yawSigma` in radians or,
+  /// when it is not told, tenths of a radian per metre.
+  void reset(const Pose& pose, double sigma, std::optional<double> yawSigma = {});
 
   /// One cycle: motion, measurement, resampling. Values that are not finite are ignored. Allocates
   /// nothing after the first call.
