@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include <base/duration_words.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/processes/own_program.h>
@@ -59,14 +60,13 @@ std::vector<std::size_t> numbersOf(const link::ExperimentFolder& folder, const S
   return numbers;
 }
 
-/// "417 of 2000 runs, 118 runs/s, 0:13 left".
+/// "417 of 2000 runs, 118 runs/s, 13 s left".
 std::string progressText(std::size_t done, std::size_t all, double seconds) {
   const double rate = seconds > 0.0 ? static_cast<double>(done) / seconds : 0.0;
-  const auto left =
-      static_cast<long long>(rate > 0.0 ? static_cast<double>(all - done) / rate + 0.5 : 0.0);
+  const double left = rate > 0.0 ? static_cast<double>(all - done) / rate + 0.5 : 0.0;
   char text[96];
-  std::snprintf(text, sizeof text, "%zu of %zu runs, %.*f runs/s, %lld:%02lld left", done, all,
-                rate < 10.0 ? 2 : 0, rate, left / 60, left % 60);
+  std::snprintf(text, sizeof text, "%zu of %zu runs, %.*f runs/s, %s left", done, all,
+                rate < 10.0 ? 2 : 0, rate, durationWords(left).c_str());
   return text;
 }
 

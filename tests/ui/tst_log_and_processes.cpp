@@ -227,7 +227,7 @@ class TestLogAndProcesses : public QObject {
     QCOMPARE(model.rowCount(), 2);
     QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("running"));
     QCOMPARE(text(0, ProcessesModel::Pid), QStringLiteral("4001"));
-    QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2:05"));
+    QCOMPARE(text(0, ProcessesModel::Uptime), QStringLiteral("2 min 5 s"));
     QCOMPARE(text(0, ProcessesModel::Heartbeat), QString());
     all[0].state = link::ProcessState::Restarting;
     all[0].pid = 0;
@@ -243,7 +243,7 @@ class TestLogAndProcesses : public QObject {
     QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("restarting (exit code 2)"));
     QCOMPARE(text(0, ProcessesModel::Uptime), QString());
     QCOMPARE(text(0, ProcessesModel::Restarts), QStringLiteral("3"));
-    QCOMPARE(text(1, ProcessesModel::Uptime), QStringLiteral("1:02:05"));
+    QCOMPARE(text(1, ProcessesModel::Uptime), QStringLiteral("1 h 2 min"));
     QCOMPARE(text(1, ProcessesModel::Heartbeat), QStringLiteral("0.2 s ago"));
     QCOMPARE(text(1, ProcessesModel::Cpu), QStringLiteral("12.5 %"));
     QCOMPARE(text(1, ProcessesModel::Memory), QStringLiteral("4.2 MB"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QtTest>
+#include <cmath>
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -51,6 +52,16 @@ class TestTheme : public QObject {
     QCOMPARE(numberText(-0.001, 2), QStringLiteral("0.00"));
     QCOMPARE(clockText(312.9), QStringLiteral("05:12"));
     QCOMPARE(clockText(3671), QStringLiteral("1:01:11"));
+    QCOMPARE(durationText(59.99), QStringLiteral("59 s"));
+    QCOMPARE(durationText(9.97, 1), QStringLiteral("9.9 s"));
+    QCOMPARE(durationText(0.2, 1), QStringLiteral("0.2 s"));
+    QCOMPARE(durationText(12.7, 1), QStringLiteral("12 s"));
+    QCOMPARE(durationText(60), QStringLiteral("1 min"));
+    QCOMPARE(durationText(1937), QStringLiteral("32 min 17 s"));
+    QCOMPARE(durationText(18299), QStringLiteral("5 h 4 min"));
+    QCOMPARE(durationText(273600), QStringLiteral("3 d 4 h"));
+    QCOMPARE(durationText(-3), QStringLiteral("0 s"));
+    QCOMPARE(durationText(std::nan("")), QStringLiteral("–"));
     QCOMPARE(actionText(42), QStringLiteral("action 42"));
     QCOMPARE(countText(18720).size(), qsizetype(6));
   }

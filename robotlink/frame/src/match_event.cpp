@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include <base/actions.h>
+#include <base/duration_words.h>
 #include <robotlink/frame/match_frame.h>
 
 namespace pitchboard::link {
@@ -156,9 +157,8 @@ std::string predicateOf(const MatchEvent& event) {
       return wordsAnd(event) + " by " + (event.value.value_or(0) > 0 ? "+" : "") +
              std::to_string(event.value.value_or(0)) + " s; times in Live go on as before";
     case Kind::Penalised:
-      return wordsAnd(event) + (event.value.value_or(0) > 0
-                                    ? ", " + std::to_string(*event.value) + " s"
-                                    : std::string());
+      return wordsAnd(event) +
+             (event.value.value_or(0) > 0 ? ", " + durationWords(*event.value) : std::string());
     case Kind::ProcessStarted:
     case Kind::ProcessRestarted:
       return std::string(info(event.kind).words) +

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <set>
 
+#include <base/duration_words.h>
+
 #include "program_stamp.h"
 
 namespace pitchboard::link {
@@ -25,6 +27,7 @@ Ticks ticks(Seconds seconds) {
 }  // namespace
 
 std::string inSeconds(Seconds seconds) {
+  if (seconds >= std::chrono::minutes(1)) return durationWords(seconds.count());
   char text[32];
   std::snprintf(text, sizeof text, "%.3g s", seconds.count());
   return text;

@@ -27,7 +27,7 @@ QString refereeStateText(const link::RefereeView& view) {
   if (!view.phase.empty()) parts << text(view.phase);
   if (view.stopped) parts << QStringLiteral("stopped");
   if (view.timedOut) {
-    parts << QStringLiteral("not heard for %1 s").arg(static_cast<qint64>(view.age));
+    parts << QStringLiteral("not heard for %1").arg(durationText(view.age));
   }
   return parts.join(comma);
 }
@@ -44,7 +44,8 @@ QString refereeSetPlayText(const link::RefereeView& view) {
   }
   if (!view.setPlayStep.empty()) parts << text(view.setPlayStep);
   if (!view.countdown.empty()) {
-    parts << QStringLiteral("%1 in %2 s").arg(text(view.countdown)).arg(*view.secondaryTime);
+    parts
+        << QStringLiteral("%1 in %2").arg(text(view.countdown), durationText(*view.secondaryTime));
   }
   return parts.join(comma);
 }
@@ -59,7 +60,7 @@ QString refereeTruthText(const link::RefereeView& view) {
   if (truth.secondaryTime.value_or(0) != 0) {
     parts << QStringLiteral("%1 s on the second clock").arg(*truth.secondaryTime);
   }
-  parts << QStringLiteral("%1 s ago").arg(numberText(truth.age, 1));
+  parts << QStringLiteral("%1 ago").arg(durationText(truth.age, 1));
   return parts.join(comma);
 }
 

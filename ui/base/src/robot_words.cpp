@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <base/actions.h>
+#include <base/duration_words.h>
 
 namespace pitchboard::ui {
 
@@ -39,6 +40,10 @@ QString clockText(double seconds) {
   const QString minutes =
       QStringLiteral("%1:%2").arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
   return whole < 3600 ? minutes : QString::number(whole / 3600) + QLatin1Char(':') + minutes;
+}
+
+QString durationText(double seconds, int decimals) {
+  return QString::fromStdString(durationWords(seconds, decimals));
 }
 
 QString countText(qulonglong value) {

@@ -45,10 +45,10 @@ QString refereeTip(const link::RefereeView& view, bool heard) {
   tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
                            : QStringLiteral("Kick-off: nobody (drop ball)"));
   if (!heard) return tip.join(QLatin1Char('\n'));
-  tip << QStringLiteral("Referee at %1, version %2, heard %3 s ago")
+  tip << QStringLiteral("Referee at %1, version %2, heard %3 ago")
              .arg(QString::fromStdString(view.sender))
              .arg(view.version)
-             .arg(numberText(view.age, 1));
+             .arg(durationText(view.age, 1));
   if (view.conflict) tip << QStringLiteral("A second referee program is heard.");
   if (const QString truth = refereeTruthText(view); !truth.isEmpty()) tip << truth;
   return tip.join(QLatin1Char('\n'));
@@ -83,7 +83,7 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
     }
   }
   if (!view.timedOut && !view.countdown.empty()) {
-    state.state += QStringLiteral(" · %1 s").arg(*view.secondaryTime);
+    state.state += QStringLiteral(" · %1").arg(durationText(*view.secondaryTime));
   }
   if (frame.origin == link::FrameOrigin::Simulated) {
     if (frame.paused) state.state += QStringLiteral(" · paused");

@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 
 #include <base/file_target.h>
+#include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/sources/compared_session.h>
@@ -30,7 +31,6 @@ namespace pitchboard::ui {
 namespace {
 
 constexpr int mostRuns = 1'000'000;
-constexpr int seconds_min = 60;
 
 QString folderOfExperiments() {
   return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
@@ -244,13 +244,12 @@ class ExperimentsDock : public QWidget {
     m_progress->setValue(
         static_cast<int>(1000.0 * double(done) / double(std::max<qulonglong>(all, 1))));
     const double rate = double(done) / std::max(seconds, 1e-9);
-    const int left = static_cast<int>(double(all - done) / std::max(rate, 1e-9));
-    say(QStringLiteral("%1 of %2 runs, %3 runs/s, %4:%5 left")
+    const double left = double(all - done) / std::max(rate, 1e-9);
+    say(QStringLiteral("%1 of %2 runs, %3 runs/s, %4 left")
             .arg(done)
             .arg(all)
             .arg(rate, 0, 'f', rate < 10.0 ? 1 : 0)
-            .arg(left / seconds_min)
-            .arg(left % seconds_min, 2, 10, QLatin1Char('0')));
+            .arg(durationText(left)));
   }
 
   void showResults(const PlayedPtr& played) {

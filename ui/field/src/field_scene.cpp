@@ -208,7 +208,7 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
   if (now.fallen) look.word = QStringLiteral("fallen");
   if (now.timedOut()) {
     look.word =
-        QStringLiteral("timeout %1 s").arg(static_cast<int>(telemetry::secondsOf(now.health->age)));
+        QStringLiteral("timeout %1").arg(durationText(telemetry::secondsOf(now.health->age)));
     look.opacity = 0.45;
   } else if (now.penalty || (now.health && now.health->penalty)) {
     look.word = QStringLiteral("penalised");

@@ -74,16 +74,15 @@ QString hoverText(const link::MatchFrame& frame, RobotId id) {
     lines << seen;
   }
   if (robot->timedOut()) {
-    lines << QStringLiteral("Not heard for %1 s")
-                 .arg(static_cast<int>(telemetry::secondsOf(robot->health->age)));
+    lines << QStringLiteral("Not heard for %1")
+                 .arg(durationText(telemetry::secondsOf(robot->health->age)));
   }
   const auto& penalty = robot->penalty  ? robot->penalty
                         : robot->health ? robot->health->penalty
                                         : robot->penalty;
   if (penalty) {
-    lines << QStringLiteral("Penalised: %1, %2 s")
-                 .arg(QString::fromStdString(penalty->words))
-                 .arg(penalty->secondsLeft);
+    lines << QStringLiteral("Penalised: %1, %2")
+                 .arg(QString::fromStdString(penalty->words), durationText(penalty->secondsLeft));
   }
   return lines.join(QLatin1Char('\n'));
 }

@@ -30,9 +30,8 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
       return QStringLiteral("Number %1 is sent by two programs").arg(robot.identity.number);
     }
     if (robot.timedOut()) {
-      return QStringLiteral("%1 has not been heard for %2 s. Its card comes back by itself.")
-          .arg(robotName(robot.identity))
-          .arg(static_cast<qint64>(telemetry::secondsOf(robot.health->age)));
+      return QStringLiteral("%1 has not been heard for %2. Its card comes back by itself.")
+          .arg(robotName(robot.identity), durationText(telemetry::secondsOf(robot.health->age)));
     }
   }
   if (frame->referee && frame->referee->conflict) {

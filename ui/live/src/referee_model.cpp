@@ -36,7 +36,7 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
   if (player.goalkeeper) row.texts[Player] += QStringLiteral(" (goal)");
   row.texts[State] =
       row.penalised ? QString::fromStdString(player.penalty) : QStringLiteral("plays");
-  if (row.penalised) row.texts[Left] = QStringLiteral("%1 s").arg(player.secondsLeft);
+  if (row.penalised) row.texts[Left] = durationText(player.secondsLeft);
   row.texts[Cards] = cardsOf(player);
   if (reply == nullptr) return row;
   row.offline = reply->age > lateUntil;
@@ -44,15 +44,15 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
                      : reply->age > goodUntil ? QStringLiteral("late")
                      : reply->fallen          ? QStringLiteral("fallen")
                                               : QStringLiteral("good");
-  QStringList tip{QStringLiteral("%1 told the referee %2 s ago:")
-                      .arg(QString::fromStdString(reply->address), numberText(reply->age, 1)),
+  QStringList tip{QStringLiteral("%1 told the referee %2 ago:")
+                      .arg(QString::fromStdString(reply->address), durationText(reply->age, 1)),
                   reply->fallen ? QStringLiteral("it has fallen") : QStringLiteral("it stands")};
   if (reply->pose) {
     tip << QStringLiteral("at %1, %2 m, %3 rad (in its own frame)")
                .arg(numberText(reply->pose->position.x, 2), numberText(reply->pose->position.y, 2),
                     numberText(reply->pose->yaw, 2));
   }
-  tip << (reply->ballAge ? QStringLiteral("ball seen %1 s ago").arg(numberText(*reply->ballAge, 1))
+  tip << (reply->ballAge ? QStringLiteral("ball seen %1 ago").arg(durationText(*reply->ballAge, 1))
                          : QStringLiteral("no ball seen"));
   row.tip = tip.join(QLatin1Char('\n'));
   return row;

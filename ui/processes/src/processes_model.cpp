@@ -36,14 +36,6 @@ QString stateText(const link::ProcessStatus& status) {
   return {};
 }
 
-/// "3:05", "1:02:07".
-QString durationText(qint64 seconds) {
-  const QString rest = QStringLiteral("%1:%2")
-                           .arg(seconds / 60 % 60, seconds >= 3600 ? 2 : 1, 10, QLatin1Char('0'))
-                           .arg(seconds % 60, 2, 10, QLatin1Char('0'));
-  return seconds >= 3600 ? QStringLiteral("%1:%2").arg(seconds / 3600).arg(rest) : rest;
-}
-
 }  // namespace
 
 void ProcessesModel::update(const link::MatchFrame& frame, Time now) {
@@ -102,7 +94,7 @@ QString ProcessesModel::text(const Row& row, int column) const {
     case Pid:
       return runs ? QString::number(status.pid) : QString();
     case Uptime:
-      return runs ? durationText(row.seconds) : QString();
+      return runs ? durationText(static_cast<double>(row.seconds)) : QString();
     case Restarts:
       return QString::number(status.restarts);
     case Cpu:
@@ -114,7 +106,7 @@ QString ProcessesModel::text(const Row& row, int column) const {
                   : QString();
     case Heartbeat:
       return runs && status.heartbeatAge
-                 ? QStringLiteral("%1 s ago").arg(*status.heartbeatAge, 0, 'f', 1)
+                 ? QStringLiteral("%1 ago").arg(durationText(*status.heartbeatAge, 1))
                  : QString();
     case LastOutput:
       return status.lastLines.empty() ? QString() : QString::fromStdString(status.lastLines.back());

@@ -52,9 +52,9 @@ void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int acti
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     if (card.lamps[i].state != LampState::Silent) continue;
     card.tagKind = TagKind::Error;
-    card.tag = QStringLiteral("%1 silent %2 s")
+    card.tag = QStringLiteral("%1 silent %2")
                    .arg(QLatin1Char(CardState::letters[i]))
-                   .arg(card.lamps[i].seconds);
+                   .arg(durationText(card.lamps[i].seconds));
     return;
   }
   if (card.batteryLow()) {
@@ -88,7 +88,7 @@ std::vector<CardValue> boardValues(const sim::RobotSnapshot& robot,
 
 QString ageText(double milliseconds) {
   if (milliseconds < 1000) return QStringLiteral("%1 ms").arg(qRound(milliseconds));
-  return QStringLiteral("%1 s").arg(numberText(milliseconds / 1000, 1));
+  return durationText(milliseconds / 1000, 1);
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     chooseTag(card, robot.statistics, action, robot.fallen);
     if (card.tagKind == TagKind::None && robot.penalty) {
       card.tagKind = TagKind::Warning;
-      card.tag = QStringLiteral("penalised %1 s").arg(robot.penalty->secondsLeft);
+      card.tag = QStringLiteral("penalised %1").arg(durationText(robot.penalty->secondsLeft));
     }
     if (card.tagKind == TagKind::None) tagProcesses(card, robot);
     cards.push_back(std::move(card));

@@ -9,13 +9,9 @@
 namespace pitchboard::ui {
 namespace {
 
-QString secondsText(double seconds) {
-  return seconds < 10 ? numberText(seconds, 1) : numberText(std::floor(seconds), 0);
-}
-
 QString detailOf(const link::RobotHealth& robot) {
   // A small age would only flicker: robots speak about once a second.
-  QStringList parts{QStringLiteral("%1 s").arg(secondsText(telemetry::secondsOf(robot.age))),
+  QStringList parts{durationText(telemetry::secondsOf(robot.age), 1),
                     QStringLiteral("%1/s").arg(
                         numberText(robot.timedOut ? 0.0 : robot.rate, robot.timedOut ? 0 : 1))};
   if (robot.loss && !robot.timedOut) {
@@ -28,8 +24,8 @@ QString detailOf(const link::RobotHealth& robot) {
 QString tipOf(const link::RobotHealth& robot) {
   QStringList tip{
       QStringLiteral("Heard from %1").arg(QString::fromStdString(robot.sender.text())),
-      QStringLiteral("Last message %1 s ago, %2 per second, jitter %3 ms")
-          .arg(secondsText(telemetry::secondsOf(robot.age)), numberText(robot.rate, 1),
+      QStringLiteral("Last message %1 ago, %2 per second, jitter %3 ms")
+          .arg(durationText(telemetry::secondsOf(robot.age), 1), numberText(robot.rate, 1),
                numberText(robot.jitter * 1000, 0)),
       // A recording counts the bad ones only.
       robot.messages > 0
@@ -50,25 +46,26 @@ void chooseTag(CardState& card, const link::RobotHealth& robot) {
   };
   if (robot.timedOut) {
     put(TagKind::Error,
-        QStringLiteral("TIMEOUT %1 s").arg(static_cast<qint64>(telemetry::secondsOf(robot.age))));
+        QStringLiteral("TIMEOUT %1").arg(durationText(telemetry::secondsOf(robot.age))));
   } else if (robot.conflict) {
     put(TagKind::Error, QStringLiteral("number sent twice"));
   } else if (robot.penalty) {
     // "pickup or incapable": the seconds must not be cut off.
     const QString words =
         QString::fromStdString(robot.penalty->words).section(QStringLiteral(" or "), 0, 0);
-    put(TagKind::Warning, robot.penalty->secondsLeft > 0
-                              ? QStringLiteral("%1 %2 s").arg(words).arg(robot.penalty->secondsLeft)
-                              : words);
+    put(TagKind::Warning,
+        robot.penalty->secondsLeft > 0
+            ? QStringLiteral("%1 %2").arg(words, durationText(robot.penalty->secondsLeft))
+            : words);
   } else if (const auto silent =
                  std::find_if(card.lamps.begin(), card.lamps.end(),
                               [](const Lamp& lamp) { return lamp.state == LampState::Silent; });
              silent != card.lamps.end()) {
     put(TagKind::Error,
-        QStringLiteral("%1 silent %2 s")
+        QStringLiteral("%1 silent %2")
             .arg(QLatin1Char(
                 CardState::letters[static_cast<std::size_t>(silent - card.lamps.begin())]))
-            .arg(silent->seconds));
+            .arg(durationText(silent->seconds)));
   } else if (card.batteryLow()) {
     put(TagKind::Error, QStringLiteral("battery low"));
     card.tagIsBattery = true;

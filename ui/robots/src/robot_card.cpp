@@ -125,7 +125,7 @@ QString RobotCard::lampTip(int lamp) const {
   const Lamp& state = m_state.lamps[index];
   if (state.state == LampState::Working) return QStringLiteral("%1: working").arg(process);
   if (state.state == LampState::Silent) {
-    return QStringLiteral("%1: silent for %2 s").arg(process).arg(state.seconds);
+    return QStringLiteral("%1: silent for %2").arg(process, durationText(state.seconds));
   }
   return m_state.live ? QStringLiteral("%1: nothing known").arg(process)
                       : QStringLiteral("%1: not heard of since the match began").arg(process);

@@ -9,6 +9,7 @@
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
+#include <ui/base/robot_words.h>
 #include <ui/sources/playback.h>
 
 #include "replay_pages.h"
@@ -359,10 +360,10 @@ void ReplayController::noteWhatDoesNotFit() {
   if (!held || held->begin <= m_file->range.begin + chunk) return;
   emit noted(
       {QStringLiteral(
-           "The session does not fit into memory (%1 MB): curves show its last %2 s. Every moment "
+           "The session does not fit into memory (%1 MB): curves show its last %2. Every moment "
            "can still be shown. Timeline > Memory for the past… gives it more.")
            .arg(m_budget >> 20)
-           .arg(held->end - held->begin, 0, 'f', 0)});
+           .arg(durationText(held->end - held->begin))});
 }
 
 void ReplayController::stopLoading() {

@@ -86,9 +86,7 @@ QString rateText(const ColumnInfo& column, double perSecond) {
 QString ageText(double seconds) {
   if (!(seconds >= 0)) return {};
   if (seconds < 1) return QStringLiteral("%1 ms").arg(std::lround(seconds * 1000));
-  if (seconds < 60) return QStringLiteral("%1 s").arg(seconds, 0, 'f', 1);
-  if (seconds < 3600) return QStringLiteral("%1 min").arg(std::floor(seconds / 60), 0, 'f', 0);
-  return QStringLiteral("%1 h").arg(std::floor(seconds / 3600), 0, 'f', 0);
+  return durationText(seconds, 1);
 }
 
 QString wordsOf(const ColumnInfo& column, double value) {

@@ -21,6 +21,8 @@ QString capitalised(std::string_view text);
 QString numberText(double value, int decimals);
 /// "05:12", hours when there are any.
 QString clockText(double seconds);
+/// "12 s", "32 min 17 s": how long something has lasted, as base/duration_words.h says it.
+QString durationText(double seconds, int decimals = 0);
 /// "18 720": thousands set apart by a thin space.
 QString countText(qulonglong value);
 
