@@ -164,8 +164,8 @@ void BeliefItem::paintBallInside(QPainter* painter) const {
   const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));
   const double length = std::hypot(start.x(), start.y());
   if (length > radius + 1) {
-    QPen pen(onGrass(theme().ball, 0.85), 1.2);
-    pen.setDashPattern({3.5, 2.6});
+    QPen pen(onGrass(theme().ball, 1.0), 1.0);  // wider ones take Qt three times as long
+    pen.setDashPattern({4.2, 3.1});
     pen.setCapStyle(Qt::FlatCap);
     painter->setPen(pen);
     painter->drawLine(start, start * (radius / length));
