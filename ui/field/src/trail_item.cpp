@@ -100,10 +100,10 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   constexpr int shades = 6;
   const ScreenPainting screen(painter, m_tip);
   const auto pixels = [&](const QPointF& at) { return screen.pixels(at - m_tip); };
-  // Separate lines with flat caps: at this width no joint shows. Two lines of a pixel beside each
-  // other look like one of a pixel and a half, and Qt draws them in a third of the time.
+  // Separate lines with flat caps: at this width no joint shows. On a screen without fine pixels
+  // one pixel, a little stronger, since Qt needs twice as long for every wider line.
   constexpr double wide = 1.5;
-  std::array<QLineF, 2 * (capacity + 1)> lines;
+  std::array<QLineF, capacity + 1> lines;
   const bool thin = painter->paintEngine()->type() == QPaintEngine::Raster &&
                     painter->device()->devicePixelRatioF() == 1.0;
   QPen pen(theme().fieldLines, thin ? 1.0 : wide);
@@ -119,11 +119,7 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
     const double until = m_now - seconds * (shades - 1 - shade) / shades;
     int used = 0, waiting = 0;
     const auto lineTo = [&](const QPointF& next) {
-      const QLineF line(last, next);
-      const double length = std::max(line.length(), 1e-6);
-      const QPointF aside = QPointF(-line.dy(), line.dx()) * ((wide - 1.0) / 2 / length);
-      lines[static_cast<std::size_t>(used++)] = thin ? line.translated(aside) : line;
-      if (thin) lines[static_cast<std::size_t>(used++)] = line.translated(-aside);
+      lines[static_cast<std::size_t>(used++)] = QLineF(last, next);
       last = next;
       waiting = 0;
     };
@@ -141,7 +137,8 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
     if (shade == shades - 1) goTo(QPointF(0, 0));
     if (waiting > 0) lineTo(passed[static_cast<std::size_t>(waiting - 1)]);
     if (used == 0) continue;
-    pen.setColor(onGrass(theme().fieldLines, 0.08 + 0.52 * (shade + 1) / shades));
+    const double strength = 0.08 + 0.52 * (shade + 1) / shades;
+    pen.setColor(onGrass(theme().fieldLines, thin ? 1.25 * strength : strength));
     painter->setPen(pen);
     painter->drawLines(lines.data(), used);
   }

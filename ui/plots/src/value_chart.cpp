@@ -29,7 +29,9 @@ constexpr int numberGap = 4;    // px between the plot and its numbers
 /// first or last.
 std::vector<double> multiplesOf(double step, const ValueLimits& limits, double anchor) {
   std::vector<double> all;
-  if (!(step > 0.0) || !((limits.high - limits.low) / step < mostLines)) return all;
+  if (!(step > 0.0) || !(limits.high > limits.low) ||
+      !((limits.high - limits.low) / step < mostLines))
+    return all;
   const double slack = 1e-9;
   const auto first = std::ceil((limits.low - anchor) / step - slack);
   const auto last = std::floor((limits.high - anchor) / step + slack);
@@ -265,8 +267,7 @@ void ValueChart::paintAcross(QPainter& painter) const {
   for (const double value : multiplesOf(m_stepX, m_x, m_anchorX)) {
     const double x =
         std::round(m_area.left() + (value - m_x.low) / (m_x.high - m_x.low) * m_area.width());
-    painter.setPen(gridColor());
-    painter.drawLine(QPointF(x, m_area.top()), QPointF(x, m_area.bottom()));
+    painter.fillRect(QRectF(x, m_area.top(), 1, m_area.height()), gridColor());
     if (!m_labelsX) continue;
     const QString words = numberText(value, decimals);
     const double half = wordsWidth(painter.font(), words) / 2;
@@ -287,8 +288,7 @@ void ValueChart::paintUp(QPainter& painter, const ValueLimits& limits, double st
     const double y = std::round(m_area.bottom() - (value - limits.low) /
                                                       (limits.high - limits.low) * m_area.height());
     if (!right) {
-      painter.setPen(gridColor());
-      painter.drawLine(QPointF(m_area.left(), y), QPointF(m_area.right(), y));
+      painter.fillRect(QRectF(m_area.left(), y, m_area.width(), 1), gridColor());
     }
     if (y + high / 2 > free) continue;
     free = y - high / 2;

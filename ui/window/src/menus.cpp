@@ -192,17 +192,18 @@ void StudioMenus::makeView() {
     // Among tabs, what is asked for comes to the front, also what is open behind another; only
     // what is seen is closed. A dock by itself would close what nobody saw.
     action->disconnect(dock);
-    QObject::connect(action, &QAction::triggered, dock, [this, dock, action](bool on) {
-      const bool behind =
-          !m_window.tabifiedDockWidgets(dock).isEmpty() && dock->visibleRegion().isEmpty();
-      if (on || behind) {
-        dock->show();
-        dock->raise();
-        action->setChecked(true);
-      } else {
-        dock->close();
-      }
-    });
+    QObject::connect(
+        action, &QAction::triggered, dock, [window = &m_window, dock, action](bool on) {
+          const bool behind =
+              !window->tabifiedDockWidgets(dock).isEmpty() && dock->visibleRegion().isEmpty();
+          if (on || behind) {
+            dock->show();
+            dock->raise();
+            action->setChecked(true);
+          } else {
+            dock->close();
+          }
+        });
   }
   menu->addSeparator();
   QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));
