@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the window shows in little room, and that its layout is kept.
 
-#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QScrollArea>
@@ -9,7 +8,6 @@
 #include <QSlider>
 #include <QToolBar>
 #include <QToolButton>
-#include <QTreeView>
 #include <QtTest>
 
 #include <ui/base/notice_bar.h>
@@ -149,12 +147,6 @@ class TestWindowLayout : public QObject {
     }
   }
 
-  // Docks that were never laid out asked for 1246 x 724, and the window kept that size.
-  void aWindowThatWasToBeSmallIsSmall() {
-    Studio s({960, 540});
-    QTRY_COMPARE(s.window.size(), QSize(960, 540));
-  }
-
   void aNoticeIsAsHighAsItsWords() {
     Studio s;
     s.play();
@@ -164,45 +156,6 @@ class TestWindowLayout : public QObject {
     QTRY_VERIFY(notices->isVisible() && label->width() > 200);
     QVERIFY2(notices->height() < 3 * label->fontMetrics().height(),
              qPrintable(QString::number(notices->height())));
-  }
-
-  void namesOfVariablesAreReadWhole() {
-    Studio s({1440, 900});
-    s.play();
-    auto* view = s.find<QTreeView>("variablesView");
-    QStringList seen;
-    const auto look = [&] {
-      seen.clear();
-      for (QModelIndex at = view->indexAt({2, 2}); at.isValid(); at = view->indexBelow(at)) {
-        const QRect cell = view->visualRect(at.siblingAtColumn(0));
-        const QString name = at.siblingAtColumn(0).data().toString();
-        if (cell.top() > view->viewport()->height()) break;
-        if (!name.contains(QLatin1Char('_'))) continue;
-        seen << name;
-        QVERIFY2(QFontMetrics(view->font()).horizontalAdvance(name) < cell.width(),
-                 qPrintable(name));
-        // Where somebody makes it narrower, the whole name is said.
-        QVERIFY(at.data(Qt::ToolTipRole).toString().contains(name));
-      }
-    };
-    QTRY_VERIFY((look(), seen.contains(QStringLiteral("VISION_TILT_DEG"))));
-  }
-
-  void theRefereeOfAMatchThatIsNotSeenCannotBeLed() {
-    Studio s;
-    s.play();
-    s.find<QDockWidget>("refereeing")->toggleViewAction()->trigger();
-    auto* state = s.find<QLabel>("refereeState");
-    auto* rules = s.find<QComboBox>("refereeRules");
-    QTRY_VERIFY(rules->isEnabled());
-    QVERIFY(!state->text().contains(QStringLiteral("Simulate")));
-    s.window.showSource(SourceKind::Live);
-    QTRY_VERIFY(!rules->isEnabled());
-    QVERIFY2(state->text().startsWith(QStringLiteral("Only the match in Simulate")),
-             qPrintable(state->text()));
-    QVERIFY(!s.find<QComboBox>("refereeFormation")->isEnabled());
-    s.window.showSource(SourceKind::Simulate);
-    QTRY_VERIFY(rules->isEnabled());
   }
 
   void allToolsOfThePlotsAreSeen() {

@@ -74,22 +74,10 @@ void MainWindow::saveLayout() {
   m_settings->setValue(layoutKey, now);
 }
 
-void MainWindow::setVisible(bool visible) {
-  if (visible && !m_wasShown) m_shownWith = size();
-  QMainWindow::setVisible(visible);
-}
-
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   if (std::exchange(m_wasShown, true)) return;
-  // Docks that were never laid out ask for much more than they need afterwards, and a window that
-  // was to be small is large by now: on a small screen larger than that.
-  const bool grew = size() != m_shownWith;
-  QTimer::singleShot(0, this, [this, grew] {
-    if (grew && !isMaximized() && !isFullScreen()) {
-      layout()->activate();
-      resize(m_shownWith);
-    }
+  QTimer::singleShot(0, this, [this] {
     fitScreen();
     // Panels that float were shown before the window. A window manager that had not seen it then
     // does not know whose they are, and puts the window over them at the first click.

@@ -89,8 +89,6 @@ class MainWindow : public QMainWindow {
   /// Offers to remove blackboards that an earlier run left at this key base.
   void offerToRemoveOrphans();
 
-  void setVisible(bool visible) override;
-
  signals:
   void recordingFailed(const QString& sentence);
 
@@ -139,7 +137,6 @@ class MainWindow : public QMainWindow {
   Alarms* m_alarms;
   QByteArray m_savedLayout;
   QSize m_firstSize;  // when it was not kept from the last time
-  QSize m_shownWith;  // before it was shown first
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_toldFinished = false;
