@@ -32,7 +32,7 @@ struct Desk {
     link::Scenario scenario = link::loadScenario("match").value();
     scenario.settings.referee->automatic = false;
     for (auto& robot : scenario.robots) robot.behaviour = "none";
-    dock.reset(makeRefereeingDock(&controller, nullptr));
+    dock.reset(makeRefereeingDock(&controller, nullptr, nullptr));
     dock->resize(400, 900);
     dock->show();
     controller.open(scenario, true);

@@ -2,11 +2,50 @@
 #include <QtTest>
 #include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
 using namespace pitchboard;
 using namespace pitchboard::ui;
+
+namespace {
+
+QImage painted(const std::function<void(QPainter&)>& paint, double ratio = 1.0) {
+  QImage image(QSize(160, 60) * ratio, QImage::Format_RGB32);
+  image.setDevicePixelRatio(ratio);
+  image.fill(QColor(90, 120, 60));
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paint(painter);
+  return image;
+}
+
+/// The largest difference of a channel.
+int difference(const QImage& a, const QImage& b) {
+  int most = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const QColor one = a.pixelColor(x, y), other = b.pixelColor(x, y);
+      most = std::max({most, std::abs(one.red() - other.red()),
+                       std::abs(one.green() - other.green()), std::abs(one.blue() - other.blue())});
+    }
+  }
+  return most;
+}
+
+/// Where it is not the ground.
+QRect ink(const QImage& image) {
+  QRect all;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.pixelColor(x, y) != QColor(90, 120, 60)) all |= QRect(x, y, 1, 1);
+    }
+  }
+  return all;
+}
+
+}  // namespace
 
 class TestTheme : public QObject {
   Q_OBJECT
@@ -45,6 +84,83 @@ class TestTheme : public QObject {
     const QPixmap drawn =
         themedIcon(QStringLiteral("media-playback-start")).pixmap(QSize(22, 22), 2.0);
     QCOMPARE(drawn.size(), QSize(44, 44));
+  }
+
+  void boxesAreThoseOfQt_data() {
+    QTest::addColumn<QColor>("fill");
+    QTest::addColumn<QColor>("edge");
+    QTest::addColumn<double>("ratio");
+    const QColor blue(40, 60, 200), glass(40, 60, 200, 120), white(Qt::white);
+    QTest::newRow("plain") << blue << QColor() << 1.0;
+    QTest::newRow("with an edge") << blue << white << 1.0;
+    QTest::newRow("translucent") << glass << white << 1.0;
+    QTest::newRow("twice as sharp") << blue << white << 2.0;
+    QTest::newRow("at an odd scale") << blue << white << 1.5;
+  }
+  void boxesAreThoseOfQt() {
+    QFETCH(QColor, fill);
+    QFETCH(QColor, edge);
+    QFETCH(double, ratio);
+    const QRectF box(12, 9, 120, 30);
+    const QImage ours = painted([&](QPainter& p) { drawRoundBox(p, box, 3, fill, edge); }, ratio);
+    const QImage qts = painted(
+        [&](QPainter& p) {
+          p.setBrush(fill);
+          p.setPen(edge.isValid() ? QPen(edge, 1) : QPen(Qt::NoPen));
+          p.drawRoundedRect(edge.isValid() ? box.adjusted(0.5, 0.5, -0.5, -0.5) : box, 3, 3);
+        },
+        ratio);
+    QVERIFY(difference(ours, painted([](QPainter&) {}, ratio)) > 50);
+    QVERIFY2(difference(ours, qts) <= 4, qPrintable(QString::number(difference(ours, qts))));
+    // One without room for its corners, and one between pixels.
+    painted([&](QPainter& p) { drawRoundBox(p, {3, 3, 4, 2}, 3, fill, edge); }, ratio);
+    const QRect between = ink(painted([](QPainter& p) {
+      drawRoundBox(p, {12.3, 9, 50, 30}, 3, QColor(40, 60, 200));
+    }));
+    QCOMPARE(between, QRect(12, 9, 50, 30));
+  }
+
+  void wordsStandWhereQtPutsThem_data() {
+    QTest::addColumn<int>("alignment");
+    QTest::newRow("left") << int(Qt::AlignLeft | Qt::AlignVCenter);
+    QTest::newRow("right") << int(Qt::AlignRight | Qt::AlignVCenter);
+    QTest::newRow("middle") << int(Qt::AlignCenter);
+    QTest::newRow("top") << int(Qt::AlignHCenter | Qt::AlignTop);
+  }
+  void wordsStandWhereQtPutsThem() {
+    QFETCH(int, alignment);
+    const QRectF box(20, 10, 120, 40);
+    const QString words = QStringLiteral("12.4 V");
+    for (int round = 0; round < 2; ++round) {  // the second is from what was kept
+      const QRect ours =
+          ink(painted([&](QPainter& p) { drawWords(p, box, Qt::Alignment(alignment), words); }));
+      const QRect qts = ink(painted([&](QPainter& p) { p.drawText(box, alignment, words); }));
+      QVERIFY(qts.width() > 10);
+      for (const int off : {ours.left() - qts.left(), ours.right() - qts.right(),
+                            ours.top() - qts.top(), ours.bottom() - qts.bottom()}) {
+        QVERIFY2(std::abs(off) <= 1, qPrintable(QString::number(off)));
+      }
+    }
+  }
+
+  void wordsThatDoNotFitAreCut() {
+    const QRectF narrow(20, 10, 50, 40);
+    const QString words = QStringLiteral("walk forward, fast");
+    const auto draw = [&](const QFont& font, Qt::TextElideMode elide) {
+      return ink(painted([&](QPainter& p) {
+        p.setFont(font);
+        drawWords(p, narrow, Qt::AlignLeft | Qt::AlignVCenter, words, elide);
+      }));
+    };
+    const QFont small = themeFont(TypeRole::Small);
+    QFont large = small;
+    large.setPixelSize(20);
+    QVERIFY(draw(small, Qt::ElideNone).right() > 70);
+    QVERIFY(draw(small, Qt::ElideRight).right() <= 70);
+    // Of another font other words are kept.
+    QVERIFY(draw(large, Qt::ElideRight).height() > draw(small, Qt::ElideRight).height());
+    QVERIFY(wordsWidth(large, words) > 1.3 * wordsWidth(small, words));
+    QCOMPARE(wordsWidth(small, {}), 0.0);
   }
 
   void words() {

@@ -2,6 +2,7 @@
 // What the window shows in little room, and that its layout is kept.
 
 #include <QDockWidget>
+#include <QLabel>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSlider>
@@ -130,12 +131,31 @@ class TestWindowLayout : public QObject {
     QVERIFY(inFront("variables") && inFront("plots"));
     s.menuAction(QStringLiteral("Experiments"))->trigger();
     QTRY_VERIFY(inFront("experiments") && !inFront("plots"));
+    // Open behind a tab it comes to the front; only what is seen is closed.
+    QVERIFY(!s.find<QDockWidget>("log")->isHidden() && !inFront("log"));
+    s.find<QDockWidget>("log")->toggleViewAction()->trigger();
+    QTRY_VERIFY(inFront("log") && !inFront("experiments"));
+    QVERIFY(s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
+    s.find<QDockWidget>("log")->toggleViewAction()->trigger();
+    QTRY_VERIFY(s.find<QDockWidget>("log")->isHidden());
+    QVERIFY(!s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
     for (const char* name : {"refereeing", "referee"}) {
       s.find<QDockWidget>(name)->toggleViewAction()->trigger();
       QTRY_VERIFY2(inFront(name), name);
       QVERIFY2(!inFront("variables"), name);
       QVERIFY(s.find<QDockWidget>(name)->height() > s.window.height() / 3);
     }
+  }
+
+  void aNoticeIsAsHighAsItsWords() {
+    Studio s;
+    s.play();
+    auto* notices = s.window.notices();
+    notices->show(QStringLiteral("One line."));
+    const auto* label = notices->findChild<QLabel*>(QStringLiteral("noticeText"));
+    QTRY_VERIFY(notices->isVisible() && label->width() > 200);
+    QVERIFY2(notices->height() < 3 * label->fontMetrics().height(),
+             qPrintable(QString::number(notices->height())));
   }
 
   void allToolsOfThePlotsAreSeen() {

@@ -110,6 +110,8 @@ class TestWindowWork : public QObject {
     QVERIFY(plots->currentPage()->panes()[0]->hasCurve(
         variableCurve(QStringLiteral("B2/VISION_BALL_ANGLE"))));
     QVERIFY(s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
+    find(QStringLiteral("view log"));  // it was behind another tab
+    QVERIFY(s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
     find(QStringLiteral("view log"));
     QVERIFY(!s.find<QDockWidget>("log")->toggleViewAction()->isChecked());
   }

@@ -58,7 +58,9 @@ void NoticeBar::place() {
   const QWidget* host = parentWidget();
   if (!m_floats || host == nullptr) return;
   const int wide = host->width();
-  const int high = std::max(heightForWidth(wide), sizeHint().height());
+  // The hint alone is that of a label as high as it is wide.
+  const int lines = heightForWidth(wide);
+  const int high = lines > 0 ? lines : sizeHint().height();
   setGeometry(0, host->height() - high, wide, high);
   raise();
 }

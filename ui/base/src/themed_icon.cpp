@@ -9,6 +9,7 @@
 #include <QStandardPaths>
 #include <QSvgRenderer>
 #include <memory>
+#include <vector>
 
 #include <ui/base/theme.h>
 
@@ -54,7 +55,20 @@ class ThemedIconEngine : public QIconEngine {
   bool isNull() override { return !m_renderer->isValid(); }
 
  private:
-  QPixmap draw(const QSize& size, QIcon::Mode mode, QIcon::State) const {
+  // Buttons are painted whenever what is beside them changes its size; an icon has one or two
+  // sizes.
+  QPixmap draw(const QSize& size, QIcon::Mode mode, QIcon::State) {
+    const QColor color = mode == QIcon::Disabled ? theme().disabledText : theme().text;
+    for (const Drawn& known : m_drawn) {
+      if (known.pixmap.size() == size && known.color == color.rgb()) return known.pixmap;
+    }
+    constexpr std::size_t most = 8;
+    if (m_drawn.size() == most) m_drawn.erase(m_drawn.begin());
+    m_drawn.push_back({color.rgb(), render(size, color)});
+    return m_drawn.back().pixmap;
+  }
+
+  QPixmap render(const QSize& size, const QColor& color) const {
     QPixmap pixmap(size);
     pixmap.fill(Qt::transparent);
     if (!m_renderer->isValid()) return pixmap;
@@ -63,12 +77,18 @@ class ThemedIconEngine : public QIconEngine {
     const QRectF square((size.width() - side) / 2.0, (size.height() - side) / 2.0, side, side);
     m_renderer->render(&painter, square);
     painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
-    painter.fillRect(pixmap.rect(), mode == QIcon::Disabled ? theme().disabledText : theme().text);
+    painter.fillRect(pixmap.rect(), color);
     return pixmap;
   }
 
+  struct Drawn {
+    QRgb color = 0;
+    QPixmap pixmap;
+  };
+
   std::shared_ptr<QSvgRenderer> m_renderer;
   QString m_name;
+  std::vector<Drawn> m_drawn;
 };
 
 }  // namespace

@@ -92,8 +92,11 @@ void BeliefItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidg
 void BeliefItem::paintDisc(QPainter* painter, const ScreenPainting& screen) const {
   const double scale = screen.pixelsPerMetre();
   const QColor team = theme().team(m_look.team);
-  // In half pixels, so that a changing uncertainty still finds its stamp.
-  const int size = static_cast<int>(std::lround(2 * std::max(m_look.sigma, leastRadius) * scale));
+  // In half pixels, whole ones or two as it is wider, so that a changing uncertainty still finds
+  // its stamp.
+  const double across = 2 * std::max(m_look.sigma, leastRadius) * scale;
+  const int grain = across > 80 ? 4 : across > 40 ? 2 : 1;
+  const int size = static_cast<int>(std::lround(across / grain)) * grain;
   const double radius = size / 2.0;
   // One that knows nothing must not cover the field: what is spread over more ground is thinner.
   const double thin = std::min(1.0, fullUntil / std::max(m_look.sigma, leastRadius));
@@ -164,8 +167,8 @@ void BeliefItem::paintBallInside(QPainter* painter) const {
   const QPointF start = screen.pixels(toScene(m_look.origin) - toScene(*m_look.ball));
   const double length = std::hypot(start.x(), start.y());
   if (length > radius + 1) {
-    QPen pen(onGrass(theme().ball, 0.85), 1.2);
-    pen.setDashPattern({3.5, 2.6});
+    QPen pen(onGrass(theme().ball, 1.0), 1.0);  // wider ones take Qt three times as long
+    pen.setDashPattern({4.2, 3.1});
     pen.setCapStyle(Qt::FlatCap);
     painter->setPen(pen);
     painter->drawLine(start, start * (radius / length));

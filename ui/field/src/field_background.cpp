@@ -21,8 +21,19 @@ void paintLines(QPainter& painter, const sim::FieldSpec& f, double lineWidth) {
   const double inset = lineWidth / 2;
   const double x = f.halfLength() - inset;
   const double y = f.halfWidth() - inset;
-  painter.drawRect(QRectF(QPointF(-x, -y), QPointF(x, y)));
-  painter.drawLine(QPointF(0, -y), QPointF(0, y));
+  // Filled: while the view is resized all this is painted for every size, and strokes of lines
+  // that are as long as the field took most of that.
+  const auto line = [&](const QPointF& from, const QPointF& to) {
+    // Corners belong to the lines across.
+    const double up = from.x() == to.x() ? 0.0 : inset;
+    painter.fillRect(QRectF(from, to).normalized().adjusted(-inset, -up, inset, up),
+                     theme().fieldLines);
+  };
+  for (const double side : {-1.0, 1.0}) {
+    line({-x, side * y}, {x, side * y});
+    line({side * x, -y}, {side * x, y});
+  }
+  line({0, -y}, {0, y});
   const double radius = f.centreCircleDiameter / 2 - inset;
   if (radius > 0) painter.drawEllipse(QPointF(0, 0), radius, radius);
   const auto area = [&](double length, double width) {
@@ -30,9 +41,8 @@ void paintLines(QPainter& painter, const sim::FieldSpec& f, double lineWidth) {
     const double halfWidth = std::min(width / 2 - inset, y);
     for (const double side : {-1.0, 1.0}) {
       const double inner = side * (x - length + inset);
-      const QPointF line[] = {
-          {side * x, -halfWidth}, {inner, -halfWidth}, {inner, halfWidth}, {side * x, halfWidth}};
-      painter.drawPolyline(line, 4);
+      for (const double up : {-halfWidth, halfWidth}) line({side * x, up}, {inner, up});
+      line({inner, -halfWidth}, {inner, halfWidth});
     }
   };
   area(f.goalAreaLength, f.goalAreaWidth);

@@ -14,6 +14,12 @@ constexpr double largestReach = 128.0;             // pixels
 constexpr qsizetype mostPixels = 4 * 1024 * 1024;  // 16 MB
 constexpr int phases = 4;                          // of a pixel, each way
 
+/// A wide thin disc is taken to whole pixels: it changes its size all the time, and with as many
+/// phases as a number none would be found again.
+int phasesOf(const Stamp& stamp) {
+  return stamp.kind == Stamp::Kind::Belief ? 1 : phases;
+}
+
 struct Key {
   Stamp stamp;
   int phaseX = 0, phaseY = 0;
@@ -47,7 +53,8 @@ Placed paintStamp(const Key& key, double ratio, const QSizeF& reach,
   placed.pixmap.fill(Qt::transparent);
   QPainter painter(&placed.pixmap);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.translate(placed.origin + QPointF(key.phaseX, key.phaseY) / (phases * ratio));
+  painter.translate(placed.origin +
+                    QPointF(key.phaseX, key.phaseY) / (phasesOf(key.stamp) * ratio));
   paint(painter);
   return placed;
 }
@@ -67,11 +74,12 @@ void drawStamp(QPainter* painter, const QPointF& centre, const Stamp& stamp, con
     return;
   }
   const double ratio = painter->device()->devicePixelRatioF();
-  const double x = std::round(at.x() * ratio * phases);
-  const double y = std::round(at.y() * ratio * phases);
-  const QPointF whole(std::floor(x / phases), std::floor(y / phases));
-  const Key key{stamp, static_cast<int>(x - whole.x() * phases),
-                static_cast<int>(y - whole.y() * phases),
+  const int steps = phasesOf(stamp);
+  const double x = std::round(at.x() * ratio * steps);
+  const double y = std::round(at.y() * ratio * steps);
+  const QPointF whole(std::floor(x / steps), std::floor(y / steps));
+  const Key key{stamp, static_cast<int>(x - whole.x() * steps),
+                static_cast<int>(y - whole.y() * steps),
                 static_cast<int>(std::lround(ratio * 100))};
   const Placed* placed = cache().object(key);
   Placed fresh;

@@ -20,6 +20,7 @@ void TeamBallItem::setBall(const std::optional<link::TeamBall>& ball) {
   if (!ball) return;
   prepareGeometryChange();
   m_ball = *ball;
+  m_plate = plateSize(words());
   setPos(toScene(ball->position));
   update();
 }
@@ -33,9 +34,8 @@ double TeamBallItem::radius() const {
 }
 
 QRectF TeamBallItem::boundingRect() const {
-  const QSizeF plate = plateSize(words());
-  const double reach = radius() + m_style->metres(14.0 + plate.height());
-  const double wide = radius() + m_style->metres(16.0 + plate.width());
+  const double reach = radius() + m_style->metres(14.0 + m_plate.height());
+  const double wide = radius() + m_style->metres(16.0 + m_plate.width());
   return {-wide, -reach, 2 * wide, 2 * reach};
 }
 
@@ -46,12 +46,11 @@ void TeamBallItem::setRobots(std::vector<QPointF> robots, double radius) {
 
 // Above the ring, else below, else beside it: the first place that no robot covers.
 QPointF TeamBallItem::wordsAt(const ScreenPainting& screen, double ring) const {
-  const QSizeF plate = plateSize(words());
-  const double high = ring + 12.0, wide = ring + 6.0 + plate.width() / 2;
+  const double high = ring + 12.0, wide = ring + 6.0 + m_plate.width() / 2;
   const double robot = m_robotRadius * screen.pixelsPerMetre();
   const QPointF places[] = {{0, -high}, {0, high}, {wide, 0}, {-wide, 0}};
   for (const QPointF& place : places) {
-    const QRectF box(place - QPointF(plate.width(), plate.height()) / 2, plate);
+    const QRectF box(place - QPointF(m_plate.width(), m_plate.height()) / 2, m_plate);
     const bool covered = std::ranges::any_of(m_robots, [&](const QPointF& each) {
       const QPointF at = screen.pixels(each - pos());
       return box.adjusted(-robot, -robot, robot, robot).contains(at);

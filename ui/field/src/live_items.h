@@ -30,6 +30,7 @@ class TeamBallItem : public QGraphicsItem {
 
   const FieldStyle* m_style;
   link::TeamBall m_ball;
+  QSizeF m_plate;  // of its words, px
   std::vector<QPointF> m_robots;
   double m_robotRadius = 0.0;
 };

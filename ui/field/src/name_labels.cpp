@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -122,7 +123,7 @@ void NameLabelsItem::place() {
     named.push_back({robot.id,
                      {side * robot.at.x() * scale, -side * robot.at.y() * scale},
                      robot.radius * scale,
-                     {metrics.horizontalAdvance(robot.name) + 2, metrics.ascent()}});
+                     {wordsWidth(nameFont(), robot.name) + 2, metrics.ascent()}});
   }
   std::vector<Label> labels;
   for (const PlacedName& name : placeNames(named, m_before)) {
@@ -135,7 +136,7 @@ void NameLabelsItem::place() {
   for (const Label& label : labels) {
     const double reach =
         m_style->metres(std::hypot(label.offset.x(), label.offset.y()) +
-                        metrics.horizontalAdvance(label.name) / 2 + metrics.height() / 2 + 6.0);
+                        wordsWidth(nameFont(), label.name) / 2 + metrics.height() / 2 + 6.0);
     bounds |= QRectF(label.robot.x() - reach, label.robot.y() - reach, 2 * reach, 2 * reach);
   }
   if (labels.empty() && m_labels.empty()) return;

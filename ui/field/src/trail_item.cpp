@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "trail_item.h"
 
+#include <QPaintEngine>
+#include <QPainter>
 #include <algorithm>
 #include <cmath>
 
@@ -98,9 +100,13 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   constexpr int shades = 6;
   const ScreenPainting screen(painter, m_tip);
   const auto pixels = [&](const QPointF& at) { return screen.pixels(at - m_tip); };
-  // Separate lines with flat caps need no stroker; at this width no joint shows.
+  // Separate lines with flat caps: at this width no joint shows. On a screen without fine pixels
+  // one pixel, a little stronger, since Qt needs twice as long for every wider line.
+  constexpr double wide = 1.5;
   std::array<QLineF, capacity + 1> lines;
-  QPen pen(theme().fieldLines, 1.5);
+  const bool thin = painter->paintEngine()->type() == QPaintEngine::Raster &&
+                    painter->device()->devicePixelRatioF() == 1.0;
+  QPen pen(theme().fieldLines, thin ? 1.0 : wide);
   pen.setCapStyle(Qt::FlatCap);
   QPointF last = pixels(mark(0).at);
   // Far away marks stand closer than anybody sees, many in one straight line; and each line costs
@@ -131,7 +137,8 @@ void TrailItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
     if (shade == shades - 1) goTo(QPointF(0, 0));
     if (waiting > 0) lineTo(passed[static_cast<std::size_t>(waiting - 1)]);
     if (used == 0) continue;
-    pen.setColor(onGrass(theme().fieldLines, 0.08 + 0.52 * (shade + 1) / shades));
+    const double strength = 0.08 + 0.52 * (shade + 1) / shades;
+    pen.setColor(onGrass(theme().fieldLines, thin ? 1.25 * strength : strength));
     painter->setPen(pen);
     painter->drawLines(lines.data(), used);
   }

@@ -88,7 +88,7 @@ void ChartPane::setBoxTool(bool on) {
   m_gestures->setBoxTool(on);
 }
 void ChartPane::restyle() {
-  m_chart->applyTheme();
+  m_chart->redraw();
 }
 
 ValueScale ChartPane::valueScale() const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
 
@@ -166,12 +167,12 @@ void LanePane::paintLanes(QPainter& painter) const {
                    : curve.isWaiting() ? colors.disabledText
                                        : colors.text);
     QString text = curve.isWaiting() ? curve.note() : curve.name();
-    painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter, text);
+    drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, text);
     if (!curve.isWaiting()) {
-      const int used = painter.fontMetrics().horizontalAdvance(text) + scaled(this, 8);
+      const double used = wordsWidth(painter.font(), text) + scaled(this, 8);
       painter.setPen(colors.secondaryText);
-      painter.drawText(name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                       curve.valueTextAt(m_feed->time()->readAt()));
+      drawWords(painter, name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                curve.valueTextAt(m_feed->time()->readAt()));
     }
     y += scaled(this, nameHeight);
     const double height = scaled(this, laneHeight);
@@ -193,9 +194,8 @@ void LanePane::paintLanes(QPainter& painter) const {
         const double room = box.width() - 2 * padding;
         if (room < painter.fontMetrics().averageCharWidth() * 2) continue;
         painter.setPen(colors.text);
-        painter.drawText(
-            box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
-            painter.fontMetrics().elidedText(word, Qt::ElideRight, static_cast<int>(room)));
+        drawWords(painter, box.adjusted(padding, 0, -padding, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                  word, Qt::ElideRight);
       }
     }
     if (i < m_comparedStretches.size()) {

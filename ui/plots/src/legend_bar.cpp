@@ -5,7 +5,9 @@
 #include <QHelpEvent>
 #include <QPainter>
 #include <QToolTip>
+#include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -16,7 +18,7 @@ constexpr int gapAfterStroke = 5;
 constexpr int gapBetween = 24;
 
 int textWidth(const QFont& font, const QString& text) {
-  return QFontMetrics(font).horizontalAdvance(text);
+  return static_cast<int>(std::ceil(wordsWidth(font, text)));
 }
 }  // namespace
 
@@ -93,12 +95,11 @@ void LegendBar::paintEvent(QPaintEvent*) {
     painter.setPen(entry.faulty  ? colors.errorText
                    : entry.muted ? colors.disabledText
                                  : colors.text);
-    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
-                     painter.fontMetrics().elidedText(entry.text, Qt::ElideRight, rect.width()));
+    drawWords(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.text, Qt::ElideRight);
     if (entry.value.isEmpty()) continue;
     painter.setPen(colors.secondaryText);
     rect.setLeft(rect.left() + textWidth(font, entry.text) + scaled(this, 6));
-    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, entry.value);
+    drawWords(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.value);
   }
 }
 

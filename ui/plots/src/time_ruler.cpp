@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -41,7 +42,7 @@ void TimeRuler::paintEvent(QPaintEvent*) {
   const double half = scaled(this, pixelsPerStep);
   for (const AxisTick& tick : ticksOf(axis, *m_feed, this)) {
     const double x = axis.pixel(tick.time);
-    painter.drawText(QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
+    drawWords(painter, QRectF(x - half, 0, 2 * half, height()), Qt::AlignCenter, tick.label);
   }
   if (m_forPicture) return;
   const LinkedTime& time = *m_feed->time();

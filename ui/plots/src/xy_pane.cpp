@@ -121,7 +121,7 @@ ValueLimits XyPane::yLimits() const {
   return m_chart->yLimits();
 }
 void XyPane::restyle() {
-  m_chart->applyTheme();
+  m_chart->redraw();
 }
 
 void XyPane::draw() {

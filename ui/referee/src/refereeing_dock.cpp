@@ -13,6 +13,7 @@
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/source_switch.h>
 
 #include "formations.h"
 #include "referee_buttons.h"
@@ -28,8 +29,8 @@ using sim::CallKind;
 
 class RefereeingDock : public QScrollArea {
  public:
-  RefereeingDock(MatchController* controller, QWidget* parent)
-      : QScrollArea(parent), m_match(controller) {
+  RefereeingDock(MatchController* controller, const SourceSwitch* source, QWidget* parent)
+      : QScrollArea(parent), m_match(controller), m_source(source) {
     setObjectName(QStringLiteral("refereeingDock"));
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
@@ -50,6 +51,9 @@ class RefereeingDock : public QScrollArea {
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
     connect(m_match, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { show(frame); });
+    if (m_source != nullptr) {
+      connect(m_source, &SourceSwitch::changed, this, [this] { show(m_match->frame()); });
+    }
     show(m_match->frame());
   }
 
@@ -96,7 +100,9 @@ class RefereeingDock : public QScrollArea {
 
   void addFormations(QWidget* form) {
     m_column->addWidget(makeRefereeHeading(QStringLiteral("Formations"), form));
+    m_formations = new QWidget(form);
     auto* row = new QHBoxLayout;
+    row->setContentsMargins(0, 0, 0, 0);
     m_formation = new QComboBox(form);
     m_formation->setObjectName(QStringLiteral("refereeFormation"));
     for (const Formation& one : formations()) {
@@ -112,7 +118,8 @@ class RefereeingDock : public QScrollArea {
       connect(load, &QPushButton::clicked, this, [this, left] { loadFormation(left); });
       row->addWidget(load);
     }
-    m_column->addLayout(row);
+    m_formations->setLayout(row);
+    m_column->addWidget(m_formations);
     m_asSetPlay = new QCheckBox(QStringLiteral("With the referee's set play"), form);
     m_asSetPlay->setObjectName(QStringLiteral("refereeAsSetPlay"));
     m_asSetPlay->setToolTip(
@@ -152,13 +159,16 @@ class RefereeingDock : public QScrollArea {
   }
 
   void show(const FramePtr& frame) {
-    const bool refereed = frame && frame->referee;
+    // In Live and Replay the match goes on unseen, and nobody leads what he does not see.
+    const bool seen = frame && (m_source == nullptr || m_source->kind() == SourceKind::Simulate);
+    const bool refereed = seen && frame->referee;
     m_game->setEnabled(refereed);
     m_penalties->setEnabled(refereed);
     m_asSetPlay->setEnabled(refereed);
     m_penalties->show(refereed ? frame.get() : nullptr);
     m_automatic->setEnabled(refereed);
-    m_rules->setEnabled(frame != nullptr);
+    m_rules->setEnabled(seen);
+    m_formations->setEnabled(seen);
     if (!m_rules->view()->isVisible()) {
       const QString name =
           frame ? QString::fromStdString(frame->refereeRules) : QStringLiteral("published");
@@ -166,7 +176,11 @@ class RefereeingDock : public QScrollArea {
       if (index != m_rules->currentIndex()) m_rules->setCurrentIndex(index);
     }
     if (!refereed) {
-      m_state->setText(QStringLiteral("This match has no referee. Choose rules to get one."));
+      m_state->setText(
+          seen    ? QStringLiteral("This match has no referee. Choose rules to get one.")
+          : frame ? QStringLiteral("Only the match in Simulate is led from here. What a referee "
+                                   "sends stands in View > Referee.")
+                  : QStringLiteral("No simulated match is open."));
       return;
     }
     const link::RefereeView& view = *frame->referee;
@@ -181,18 +195,21 @@ class RefereeingDock : public QScrollArea {
   }
 
   MatchController* m_match;
+  const SourceSwitch* m_source;
   QVBoxLayout* m_column = nullptr;
   RefereeGame* m_game = nullptr;
   RefereePenalties* m_penalties = nullptr;
   QComboBox *m_rules = nullptr, *m_formation = nullptr;
   QCheckBox *m_automatic = nullptr, *m_asSetPlay = nullptr;
   QLabel* m_state = nullptr;
+  QWidget* m_formations = nullptr;
 };
 
 }  // namespace
 
-QWidget* makeRefereeingDock(MatchController* controller, QWidget* parent) {
-  return new RefereeingDock(controller, parent);
+QWidget* makeRefereeingDock(MatchController* controller, const SourceSwitch* source,
+                            QWidget* parent) {
+  return new RefereeingDock(controller, source, parent);
 }
 
 }  // namespace pitchboard::ui

@@ -3,7 +3,9 @@
 #include <QPaintEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/robots/robot_card.h>
@@ -106,9 +108,8 @@ void RobotCard::paintEvent(QPaintEvent* event) {
 }
 
 void RobotCard::paintFrame(QPainter& painter) const {
-  painter.setPen(m_selected || hasFocus() ? theme().accentLine : theme().innerLine);
-  painter.setBrush(m_state.timedOut ? theme().view : theme().window);
-  painter.drawRoundedRect(sharp(rect()), corner, corner);
+  drawRoundBox(painter, rect(), corner, m_state.timedOut ? theme().view : theme().window,
+               m_selected || hasFocus() ? theme().accentLine : theme().innerLine);
   // A collapsed card has no room for more than its tag; the edge is seen from afar.
   const bool alarm = m_collapsed && m_state.tagKind != TagKind::None;
   if (m_selected || alarm) {
@@ -129,31 +130,28 @@ void RobotCard::paintHead(QPainter& painter) const {
   painter.setOpacity(greyed);
   const QRect row = rowRect(0);
   const QRect badge(row.left(), row.top(), row.height(), row.height());
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(theme().team(m_state.team));
-  painter.drawRoundedRect(badge, corner, corner);
+  drawRoundBox(painter, badge, corner, theme().team(m_state.team));
   painter.setFont(themeFont(TypeRole::Body, true));
   painter.setPen(Qt::white);
-  painter.drawText(badge, Qt::AlignCenter, QString::number(m_state.number));
+  drawWords(painter, badge, Qt::AlignCenter, QString::number(m_state.number));
   painter.setPen(theme().text);
   const QRect name = row.adjusted(row.height() + scaled(this, 8), 0, 0, 0);
-  painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
+  drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
   if (!m_collapsed && !m_state.subtitle.isEmpty()) {
     const int taken = painter.fontMetrics().horizontalAdvance(m_state.name) + scaled(this, 8);
     const int end = m_state.battery && m_parts.battery ? voltsRect().left() : chevronRect().left();
     const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
     painter.setFont(themeFont(TypeRole::Secondary));
     painter.setPen(theme().secondaryText);
-    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
-                     painter.fontMetrics().elidedText(m_state.subtitle, Qt::ElideRight,
-                                                      room.width() - scaled(this, 4)));
+    drawWords(painter, room.adjusted(0, 0, -scaled(this, 4), 0), Qt::AlignLeft | Qt::AlignVCenter,
+              m_state.subtitle, Qt::ElideRight);
   }
 
   painter.setOpacity(1.0);
   painter.setPen(theme().secondaryText);
   painter.setFont(themeFont(TypeRole::Small));
-  painter.drawText(chevronRect(), Qt::AlignCenter,
-                   m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
+  drawWords(painter, chevronRect(), Qt::AlignCenter,
+            m_collapsed ? QStringLiteral("▸") : QStringLiteral("▾"));
 
   if (!m_state.battery || !m_parts.battery) return;
   painter.setOpacity(greyed);
@@ -172,10 +170,10 @@ void RobotCard::paintHead(QPainter& painter) const {
   }
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
-  painter.drawText(voltsRect(), Qt::AlignRight | Qt::AlignVCenter,
-                   m_state.battery->volts > 0.0
-                       ? numberText(m_state.battery->volts, 1) + QStringLiteral(" V")
-                       : numberText(m_state.battery->fraction * 100.0, 0) + QStringLiteral(" %"));
+  drawWords(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter,
+            m_state.battery->volts > 0.0
+                ? numberText(m_state.battery->volts, 1) + QStringLiteral(" V")
+                : numberText(m_state.battery->fraction * 100.0, 0) + QStringLiteral(" %"));
   painter.setOpacity(1.0);
 }
 
@@ -187,9 +185,7 @@ void RobotCard::paintLamps(QPainter& painter) const {
     const QRect box = lampRect(i);
     QFont font = themeFont(TypeRole::Small, true);
     if (state == LampState::Working) {
-      painter.setPen(Qt::NoPen);
-      painter.setBrush(m_collapsed ? theme().workingMark : theme().workingGround);
-      painter.drawRoundedRect(box, 2, 2);
+      drawRoundBox(painter, box, 2, m_collapsed ? theme().workingMark : theme().workingGround);
       painter.setPen(theme().workingText);
     } else if (state == LampState::Silent) {
       font.setStrikeOut(true);
@@ -208,7 +204,7 @@ void RobotCard::paintLamps(QPainter& painter) const {
     }
     if (m_collapsed) continue;
     painter.setFont(font);
-    painter.drawText(box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
+    drawWords(painter, box, Qt::AlignCenter, QString(QLatin1Char(CardState::letters[index])));
   }
 }
 
@@ -216,13 +212,10 @@ void RobotCard::paintTag(QPainter& painter) const {
   const bool error = m_state.tagKind == TagKind::Error;
   painter.setFont(themeFont(TypeRole::Small, true));
   const QRect box = tagRect();
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(error ? theme().errorGround : theme().warningGround);
-  painter.drawRoundedRect(box, 2, 2);
+  drawRoundBox(painter, box, 2, error ? theme().errorGround : theme().warningGround);
   painter.setPen(error ? theme().errorText : theme().warningText);
-  painter.drawText(
-      box, Qt::AlignCenter,
-      painter.fontMetrics().elidedText(m_state.tag, Qt::ElideRight, box.width() - scaled(this, 6)));
+  const int edge = scaled(this, 3);
+  drawWords(painter, box.adjusted(edge, 0, -edge, 0), Qt::AlignCenter, m_state.tag, Qt::ElideRight);
 }
 
 void RobotCard::paintFoot(QPainter& painter) const {
@@ -230,14 +223,14 @@ void RobotCard::paintFoot(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Secondary));
   painter.setPen(theme().secondaryText);
   const QString detail = m_parts.health ? m_state.detail : QString();
-  painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, detail);
+  drawWords(painter, row, Qt::AlignRight | Qt::AlignVCenter, detail);
   if (!m_parts.action) return;
-  const int taken = painter.fontMetrics().horizontalAdvance(detail) + scaled(this, 8);
+  const int taken =
+      static_cast<int>(std::ceil(wordsWidth(painter.font(), detail))) + scaled(this, 8);
   painter.setFont(themeFont(TypeRole::Body));
   painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
   const QRect room = row.adjusted(0, 0, -taken, 0);
-  painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(m_state.action, Qt::ElideRight, room.width()));
+  drawWords(painter, room, Qt::AlignLeft | Qt::AlignVCenter, m_state.action, Qt::ElideRight);
 }
 
 const CardValue* RobotCard::value(const QString& name) const {
@@ -255,15 +248,14 @@ void RobotCard::paintValues(QPainter& painter) const {
     const CardValue* known = value(m_parts.values[i]);
     const bool greyed = known == nullptr || m_state.timedOut;
     painter.setPen(theme().secondaryText);
-    painter.drawText(
-        row, Qt::AlignLeft | Qt::AlignVCenter,
-        painter.fontMetrics().elidedText(m_parts.values[i], Qt::ElideMiddle, row.width() * 6 / 10));
+    drawWords(painter, QRect(row.topLeft(), QSize(row.width() * 6 / 10, row.height())),
+              Qt::AlignLeft | Qt::AlignVCenter, m_parts.values[i], Qt::ElideMiddle);
     if (known == nullptr) continue;
-    painter.drawText(row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
-                     Qt::AlignLeft | Qt::AlignVCenter, known->unit);
+    drawWords(painter, row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
+              Qt::AlignLeft | Qt::AlignVCenter, known->unit);
     painter.setPen(greyed ? theme().disabledText : theme().text);
-    painter.drawText(row.adjusted(0, 0, -unitWidth, 0), Qt::AlignRight | Qt::AlignVCenter,
-                     known->text);
+    drawWords(painter, row.adjusted(0, 0, -unitWidth, 0), Qt::AlignRight | Qt::AlignVCenter,
+              known->text);
   }
 }
 

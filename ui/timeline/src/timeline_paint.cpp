@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
@@ -44,17 +45,14 @@ void TimelineStrip::paintEvent(QPaintEvent*) {
 
 void TimelineStrip::paintBand(QPainter& painter) const {
   const QRectF band = bandRect();
-  painter.setPen(QPen(theme().innerLine, 1));
-  painter.setBrush(theme().view);
-  painter.drawRoundedRect(band.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
+  drawRoundBox(painter, band, 2, theme().view, theme().innerLine);
   const auto held = m_timeline->available();
   if (!held) return;
   const double left = std::max(m_axis.pixel(held->begin), band.left());
   const double right = std::min(m_axis.pixel(held->end), band.right());
   if (right <= left) return;
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(theme().innerLine);
-  painter.drawRoundedRect(QRectF(left, band.top() + 1, right - left, band.height() - 2), 2, 2);
+  drawRoundBox(painter, QRectF(left, band.top() + 1, right - left, band.height() - 2), 2,
+               theme().innerLine);
 }
 
 void TimelineStrip::paintWindow(QPainter& painter) const {
@@ -62,9 +60,7 @@ void TimelineStrip::paintWindow(QPainter& painter) const {
   if (!window) return;
   QColor ground = theme().accentFill;
   ground.setAlphaF(isDarkTheme() ? 0.65F : 0.35F);
-  painter.setPen(QPen(theme().accentLine, 1));
-  painter.setBrush(ground);
-  painter.drawRoundedRect(window->adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
+  drawRoundBox(painter, *window, 2, ground, theme().accentLine);
 }
 
 void TimelineStrip::paintRange(QPainter& painter) const {
@@ -102,8 +98,8 @@ void TimelineStrip::paintAxis(QPainter& painter) const {
     const bool atEdge = place.left() < edge;
     if (atEdge) place.moveLeft(edge);
     if (place.right() > width()) place.moveRight(width());
-    painter.drawText(place, (atEdge ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter,
-                     tick.label);
+    drawWords(painter, place, (atEdge ? Qt::AlignLeft : Qt::AlignHCenter) | Qt::AlignVCenter,
+              tick.label);
   }
 }
 
@@ -123,8 +119,8 @@ void TimelineStrip::paintMarks(QPainter& painter) {
       drawMark(painter, shape, {mark.x, centre}, size);
       if (mark.label.isEmpty()) continue;
       painter.setPen(theme().secondaryText);
-      painter.drawText(QRectF(mark.x + gap, centre - size, width(), 2 * size),
-                       Qt::AlignLeft | Qt::AlignVCenter, mark.label);
+      drawWords(painter, QRectF(mark.x + gap, centre - size, width(), 2 * size),
+                Qt::AlignLeft | Qt::AlignVCenter, mark.label);
     }
     painter.setOpacity(1.0);
   };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
 #include "value_edit.h"
@@ -88,7 +89,7 @@ bool VariablesDelegate::flowsOver(const QStyleOptionViewItem& option,
     if (!header->isSectionHidden(header->logicalIndex(between))) return false;
   }
   const QString words = index.siblingAtColumn(VariablesModel::Unit).data().toString();
-  return QFontMetrics(themeFont(TypeRole::Secondary)).horizontalAdvance(words) >
+  return wordsWidth(themeFont(TypeRole::Secondary), words) >
          header->sectionSize(VariablesModel::Unit) - scaled(tree, 6);
 }
 
@@ -106,18 +107,23 @@ void VariablesDelegate::paintFlowing(QPainter* painter, const QStyleOptionViewIt
   painter->setFont(font);
   const QVariant color = unit.data(Qt::ForegroundRole);
   painter->setPen(color.isValid() ? color.value<QColor>() : theme().secondaryText);
-  painter->drawText(
-      line, Qt::AlignVCenter | Qt::AlignLeft,
-      QFontMetrics(font).elidedText(unit.data().toString(), Qt::ElideRight, line.width()));
+  drawWords(*painter, line, Qt::AlignVCenter | Qt::AlignLeft, unit.data().toString(),
+            Qt::ElideRight);
   painter->restore();
 }
 
 void VariablesDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
                               const QModelIndex& index) const {
-  QStyledItemDelegate::paint(painter, option, index);
   const bool isUnit = index.column() == VariablesModel::Unit;
   const bool isSpark = index.column() == VariablesModel::Spark;
-  if ((isUnit || isSpark) && flowsOver(option, index))
+  const bool flows = (isUnit || isSpark) && flowsOver(option, index);
+  constexpr QStyle::State marked =
+      QStyle::State_Selected | QStyle::State_MouseOver | QStyle::State_HasFocus;
+  if ((option.state & marked) || !(option.state & QStyle::State_Enabled))
+    QStyledItemDelegate::paint(painter, option, index);
+  else if (!isSpark && !flows)
+    paintPlain(painter, option, index);
+  if (flows)
     paintFlowing(painter, option, index);
   else if (isSpark)
     paintSpark(painter, option, index);
@@ -130,6 +136,25 @@ void VariablesDelegate::paint(QPainter* painter, const QStyleOptionViewItem& opt
     static const QIcon star = themedIcon(QStringLiteral("starred-symbolic"));
     star.paint(painter, place);
   }
+}
+
+// Most cells are words on the row's ground. What is in sight is painted ten times a second, and
+// Qt's way through options, style sheet and text layout takes several times as long.
+void VariablesDelegate::paintPlain(QPainter* painter, const QStyleOptionViewItem& option,
+                                   const QModelIndex& index) const {
+  const QString words = index.data().toString();
+  if (words.isEmpty()) return;
+  const QVariant font = index.data(Qt::FontRole), color = index.data(Qt::ForegroundRole);
+  painter->setFont(font.isValid() ? font.value<QFont>() : option.font);
+  const auto group = option.state & QStyle::State_Active ? QPalette::Normal : QPalette::Inactive;
+  painter->setPen(color.isValid() ? color.value<QColor>()
+                                  : option.palette.color(group, QPalette::Text));
+  const int margin =
+      option.widget->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, option.widget) + 1;
+  const bool isUnit = index.column() == VariablesModel::Unit;
+  drawWords(*painter, option.rect.adjusted(margin, 0, -margin, 0),
+            Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()), words,
+            isUnit ? Qt::ElideRight : option.textElideMode);
 }
 
 void VariablesDelegate::paintSpark(QPainter* painter, const QStyleOptionViewItem& option,

@@ -33,6 +33,8 @@ class VariablesDelegate : public QStyledItemDelegate {
   bool flowsOver(const QStyleOptionViewItem& option, const QModelIndex& index) const;
   void paintFlowing(QPainter* painter, const QStyleOptionViewItem& option,
                     const QModelIndex& index) const;
+  void paintPlain(QPainter* painter, const QStyleOptionViewItem& option,
+                  const QModelIndex& index) const;
   void paintSpark(QPainter* painter, const QStyleOptionViewItem& option,
                   const QModelIndex& index) const;
 };

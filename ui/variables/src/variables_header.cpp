@@ -38,7 +38,7 @@ void VariablesHeader::reset() {
                                         {VariablesModel::Unit, 40},
                                         {VariablesModel::Rate, 66},
                                         {VariablesModel::Age, 56},
-                                        {VariablesModel::Spark, 68}};
+                                        {VariablesModel::Spark, 60}};
   for (const auto& [column, width] : widths) resizeSection(column, scaled(this, width));
   setSectionHidden(VariablesModel::Rate, true);
   setSectionHidden(VariablesModel::Age, true);

@@ -42,7 +42,7 @@ QWidget* noise(const StudioParts& s, QWidget* parent) {
   return makeNoiseDock(s.controller, s.selection, parent);
 }
 QWidget* refereeing(const StudioParts& s, QWidget* parent) {
-  return makeRefereeingDock(s.controller, parent);
+  return makeRefereeingDock(s.controller, s.source, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
   return makePlotsDock(
@@ -72,12 +72,12 @@ QWidget* timeline(const StudioParts& s, QWidget* parent) {
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 372, variables},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 372, noise},
-      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 372, refereeing},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, 392, variables},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 392, noise},
+      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 392, refereeing},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
-      {"referee", "Referee", Qt::RightDockWidgetArea, false, 372, referee},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, 392, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, 280, experiments},

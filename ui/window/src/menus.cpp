@@ -101,7 +101,7 @@ void StudioMenus::makeFile() {
       });
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
-           "folder-open", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+           "document-open-folder", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
   QAction* save = menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
                                   &ScenarioFiles::askAndSave);
   withIcon(save, "document-save", QKeySequence::Save);
@@ -189,10 +189,21 @@ void StudioMenus::makeView() {
   for (QDockWidget* dock : m_context.docks) {
     QAction* action = dock->toggleViewAction();
     menu->addAction(action);
-    // Among tabs, what was just asked for is in front.
-    QObject::connect(action, &QAction::triggered, dock, [dock](bool on) {
-      if (on) dock->raise();
-    });
+    // Among tabs, what is asked for comes to the front, also what is open behind another; only
+    // what is seen is closed. A dock by itself would close what nobody saw.
+    action->disconnect(dock);
+    QObject::connect(
+        action, &QAction::triggered, dock, [window = &m_window, dock, action](bool on) {
+          const bool behind =
+              !window->tabifiedDockWidgets(dock).isEmpty() && dock->visibleRegion().isEmpty();
+          if (on || behind) {
+            dock->show();
+            dock->raise();
+            action->setChecked(true);
+          } else {
+            dock->close();
+          }
+        });
   }
   menu->addSeparator();
   QMenu* layers = menu->addMenu(QStringLiteral("Field &layers"));

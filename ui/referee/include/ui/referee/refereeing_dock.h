@@ -9,8 +9,11 @@ class QWidget;
 namespace pitchboard::ui {
 
 class MatchController;
+class SourceSwitch;
 
-/// The controller must outlive the dock.
-QWidget* makeRefereeingDock(MatchController* controller, QWidget* parent);
+/// The controller and what is shown must outlive the dock; without the latter the match is always
+/// shown.
+QWidget* makeRefereeingDock(MatchController* controller, const SourceSwitch* source,
+                            QWidget* parent);
 
 }  // namespace pitchboard::ui
