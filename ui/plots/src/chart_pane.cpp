@@ -88,7 +88,7 @@ void ChartPane::setBoxTool(bool on) {
   m_gestures->setBoxTool(on);
 }
 void ChartPane::restyle() {
-  m_chart->redraw();
+  m_chart->applyTheme();
 }
 
 ValueScale ChartPane::valueScale() const {

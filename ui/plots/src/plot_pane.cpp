@@ -173,6 +173,10 @@ void PlotPane::contextMenuEvent(QContextMenuEvent* event) {
   emit menuRequested(-1, event->globalPos());
 }
 
+void PlotPane::resizeEvent(QResizeEvent*) {
+  draw();
+}
+
 void PlotPane::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;

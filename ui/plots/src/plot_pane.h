@@ -79,6 +79,7 @@ class PlotPane : public QWidget {
   /// Below the legend; called once by the subclass.
   void setSurface(QWidget* surface);
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;
   virtual void draw() = 0;
   virtual void restyle() {}

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "value_chart.h"
 
-#include <QAbstractSeries>
 #include <QChart>
 #include <QGraphicsItem>
 #include <QLegend>
+#include <QLineSeries>
+#include <QLocale>
 #include <QPaintEngine>
 #include <QPainter>
 #include <QResizeEvent>
 #include <QValueAxis>
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
-#include <ui/base/quick_painting.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
@@ -22,21 +21,11 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int mostLines = 200;  // more are no grid
-constexpr int numberGap = 4;    // px between the plot and its numbers
-
-/// The multiples of a step, counted from the anchor, within limits; rounding does not cost the
-/// first or last.
-std::vector<double> multiplesOf(double step, const ValueLimits& limits, double anchor) {
-  std::vector<double> all;
-  if (!(step > 0.0) || !(limits.high > limits.low) ||
-      !((limits.high - limits.low) / step < mostLines))
-    return all;
-  const double slack = 1e-9;
-  const auto first = std::ceil((limits.low - anchor) / step - slack);
-  const auto last = std::floor((limits.high - anchor) / step + slack);
-  for (double i = first; i <= last; ++i) all.push_back(anchor + i * step);
-  return all;
+/// Numbers as numberText() writes them, with a real minus sign and a point: what this locale has.
+QLocale numbersLocale() {
+  QLocale locale(QLocale::SwissGerman, QLocale::Switzerland);
+  locale.setNumberOptions(QLocale::OmitGroupSeparator);
+  return locale;
 }
 
 }  // namespace
@@ -110,7 +99,11 @@ class ValueChart::Layer : public QGraphicsItem {
   double paintedRatio = 0.0;
 };
 
-ValueChart::ValueChart(QWidget* parent) : QChartView(new QChart, parent) {
+ValueChart::ValueChart(QWidget* parent)
+    : QChartView(new QChart, parent),
+      m_axisX(new QValueAxis(this)),
+      m_axisY(new QValueAxis(this)),
+      m_axisRight(new QValueAxis(this)) {
   setFrameShape(NoFrame);
   setFocusPolicy(Qt::ClickFocus);  // no key does anything here, so that Tab need not stop
   setRubberBand(NoRubberBand);
@@ -123,38 +116,66 @@ ValueChart::ValueChart(QWidget* parent) : QChartView(new QChart, parent) {
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setOptimizationFlag(DontSavePainterState);
   setViewportUpdateMode(QGraphicsView::MinimalViewportUpdate);
-  viewport()->setAutoFillBackground(false);  // drawBackground() covers everything
+  viewport()->setAutoFillBackground(false);  // the chart has a background
   viewport()->setAttribute(Qt::WA_OpaquePaintEvent);
   chart()->legend()->hide();
   chart()->setDropShadowEnabled(false);
   chart()->setMargins({});
-  chart()->setBackgroundVisible(false);
+  chart()->setBackgroundRoundness(0);
+  chart()->setPlotAreaBackgroundVisible(true);
   chart()->setContentsMargins(0, 0, 0, 0);
   chart()->layout()->setContentsMargins(0, 0, 0, 0);
+  chart()->setLocalizeNumbers(true);
+  chart()->setLocale(numbersLocale());
+  chart()->addAxis(m_axisX, Qt::AlignBottom);
+  chart()->addAxis(m_axisY, Qt::AlignLeft);
+  chart()->addAxis(m_axisRight, Qt::AlignRight);
+  addSeries(new QLineSeries);  // axes are laid out by the domain of a series
+  auto* atRight = new QLineSeries;
+  chart()->addSeries(atRight);
+  atRight->attachAxis(m_axisX);
+  atRight->attachAxis(m_axisRight);
+  m_axisRight->setVisible(false);
+  m_axisRight->setGridLineVisible(false);
+  for (QValueAxis* axis : {m_axisX, m_axisY, m_axisRight}) {
+    axis->setLineVisible(false);
+    axis->setTruncateLabels(false);  // wantedLeft() makes room for them
+    axis->setTickType(QValueAxis::TicksDynamic);
+  }
+  m_axisX->setLabelsVisible(false);
   m_layer = new Layer(chart());
   m_layer->setZValue(100);
-  redraw();
+  applyTheme();
 }
 
 void ValueChart::setLabelsX(bool on) {
-  m_labelsX = on;
+  m_axisX->setLabelsVisible(on);
 }
 
-// Series have their places from axes, which nobody sees.
 void ValueChart::addSeries(QAbstractSeries* series) {
-  if (m_axisX == nullptr) {
-    m_axisX = new QValueAxis(this);
-    m_axisY = new QValueAxis(this);
-    chart()->addAxis(m_axisX, Qt::AlignBottom);
-    chart()->addAxis(m_axisY, Qt::AlignLeft);
-    m_axisX->setVisible(false);
-    m_axisY->setVisible(false);
-    m_axisX->setRange(m_x.low, m_x.high);
-    m_axisY->setRange(m_y.low, m_y.high);
-  }
   chart()->addSeries(series);
   series->attachAxis(m_axisX);
   series->attachAxis(m_axisY);
+}
+
+void ValueChart::applyTheme() {
+  const ThemeColors& colors = theme();
+  chart()->setBackgroundBrush(colors.view);
+  chart()->setBackgroundPen(Qt::NoPen);
+  chart()->setPlotAreaBackgroundBrush(colors.view);
+  chart()->setPlotAreaBackgroundPen(QPen(colors.innerLine, 1));
+  setBackgroundBrush(colors.view);
+  QColor grid = colors.innerLine;
+  grid.setRgb((grid.red() + colors.view.red()) / 2, (grid.green() + colors.view.green()) / 2,
+              (grid.blue() + colors.view.blue()) / 2);
+  for (QValueAxis* axis : {m_axisX, m_axisY, m_axisRight}) {
+    axis->setGridLinePen(QPen(grid, 1));
+    axis->setTitleFont(themeFont(TypeRole::Small));
+    axis->setTitleBrush(colors.secondaryText);
+    axis->setLabelsFont(themeFont(TypeRole::Small));
+    axis->setLabelsBrush(colors.secondaryText);
+  }
+  redraw();
 }
 
 void ValueChart::setMargins(int left, int top, int right, int bottom) {
@@ -175,58 +196,71 @@ void ValueChart::place() {
   m_area = area.isValid() ? area : QRectF();
   if (m_area.isEmpty()) return;
   chart()->setPlotArea(m_area);
-  if (m_axisX != nullptr) {
-    // Series take the new place only with the next layout.
-    chart()->layout()->invalidate();
-    chart()->layout()->activate();
-  }
+  // Axes and grid take the new place only with the next layout.
+  chart()->layout()->invalidate();
+  chart()->layout()->activate();
   m_layer->setArea(m_area);
   redraw();
 }
 
+void ValueChart::put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
+                     double toStep) {
+  if (now == to && step == toStep) return;
+  // While limits and step disagree Qt would make a grid line for every step of the new range.
+  if (step != toStep) axis->setTickInterval(std::max(step, toStep));
+  // Rounding must not cost the first or last number.
+  const double slack = toStep * 1e-9;
+  if (!(now == to)) axis->setRange(to.low - slack, to.high + slack);
+  if (step != toStep) {
+    axis->setTickInterval(toStep);
+    axis->setLabelFormat(QStringLiteral("%.%1f").arg(decimalsOf(toStep)));
+  }
+  now = to;
+  step = toStep;
+}
+
 void ValueChart::setRightAxis(ValueLimits limits, double step) {
-  m_right = limits;
-  m_stepRight = step;
-  m_hasRight = true;
+  put(m_axisRight, m_right, limits, m_stepRight, step);
+  if (!m_axisRight->isVisible()) {
+    m_axisRight->setVisible(true);
+    place();
+  }
 }
 
 void ValueChart::hideRightAxis() {
-  m_hasRight = false;
-}
-
-int ValueChart::widestNumber(const ValueLimits& limits, double step) {
-  const QFont font = themeFont(TypeRole::Small);
-  const int decimals = decimalsOf(step);
-  return static_cast<int>(std::ceil(std::max(wordsWidth(font, numberText(limits.low, decimals)),
-                                             wordsWidth(font, numberText(limits.high, decimals)))));
+  if (m_axisRight->isVisible()) m_axisRight->setVisible(false);
 }
 
 int ValueChart::wantedRight() const {
-  return widestNumber(m_right, m_stepRight) + scaled(this, m_titleRight.isEmpty() ? 10 : 28);
-}
-
-int ValueChart::wantedLeft() const {
-  return widestNumber(m_y, m_stepY) + scaled(this, 10) +
-         (m_titleY.isEmpty() ? 0 : scaled(this, 18));
+  const QFontMetrics metrics(themeFont(TypeRole::Small));
+  const int decimals = decimalsOf(m_stepRight);
+  return std::max(metrics.horizontalAdvance(numberText(m_right.low, decimals)),
+                  metrics.horizontalAdvance(numberText(m_right.high, decimals))) +
+         scaled(this, m_axisRight->titleText().isEmpty() ? 10 : 28);
 }
 
 void ValueChart::setAxes(ValueLimits x, double xStep, ValueLimits y, double yStep, double xAnchor) {
-  m_x = x;
-  m_stepX = xStep;
-  m_anchorX = xAnchor;
-  m_y = y;
-  m_stepY = yStep;
-  if (m_axisX != nullptr) {
-    m_axisX->setRange(x.low, x.high);
-    m_axisY->setRange(y.low, y.high);
-  }
-  viewport()->update();
+  if (xAnchor != m_axisX->tickAnchor()) m_axisX->setTickAnchor(xAnchor);
+  put(m_axisX, m_x, x, m_stepX, xStep);
+  put(m_axisY, m_y, y, m_stepY, yStep);
 }
 
 void ValueChart::setTitles(const QString& x, const QString& y, const QString& right) {
-  m_titleX = x;
-  m_titleY = y;
-  m_titleRight = right;
+  m_axisRight->setTitleText(right);
+  m_axisRight->setTitleVisible(!right.isEmpty());
+  m_axisX->setTitleText(x);
+  m_axisY->setTitleText(y);
+  m_axisX->setTitleVisible(!x.isEmpty());
+  m_axisY->setTitleVisible(!y.isEmpty());
+}
+
+int ValueChart::wantedLeft() const {
+  const QFontMetrics metrics(themeFont(TypeRole::Small));
+  const int decimals = decimalsOf(m_stepY);
+  const int widest = std::max(metrics.horizontalAdvance(numberText(m_y.low, decimals)),
+                              metrics.horizontalAdvance(numberText(m_y.high, decimals)));
+  const int title = m_axisY->titleText().isEmpty() ? 0 : scaled(this, 18);
+  return widest + scaled(this, 10) + title;
 }
 
 void ValueChart::setCurvePainter(Painter painter, Painting painting) {
@@ -238,87 +272,6 @@ void ValueChart::setCurvePainter(Painter painter, Painting painting) {
 void ValueChart::redraw() {
   m_layer->stale = true;
   viewport()->update();
-}
-
-void ValueChart::drawBackground(QPainter* painter, const QRectF& exposed) {
-  painter->fillRect(exposed, theme().view);
-  if (m_area.isEmpty()) return;
-  const bool smooth = painter->testRenderHint(QPainter::Antialiasing);
-  painter->setRenderHint(QPainter::Antialiasing, false);
-  painter->setFont(themeFont(TypeRole::Small));
-  paintAcross(*painter);
-  paintUp(*painter, m_y, m_stepY, false);
-  if (m_hasRight) paintUp(*painter, m_right, m_stepRight, true);
-  paintTitles(*painter);
-  painter->setRenderHint(QPainter::Antialiasing, smooth);
-}
-
-QColor ValueChart::gridColor() {
-  const ThemeColors& colors = theme();
-  return QColor((colors.innerLine.red() + colors.view.red()) / 2,
-                (colors.innerLine.green() + colors.view.green()) / 2,
-                (colors.innerLine.blue() + colors.view.blue()) / 2);
-}
-
-void ValueChart::paintAcross(QPainter& painter) const {
-  const int decimals = decimalsOf(m_stepX);
-  const double high = QFontMetricsF(painter.font()).height();
-  double free = -1e9;  // up to where numbers stand already
-  for (const double value : multiplesOf(m_stepX, m_x, m_anchorX)) {
-    const double x =
-        std::round(m_area.left() + (value - m_x.low) / (m_x.high - m_x.low) * m_area.width());
-    painter.fillRect(QRectF(x, m_area.top(), 1, m_area.height()), gridColor());
-    if (!m_labelsX) continue;
-    const QString words = numberText(value, decimals);
-    const double half = wordsWidth(painter.font(), words) / 2;
-    if (x - half < free) continue;
-    free = x + half + numberGap;
-    painter.setPen(theme().secondaryText);
-    drawWords(painter, QRectF(x - half, m_area.bottom() + numberGap, 2 * half, high),
-              Qt::AlignHCenter | Qt::AlignTop, words);
-  }
-}
-
-void ValueChart::paintUp(QPainter& painter, const ValueLimits& limits, double step,
-                         bool right) const {
-  const int decimals = decimalsOf(step);
-  const double high = QFontMetricsF(painter.font()).height();
-  double free = 1e9;
-  for (const double value : multiplesOf(step, limits, 0.0)) {
-    const double y = std::round(m_area.bottom() - (value - limits.low) /
-                                                      (limits.high - limits.low) * m_area.height());
-    if (!right) {
-      painter.fillRect(QRectF(m_area.left(), y, m_area.width(), 1), gridColor());
-    }
-    if (y + high / 2 > free) continue;
-    free = y - high / 2;
-    painter.setPen(theme().secondaryText);
-    const QRectF place = right ? QRectF(m_area.right() + numberGap, y - high / 2,
-                                        width() - m_area.right() - numberGap, high)
-                               : QRectF(0, y - high / 2, m_area.left() - numberGap, high);
-    drawWords(painter, place, (right ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter,
-              numberText(value, decimals));
-  }
-}
-
-void ValueChart::paintTitles(QPainter& painter) const {
-  painter.setPen(theme().secondaryText);
-  const double high = QFontMetricsF(painter.font()).height();
-  if (!m_titleX.isEmpty()) {
-    painter.drawText(QRectF(m_area.left(), height() - high - 1, m_area.width(), high),
-                     Qt::AlignCenter, m_titleX);
-  }
-  const auto upright = [&](const QString& title, double x, double turn) {
-    if (title.isEmpty()) return;
-    painter.save();
-    painter.translate(x, m_area.center().y());
-    painter.rotate(turn);
-    painter.drawText(QRectF(-m_area.height() / 2, -high / 2, m_area.height(), high),
-                     Qt::AlignCenter, title);
-    painter.restore();
-  };
-  upright(m_titleY, high / 2 + 1, -90);
-  if (m_hasRight) upright(m_titleRight, width() - high / 2 - 1, 90);
 }
 
 void ValueChart::drawForeground(QPainter* painter, const QRectF&) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A Qt chart with two value axes. The series of an XY plot are Qt's. Long curves over time are
-// painted by a function instead: Qt's line series takes every row as a point and keeps all of them
-// (compared by line_series in tests/benchmarks/bench_plots.cpp). Grid, numbers and titles are
-// painted here: Qt makes an item and a text document of each, and makes them anew whenever limits
-// or size change, which is in every picture of a plot that follows. UI thread only.
+// A Qt chart with two value axes. Axes, grid, numbers and titles are Qt's, and so are the series of
+// an XY plot. Long curves over time are painted by a function instead: Qt's line series takes every
+// row as a point and keeps all of them (compared by line_series in
+// tests/benchmarks/bench_plots.cpp). UI thread only.
 
 #include <QChartView>
 #include <functional>
@@ -50,35 +49,29 @@ class ValueChart : public QChartView {
   void setCurvePainter(Painter painter, Painting painting = Painting::Whole);
   /// The curves have changed: paint them anew at the next opportunity.
   void redraw();
+  void applyTheme();
 
  signals:
   void resized();
 
  protected:
-  void drawBackground(QPainter* painter, const QRectF& exposed) override;
   void drawForeground(QPainter* painter, const QRectF& rect) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
   class Layer;
   void place();
-  static int widestNumber(const ValueLimits& limits, double step);
-  static QColor gridColor();
-  void paintAcross(QPainter& painter) const;
-  void paintUp(QPainter& painter, const ValueLimits& limits, double step, bool right) const;
-  void paintTitles(QPainter& painter) const;
+  static void put(QValueAxis* axis, ValueLimits& now, const ValueLimits& to, double& step,
+                  double toStep);
 
-  // Of series, from the first one on.
-  QValueAxis* m_axisX = nullptr;
-  QValueAxis* m_axisY = nullptr;
+  QValueAxis* m_axisX;
+  QValueAxis* m_axisY;
+  QValueAxis* m_axisRight;
   Layer* m_layer;
   QMargins m_margins;
   QRectF m_area;
   ValueLimits m_x, m_y, m_right;
   double m_stepX = 0.0, m_stepY = 0.0, m_stepRight = 0.0;
-  double m_anchorX = 0.0;
-  bool m_labelsX = false, m_hasRight = false;
-  QString m_titleX, m_titleY, m_titleRight;
 };
 
 }  // namespace pitchboard::ui

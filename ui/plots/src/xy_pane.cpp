@@ -121,7 +121,7 @@ ValueLimits XyPane::yLimits() const {
   return m_chart->yLimits();
 }
 void XyPane::restyle() {
-  m_chart->redraw();
+  m_chart->applyTheme();
 }
 
 void XyPane::draw() {
