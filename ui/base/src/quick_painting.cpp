@@ -6,6 +6,7 @@
 #include <QPaintEngine>
 #include <QPixmap>
 #include <QStaticText>
+#include <algorithm>
 #include <cmath>
 
 namespace pitchboard::ui {
