@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The studio in a window of a chosen size, with settings and a folder of its own; its robots think
-// inside.
+// The studio in a window of a chosen size (an invalid one: its own), with settings and a folder of
+// its own; its robots think inside.
 
 #include <QSettings>
 #include <QTemporaryDir>
@@ -20,7 +20,7 @@ struct Studio {
 
   explicit Studio(QSize size = {1280, 800})
       : controller(options()), window(&controller, &settings) {
-    window.resize(size);
+    if (size.isValid()) window.resize(size);
     window.show();
   }
   static pitchboard::link::MatchOptions options() {

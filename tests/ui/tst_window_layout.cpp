@@ -103,6 +103,14 @@ class TestWindowLayout : public QObject {
     QCOMPARE(s.window.size(), QSize(1280, 800));
   }
 
+  // What is not asked for is not larger than the screen, also when docks ask for more at first.
+  void theFirstWindowFitsItsScreen() {
+    Studio s{QSize()};
+    const QRect room = s.window.screen()->availableGeometry();
+    QVERIFY2(room.width() < 1246 || room.height() < 724, "the screen of this platform is large");
+    QTRY_VERIFY(room.contains(s.window.frameGeometry()));
+  }
+
   void theNoisePanelScrollsByWheel() {
     Studio s;
     s.play();

@@ -74,6 +74,13 @@ void MainWindow::saveLayout() {
   m_settings->setValue(layoutKey, now);
 }
 
+// Docks that were never laid out ask for more than they need, and the window grows while it is
+// shown: whether its size was ours is known only before.
+void MainWindow::setVisible(bool visible) {
+  if (visible && !m_wasShown) m_hasFirstSize = size() == m_firstSize;
+  QMainWindow::setVisible(visible);
+}
+
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   if (std::exchange(m_wasShown, true)) return;
@@ -100,7 +107,8 @@ void MainWindow::changeEvent(QEvent* event) {
 // The first window must not be larger than what is there for it, frame included. A size that
 // somebody asked for is left alone.
 void MainWindow::fitScreen() {
-  if (size() != m_firstSize || isMaximized() || isFullScreen()) return;
+  const bool isFirst = std::exchange(m_hasFirstSize, false) || size() == m_firstSize;
+  if (!isFirst || isMaximized() || isFullScreen()) return;
   const QRect room = screen()->availableGeometry();
   const QSize frame = frameGeometry().size() - size();
   const QSize most = room.size() - frame;
@@ -111,6 +119,7 @@ void MainWindow::fitScreen() {
   if (outer.left() < room.left()) outer.moveLeft(room.left());
   if (outer.top() < room.top()) outer.moveTop(room.top());
   if (outer.topLeft() != frameGeometry().topLeft()) move(outer.topLeft());
+  m_firstSize = size();
 }
 
 void MainWindow::resetLayout() {
