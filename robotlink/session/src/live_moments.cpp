@@ -79,10 +79,12 @@ LiveMoments::~LiveMoments() = default;
 
 bool LiveMoments::goTo(const LiveHistory& history, double time) {
   Impl& impl = *m_impl;
+  // What a file has of this moment may be rounded to just after it.
+  const double until = time + tolerance;
   if (impl.known && time >= impl.time && time - impl.time <= usualStep) {
-    const double before = impl.time;
-    history.walk(everything, {before, time}, [&](const LiveRecord& record) {
-      if (record.time > before && record.time <= time) impl.take(record);
+    const double before = impl.time + tolerance;
+    history.walk(everything, {before, until}, [&](const LiveRecord& record) {
+      if (record.time > before && record.time <= until) impl.take(record);
       return true;
     });
     impl.time = time;
@@ -90,8 +92,8 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
   }
   std::optional<double> start;
   for (double reach = usualStep; !start; reach *= 8.0) {
-    history.walk(booksOnly, {time - reach, time}, [&](const LiveRecord& record) {
-      if (record.time <= time) start = record.time;
+    history.walk(booksOnly, {time - reach, until}, [&](const LiveRecord& record) {
+      if (record.time <= until) start = record.time;
       return true;
     });
     if (time - reach < history.begin()) break;
@@ -99,10 +101,10 @@ bool LiveMoments::goTo(const LiveHistory& history, double time) {
   impl.known.reset();
   if (!start) return false;
   bool begun = false;
-  history.walk(everything, {*start - disorder, time}, [&](const LiveRecord& record) {
+  history.walk(everything, {*start - disorder, until}, [&](const LiveRecord& record) {
     begun = begun || (record.stream == SessionStream::LiveState &&
                       std::abs(record.time - *start) <= tolerance);
-    if (begun && record.time <= time) impl.take(record);
+    if (begun && record.time <= until) impl.take(record);
     return true;
   });
   impl.time = time;

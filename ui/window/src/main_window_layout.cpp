@@ -42,10 +42,10 @@ void MainWindow::showTitles() {
 }
 
 void MainWindow::restoreLayout() {
-  if (!restoreGeometry(m_settings->value(geometryKey).toByteArray())) {
+  const bool isKept = restoreGeometry(m_settings->value(geometryKey).toByteArray());
+  if (!isKept) {
     const QSize room = screen()->availableSize();
-    m_firstSize = {qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height())};
-    resize(m_firstSize);
+    resize(qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height()));
   }
   resetLayout();
   const QByteArray saved = m_settings->value(layoutKey).toByteArray();
@@ -55,6 +55,8 @@ void MainWindow::restoreLayout() {
         "The layout of the last time cannot be used by this version: docks stand where they do at "
         "the first start."));
   }
+  // Docks that were never laid out ask for more than they need, and have made it larger.
+  if (!isKept) m_firstSize = size();
   m_savedLayout = saveState(layoutVersion);
   restoreFieldLayers(*m_field, *m_settings);
 }
@@ -72,13 +74,6 @@ void MainWindow::saveLayout() {
   if (now == m_savedLayout) return;
   m_savedLayout = now;
   m_settings->setValue(layoutKey, now);
-}
-
-// Docks that were never laid out ask for more than they need, and the window grows while it is
-// shown: whether its size was ours is known only before.
-void MainWindow::setVisible(bool visible) {
-  if (visible && !m_wasShown) m_hasFirstSize = size() == m_firstSize;
-  QMainWindow::setVisible(visible);
 }
 
 void MainWindow::showEvent(QShowEvent* event) {
@@ -107,8 +102,7 @@ void MainWindow::changeEvent(QEvent* event) {
 // The first window must not be larger than what is there for it, frame included. A size that
 // somebody asked for is left alone.
 void MainWindow::fitScreen() {
-  const bool isFirst = std::exchange(m_hasFirstSize, false) || size() == m_firstSize;
-  if (!isFirst || isMaximized() || isFullScreen()) return;
+  if (size() != m_firstSize || isMaximized() || isFullScreen()) return;
   const QRect room = screen()->availableGeometry();
   const QSize frame = frameGeometry().size() - size();
   const QSize most = room.size() - frame;
@@ -119,7 +113,7 @@ void MainWindow::fitScreen() {
   if (outer.left() < room.left()) outer.moveLeft(room.left());
   if (outer.top() < room.top()) outer.moveTop(room.top());
   if (outer.topLeft() != frameGeometry().topLeft()) move(outer.topLeft());
-  m_firstSize = size();
+  m_firstSize = size();  // for when its frame is known
 }
 
 void MainWindow::resetLayout() {

@@ -89,8 +89,6 @@ class MainWindow : public QMainWindow {
   /// Offers to remove blackboards that an earlier run left at this key base.
   void offerToRemoveOrphans();
 
-  void setVisible(bool visible) override;
-
  signals:
   void recordingFailed(const QString& sentence);
 
@@ -138,8 +136,7 @@ class MainWindow : public QMainWindow {
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;
   QByteArray m_savedLayout;
-  QSize m_firstSize;            // when it was not kept from the last time
-  bool m_hasFirstSize = false;  // had it when it was to be shown
+  QSize m_firstSize;  // when it was not kept from the last time
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_toldFinished = false;
