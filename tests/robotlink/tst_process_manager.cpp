@@ -334,12 +334,9 @@ class TestProcessManager : public QObject {
   // The guard of a supervisor that is killed ends grandchildren and removes segments.
   void nothingSurvivesAKilledSupervisor() {
     QProcess host;
-    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host",
-               {PITCHBOARD_BIN "/pitchboard-robot", QString::number(m_key)});
-    QByteArray output;
-    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
     QList<pid_t> pids;
-    for (const QByteArray& line : output.trimmed().split('\n')) pids << line.mid(6).toInt();
+    startGuarded(host, pids);
+    QVERIFY(pids.size() >= 3);
     for (const pid_t pid : pids) QTRY_VERIFY(runs(pid));
     QVERIFY(SystemVSegments::info(m_key));
     host.kill();
@@ -351,12 +348,9 @@ class TestProcessManager : public QObject {
   // On a busy computer a killed process holds its segments longer than its environment.
   void aSegmentThatIsStillUsedIsRemovedLater() {
     QProcess host;
-    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host",
-               {PITCHBOARD_BIN "/pitchboard-robot", QString::number(m_key)});
-    QByteArray output;
-    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
     QList<pid_t> pids;
-    for (const QByteArray& line : output.trimmed().split('\n')) pids << line.mid(6).toInt();
+    startGuarded(host, pids);
+    QVERIFY(pids.size() >= 3);
     {
       const auto used = SystemVSegments::open(m_key, AttachMode::ReadOnly);
       QVERIFY(used);
@@ -366,6 +360,16 @@ class TestProcessManager : public QObject {
       QVERIFY(SystemVSegments::info(m_key));
     }
     QTRY_VERIFY(!SystemVSegments::info(m_key));
+  }
+
+ private:
+  /// A supervisor with a guard and a segment at our key; `pids` of its children, and of theirs.
+  void startGuarded(QProcess& host, QList<pid_t>& pids) const {
+    host.start(QCoreApplication::applicationDirPath() + "/supervisor_host",
+               {PITCHBOARD_BIN "/pitchboard-robot", QString::number(m_key)});
+    QByteArray output;
+    QTRY_VERIFY((output += host.readAllStandardOutput(), output.count('\n') >= 3));
+    for (const QByteArray& line : output.trimmed().split('\n')) pids << line.mid(6).toInt();
   }
 };
 
