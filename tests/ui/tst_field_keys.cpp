@@ -32,7 +32,7 @@ class RecordingTarget : public FieldKeyTarget {
   void nudgeSelected(int right, int up, bool coarse) override {
     note(coarse ? "nudge far" : "nudge", right, up);
   }
-  void toggleLayer(int layer) override { note("layer", layer); }
+  void toggleLayer(FieldLayer layer) override { note("layer", static_cast<int>(layer)); }
   void escape() override { note("escape"); }
   void fit() override { note("fit"); }
   void toggleHelp() override { note("help"); }

@@ -4,7 +4,7 @@
 #include <array>
 
 #include <base/actions.h>
-#include <ui/field/field_view.h>
+#include <ui/field/field_layers.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -30,7 +30,7 @@ void command(Target& t) {
 }
 template <FieldLayer layer>
 void toggle(Target& t) {
-  t.toggleLayer(static_cast<int>(layer));
+  t.toggleLayer(layer);
 }
 template <int right, int up, bool coarse>
 void nudge(Target& t) {

@@ -10,6 +10,8 @@
 #include <functional>
 #include <span>
 
+#include <ui/field/field_layers.h>
+
 namespace pitchboard::ui {
 
 class FieldKeyTarget;
@@ -41,7 +43,7 @@ class FieldKeyTarget {
   virtual void commandSelected(int action, int actionB = -1) = 0;
   virtual void searchSelected(bool on) = 0;
   virtual void nudgeSelected(int right, int up, bool coarse) = 0;
-  virtual void toggleLayer(int layer) = 0;  ///< FieldLayer
+  virtual void toggleLayer(FieldLayer layer) = 0;
   virtual void escape() = 0;
   virtual void fit() = 0;
   virtual void toggleHelp() = 0;

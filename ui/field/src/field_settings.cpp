@@ -3,7 +3,6 @@
 
 #include <QAction>
 #include <QSettings>
-#include <array>
 
 #include <ui/field/field_view.h>
 
@@ -12,18 +11,14 @@
 namespace pitchboard::ui {
 namespace {
 
-// Words in files, in the order of FieldLayer: never change them.
-constexpr std::array<const char*, fieldLayerCount> layerKeys{
-    "fieldOfView", "belief", "ghost",    "perceivedBall", "trails",      "numbers", "grid",
-    "landmarks",   "eopra",  "starVars", "particles",     "plannedPath", "drawings"};
 const QString wedgeKey = QStringLiteral("field/fieldOfViewOfAll");
 const QString eopraKey = QStringLiteral("field/eopraGranularity");
 const QString hiddenKey = QStringLiteral("field/hiddenDrawings");
 const QString selectedKey = QStringLiteral("field/drawingsOfSelected");
 constexpr qsizetype mostHidden = 1000;  // whatever a file says
 
-QString layerKey(int layer) {
-  return QStringLiteral("field/layer/") + QLatin1String(layerKeys[static_cast<std::size_t>(layer)]);
+QString layerKey(std::size_t layer) {
+  return QStringLiteral("field/layer/") + QLatin1String(fieldLayers[layer].key);
 }
 
 // "*/ball model": that layer of all robots; "3/": all of robot 3; "3/path": that layer of it.
@@ -71,8 +66,8 @@ void put(QSettings& settings, const QString& key, const QVariant& value, const Q
 
 void restoreFieldLayers(FieldView& field, const QSettings& settings) {
   const std::vector<QAction*> layers = field.layerActions();
-  for (int i = 0; i < fieldLayerCount; ++i) {
-    QAction* layer = layers[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < fieldLayerCount; ++i) {
+    QAction* layer = layers[i];
     layer->setChecked(settings.value(layerKey(i), layer->isChecked()).toBool());
   }
   const int granularity = settings.value(eopraKey).toInt();
@@ -92,9 +87,8 @@ void restoreFieldLayers(FieldView& field, const QSettings& settings) {
 void saveFieldLayers(const FieldView& field, QSettings& settings) {
   const FieldStyle& now = field.findChild<FieldScene*>()->style();
   const FieldStyle usual;
-  for (int i = 0; i < fieldLayerCount; ++i) {
-    const auto layer = static_cast<std::size_t>(i);
-    put(settings, layerKey(i), now.layers[layer], usual.layers[layer]);
+  for (std::size_t i = 0; i < fieldLayerCount; ++i) {
+    put(settings, layerKey(i), now.layers[i], usual.layers[i]);
   }
   put(settings, wedgeKey, now.wedgeForAll, usual.wedgeForAll);
   put(settings, eopraKey, now.eopraGranularity, usual.eopraGranularity);

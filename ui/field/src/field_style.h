@@ -19,7 +19,7 @@
 
 #include <base/geometry.h>
 #include <simcore/world/field.h>
-#include <ui/field/field_view.h>
+#include <ui/field/field_layers.h>
 
 namespace pitchboard::ui {
 
@@ -36,6 +36,12 @@ struct DrawingChoice {
   }
 };
 
+constexpr std::array<bool, fieldLayerCount> shownAtFirst() {
+  std::array<bool, fieldLayerCount> shown{};
+  for (std::size_t i = 0; i < fieldLayerCount; ++i) shown[i] = fieldLayers[i].shown;
+  return shown;
+}
+
 struct FieldStyle {
   double pixelsPerMetre = 60.0;  ///< of the view; items size their bounding rectangles by it
   bool flipped = false;          ///< seen from the other side
@@ -44,8 +50,7 @@ struct FieldStyle {
   bool wedgeForAll = false;      ///< field of view of all robots, else of the selected ones
   int eopraGranularity = 4;      ///< m = 4 or 6
   sim::FieldSpec field;
-  std::array<bool, fieldLayerCount> layers{true,  true,  true,  true,  true,  true, false,
-                                           false, false, false, false, false, true};
+  std::array<bool, fieldLayerCount> layers = shownAtFirst();
   DrawingChoice drawings;
 
   bool shows(FieldLayer layer) const { return layers[static_cast<std::size_t>(layer)]; }

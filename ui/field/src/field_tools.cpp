@@ -10,7 +10,6 @@
 
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
-#include <ui/field/field_view.h>
 
 #include "drawings_menu.h"
 #include "field_canvas.h"
@@ -19,24 +18,6 @@
 
 namespace pitchboard::ui {
 namespace {
-
-struct LayerText {
-  const char* text;
-  const char* key;  // shown only; the field handles its keys itself
-};
-constexpr std::array<LayerText, fieldLayerCount> layerTexts{{{"Field of view", "F6"},
-                                                             {"Belief", ""},
-                                                             {"Ghost at the believed pose", ""},
-                                                             {"Perceived ball", ""},
-                                                             {"Trails", ""},
-                                                             {"Numbers", ""},
-                                                             {"Coordinate grid", ""},
-                                                             {"Landmarks", "F9"},
-                                                             {"EOPRA sectors", "F7"},
-                                                             {"StarVars sectors", "F8"},
-                                                             {"Particles of localization", ""},
-                                                             {"Planned path", ""},
-                                                             {"Drawings", ""}}};
 
 struct ToolText {
   FieldTool tool;
@@ -69,13 +50,15 @@ std::vector<QAction*> FieldTools::viewActions() const {
 }
 
 void FieldTools::makeLayers() {
-  for (int i = 0; i < fieldLayerCount; ++i) {
-    const LayerText& text = layerTexts[static_cast<std::size_t>(i)];
-    auto* action = new QAction(QString::fromUtf8(text.text), this);
+  for (const FieldLayerInfo& layer : fieldLayers) {
+    auto* action = new QAction(QString::fromUtf8(layer.name), this);
     action->setCheckable(true);
-    action->setChecked(m_scene->style().layers[static_cast<std::size_t>(i)]);
-    if (*text.key) action->setText(action->text() + QLatin1Char('\t') + QLatin1String(text.key));
-    connect(action, &QAction::toggled, this, [this, i](bool on) { showLayer(i, on); });
+    action->setChecked(m_scene->style().shows(layer.layer));
+    if (*layer.shortcut) {
+      action->setText(action->text() + QLatin1Char('\t') + QLatin1String(layer.shortcut));
+    }
+    connect(action, &QAction::toggled, this,
+            [this, which = layer.layer](bool on) { showLayer(which, on); });
     m_layers.push_back(action);
   }
 }
@@ -186,7 +169,7 @@ void FieldTools::addLayersButton() {
   m_strip->addWidget(layersButton);
 }
 
-void FieldTools::showLayer(int layer, bool shown) {
+void FieldTools::showLayer(FieldLayer layer, bool shown) {
   m_scene->changeStyle(
       [&](FieldStyle& style) { style.layers[static_cast<std::size_t>(layer)] = shown; });
   m_canvas->viewport()->update();

@@ -7,6 +7,8 @@
 #include <QObject>
 #include <vector>
 
+#include <ui/field/field_layers.h>
+
 class QAction;
 class QToolBar;
 class QWidget;
@@ -44,7 +46,7 @@ class FieldTools : public QObject {
   void makeStrip(QWidget* field);
   void addTeams();
   void addLayersButton();
-  void showLayer(int layer, bool shown);
+  void showLayer(FieldLayer layer, bool shown);
 
   FieldScene* m_scene;
   FieldPointer* m_pointer;

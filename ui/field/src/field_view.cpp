@@ -91,7 +91,7 @@ struct FieldView::Private : FieldKeyTarget {
     const double step = (coarse ? coarseNudge_m : nudge_m) * (scene->style().flipped ? -1 : 1);
     pointer->nudge({right * step, up * step});
   }
-  void toggleLayer(int layer) override {
+  void toggleLayer(FieldLayer layer) override {
     tools->layers()[static_cast<std::size_t>(layer)]->toggle();
   }
   void escape() override {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <base/ids.h>
+#include <ui/field/field_layers.h>
 #include <ui/sources/field_pictures.h>
 #include <ui/sources/match_controller.h>
 
@@ -18,24 +19,6 @@ class QAction;
 class QMenu;
 
 namespace pitchboard::ui {
-
-/// What can be shown or hidden on the field, in the order of the layers menu.
-enum class FieldLayer {
-  FieldOfView,
-  Belief,
-  Ghost,
-  PerceivedBall,
-  Trails,
-  Numbers,
-  Grid,
-  Landmarks,
-  Eopra,
-  StarVars,
-  Particles,
-  PlannedPath,
-  Drawings
-};
-inline constexpr int fieldLayerCount = 13;
 
 class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
@@ -57,7 +40,7 @@ class FieldView : public QWidget, public FieldPictures {
   /// Keeps this robot in the middle of the view; nothing ends it.
   void follow(std::optional<RobotId> id);
   std::optional<RobotId> followed() const;
-  /// One checkable action per layer, for menus; also on the tool strip.
+  /// One checkable action per FieldLayer, in that order, for menus; also on the tool strip.
   std::vector<QAction*> layerActions() const;
   /// How layers look: field of view of all robots, granularity of EOPRA; also on the tool strip.
   std::vector<QAction*> layerOptionActions() const;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What can be shown or hidden on the field: the one table from which the layers menu, the settings
+// and the first look of the field are made. Constant data, safe in every thread.
+
+#include <array>
+#include <cstddef>
+
+namespace pitchboard::ui {
+
+/// In the order of the layers menu.
+enum class FieldLayer {
+  FieldOfView,
+  Belief,
+  Ghost,
+  PerceivedBall,
+  Trails,
+  Numbers,
+  Grid,
+  Landmarks,
+  Eopra,
+  StarVars,
+  Particles,
+  PlannedPath,
+  Drawings
+};
+
+struct FieldLayerInfo {
+  FieldLayer layer;
+  const char* key;            ///< its word in settings: never change it
+  const char* name;           ///< on the screen
+  bool shown;                 ///< at first
+  const char* shortcut = "";  ///< the field handles it itself; the menu only shows it
+};
+
+inline constexpr std::array fieldLayers{
+    FieldLayerInfo{FieldLayer::FieldOfView, "fieldOfView", "Field of view", true, "F6"},
+    FieldLayerInfo{FieldLayer::Belief, "belief", "Belief", true},
+    FieldLayerInfo{FieldLayer::Ghost, "ghost", "Ghost at the believed pose", true},
+    FieldLayerInfo{FieldLayer::PerceivedBall, "perceivedBall", "Perceived ball", true},
+    FieldLayerInfo{FieldLayer::Trails, "trails", "Trails", true},
+    FieldLayerInfo{FieldLayer::Numbers, "numbers", "Numbers", true},
+    FieldLayerInfo{FieldLayer::Grid, "grid", "Coordinate grid", false},
+    FieldLayerInfo{FieldLayer::Landmarks, "landmarks", "Landmarks", false, "F9"},
+    FieldLayerInfo{FieldLayer::Eopra, "eopra", "EOPRA sectors", false, "F7"},
+    FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false, "F8"},
+    FieldLayerInfo{FieldLayer::Particles, "particles", "Particles of localization", false},
+    FieldLayerInfo{FieldLayer::PlannedPath, "plannedPath", "Planned path", false},
+    FieldLayerInfo{FieldLayer::Drawings, "drawings", "Drawings", true},
+};
+inline constexpr std::size_t fieldLayerCount = fieldLayers.size();
+
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < fieldLayerCount; ++i) {
+        if (fieldLayers[i].layer != static_cast<FieldLayer>(i)) return false;
+      }
+      return fieldLayers.back().layer == FieldLayer::Drawings;
+    }(),
+    "fieldLayers has one row for each FieldLayer, in its order");
+
+}  // namespace pitchboard::ui
