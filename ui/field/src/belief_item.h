@@ -7,6 +7,8 @@
 #include <QGraphicsItem>
 #include <optional>
 
+#include <base/ids.h>
+
 #include "field_style.h"
 
 namespace pitchboard::link {

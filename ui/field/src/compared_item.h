@@ -8,6 +8,8 @@
 #include <QGraphicsItem>
 #include <vector>
 
+#include <ui/sources/frame_source.h>
+
 #include "field_style.h"
 
 namespace pitchboard::ui {

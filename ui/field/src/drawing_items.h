@@ -16,6 +16,10 @@
 
 #include "field_style.h"
 
+namespace pitchboard::link {
+struct MatchFrame;
+}
+
 namespace pitchboard::ui {
 
 /// One layer of one robot.

@@ -13,6 +13,8 @@ class QMenu;
 
 namespace pitchboard::ui {
 
+class MatchController;
+
 /// What the menu cannot do through the controller or the scene.
 struct FieldMenuActions {
   std::function<void(RobotId)> editPose;

@@ -11,6 +11,8 @@
 #include <set>
 #include <vector>
 
+#include <ui/sources/frame_source.h>
+
 #include "field_style.h"
 
 namespace pitchboard::ui {

@@ -7,6 +7,7 @@
 #include <QGraphicsItem>
 #include <vector>
 
+#include <base/ids.h>
 #include <robotlink/frame/live_values.h>
 #include "field_style.h"
 

@@ -6,6 +6,8 @@
 #include <QGraphicsItem>
 #include <QString>
 
+#include <base/ids.h>
+
 #include "field_style.h"
 
 namespace pitchboard::ui {
