@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole window as a person has it (docs/PERFORMANCE.md):
 //   bench_studio live [SECONDS]   22 robots at 60 messages a second each and a referee over UDP,
-//   every
-//                                 panel open; CPU time of the studio as a share of a core
+//     every panel open: CPU time of the studio as a share of a core
 //   bench_studio start [TIMES]    from the start of a process to its first frame of a match
-//   bench_studio splitter         dragging the edge of a panel beside three plots of a playing
-//   match
+//   bench_studio splitter         dragging the edge of a panel beside three plots of a match
 // The senders are a process of their own. Under Xvfb:
 //   xvfb-run -a -s "-screen 0 1920x1080x24" env QT_QPA_PLATFORM=xcb bench_studio live
 #include <sys/resource.h>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The menus of the window, opened and clicked as a person does; what they show is what was played.
+#include <QComboBox>
 #include <QDockWidget>
 #include <QInputDialog>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListView>
 #include <QMenuBar>
@@ -13,8 +15,10 @@
 #include <algorithm>
 
 #include <robotlink/blackboard/match_number.h>
+#include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
 using namespace pitchboard;
@@ -136,6 +140,40 @@ class TestWindowMenus : public QObject {
                      QStringLiteral("The next free one")}));
     QTRY_VERIFY(!s.controller.options().match);
     QCOMPARE(s.ticked("matchNumber"), QStringList{QStringLiteral("The next free one")});
+  }
+
+  // Programs cannot be told what they knew; who goes on from the past is told that.
+  void goingOnSaysWhatProcessesDoNotRemember() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    QVERIFY(s.click({QStringLiteral("Simulation"), QStringLiteral("Robots decide"),
+                     QStringLiteral("In separate processes")}));
+    QTRY_VERIFY(s.controller.cognition() == link::Cognition::External && s.controller.frame() &&
+                s.controller.frame()->matchNumber);
+    s.controller.runTo(30);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 30);
+    s.window.timeline()->seek(0.2);
+    s.window.findChild<QAction*>(QStringLiteral("continueFromHere"))->trigger();
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(12));
+    QVERIFY2(s.window.notices()->text().contains("begin again with the belief that they had at"),
+             qPrintable(s.window.notices()->text()));
+  }
+
+  void theRefereesDockSaysWhatItLeads() {
+    Studio s;
+    QTRY_VERIFY(s.controller.frame());
+    auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("refereeing"));
+    dock->show();
+    const auto* state = dock->findChild<QLabel*>(QStringLiteral("refereeState"));
+    QTRY_COMPARE(state->text(),
+                 QStringLiteral("This match has no referee. Choose rules to get one."));
+    QVERIFY(dock->findChild<QComboBox*>()->isEnabled());
+    s.window.showSource(SourceKind::Live);
+    QTRY_VERIFY(!dock->findChild<QComboBox*>()->isEnabled());
+    QVERIFY2(!state->text().contains("This match"), qPrintable(state->text()));
+    s.window.showSource(SourceKind::Simulate);
+    QTRY_COMPARE(state->text(),
+                 QStringLiteral("This match has no referee. Choose rules to get one."));
   }
 
   // "referee" must not lead to Refereeing, which stands before it.
