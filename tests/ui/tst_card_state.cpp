@@ -67,6 +67,19 @@ class TestCardState : public QObject {
     QCOMPARE(tracker.update(frame, 60000)[0].lamps[3].state, LampState::Working);
   }
 
+  // Programs rest when the match is over; nobody is to blame for that.
+  void nobodyIsSilentWhenTheMatchIsOver() {
+    CardTracker tracker;
+    link::MatchFrame frame = frameOf(1);
+    tracker.update(frame, 0);
+    frame.finished = true;
+    frame.robots[0].board->decisionWorking = false;
+    const auto cards = tracker.update(frame, 60000);
+    QCOMPARE(cards[0].lamps[3].state, LampState::Working);
+    QVERIFY2(cards[0].tag.isEmpty(), qPrintable(cards[0].tag));
+    QVERIFY2(cards[0].detail.startsWith("finished"), qPrintable(cards[0].detail));
+  }
+
   void aProcessNeverSeenIsUnknownForEver() {
     CardTracker tracker;
     const link::MatchFrame frame = frameOf(1);

@@ -97,7 +97,7 @@ QString CardState::process(std::size_t lamp) const {
   return lamp == 0 && live ? QStringLiteral("control") : QLatin1String(processes[lamp]);
 }
 
-void CardTracker::updateLamps(History& history, const link::RobotFrame& robot, bool paused) {
+void CardTracker::updateLamps(History& history, const link::RobotFrame& robot, bool still) {
   const link::RobotBoardView& board = *robot.board;
   const std::array<bool, CardState::lampCount> working{
       communicationRuns(robot), board.visionWorking, board.localizationWorking,
@@ -107,7 +107,7 @@ void CardTracker::updateLamps(History& history, const link::RobotFrame& robot, b
     if (working[i]) {
       history.seen[i] = true;
       lamp = {LampState::Working, 0};
-    } else if (history.seen[i] && !paused) {
+    } else if (history.seen[i] && !still) {
       if (lamp.state != LampState::Silent) history.silentSince[i] = m_playing;
       lamp = {LampState::Silent, static_cast<int>((m_playing - history.silentSince[i]) / 1000)};
     }
@@ -129,7 +129,9 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
                                  [](const auto& robot) { return robot.health.has_value(); });
   if (heard || frame.origin == link::FrameOrigin::Live) return liveCards(frame);
   const qint64 passed = m_last >= 0 ? now - m_last : 0;
-  if (!frame.paused) m_playing += passed;
+  // Processes rest while the match does, and are not to blame for it.
+  const bool still = frame.paused || frame.finished;
+  if (!still) m_playing += passed;
   m_last = now;
   if (frame.serial != m_serial) {
     m_changed = now;
@@ -153,13 +155,15 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
     History& history = m_robots[card.id];
     card.battery = link::batteryOf(robot);
     if (robot.board) {
-      updateLamps(history, robot, frame.paused);
+      updateLamps(history, robot, still);
       action = robot.board->actionA;
     }
     card.lamps = history.lamps;
     card.action = actionText(action);
     // Age only matters when it grows; a small one would flicker.
-    card.detail = (frame.paused ? QStringLiteral("paused") : ageText(m_age)) +
+    card.detail = (frame.finished ? QStringLiteral("finished")
+                   : frame.paused ? QStringLiteral("paused")
+                                  : ageText(m_age)) +
                   QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
     card.detailTip = QStringLiteral("Age of the tick shown; distance walked") + runsText(robot);
     if (robot.board) card.values = boardValues(robot, *robot.board);

@@ -67,7 +67,7 @@ QString subtitleOf(const link::RobotFrame& robot);
 std::vector<CardState> liveCards(const link::MatchFrame& frame);
 
 /// Remembers since when each process has been silent. A process that was never seen working is
-/// unknown, not silent. Time stands still while the match is paused.
+/// unknown, not silent. Time stands still while the match is paused or over.
 class CardTracker {
  public:
   /// `milliseconds`: any monotonic real time. One entry per robot of the frame, in its order.
@@ -85,9 +85,9 @@ class CardTracker {
     std::array<qint64, CardState::lampCount> silentSince{};
     std::array<Lamp, CardState::lampCount> lamps{};
   };
-  void updateLamps(History& history, const link::RobotFrame& robot, bool paused);
+  void updateLamps(History& history, const link::RobotFrame& robot, bool still);
   std::map<RobotId, History> m_robots;
-  qint64 m_playing = 0;  // ms of unpaused time
+  qint64 m_playing = 0;  // ms in which the match went on
   qint64 m_last = -1;
   qint64 m_changed = 0;  // when the frame's serial last changed, real ms
   std::uint64_t m_serial = 0;
