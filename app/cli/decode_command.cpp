@@ -6,6 +6,7 @@
 
 #include <base/read_file.h>
 #include <robotlink/live/live_teams.h>
+#include <telemetry/wire/message_format.h>
 
 #include "commands.h"
 #include "listen_options.h"
@@ -65,11 +66,6 @@ void put(const Options& options, Json json, const Json& body, const std::string&
 }
 
 int decodeStoredMessages(const Options& options, const TextDecoder& decoder);
-
-bool isTextFormat(MessageFormat format) {
-  return format == MessageFormat::Words || format == MessageFormat::KeyValue ||
-         format == MessageFormat::Json || format == MessageFormat::Lua;
-}
 
 int decodeTelemetry(const Options& options) {
   Profile profile = publishedProfile();

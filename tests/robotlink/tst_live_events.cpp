@@ -162,10 +162,10 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(told), (Kinds{Kind::GameState}));
     QCOMPARE(sentenceOf(told[0]), std::string("PLAYING at 09:55"));
     QCOMPARE(labelOf(told[0]), std::string("PLAYING"));
-    s.frame.referee->setPlay = "corner";
+    s.frame.referee->setPlay = "corner kick";
     told = s.at(3.0);
     QCOMPARE(kindsOf(told), (Kinds{Kind::SetPlay}));
-    QCOMPARE(sentenceOf(told[0]), std::string("corner"));
+    QCOMPARE(sentenceOf(told[0]), std::string("corner kick"));
     s.frame.referee->setPlay.clear();
     QCOMPARE(sentenceOf(s.at(4.0).at(0)), std::string("normal play"));
     s.frame.referee->stopped = true;

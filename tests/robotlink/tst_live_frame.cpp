@@ -5,8 +5,10 @@
 
 #include <robotlink/frame/belief.h>
 #include <simcore/world/published_frame.h>
+#include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "../support/recorded_packets.h"
+#include "../support/referee_game.h"
 #include "live_frame.h"
 
 using namespace pitchboard;
@@ -257,10 +259,10 @@ class TestLiveFrame : public QObject {
                             << "corner kick" << 1 << "stop"
                             << "";
     QTest::newRow("free kick, prepare") << "v12hl688_DIRECT_FREEKICK_sub1"
-                                        << "direct freekick" << 2 << "prepare"
+                                        << "direct free kick" << 2 << "prepare"
                                         << "ready";
     QTest::newRow("free kick, ready") << "v12hl688_DIRECT_FREEKICK_sub2"
-                                      << "direct freekick" << 2 << "ready"
+                                      << "direct free kick" << 2 << "ready"
                                       << "";
     QTest::newRow("kick-off") << "v12hl688_PLAYING_1-0"
                               << "" << 0 << ""
@@ -290,6 +292,58 @@ class TestLiveFrame : public QObject {
     QCOMPARE(view.performingTeam.value_or(0), team);
     QCOMPARE(QString::fromStdString(view.setPlayStep), step);
     QCOMPARE(QString::fromStdString(view.countdown), countdown);
+  }
+
+  // A simulated match in words, and its packets as another studio would show them.
+  void packetsSayWhatTheSimulatedRefereeSays_data() {
+    using enum sim::PenaltyKind;
+    using Kinds = std::vector<sim::PenaltyKind>;
+    QTest::addColumn<int>("version");
+    QTest::addColumn<int>("size");
+    QTest::addColumn<Kinds>("penalties");  // that the version has a code for
+    QTest::newRow("Humanoid League")
+        << 12 << 688 << Kinds{BallManipulation, Pushing, IllegalAttack, IllegalDefence,
+                              Incapable,        Service, Manual};
+    QTest::newRow("Humanoid Soccer League")
+        << 20 << 158 << Kinds{IllegalPosition, MotionInSet, MotionInStop, LocalStuck, Holding,
+                              Leaving,         Hands,       Pushing,      Cautioned,  SentOff};
+  }
+  void packetsSayWhatTheSimulatedRefereeSays() {
+    QFETCH(int, version);
+    QFETCH(int, size);
+    QFETCH(std::vector<sim::PenaltyKind>, penalties);
+    const RefereeGame played("humanoid-2021");
+    sim::WorldState world = played.simulation->state();
+    world.settings.referee->packetVersion = version;
+    world.settings.referee->packetSize = size;
+    const auto same = [&world] {
+      const auto sent = telemetry::encodeReferee(refereePacket(world, 1));
+      const auto packet = telemetry::decodeReferee(std::string_view(sent.value()));
+      Heard heard({});
+      heard.referee.accept(std::get<RefereeState>(packet.value()), {{1}, 3838}, start);
+      const RefereeView said = *heard.frame().referee, is = refereeView(world);
+      QCOMPARE(said.setPlay, is.setPlay);
+      QCOMPARE(said.phase, is.phase);
+      QCOMPARE(said.teams[0].players.size(), is.teams[0].players.size());
+      QCOMPARE(said.teams[0].players[0].penalty, is.teams[0].players[0].penalty);
+    };
+    sim::GameState& game = *world.game;
+    for (int play = 0; play <= static_cast<int>(lastOf(sim::SetPlay{})); ++play) {
+      game.setPlay = static_cast<sim::SetPlay>(play);
+      game.setPlayTeam = play == 0 ? sim::GameState::nobody : 0;
+      same();
+    }
+    game.setPlay = sim::SetPlay::None;
+    game.setPlayTeam = sim::GameState::nobody;
+    for (const auto phase : {sim::GamePhase::ShootOut, sim::GamePhase::ExtraTime}) {
+      game.phase = phase;
+      same();
+    }
+    game.phase = sim::GamePhase::Normal;
+    for (const sim::PenaltyKind kind : penalties) {
+      game.teams[game.leftTeam()].players[0].penalty = kind;
+      same();
+    }
   }
 
   void monitorModeShowsWhatReallyHappens() {

@@ -102,18 +102,6 @@ class TestDerivedCurve : public QObject {
     }
   }
 
-  void differenceOfTwo() {
-    // b holds its last value: 10 from 1 s, 20 from 2 s, 30 and then 40 at 3 s (the later one
-    // counts).
-    const Curve a{{0, 1}, {1, 2}, {1.5, 3}, {3, 4}, {9, 5}};
-    const Curve b{{1, 10}, {2, 20}, {3, 30}, {3, 40}};
-    check(difference(a, b), {{0, hole}, {1, -8}, {1.5, -7}, {3, -36}, {9, -35}});
-    check(difference(a, {}), {{0, hole}, {1, hole}, {1.5, hole}, {3, hole}, {9, hole}});
-    QVERIFY(difference({}, b).empty());
-    QCOMPARE(*valueAt(b, 2.5), 20.0);
-    QVERIFY(!valueAt(b, 0.5));
-  }
-
   void statistics() {
     // 2 4 4 4 5 5 7 9: mean 5, σ 2, RMS √(232/8) = √29.
     Curve curve{{0, 100},

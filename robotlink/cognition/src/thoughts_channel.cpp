@@ -11,13 +11,12 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr int highestPort = 65535;
 constexpr std::size_t longestDatagram = 65536;
 constexpr int mostPerPoll = 1000;  // a flood must not hold the display up
 constexpr std::chrono::seconds memory{3};
 
 Result<void> checkPort(int port, int least) {
-  if (port >= least && port <= highestPort) return {};
+  if (port >= least && port <= telemetry::highestPort) return {};
   return failure(ErrorCode::InvalidArgument,
                  "the port for thoughts is " + std::to_string(port) + ", allowed are 1 to 65535");
 }

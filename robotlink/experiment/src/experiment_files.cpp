@@ -7,22 +7,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include <base/csv_field.h>
 #include <base/lined_json.h>
 
 namespace pitchboard::link {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    out += c;
-    if (c == '"') out += c;
-  }
-  return out + '"';
-}
 
 Json known(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -71,7 +62,7 @@ std::string csvLine(const Experiment& experiment, const RunResult& result) {
   char hash[24];
   std::snprintf(hash, sizeof hash, "0x%016" PRIx64, result.hash);
   std::string out = std::to_string(result.number) + ',' +
-                    quoted(experiment.conditions[place.condition].name) + ',' +
+                    csvField(experiment.conditions[place.condition].name) + ',' +
                     std::to_string(place.index + 1) + ',' + std::to_string(result.seed) + ',' +
                     result.endedBy + ',' + std::to_string(result.ticks) + ',' + hash;
   for (const double value : result.values) {

@@ -7,9 +7,9 @@
 
 #include <base/angles.h>
 #include <base/read_file.h>
+#include <base/short_name.h>
 #include <resources/resources.h>
-
-#include "experiment_names.h"
+#include <simcore/world/limits.h>
 
 namespace pitchboard::link {
 namespace {
@@ -20,7 +20,6 @@ constexpr std::size_t mostConditions = 1000, mostEntries = 1000, mostFileBytes =
 constexpr double fastestMatch = 1000.0;  // times real time, of a team's own programs
 constexpr double longestRun = 1e6;       // s
 constexpr double fieldReach = 200.0;     // m; a place outside the walls is moved inside
-constexpr double fastestBall = 50.0;     // m/s
 constexpr std::array<std::string_view, 8> reductionNames{"mean", "min",      "max",     "first",
                                                          "last", "integral", "changes", "p95"};
 constexpr std::array<std::string_view, 3> recordNames{"nothing", "failed", "all"};
@@ -51,10 +50,7 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
     m_root.fail("version", "is " + std::to_string(version) +
                                ", but this program reads version 1; a newer program wrote this");
   }
-  e.name = m_root.text("name", e.name, mostNameLetters);
-  if (e.name.empty() || !std::all_of(e.name.begin(), e.name.end(), isNameLetter)) {
-    m_root.fail("name", "must consist of letters, digits, '-', '_' and '.'");
-  }
+  e.name = readShortName(m_root, "name", e.name);
   e.title = m_root.text("title", "", 200);
   e.description = m_root.text("description", "", 5000);
   m_root.require("scenario");
@@ -210,7 +206,7 @@ std::vector<PlacedByHand> ExperimentReader::placedOf(const JsonObject& parent) {
                             {"time", "who", "x", "y", "heading", "vx", "vy"});
     for (const std::string_view key : {"time", "who", "x", "y"}) object.require(key);
     const NumberRange place{-fieldReach, fieldReach, "metres"};
-    const NumberRange speed{-fastestBall, fastestBall, "metres per second"};
+    const NumberRange speed{-sim::fastestBall, sim::fastestBall, "metres per second"};
     PlacedByHand one;
     one.time = object.number("time", 0, {0, longestRun, "seconds"});
     one.who = object.text("who", "", 8);

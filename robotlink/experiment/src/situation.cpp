@@ -5,9 +5,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include <base/short_name.h>
 #include <robotlink/cognition/referee_word.h>
-
-#include "experiment_names.h"
 
 namespace pitchboard::link {
 namespace {
@@ -112,8 +111,8 @@ std::span<const SituationTemplate> situationTemplates() {
 
 std::string experimentNameFrom(std::string_view text) {
   std::string out;
-  for (const char c : text.substr(0, mostNameLetters)) {
-    out += isNameLetter(c) ? c : '-';
+  for (const char c : text.substr(0, longestShortName)) {
+    out += isShortNameLetter(c) ? c : '-';
   }
   return out.empty() ? "moment" : out;
 }

@@ -14,6 +14,7 @@
 
 #include <base/lined_json.h>
 #include <robotlink/blackboard/system_v.h>
+#include <robotlink/frame/working_flags.h>
 #include <robotlink/live/board_columns.h>
 #include <robotlink/live/board_health.h>
 
@@ -27,7 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto lookInterval = 100ms;    // is it still the segment of this key?
 constexpr std::size_t mostRows = 4096;  // waiting; older ones are lost, counted
-constexpr double flagMemory = 1.0;      // s, as in the frames of a running match
 
 }  // namespace
 

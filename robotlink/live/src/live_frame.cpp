@@ -102,20 +102,11 @@ std::optional<Penalty> penaltyOf(const RefereeState* state, int ourTeam, int num
   return std::nullopt;
 }
 
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (c == '_') c = ' ';
-  }
-  return out;
-}
-
 /// The set play and the phase in words. One version says in one field what another says in two.
 void describeSetPlay(const RefereeState& state, std::string& setPlay, std::string& phase) {
   constexpr int normal = 0, shootout = 1, overtime = 2;
   if (state.secState && *state.secState != normal) {
-    const std::string words = lowered(telemetry::secStateName(*state.secState));
+    const std::string words(telemetry::setPlayWords(telemetry::League::Humanoid, *state.secState));
     (*state.secState == overtime || *state.secState == shootout ? phase : setPlay) = words;
   }
   if (state.gamePhase && *state.gamePhase != 0) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <robotlink/frame/working_flags.h>
 #include <robotlink/match/match_drawings.h>
 #include <robotlink/match/referee_packet.h>
 
@@ -12,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto flagMemory = 1s;
+constexpr std::chrono::duration<double> workingAfter(flagMemory);
 constexpr auto thoughtsInterval = 100ms;
 constexpr auto speedWindow = 1s;
 
@@ -129,10 +130,10 @@ void FrameBuilder::fillBoard(const SimulatedMatch& match, const sim::RobotIdenti
   if (isNew) entry->second.fill(Time::min());
   for (std::size_t i = 0; i < flags; ++i) {
     Time& seen = entry->second[i];
-    const bool wasWorking = seen != Time::min() && now - seen <= flagMemory;
+    const bool wasWorking = seen != Time::min() && now - seen <= workingAfter;
     const bool heldUp = still && all[i].simulated && wasWorking;
     if (readOr(*board, all[i].variable) != 0 || heldUp) seen = now;
-    out.*all[i].working = seen != Time::min() && now - seen <= flagMemory;
+    out.*all[i].working = seen != Time::min() && now - seen <= workingAfter;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <base/angles.h>
 #include <robotlink/match/referee_packet.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/wire/socket_address.h>
 
 namespace pitchboard::link {
 namespace {
@@ -30,7 +31,7 @@ void turnEverybody(sim::Simulation& simulation) {
 }  // namespace
 
 Result<void> MatchReferee::sendTo(int port) {
-  if (port < 1 || port > 65535) {
+  if (!telemetry::isPort(port)) {
     return failure(ErrorCode::InvalidArgument,
                    "the referee's port " + std::to_string(port) + " does not lie in 1..65535");
   }
@@ -42,7 +43,7 @@ Result<void> MatchReferee::sendTo(int port) {
 }
 
 Result<void> MatchReferee::obey(int port, sim::Simulation& simulation) {
-  if (port < 1 || port > 65535) {
+  if (!telemetry::isPort(port)) {
     return failure(ErrorCode::InvalidArgument, "the GameController's port " + std::to_string(port) +
                                                    " does not lie in 1..65535");
   }

@@ -198,11 +198,10 @@ RefereeView refereeView(const sim::WorldState& world) {
   view.version = static_cast<int>(std::lround(rules.packetVersion));
   view.sender = rules.automatic ? "the simulated referee" : "a person";
   view.state = wordsOf(game.state);
-  view.setPlay =
-      game.phase == sim::GamePhase::Timeout ? "timeout" : std::string(wordsOf(game.setPlay));
-  view.phase = game.phase == sim::GamePhase::ShootOut    ? "penalty shoot-out"
-               : game.phase == sim::GamePhase::ExtraTime ? "overtime"
-                                                         : "";
+  // A timeout stands in the place of a set play, as in the packets of the Humanoid League.
+  const bool timeout = game.phase == sim::GamePhase::Timeout;
+  view.setPlay = timeout ? wordsOf(game.phase) : wordsOf(game.setPlay);
+  if (game.phase != sim::GamePhase::Normal && !timeout) view.phase = wordsOf(game.phase);
   view.firstHalf = game.half == 1;
   view.stopped = game.stopped;
   view.secondsLeft = sim::secondsOf(game.clock, rate);

@@ -8,6 +8,7 @@
 
 #include <base/lined_json.h>
 #include <base/read_file.h>
+#include <base/short_name.h>
 #include <resources/resources.h>
 
 namespace pitchboard::link {
@@ -17,6 +18,7 @@ constexpr std::size_t mostBytes = 1024 * 1024;
 constexpr std::size_t mostProcesses = 8;  // of a robot
 constexpr std::size_t mostWords = 100;
 constexpr std::size_t longestText = 4096;
+constexpr std::size_t longestProcessName = 32;
 constexpr double longestTime = 3600.0;  // s
 
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
@@ -39,12 +41,6 @@ constexpr std::array<SignalName, 6> stopSignals{{{"TERM", SIGTERM},
                                                  {"USR1", SIGUSR1},
                                                  {"KILL", SIGKILL}}};
 
-bool isName(std::string_view text) {
-  return !text.empty() && text.find_first_not_of(
-                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVW"
-                              "XYZ0123456789-_.") == std::string_view::npos;
-}
-
 class Reader {
  public:
   Reader(const JsonNode& root, JsonReport& report)
@@ -56,10 +52,7 @@ class Reader {
     m_root.require("version");
     (void)m_root.integer("version", 1, 1, 1);
     m_root.require("name");
-    m_profile.name = m_root.text("name", "", 64);
-    if (m_root.find("name") && !isName(m_profile.name)) {
-      m_root.fail("name", "must consist of letters, digits, '-', '_' and '.'");
-    }
+    m_profile.name = readShortName(m_root, "name", "");
     m_profile.title = m_root.text("title", m_profile.name, 200);
     m_profile.description = m_root.text("description", "", 5000);
     for (auto& [name, value] : texts(m_root, "values")) m_profile.values[name] = value;
@@ -94,10 +87,7 @@ class Reader {
     if (m_report.failed()) return;
     ProfileProcess process;
     object.require("name");
-    process.name = object.text("name", "", 32);
-    if (object.find("name") && !isName(process.name)) {
-      object.fail("name", "must consist of letters, digits, '-', '_' and '.'");
-    }
+    process.name = readShortName(object, "name", "", longestProcessName);
     for (const ProfileProcess& other : m_profile.processes) {
       if (other.name == process.name) object.fail("name", "stands twice among the processes");
     }

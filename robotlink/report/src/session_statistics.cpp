@@ -6,6 +6,7 @@
 #include <map>
 
 #include <base/angles.h>
+#include <robotlink/frame/working_flags.h>
 #include <robotlink/session/row_slot.h>
 
 #include "live_statistics.h"
@@ -14,16 +15,7 @@ namespace pitchboard::link {
 namespace {
 
 constexpr double longestStep = 2.5;  // s; a longer gap between rows counts as absence
-constexpr double flagMemory = 1.0;   // s, as on the robots' cards
 constexpr double centimetres = 100.0;
-
-TeamColor teamOf(const telemetry::GroupInfo& group) {
-  const std::string_view name = attribute(group, "team");
-  for (const TeamColorInfo& team : teamColors) {
-    if (team.name == name) return team.color;
-  }
-  return TeamColor::Blue;
-}
 
 double quantile(std::vector<float>& values, double share) {
   const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);

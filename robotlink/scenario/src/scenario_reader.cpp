@@ -5,10 +5,12 @@
 
 #include <base/angles.h>
 #include <base/read_file.h>
+#include <base/short_name.h>
 #include <resources/resources.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/field_text.h>
+#include <simcore/world/limits.h>
 
 #include "referee_rules_json.h"
 #include "scenario_keys.h"
@@ -19,8 +21,6 @@ namespace {
 constexpr double longestTime = 1e6;   // s
 constexpr double longestClock = 1e6;  // s
 constexpr int mostGoals = 1'000'000;
-constexpr double fastestBall = 50.0;  // m/s
-constexpr int highestShirtNumber = 99;
 constexpr std::size_t mostWrites = 100000;
 constexpr std::size_t longestRuntime = 4096;
 constexpr std::size_t mostFileBytes = 1024 * 1024;
@@ -66,12 +66,7 @@ class Reader {
 
   Scenario read() {
     readVersion();
-    m_scenario.name = m_root.text("name", m_scenario.name, 64);
-    if (m_scenario.name.empty() ||
-        m_scenario.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789-_.") != std::string::npos) {
-      m_root.fail("name", "must consist of letters, digits, '-', '_' and '.'");
-    }
+    m_scenario.name = readShortName(m_root, "name", m_scenario.name);
     m_scenario.title = m_root.text("title", "", 200);
     m_scenario.description = m_root.text("description", "", 5000);
     readSettings();
@@ -176,7 +171,7 @@ class Reader {
     if (!node) return;
     const JsonObject ball(m_report, *node, "ball", {"x", "y", "vx", "vy"});
     m_scenario.ball = readPlace(ball);
-    const NumberRange speed{-fastestBall, fastestBall, "metres per second"};
+    const NumberRange speed{-sim::fastestBall, sim::fastestBall, "metres per second"};
     m_scenario.ballVelocity = {ball.number("vx", 0.0, speed), ball.number("vy", 0.0, speed)};
   }
 
@@ -248,7 +243,7 @@ class Reader {
 
     ScenarioRobot robot;
     robot.identity.team = teamColors[team].color;
-    robot.identity.number = object.integer("number", 1, 1, highestShirtNumber);
+    robot.identity.number = object.integer("number", 1, 1, sim::highestShirtNumber);
     robot.identity.id.value =
         object.integer("id", static_cast<int>(index) + 1, 1, sim::Simulation::maxRobots);
     robot.identity.imuStartsAt180 = object.boolean("imu_starts_at_180", facesLeft);

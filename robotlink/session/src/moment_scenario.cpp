@@ -11,26 +11,15 @@
 #include <robotlink/cognition/referee_word.h>
 #include <robotlink/frame/belief.h>
 #include <robotlink/scenario/moment_writes.h>
+#include <simcore/world/limits.h>
+#include <simcore/world/places.h>
 
 namespace pitchboard::link {
 namespace {
 
-constexpr double gap = 0.01;     // m between robots that were pushed apart
-constexpr int mostPushes = 400;  // rounds; a crowd that needs more stays as it is
-constexpr int highestShirt = 99;
+constexpr double gap = 0.01;           // m between robots that were pushed apart
+constexpr int mostPushes = 400;        // rounds; a crowd that needs more stays as it is
 constexpr double halfSeconds = 600.0;  // Humanoid League, rules of every year since 2013
-constexpr double fastestBall = 50.0;   // m/s, of a scenario
-
-bool isFinite(const Pose& pose) {
-  return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&
-         std::isfinite(pose.yaw);
-}
-
-Point inside(const sim::FieldSpec& field, const Point& point, double radius) {
-  const double x = field.halfLength() + field.border - radius;
-  const double y = field.halfWidth() + field.border - radius;
-  return {std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
-}
 
 class Maker {
  public:
@@ -162,7 +151,7 @@ class Maker {
         return other.identity.team == robot.identity.team && other.identity.number == value;
       });
     };
-    if (shirt < 1 || shirt > highestShirt || shirtTaken(shirt)) {
+    if (shirt < 1 || shirt > sim::highestShirtNumber || shirtTaken(shirt)) {
       for (shirt = 1; shirtTaken(shirt);) ++shirt;
       note("Two robots were called " + name + "; one is " + robot.identity.name() + " here.");
     }
@@ -170,12 +159,12 @@ class Maker {
 
   void place(ScenarioRobot& robot, const std::string& name) {
     const sim::FieldSpec& field = m_out.scenario.settings.field;
-    if (!isFinite(robot.pose)) {
+    if (!sim::isFinite(robot.pose)) {
       robot.pose = {{0.0, 0.0}, 0.0};
       note("Nobody knows where " + name + " was; it stands at the centre mark.");
     }
     const Point wanted = robot.pose.position;
-    robot.pose.position = inside(field, wanted, radiusOf(robot));
+    robot.pose.position = sim::insideWalls(field, wanted, radiusOf(robot));
     robot.pose.yaw = std::remainder(robot.pose.yaw, 2 * 3.141592653589793);
     if (robot.pose.position != wanted) {
       note(name + " stood outside the walls and was moved inside.");
@@ -205,8 +194,8 @@ class Maker {
           const double angle = between > 1e-9 ? direction(p, q) : static_cast<double>(7 * a + b);
           const double push = (least - between) / 2;
           const Point step{push * std::cos(angle), push * std::sin(angle)};
-          p = inside(field, {p.x - step.x, p.y - step.y}, radiusOf(robots[a]));
-          q = inside(field, {q.x + step.x, q.y + step.y}, radiusOf(robots[b]));
+          p = sim::insideWalls(field, {p.x - step.x, p.y - step.y}, radiusOf(robots[a]));
+          q = sim::insideWalls(field, {q.x + step.x, q.y + step.y}, radiusOf(robots[b]));
           moved.insert({a, b});
         }
       }
@@ -230,7 +219,7 @@ class Maker {
     std::vector<Sighting> out;
     for (const RobotFrame& robot : m_frame.robots) {
       const auto ball = perceivedBall(m_frame.field, robot);
-      if (!ball || !isFinite({*ball, 0.0})) continue;
+      if (!ball || !sim::isFinite({*ball, 0.0})) continue;
       const Point from = perceivingPose(m_frame.field, robot).position;
       out.push_back({*ball, distance(*ball, from), robot.identity.name()});
     }
@@ -249,12 +238,12 @@ class Maker {
     } else {
       const Velocity& v = m_frame.snapshot.ballVelocity;
       if (std::isfinite(v.x) && std::isfinite(v.y)) {
-        scenario.ballVelocity = {std::clamp(v.x, -fastestBall, fastestBall),
-                                 std::clamp(v.y, -fastestBall, fastestBall)};
+        scenario.ballVelocity = {std::clamp(v.x, -sim::fastestBall, sim::fastestBall),
+                                 std::clamp(v.y, -sim::fastestBall, sim::fastestBall)};
       }
     }
-    if (!isFinite({ball, 0.0})) ball = {};
-    scenario.ball = inside(field, ball, field.ballRadius);
+    if (!sim::isFinite({ball, 0.0})) ball = {};
+    scenario.ball = sim::insideWalls(field, ball, field.ballRadius);
     if (scenario.ball != ball) note("The ball was outside the walls and was moved inside.");
   }
 

@@ -9,6 +9,7 @@
 #include <base/angles.h>
 #include <robotlink/frame/belief.h>
 #include <robotlink/frame/second_sender.h>
+#include <robotlink/frame/working_flags.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/board_health.h>
 #include <robotlink/live/live_rows.h>
@@ -21,7 +22,6 @@
 namespace pitchboard::link {
 namespace {
 
-constexpr double flagMemory = 1.0;     // s, as in the frames of a running match
 constexpr double longestAge = 1e6;     // s; beyond it no clock is right
 constexpr double refereeMemory = 5.0;  // s; it sends twice a second
 
@@ -29,14 +29,6 @@ constexpr std::array<bool RobotBoardView::*, 5> flagMembers{
     &RobotBoardView::controlWorking, &RobotBoardView::visionWorking,
     &RobotBoardView::localizationWorking, &RobotBoardView::decisionWorking,
     &RobotBoardView::imuWorking};
-
-TeamColor teamOf(const telemetry::GroupInfo& group) {
-  const std::string_view name = attribute(group, "team");
-  for (const TeamColorInfo& team : teamColors) {
-    if (team.name == name) return team.color;
-  }
-  return TeamColor::Blue;
-}
 
 /// Numbers as a robot writes them: whole ones without a point.
 std::string numberWord(double value) {

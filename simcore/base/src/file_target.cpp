@@ -10,21 +10,12 @@
 #include <filesystem>
 #include <utility>
 
-#include <base/system_reason.h>
+#include "file_errors.h"
 
 namespace pitchboard {
 namespace {
 
 namespace fs = std::filesystem;
-
-tl::unexpected<Error> exists(const std::string& path) {
-  return failure(ErrorCode::Conflict, "This file exists; choose another name.", path);
-}
-
-tl::unexpected<Error> cannotWrite(const std::string& path, int error) {
-  return failure(ErrorCode::SystemError, "The file cannot be written: " + systemReason(error) + ".",
-                 path);
-}
 
 /// Short, so that it fits wherever the file's own name does; hidden, so that nobody opens it.
 std::string partName() {
@@ -75,7 +66,7 @@ Result<FileTarget> FileTarget::at(const std::string& path, IfExists ifExists,
   target.m_ifExists = ifExists;
   struct stat link {};
   const bool taken = ::lstat(path.c_str(), &link) == 0;
-  if (taken && ifExists == IfExists::Refuse) return exists(path);
+  if (taken && ifExists == IfExists::Refuse) return cannotMake(EEXIST, path);
   if (taken && S_ISLNK(link.st_mode)) {
     std::error_code dangling;
     const fs::path real = fs::canonical(path, dangling);
@@ -83,19 +74,18 @@ Result<FileTarget> FileTarget::at(const std::string& path, IfExists ifExists,
   }
   struct stat old {};
   if (taken && ::stat(target.m_path.c_str(), &old) == 0) {
-    if (S_ISDIR(old.st_mode)) return cannotWrite(path, EISDIR);
-    if (::access(target.m_path.c_str(), W_OK) != 0) return cannotWrite(path, errno);
+    if (S_ISDIR(old.st_mode)) return cannotWrite(EISDIR, path);
+    if (::access(target.m_path.c_str(), W_OK) != 0) return cannotWrite(errno, path);
     target.m_direct = !S_ISREG(old.st_mode);
   }
   if (target.m_direct) return target;
   const std::string folder = folderOf(target.m_path);
   struct stat place {};
   if (::stat(folder.c_str(), &place) != 0 || !S_ISDIR(place.st_mode)) {
-    return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.", path);
+    return cannotMake(ENOENT, path);
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    return failure(ErrorCode::SystemError,
-                   "This folder does not allow new files; choose another one.", path);
+    return cannotMake(EACCES, path);
   }
   target.m_part = (fs::path(folder) / partName()).string();
   return target;
@@ -126,8 +116,7 @@ Result<NewFile> FileTarget::open() const {
 Result<void> FileTarget::commit() {
   if (m_direct) return {};
   const auto failed = [this](int error) -> Result<void> {
-    if (error == EEXIST) return exists(m_path);
-    return cannotWrite(m_path, error);
+    return error == EEXIST ? cannotMake(error, m_path) : cannotWrite(error, m_path);
   };
   struct stat old {};
   if (m_ifExists == IfExists::Replace && ::stat(m_path.c_str(), &old) == 0) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <base/repeatable_math.h>
+#include <simcore/world/limits.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::sim::rigid {
@@ -13,7 +14,6 @@ namespace {
 constexpr double margin = 0.005;      // m, so that nearly touching things count as near
 constexpr double partingSpeed = 0.5;  // m/s at which things dragged onto each other part
 constexpr double feetGrip = 4.0;      // m/s², friction of about 0.4
-constexpr double fastestBall = 50.0;  // m/s
 
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);

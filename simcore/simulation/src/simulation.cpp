@@ -8,26 +8,15 @@
 
 #include <simcore/rules/published_rules.h>
 #include <simcore/world/parameters.h>
+#include <simcore/world/places.h>
 #include <simcore/world/published_frame.h>
 
 namespace pitchboard::sim {
 namespace {
 
-bool isFinite(const Pose& pose) {
-  return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) &&
-         std::isfinite(pose.yaw);
-}
-
 tl::unexpected<Error> noSuchRobot(RobotId id) {
   return failure(ErrorCode::NotFound,
                  "There is no robot " + std::to_string(id.value) + " on the field.");
-}
-
-/// The nearest place that lies wholly inside the walls.
-Point insideWalls(const FieldSpec& field, const Point& point, double radius) {
-  const double x = field.halfLength() + field.border - radius;
-  const double y = field.halfWidth() + field.border - radius;
-  return {std::clamp(point.x, -x, x), std::clamp(point.y, -y, y)};
 }
 
 }  // namespace

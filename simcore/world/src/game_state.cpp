@@ -20,7 +20,7 @@ std::string_view wordsOf(PlayState state) {
 
 std::string_view wordsOf(GamePhase phase) {
   static constexpr std::array<std::string_view, 4> words{"normal time", "penalty shoot-out",
-                                                         "extra time", "timeout"};
+                                                         "overtime", "timeout"};
   return at(words, phase);
 }
 
@@ -41,15 +41,15 @@ std::string_view wordsOf(PenaltyKind penalty) {
                                                           "service",
                                                           "illegal position",
                                                           "motion in SET",
-                                                          "motion in stop",
+                                                          "motion while stopped",
                                                           "local game stuck",
                                                           "ball holding",
                                                           "leaving the field",
-                                                          "playing with hands",
+                                                          "playing with the hands",
                                                           "cautioned",
                                                           "sent off",
                                                           "substitute",
-                                                          "manual"};
+                                                          "manual penalty"};
   return at(words, penalty);
 }
 

@@ -67,10 +67,8 @@ struct McapWriter::Impl {
   /// Whole records of the data section.
   Result<void> write(std::string_view records) {
     if (failed) return tl::unexpected(*failed);
-    if (!file.keepRoom(records.size() + summary.size() + spareRoom)) {
-      return fail({ErrorCode::SystemError,
-                   "The disk is full; free some room or choose another disk.", file.path()});
-    }
+    const auto room = file.keepRoom(records.size() + summary.size() + spareRoom);
+    if (!room) return fail(room.error());
     if (auto written = file.write(records); !written) return fail(written.error());
     whole = file.size();
     dataCrc = extendedCrc(dataCrc, records);

@@ -86,17 +86,6 @@ Sample WrapAngle::next(const Sample& sample) const {
   return {sample.time, wrapped};
 }
 
-std::vector<Sample> difference(std::span<const Sample> a, std::span<const Sample> b) {
-  std::vector<Sample> out;
-  out.reserve(a.size());
-  std::size_t next = 0;  // of b: the first after the time of a
-  for (const Sample& sample : a) {
-    while (next < b.size() && b[next].time <= sample.time) ++next;
-    out.push_back({sample.time, next == 0 ? nothing : sample.value - b[next - 1].value});
-  }
-  return out;
-}
-
 SeriesStatistics statisticsOf(std::span<const Sample> samples, TimeRange range) {
   StatisticsSum sum;
   auto from = std::lower_bound(samples.begin(), samples.end(), range.begin,
@@ -110,12 +99,6 @@ SeriesStatistics statisticsOf(std::span<const Sample> samples, TimeRange range) 
     sum.add(block.data(), count);
   }
   return sum.result();
-}
-
-std::optional<double> valueAt(std::span<const Sample> samples, double time) {
-  const auto after = firstAfter(samples, time);
-  if (after == samples.begin()) return std::nullopt;
-  return (after - 1)->value;
 }
 
 }  // namespace pitchboard::telemetry

@@ -60,7 +60,7 @@ constexpr Code spl2019[] = {{0, "NONE", ""},
                             {14, "SUBSTITUTE", "substitute"},
                             {15, "MANUAL", "manual penalty"}};
 constexpr Code hsl19[] = {{0, "NONE", ""},
-                          {1, "ILLEGAL_POSITIONING", "illegal positioning"},
+                          {1, "ILLEGAL_POSITIONING", "illegal position"},
                           {2, "MOTION_IN_SET", "motion in SET"},
                           {3, "LOCAL_GAME_STUCK", "local game stuck"},
                           {4, "INCAPABLE_ROBOT", "incapable"},
@@ -72,7 +72,7 @@ constexpr Code hsl19[] = {{0, "NONE", ""},
                           {10, "SENT_OFF", "sent off"},
                           {11, "SUBSTITUTE", "substitute"}};
 constexpr Code hsl20[] = {{0, "NONE", ""},
-                          {1, "ILLEGAL_POSITIONING", "illegal positioning"},
+                          {1, "ILLEGAL_POSITIONING", "illegal position"},
                           {2, "MOTION_IN_SET", "motion in SET"},
                           {3, "MOTION_IN_STOP", "motion while stopped"},
                           {4, "LOCAL_GAME_STUCK", "local game stuck"},
@@ -145,13 +145,18 @@ std::string_view gamePhaseWords(int gamePhase) {
 }
 
 std::string_view setPlayWords(League league, int setPlay) {
-  static constexpr std::string_view spl[] = {"none",   "goal kick", "pushing free kick",
-                                             "corner", "kick-in",   "penalty"};
-  static constexpr std::string_view hsl[] = {"none",    "direct free kick", "indirect free kick",
-                                             "penalty", "throw-in",         "goal kick",
-                                             "corner"};
-  return league == League::HumanoidSoccer ? pick(hsl, setPlay, "unknown")
-                                          : pick(spl, setPlay, "unknown");
+  static constexpr int firstOfHl = 4;  // of the secondary state; what is below are phases
+  static constexpr std::string_view hl[] = {"direct free kick", "indirect free kick",
+                                            "penalty kick",     "corner kick",
+                                            "goal kick",        "throw-in"};
+  static constexpr std::string_view spl[] = {"none",        "goal kick", "pushing free kick",
+                                             "corner kick", "kick-in",   "penalty kick"};
+  static constexpr std::string_view hsl[] = {
+      "none",     "direct free kick", "indirect free kick", "penalty kick",
+      "throw-in", "goal kick",        "corner kick"};
+  if (league == League::HumanoidSoccer) return pick(hsl, setPlay, "unknown");
+  if (league == League::StandardPlatform) return pick(spl, setPlay, "unknown");
+  return setPlay < firstOfHl ? gamePhaseWords(setPlay) : pick(hl, setPlay - firstOfHl, "unknown");
 }
 
 std::string_view colourWords(int colour) {

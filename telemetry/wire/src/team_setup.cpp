@@ -10,6 +10,7 @@
 #include <base/file_target.h>
 #include <base/lined_json.h>
 #include <base/read_file.h>
+#include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/udp_receiver.h>
 
 namespace pitchboard::telemetry {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t maxFileBytes = 256 * 1024, longestText = 60, mostSenders = 64;
-constexpr int highestPort = 65535, highestTeam = 65535;
+constexpr int highestTeam = 65535;
 constexpr std::array<std::string_view, 2> directions{"right", "left"};
 constexpr std::array<std::string_view, 8> setupKeys{"name",    "number",  "colour",  "ports",
                                                     "senders", "profile", "attacks", "robots"};
@@ -41,9 +42,7 @@ void readPorts(const JsonObject& top, TeamSetup& setup) {
   if (ports == nullptr) return;
   const auto portAt = [ports](std::size_t i) {
     const JsonNode& port = (*ports)[i];
-    return port.whole && *port.whole >= 1 && *port.whole <= highestPort
-               ? static_cast<int>(*port.whole)
-               : 0;
+    return port.whole && *port.whole <= highestPort ? static_cast<int>(*port.whole) : 0;
   };
   if (ports->size() == 2 && portAt(0) > 0 && portAt(1) >= portAt(0) && portAt(1) - portAt(0) < 64) {
     setup.firstPort = portAt(0);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <telemetry/wire/message_format.h>
+
 #include "field_values.h"
 #include "message_readers.h"
 #include "published_values.h"
@@ -40,11 +42,6 @@ class Words {
   const char* m_end;
   char m_separator;
 };
-
-bool isTextFormat(MessageFormat format) {
-  return format == MessageFormat::Words || format == MessageFormat::KeyValue ||
-         format == MessageFormat::Json || format == MessageFormat::Lua;
-}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <base/system_reason.h>
+#include <telemetry/wire/socket_address.h>
 
 #include "datagram_queue.h"
 #include "udp_socket.h"
@@ -127,12 +128,12 @@ struct UdpReceiver::Impl {
 
 Result<std::vector<std::uint16_t>> livePorts(int base, int count, int referee) {
   std::vector<std::uint16_t> ports;
-  if (base < 0 || count < 0 || count > 1024 || base + count > 65535) {
+  if (base < 0 || count < 0 || count > 1024 || base + count > highestPort) {
     return failure(ErrorCode::InvalidArgument,
                    "The robots' ports must lie between 1 and 65535; choose another port base.",
                    "port base " + std::to_string(base));
   }
-  if (referee < 1 || referee > 65535) {
+  if (!isPort(referee)) {
     return failure(ErrorCode::InvalidArgument, "A port is a number from 1 to 65535.",
                    "GameController port " + std::to_string(referee));
   }

@@ -14,9 +14,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double fullUntil = 0.3;    // m of uncertainty; beyond it the disc thins out
-constexpr double noseReach = 1.75;   // of the ghost's radius
-constexpr double readable_px = 6.5;  // radius of a ring in which a number can be read
+constexpr double fullUntil = 0.3;   // m of uncertainty; beyond it the disc thins out
+constexpr double noseReach = 1.75;  // of the ghost's radius
 
 }  // namespace
 

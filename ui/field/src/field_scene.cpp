@@ -41,10 +41,6 @@ enum Height {
 
 constexpr double hitMargin_px = 3.0;
 
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
-
 }  // namespace
 
 struct FieldScene::Robot {

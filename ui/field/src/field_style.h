@@ -12,6 +12,7 @@
 #include <QRectF>
 #include <QString>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <string>
@@ -41,6 +42,13 @@ constexpr std::array<bool, fieldLayerCount> shownAtFirst() {
   for (std::size_t i = 0; i < fieldLayerCount; ++i) shown[i] = fieldLayers[i].shown;
   return shown;
 }
+
+inline double distance(const QPointF& a, const QPointF& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y());
+}
+
+/// Radius of a disc or ring in which a number can be read, pixels.
+inline constexpr double readable_px = 6.5;
 
 struct FieldStyle {
   double pixelsPerMetre = 60.0;  ///< of the view; items size their bounding rectangles by it

@@ -338,9 +338,6 @@ bool FieldView::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-void FieldView::fitField() {
-  d->canvas->fit();
-}
 void FieldView::setFlipped(bool flipped) {
   d->tools->flip()->setChecked(flipped);
 }

@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 namespace {
 
 struct Line {
-  QString key;  // empty: `text` is a heading
+  QString key;  // empty: `text` is a title
   QString text;
 };
 
@@ -129,10 +129,10 @@ void HelpOverlay::paintEvent(QPaintEvent*) {
     const QPoint at(panel.left() + padding + column * columnWidth,
                     panel.top() + padding + title + row * rowHeight);
     const QRect place(at, QSize(columnWidth - 24, rowHeight));
-    const bool heading = all[i].key.isEmpty();
+    const bool isTitle = all[i].key.isEmpty();
     painter.setFont(fieldFont(pixels, true));
     painter.setPen(theme().accentLine);
-    if (heading) {
+    if (isTitle) {
       painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter, all[i].text);
       continue;
     }

@@ -13,8 +13,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double readable_px = 6.5;  // radius of a disc in which a number can be read
-constexpr double covered = 0.55;     // of the radius: where the number stands
+constexpr double covered = 0.55;  // of the radius: where the number stands
 constexpr double gap_px = 3.0;
 constexpr std::array<double, 4> steps_px{0.0, 12.0, 26.0, 44.0};
 constexpr int namePixels = 10;
@@ -28,10 +27,6 @@ const std::array<QPointF, 8> directions{QPointF(0, -1),
                                         QPointF(-diagonal, -diagonal),
                                         QPointF(diagonal, diagonal),
                                         QPointF(-diagonal, diagonal)};
-
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
 
 bool needsName(const NamedRobot& robot, std::span<const NamedRobot> all) {
   if (robot.radius < readable_px) return true;

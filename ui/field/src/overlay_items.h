@@ -36,7 +36,6 @@ class RubberBandItem : public QGraphicsItem {
  public:
   explicit RubberBandItem(const FieldStyle* style) : m_style(style) {}
   void setBand(const QRectF& metres);
-  QRectF band() const { return m_band; }
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 

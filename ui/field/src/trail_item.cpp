@@ -11,10 +11,6 @@
 namespace pitchboard::ui {
 namespace {
 
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
-
 /// Whether a line passes all these points so closely that nobody sees the difference.
 bool passes(const QPointF& from, const QPointF& to, const QPointF* points, int count) {
   constexpr double tolerance_px = 0.6;

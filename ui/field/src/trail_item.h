@@ -21,8 +21,6 @@ class TrailItem : public QGraphicsItem {
   /// `time` in simulated seconds; going back in time or jumping starts the trail anew.
   void append(const Point& position, double time);
   void clear();
-  /// Points kept now; for tests.
-  int size() const { return m_count; }
   void styleChanges() { prepareGeometryChange(); }
 
   QRectF boundingRect() const override;

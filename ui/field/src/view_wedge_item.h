@@ -19,8 +19,6 @@ class ViewWedgeItem : public QGraphicsItem {
   void setCamera(double opening, double range);
   void setHead(const Point& position, double headYaw);
   void styleChanges();
-  /// Its corners in metres of the scene; empty for a robot that sees nothing of the field.
-  const QPolygonF& outline() const { return m_outline; }
 
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;

@@ -18,6 +18,7 @@
 #include <algorithm>
 
 #include <ui/base/dialog_size.h>
+#include <ui/base/explanation.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_controller.h>
@@ -28,14 +29,6 @@
 
 namespace pitchboard::ui {
 namespace {
-
-QLabel* explanation(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
-  label->setFont(themeFont(TypeRole::Secondary));
-  label->setForegroundRole(QPalette::PlaceholderText);
-  label->setWordWrap(true);
-  return label;
-}
 
 QFormLayout* page(QWidget* widget) {
   auto* form = new QFormLayout(widget);
@@ -127,7 +120,7 @@ QWidget* LiveSettingsDialog::makeNetwork() {
       QStringLiteral("Robots' addresses and networks, e.g. 192.168.0.7, 192.168.1.0/24. Empty: "
                      "everybody. The referee has a list of its own"));
   form->addRow(QStringLiteral("Robots only from"), m_senders);
-  form->addRow(explanation(
+  form->addRow(makeExplanation(
       QStringLiteral("A port that another program holds is named in the status bar and tried "
                      "again every three seconds; the others work meanwhile."),
       widget));
@@ -198,7 +191,7 @@ QWidget* LiveSettingsDialog::makeReferee() {
   connect(m_monitor, &QCheckBox::toggled, m_monitorAddress, &QWidget::setEnabled);
   form->addRow(m_monitor);
   form->addRow(QStringLiteral("Referee at"), m_monitorAddress);
-  form->addRow(explanation(
+  form->addRow(makeExplanation(
       QStringLiteral("Controllers of 2026 send more to programs that ask for it. While "
                      "this is on, one packet of "
                      "five bytes (RGTr and a zero) goes to UDP port 3636 of that one "
@@ -232,7 +225,7 @@ QWidget* LiveSettingsDialog::makeMessages() {
   add(QStringLiteral("Edit…"), "editProfile", [this] { editProfile(); });
   row->addStretch(1);
   form->addRow(row);
-  form->addRow(explanation(
+  form->addRow(makeExplanation(
       QStringLiteral("Teams insert fields of their own. A profile says in which order a "
                      "message has its fields and what they mean. Fields after those of the "
                      "profile are shown as OTHER_1, OTHER_2, ..."),

@@ -49,8 +49,8 @@ TeamsPage::TeamsPage(LiveController* live, QWidget* parent)
   top->addLayout(makeList());
   m_form = makeForm();
   top->addWidget(m_form, 1);
-  auto* heading = new QLabel(QStringLiteral("What arrives, as these teams would read it"), this);
-  heading->setFont(themeFont(TypeRole::Secondary));
+  auto* title = new QLabel(QStringLiteral("What arrives, as these teams would read it"), this);
+  title->setFont(themeFont(TypeRole::Secondary));
   m_table = new QTableWidget(0, 5, this);
   m_table->setObjectName(QStringLiteral("teamPreview"));
   m_table->setHorizontalHeaderLabels({QStringLiteral("From"), QStringLiteral("Port"),
@@ -66,7 +66,7 @@ TeamsPage::TeamsPage(LiveController* live, QWidget* parent)
   m_message->setWordWrap(true);
   auto* column = new QVBoxLayout(this);
   column->addLayout(top);
-  column->addWidget(heading);
+  column->addWidget(title);
   column->addWidget(m_table, 1);
   column->addWidget(m_message);
   auto* timer = new QTimer(this);

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include <simcore/world/parameters.h>
+#include <ui/base/explanation.h>
 #include <ui/base/parameter_rows.h>
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_controller.h>
@@ -23,18 +24,10 @@ namespace {
 using Noise = sim::NoiseParameters;
 using Body = sim::RigidBodySettings;
 
-QLabel* heading(const QString& text, QWidget* parent) {
+QLabel* partTitle(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
   label->setFont(themeFont(TypeRole::Body, true));
   label->setContentsMargins(0, scaled(parent, 8), 0, 0);
-  return label;
-}
-
-QLabel* remark(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
-  label->setFont(themeFont(TypeRole::Secondary));
-  label->setForegroundRole(QPalette::PlaceholderText);
-  label->setWordWrap(true);
   return label;
 }
 
@@ -85,7 +78,7 @@ class NoiseDock : public QScrollArea {
 
  private:
   void addNoise(QWidget* form, QVBoxLayout* column) {
-    column->addWidget(heading(QStringLiteral("Noise"), form));
+    column->addWidget(partTitle(QStringLiteral("Noise"), form));
     m_preset = new QComboBox(form);
     m_preset->setObjectName(QStringLiteral("noisePreset"));
     for (const std::string& name : link::noisePresets()) {
@@ -108,7 +101,7 @@ class NoiseDock : public QScrollArea {
   }
 
   void addRobots(QWidget* form, QVBoxLayout* column) {
-    m_whose = heading(QStringLiteral("Robots"), form);
+    m_whose = partTitle(QStringLiteral("Robots"), form);
     m_whose->setObjectName(QStringLiteral("whoseModel"));
     column->addWidget(m_whose);
     m_robots = new QWidget(form);
@@ -192,7 +185,7 @@ class NoiseDock : public QScrollArea {
   }
 
   void addPhysics(QWidget* form, QVBoxLayout* column) {
-    column->addWidget(heading(QStringLiteral("Physics"), form));
+    column->addWidget(partTitle(QStringLiteral("Physics"), form));
     m_model = new QComboBox(form);
     m_model->setObjectName(QStringLiteral("physicsModel"));
     for (const sim::PhysicsModelInfo& model : sim::physicsModels()) {
@@ -206,9 +199,9 @@ class NoiseDock : public QScrollArea {
     connect(m_model, &QComboBox::activated, this,
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
-    column->addWidget(remark(
+    column->addWidget(makeExplanation(
         QStringLiteral("Changing it goes on from this moment with everything at rest."), form));
-    m_exact = remark(
+    m_exact = makeExplanation(
         QStringLiteral("“published” follows the published simulator to the last bit: it has no "
                        "constants and one kind of robot, no IMU noise but drift, misses nothing, "
                        "sees without delay, and its speeds are per frame: at another tick rate "

@@ -33,7 +33,6 @@ class LegendBar : public QWidget {
   /// Where the first entry begins: the left edge of the plot below.
   void setLeft(int x, int right);
   /// Of an entry, for tests and menus.
-  QRect entryRect(int index) const { return m_rects.value(index); }
 
  signals:
   void menuRequested(int index, const QPoint& globalPosition);

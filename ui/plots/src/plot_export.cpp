@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include <base/csv_field.h>
 #include <base/file_target.h>
 #include <ui/base/save_file.h>
 #include <ui/plots/axis_ticks.h>
@@ -32,13 +33,8 @@ Result<void> writeBytes(const QString& path, const QByteArray& bytes) {
                    IfExists::Replace);
 }
 
-QString quoted(QString text) {
-  if (!text.contains(QLatin1Char(',')) && !text.contains(QLatin1Char('"')) &&
-      !text.contains(QLatin1Char('\n'))) {
-    return text;
-  }
-  return QLatin1Char('"') + text.replace(QLatin1Char('"'), QStringLiteral("\"\"")) +
-         QLatin1Char('"');
+QString csv(const QString& text) {
+  return QString::fromStdString(csvField(text.toStdString()));
 }
 
 /// The desktop's "Sans Serif" is a name that only this computer knows.
@@ -138,12 +134,12 @@ void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeR
   for (const PlotPane* pane : panes) {
     for (const Curve& curve : pane->curves()) {
       if (curve.isWaiting()) continue;
-      names << quoted(curve.unit().isEmpty()
-                          ? curve.name()
-                          : QStringLiteral("%1 [%2]").arg(curve.name(), curve.unit()));
+      names << csv(curve.unit().isEmpty()
+                       ? curve.name()
+                       : QStringLiteral("%1 [%2]").arg(curve.name(), curve.unit()));
       readers.emplace_back(curve.view(), range);
       if (!curve.ordinate()) continue;
-      names << quoted(curveName(variableCurve(curve.spec().inputs.value(1))));
+      names << csv(curveName(variableCurve(curve.spec().inputs.value(1))));
       readers.emplace_back(curve.ordinate(), range);
     }
   }

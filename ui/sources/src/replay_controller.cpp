@@ -366,10 +366,4 @@ void ReplayController::noteWhatDoesNotFit() {
            .arg(durationText(held->end - held->begin))});
 }
 
-void ReplayController::stopLoading() {
-  ++m_loading;
-  m_loaded = 1.0;
-  emit loadedChanged(m_loaded);
-}
-
 }  // namespace pitchboard::ui

@@ -233,16 +233,13 @@ class VariablesDock : public QWidget {
     m_lock->setEnabled(m_context.source->kind() == SourceKind::Simulate && !past);
     m_lock->setIcon(
         themedIcon(on ? QStringLiteral("object-unlocked") : QStringLiteral("object-locked")));
-    const QString tip =
-        m_context.source->kind() == SourceKind::Live
-            ? QStringLiteral(
-                  "Values of live robots are only shown: nothing is ever sent to robots.")
-        : m_context.source->kind() == SourceKind::Replay
-            ? QStringLiteral("Values of a recording are what they were.")
+    const QString why = VariablesModel::whyNotEditable(m_context.source->kind());
+    m_lock->setToolTip(
+        !why.isEmpty() ? why
         : past
             ? QStringLiteral("A past moment is shown. Now leads back to values that can be edited.")
-            : QStringLiteral("Edit values: double-click a value of a simulated robot to change it");
-    m_lock->setToolTip(tip);
+            : QStringLiteral(
+                  "Edit values: double-click a value of a simulated robot to change it"));
     m_lock->setAccessibleName(QStringLiteral("Edit values"));
   }
 

@@ -50,7 +50,6 @@ class VariablesModel : public QAbstractItemModel {
   /// Everything anew, even for the same store. A null store is an empty tree.
   void setStore(std::shared_ptr<const telemetry::SeriesStore> store, SourceKind kind);
   const telemetry::SeriesStore* store() const { return m_store.get(); }
-  SourceKind sourceKind() const { return m_kind; }
   /// Takes up groups that came since; cheap when none did.
   void updateGroups();
   /// From the next refresh on values are those of this moment of the source (s); without one the
@@ -89,7 +88,8 @@ class VariablesModel : public QAbstractItemModel {
 
   /// Whether a person may edit at all; off at first.
   void setEditingAllowed(bool allowed) { m_editingAllowed = allowed; }
-  bool editingAllowed() const { return m_editingAllowed; }
+  /// Why no value of such a source can be edited; empty for simulated matches.
+  static QString whyNotEditable(SourceKind source);
   /// Why this row's value cannot be edited, whether or not editing is allowed; empty when it can.
   QString whyNotEditable(const QModelIndex& index) const;
 

@@ -63,14 +63,23 @@ QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
   }
 }
 
+QString VariablesModel::whyNotEditable(SourceKind source) {
+  switch (source) {
+    case SourceKind::Live:
+      return QStringLiteral(
+          "Values of live robots are only shown: nothing is ever sent to robots.");
+    case SourceKind::Replay:
+      return QStringLiteral("Values of a recording are what they were.");
+    case SourceKind::Simulate:
+      break;
+  }
+  return {};
+}
+
 QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
   const telemetry::ColumnInfo* column = columnOf(index);
   if (column == nullptr) return QStringLiteral("Only values of variables can be edited.");
-  if (m_kind == SourceKind::Live) {
-    return QStringLiteral("Values of live robots are only shown: nothing is ever sent to robots.");
-  }
-  if (m_kind == SourceKind::Replay)
-    return QStringLiteral("Values of a recording are what they were.");
+  if (const QString why = whyNotEditable(m_kind); !why.isEmpty()) return why;
   if (m_moment) {
     return QStringLiteral(
         "A past moment is shown, and its values are what they were. Now leads back to the match.");

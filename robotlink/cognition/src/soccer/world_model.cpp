@@ -166,12 +166,6 @@ Pose WorldModel::toStudio(const Pose& turned) const {
           m_attacksLeft ? wrapToPi(turned.yaw + std::numbers::pi) : turned.yaw};
 }
 
-Point WorldModel::toLocal(const Point& p) const {
-  const double dx = p.x - m_pose.position.x, dy = p.y - m_pose.position.y;
-  const auto [s, c] = repeatable::sinCos(m_pose.yaw);
-  return {c * dx + s * dy, c * dy - s * dx};
-}
-
 Point WorldModel::toField(const Point& p) const {
   const auto [s, c] = repeatable::sinCos(m_pose.yaw);
   return {m_pose.position.x + c * p.x - s * p.y, m_pose.position.y + s * p.x + c * p.y};

@@ -60,7 +60,6 @@ class WorldModel {
   const Pose& pose() const { return m_pose; }
   /// The pose may be built upon.
   bool localized() const { return m_sigma < 0.7; }
-  bool surelyLocalized() const { return m_sigma < 0.35; }
   /// Heading by the IMU alone: 0 is the opponents' goal.
   double imuYaw() const { return m_imuYaw; }
 
@@ -85,7 +84,6 @@ class WorldModel {
   }
   Pose toStudio(const Pose& turned) const;
 
-  Point toLocal(const Point& onField) const;
   Point toField(const Point& local) const;
 
   /// What team and planning shall know, in DECISION_STATE, LOCALIZATION_BALL_*, LOCALIZATION_OPP*

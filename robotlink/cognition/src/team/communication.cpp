@@ -4,6 +4,7 @@
 #include <array>
 
 #include <robotlink/blackboard/robot_variables.h>
+#include <telemetry/wire/socket_address.h>
 #include <telemetry/wire/text_protocol.h>
 #include <telemetry/wire/udp_sender.h>
 
@@ -107,8 +108,7 @@ class Communication final : public CognitiveProcess {
 };
 
 Result<void> checkPorts(std::string_view what, int first, int last) {
-  constexpr int highest = 65535;
-  if (first >= 1 && last <= highest) return {};
+  if (first >= 1 && last <= telemetry::highestPort) return {};
   return failure(ErrorCode::InvalidArgument,
                  "the " + std::string(what) + " would be " + std::to_string(first) +
                      (last != first ? ".." + std::to_string(last) : "") +

@@ -2,11 +2,11 @@
 #include "team/referee_listener.h"
 
 #include <robotlink/cognition/referee_word.h>
+#include <telemetry/wire/socket_address.h>
 
 namespace pitchboard::link {
 
 Result<std::unique_ptr<RefereeListener>> RefereeListener::start(const ProcessOptions& options) {
-  constexpr int highestPort = 65535;
   const int player = options.shirt.value_or(options.robot.value);
   const auto refuse = [](const std::string& text) {
     return failure(ErrorCode::InvalidArgument, text, "referee");
@@ -18,7 +18,7 @@ Result<std::unique_ptr<RefereeListener>> RefereeListener::start(const ProcessOpt
     return refuse("a shirt has a number from 1 to 20, not " + std::to_string(player) +
                   "; give --shirt");
   }
-  if (options.refereePort < 1 || options.refereePort > highestPort) {
+  if (!telemetry::isPort(options.refereePort)) {
     return refuse("the port " + std::to_string(options.refereePort) + " does not lie in 1..65535");
   }
   telemetry::ReceiverOptions receiving;
@@ -38,10 +38,7 @@ std::optional<int> RefereeListener::newWord() {
   for (std::size_t i = 0; i < m_batch.size(); ++i) {
     const telemetry::DatagramView datagram = m_batch[i];
     const auto packet = telemetry::decodeReferee(datagram.payload);
-    if (!packet) {
-      ++m_strange;
-      continue;
-    }
+    if (!packet) continue;
     const auto* state = std::get_if<telemetry::RefereeState>(&*packet);
     if (state == nullptr || !m_tracker.accept(*state, datagram.sender, datagram.time)) continue;
     if (const auto meant = refereeWord(*state, m_team, m_player)) word = meant;

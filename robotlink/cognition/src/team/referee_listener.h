@@ -24,8 +24,6 @@ class RefereeListener {
   /// What the newest packet since the last call means to this robot; nothing when there was none
   /// for it. Never waits. A referee that falls silent has said its last word: it stays.
   std::optional<int> newWord();
-  /// Datagrams on the port that were no referee's packet, or of an unknown version.
-  std::uint64_t strange() const { return m_strange; }
 
  private:
   RefereeListener(int team, int player, std::unique_ptr<telemetry::UdpReceiver> receiver)
@@ -35,7 +33,6 @@ class RefereeListener {
   std::unique_ptr<telemetry::UdpReceiver> m_receiver;
   telemetry::RefereeTracker m_tracker;  // two versions at once, a second controller
   telemetry::DatagramBatch m_batch;
-  std::uint64_t m_strange = 0;
 };
 
 }  // namespace pitchboard::link

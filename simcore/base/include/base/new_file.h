@@ -31,9 +31,9 @@ class NewFile {
   Result<void> syncFolder() const;
   /// Cuts what was written behind `size`, and gives room that was kept back.
   void cutAt(std::uint64_t size);
-  /// Asks for room behind the end, so that the last words fit on a disk that becomes full. False:
-  /// the disk has no such room. File systems that cannot keep room say true.
-  bool keepRoom(std::uint64_t bytes);
+  /// Asks for room behind the end, so that the last words fit on a disk that becomes full. Error
+  /// when the disk has no such room; file systems that cannot keep room have no objection.
+  Result<void> keepRoom(std::uint64_t bytes);
   /// Error when the file is no longer in its folder (removed while it was written).
   Result<void> stillThere() const;
   Result<void> close();
@@ -45,7 +45,6 @@ class NewFile {
   NewFile(std::string path, Descriptor descriptor)
       : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {}
   static Result<NewFile> open(const std::string& path, int flags, const std::string& shownAs);
-  tl::unexpected<Error> failed(int reason) const;
 
   std::string m_path;
   Descriptor m_descriptor;

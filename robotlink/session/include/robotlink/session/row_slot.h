@@ -9,6 +9,7 @@
 #include <limits>
 #include <string_view>
 
+#include <base/ids.h>
 #include <telemetry/series/series_types.h>
 
 namespace pitchboard::link {
@@ -58,6 +59,15 @@ inline RowSlot findSlot(const telemetry::GroupInfo& group,
 inline std::string_view attribute(const telemetry::GroupInfo& group, std::string_view name) {
   const auto found = group.attributes.find(std::string(name));
   return found == group.attributes.end() ? std::string_view() : std::string_view(found->second);
+}
+
+/// The colour of a robot's rows; blue where they name none.
+inline TeamColor teamOf(const telemetry::GroupInfo& group) {
+  const std::string_view name = attribute(group, "team");
+  for (const TeamColorInfo& team : teamColors) {
+    if (team.name == name) return team.color;
+  }
+  return TeamColor::Blue;
 }
 
 /// A whole number from 0 to 9 digits, else `fallback`.

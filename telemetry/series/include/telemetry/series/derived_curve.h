@@ -87,13 +87,7 @@ std::vector<Sample> derived(std::span<const Sample> samples, Curve curve) {
   return out;
 }
 
-/// a − b at the times of a, with the last value of b at or before that time; NaN before b begins.
-std::vector<Sample> difference(std::span<const Sample> a, std::span<const Sample> b);
-
 /// Of the finite values in the closed interval; samples in order of time.
 SeriesStatistics statisticsOf(std::span<const Sample> samples, TimeRange range);
-
-/// Value of a last-value curve at a time; nothing before its first sample.
-std::optional<double> valueAt(std::span<const Sample> samples, double time);
 
 }  // namespace pitchboard::telemetry

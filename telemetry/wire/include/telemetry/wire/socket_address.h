@@ -10,6 +10,13 @@
 
 namespace pitchboard::telemetry {
 
+inline constexpr int highestPort = 65535;
+
+/// A port that can be sent to or listened on; 0 is the system's choice.
+constexpr bool isPort(int port) {
+  return port >= 1 && port <= highestPort;
+}
+
 inline sockaddr_in socketAddress(Address address, std::uint16_t port) {
   sockaddr_in out{};
   out.sin_family = AF_INET;

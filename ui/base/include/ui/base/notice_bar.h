@@ -45,7 +45,6 @@ class NoticeBar : public QFrame {
     return m_notices.empty() ? NoticeTone::Trouble : m_notices.front().topic.tone;
   }
   QString text() const;
-  int waiting() const { return m_notices.empty() ? 0 : static_cast<int>(m_notices.size()) - 1; }
 
  private:
   struct Notice {

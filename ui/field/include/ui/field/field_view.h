@@ -50,7 +50,6 @@ class FieldView : public QWidget, public FieldPictures {
   void fillRobotsMenu(QMenu* menu);
   /// Opens the editor for the pose of this robot.
   void editPose(RobotId id);
-  void fitField();
   void setFlipped(bool flipped);
   bool isFlipped() const;
   QImage picture(QSize size) const override;

@@ -39,7 +39,6 @@ class Playback : public Transport {
   /// Playing on from the very end starts at the beginning.
   void setPaused(bool paused) override;
   void step(int ticks) override;
-  bool canStepBack() const override { return true; }
   void toStart() override;
   double speed() const override { return m_speed; }
   /// Kept between slowest and fastest.

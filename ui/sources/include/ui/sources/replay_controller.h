@@ -47,8 +47,6 @@ class ReplayController : public FrameSource {
 
   /// Part of the rows that are in memory, 0 to 1; 1 also when nothing is being read.
   double loaded() const { return m_loaded; }
-  /// Goes on without the rows that are not in memory yet: curves end there, moments do not.
-  void stopLoading();
   /// Bytes that rows may take. Of a session that does not fit, a coarse picture of everything and
   /// the rows around what is looked at are in memory; of one that has no such picture (it broke
   /// off, or is older than 0.3) the end is, and noted() says so.

@@ -17,9 +17,8 @@ class Transport : public QObject {
   virtual bool isAvailable() const = 0;
   virtual bool isPaused() const = 0;
   virtual void setPaused(bool paused) = 0;
-  /// One tick forward or back, then pauses. Back only where `canStepBack`.
+  /// One tick forward or back, then pauses. Back only in what is played back.
   virtual void step(int ticks) = 0;
-  virtual bool canStepBack() const = 0;
   virtual void toStart() = 0;
   /// Seconds per second; link::MatchRunner::unlimitedSpeed: as fast as possible.
   virtual double speed() const = 0;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_errors.h"
+
+#include <cerrno>
+
+#include <base/system_reason.h>
+
+namespace pitchboard {
+
+tl::unexpected<Error> cannotMake(int reason, const std::string& path) {
+  switch (reason) {
+    case EEXIST:
+      return failure(ErrorCode::Conflict, "This file exists; choose another name.", path);
+    case ENOENT:
+      return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.",
+                     path);
+    case EACCES:
+    case EROFS:
+    case EPERM:
+      return failure(ErrorCode::SystemError,
+                     "This folder does not allow new files; choose another one.", path);
+    default:
+      return failure(ErrorCode::SystemError,
+                     "The file cannot be made: " + systemReason(reason) + ".", path);
+  }
+}
+
+tl::unexpected<Error> cannotWrite(int reason, const std::string& path) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+      return failure(ErrorCode::SystemError,
+                     "The disk is full; free some room or choose another disk.", path);
+    case EFBIG:
+      return failure(ErrorCode::SystemError,
+                     "The file has reached the largest size that is allowed here.", path);
+    default:
+      return failure(ErrorCode::SystemError,
+                     "The file cannot be written: " + systemReason(reason) + ".", path);
+  }
+}
+
+}  // namespace pitchboard
