@@ -144,19 +144,26 @@ std::string_view gamePhaseWords(int gamePhase) {
   return pick(names, gamePhase, "unknown");
 }
 
+std::string_view setPlayName(League league, int setPlay) {
+  static constexpr std::string_view spl[] = {"none",   "goal kick", "pushing free kick",
+                                             "corner", "kick-in",   "penalty"};
+  static constexpr std::string_view hsl[] = {"none",    "direct free kick", "indirect free kick",
+                                             "penalty", "throw-in",         "goal kick",
+                                             "corner"};
+  return league == League::HumanoidSoccer ? pick(hsl, setPlay, "unknown")
+                                          : pick(spl, setPlay, "unknown");
+}
+
 std::string_view setPlayWords(League league, int setPlay) {
   static constexpr int firstOfHl = 4;  // of the secondary state; what is below are phases
   static constexpr std::string_view hl[] = {"direct free kick", "indirect free kick",
                                             "penalty kick",     "corner kick",
                                             "goal kick",        "throw-in"};
-  static constexpr std::string_view spl[] = {"none",        "goal kick", "pushing free kick",
-                                             "corner kick", "kick-in",   "penalty kick"};
-  static constexpr std::string_view hsl[] = {
-      "none",     "direct free kick", "indirect free kick", "penalty kick",
-      "throw-in", "goal kick",        "corner kick"};
-  if (league == League::HumanoidSoccer) return pick(hsl, setPlay, "unknown");
-  if (league == League::StandardPlatform) return pick(spl, setPlay, "unknown");
-  return setPlay < firstOfHl ? gamePhaseWords(setPlay) : pick(hl, setPlay - firstOfHl, "unknown");
+  if (league == League::Humanoid) {
+    return setPlay < firstOfHl ? gamePhaseWords(setPlay) : pick(hl, setPlay - firstOfHl, "unknown");
+  }
+  const std::string_view name = setPlayName(league, setPlay);
+  return name == "corner" ? "corner kick" : name == "penalty" ? "penalty kick" : name;
 }
 
 std::string_view colourWords(int colour) {

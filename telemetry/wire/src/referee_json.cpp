@@ -74,7 +74,7 @@ Json stateJson(const RefereeState& state) {
   put(json, "gamePhase", state.gamePhase);
   if (state.gamePhase) json["gamePhaseName"] = gamePhaseWords(*state.gamePhase);
   put(json, "setPlay", state.setPlay);
-  if (state.setPlay) json["setPlayName"] = setPlayWords(state.league, *state.setPlay);
+  if (state.setPlay) json["setPlayName"] = setPlayName(state.league, *state.setPlay);
   put(json, "competitionType", state.competitionType);
   put(json, "competitionPhase", state.competitionPhase);
   put(json, "stopped", state.stopped);

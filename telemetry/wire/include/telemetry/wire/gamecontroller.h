@@ -131,7 +131,10 @@ std::string_view secStateName(int secState);
 std::string_view gameTypeName(int gameType);
 /// "normal", "penalty shoot-out", "overtime", "timeout".
 std::string_view gamePhaseWords(int gamePhase);
-/// In words; the same code means different things in the SPL and the HSL.
+/// "corner", "pushing free kick", ...: in JSON, which programs read. The same code means different
+/// things in the SPL and the HSL.
+std::string_view setPlayName(League league, int setPlay);
+/// As people read it everywhere: "corner kick". Of the HL the secondary state.
 std::string_view setPlayWords(League league, int setPlay);
 /// "blue", "red", ...; "unknown".
 std::string_view colourWords(int colour);
