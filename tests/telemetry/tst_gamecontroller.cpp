@@ -202,6 +202,8 @@ class TestGameController : public QObject {
     QVERIFY(isSubstitute(state, {1, 13, 0, {}, {}, {}, {}, {}, false}));
     QVERIFY(setPlayWords(League::HumanoidSoccer, 5) == "goal kick");
     QVERIFY(setPlayWords(League::StandardPlatform, 1) == "goal kick");
+    QVERIFY(setPlayName(League::HumanoidSoccer, 6) == "corner");  // in JSON
+    QVERIFY(setPlayWords(League::HumanoidSoccer, 6) == "corner kick");
     QVERIFY(stateName(-1) == "UNKNOWN");
   }
 
