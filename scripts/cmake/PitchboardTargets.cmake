@@ -166,7 +166,7 @@ function(pitchboard_test name)
   if(PITCHBOARD_SANITIZE)
     set(suppressions ${PROJECT_SOURCE_DIR}/tests/sanitizers)
     list(APPEND environment
-         "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1"
+         "ASAN_OPTIONS=suppressions=${suppressions}/asan.supp:detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1"
          "LSAN_OPTIONS=suppressions=${suppressions}/lsan.supp:print_suppressions=0"
          "UBSAN_OPTIONS=print_stacktrace=1" "QTEST_FUNCTION_TIMEOUT=1800000"  # TIMEOUT is the limit
          # The child of a process with threads: it soon becomes another program.

@@ -167,9 +167,10 @@ class TestUnchangedProcess : public QObject {
       return status.open(QIODevice::ReadOnly) ? status.readAll().split(')').last().trimmed().left(1)
                                               : QByteArray();
     };
-    QTRY_COMPARE_WITH_TIMEOUT(state(), QByteArray("T"), 30'000);
+    QTRY_COMPARE(state(), QByteArray("T"));
     runner->setPaused(false);
-    QTRY_COMPARE_WITH_TIMEOUT(state(), QByteArray("S"), 30'000);
+    // Working and waiting change all the time.
+    QTRY_VERIFY(QByteArray("SRD").contains(state()) && !state().isEmpty());
     runner.reset();
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
