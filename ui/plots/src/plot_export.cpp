@@ -11,6 +11,7 @@
 
 #include <base/csv_field.h>
 #include <base/file_target.h>
+#include <ui/base/picture_bytes.h>
 #include <ui/base/save_file.h>
 #include <ui/plots/axis_ticks.h>
 
@@ -100,12 +101,8 @@ QImage plotPicture(PlotPage& page, double ratio) {
 }
 
 Result<void> savePlotPng(PlotPage& page, const QString& path) {
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  buffer.open(QIODevice::WriteOnly);
-  if (!plotPicture(page, pngRatio).save(&buffer, "PNG")) {
-    return failure(ErrorCode::SystemError, "The picture could not be made.");
-  }
+  const QByteArray bytes = pictureBytes(plotPicture(page, pngRatio));
+  if (bytes.isEmpty()) return failure(ErrorCode::SystemError, "The picture could not be made.");
   return writeBytes(path, bytes);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/session/export_dialog.h>
 
-#include <QBuffer>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDateTimeEdit>
@@ -22,6 +21,7 @@
 #include <base/file_target.h>
 #include <ui/base/dialog_size.h>
 #include <ui/base/number_box.h>
+#include <ui/base/picture_bytes.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
 
@@ -235,8 +235,7 @@ void ExportDialog::write(const ExportRequest& request) {
   }
   QByteArray picture;
   if (form().kind == ExportKind::Report) {
-    QBuffer buffer(&picture);
-    m_pictures->picture({1040, 740}).save(&buffer, "PNG");
+    picture = pictureBytes(m_pictures->picture({1040, 740}));
   }
   m_worker.start([this, request, chosen = form(), picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
@@ -288,8 +287,7 @@ void ExportDialog::writePicture(const QString& path) {
   if (form().kind == ExportKind::Svg) {
     bytes = m_pictures->svgPicture(size);
   } else {
-    QBuffer buffer(&bytes);
-    m_pictures->picture(size).save(&buffer, "PNG");
+    bytes = pictureBytes(m_pictures->picture(size));
   }
   const auto written =
       writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},

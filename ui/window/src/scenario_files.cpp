@@ -3,10 +3,9 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QSaveFile>
 
 #include <base/file_target.h>
-#include <ui/base/save_file.h>
+#include <ui/base/picture_bytes.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -69,20 +68,22 @@ void ScenarioFiles::save(const QString& path) {
 
 void ScenarioFiles::exportPicture(const QString& path) {
   const QSize size = m_field->size() * m_window->devicePixelRatioF();
-  const QString suffix = QFileInfo(path).suffix().toLower();
-  QSaveFile file(path);
-  const auto isWritten = [&file](const QByteArray& bytes) {
-    return !bytes.isEmpty() && file.write(bytes) == bytes.size();
-  };
-  const bool drawn = file.open(QIODevice::WriteOnly) &&
-                     (suffix == QStringLiteral("svg")
-                          ? isWritten(m_field->svgPicture(size))
-                          : m_field->picture(size).save(&file, suffix.toLatin1().constData()));
-  if (!drawn || !commitWhole(file)) {
+  const QByteArray format = QFileInfo(path).suffix().toLower().toLatin1();
+  const QByteArray bytes = format == "svg"
+                               ? m_field->svgPicture(size)
+                               : pictureBytes(m_field->picture(size), format.constData());
+  if (bytes.isEmpty()) {
     emit failed(
-        QStringLiteral("The picture was not written to %1. Choose another folder, and a name that "
-                       "ends in .png or .svg.")
+        QStringLiteral("No picture was written to %1. Choose a name that ends in .png or .svg.")
             .arg(path));
+    return;
+  }
+  const auto written =
+      writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
+                IfExists::Replace);
+  if (!written) {
+    emit failed(QStringLiteral("The picture was not written. %1")
+                    .arg(QString::fromStdString(written.error().text())));
   }
 }
 
