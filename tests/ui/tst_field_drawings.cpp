@@ -38,6 +38,19 @@ class TestFieldDrawings : public QObject {
 
   void cleanup() { m_view.reset(); }
 
+  void aGhostCarriesItsNumber() {
+    const auto ghost = [this](int number) {
+      auto frame = frameOf(1);
+      frame->robots[0].identity.number = number;
+      believe(*frame, frame->robots[0], {{1.0, 0.0}, 0.0});
+      m_view->showFrame(frame);
+      return m_view->picture({1040, 740}).copy(620 - 12, 370 - 12, 24, 24);
+    };
+    const QImage four = ghost(4);
+    QVERIFY(ghost(1) != four);
+    QCOMPARE(ghost(4), four);
+  }
+
   void drawingsAreShownByRobotAndLayer() {
     auto frame = frameOf(2);
     telemetry::DrawingBook book;

@@ -206,6 +206,34 @@ class TestFieldLook : public QObject {
     }
   }
 
+  void wordsOfACrowdHideNobody() {
+    std::vector<NamedRobot> crowd;
+    for (const QPointF at : {QPointF(0, 0), QPointF(30, 2), QPointF(62, 0), QPointF(30, 32)}) {
+      crowd.push_back({RobotId{static_cast<int>(crowd.size()) + 1}, at, 9.0, {}, {80.0, 14.0}});
+    }
+    const QRectF area(-200, -200, 460, 246);
+    std::map<RobotId, int> before;
+    const auto placed = placeWords(crowd, area, before);
+    QCOMPARE(placed.size(), crowd.size());
+    std::vector<QRectF> boxes;
+    for (const PlacedName& word : placed) {
+      const QRectF box(word.centre - QPointF(40, 7), QSizeF(80, 14));
+      QVERIFY(area.contains(box));
+      for (const QRectF& other : boxes) QVERIFY(!box.intersects(other));
+      for (const NamedRobot& robot : crowd) {
+        const QRectF disc(robot.at - QPointF(9, 9), QSizeF(18, 18));
+        QVERIFY(!box.intersects(disc));
+      }
+      boxes.push_back(box);
+    }
+    // Names keep off them.
+    std::map<RobotId, int> none;
+    const std::vector<NamedRobot> two{{RobotId{1}, {0, 0}, 4.0, {18.0, 9.0}}};
+    const QRectF taken(-40, -20, 80, 14);
+    const QPointF name = placeNames(two, none, {taken})[0].centre;
+    QVERIFY(!taken.intersects(QRectF(name - QPointF(9, 4.5), QSizeF(18, 9))));
+  }
+
   void aNumberThatCanBeReadNeedsNoName() {
     std::map<RobotId, int> before;
     const std::vector<NamedRobot> robots{{RobotId{1}, {0, 0}, 10.0, {18.0, 9.0}},

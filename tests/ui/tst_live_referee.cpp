@@ -13,6 +13,8 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/source_switch.h>
+#include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
 #include "live_rig.h"
@@ -114,6 +116,22 @@ class TestLiveReferee : public QObject {
     QTRY_VERIFY(goal());
     QVERIFY(goal()->side && goal()->team != 0);
     QCOMPARE(goal()->score, (sim::Score{1, 0}));
+  }
+
+  void withoutARefereeThePastHasNoScoreEither() {
+    Studio s;
+    s.goLive();
+    const Robot robot(s.options, 3);
+    QVERIFY(robot.say());
+    QTRY_COMPARE(s.robots(), std::size_t(1));
+    Timeline* timeline = s.window.timeline();
+    QTRY_VERIFY(timeline->available());
+    timeline->seek(timeline->available()->end);
+    const auto* shown = s.window.findChild<SourceSwitch*>();
+    QTRY_VERIFY(shown->frame() && shown->frame()->origin == link::FrameOrigin::Recorded);
+    const ScoreboardState past = scoreboardOf(*shown->frame());
+    QCOMPARE(past.state, QStringLiteral("NO REFEREE"));
+    QVERIFY(past.leftName.isEmpty());
   }
 };
 

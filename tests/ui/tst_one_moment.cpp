@@ -108,9 +108,9 @@ class TestOneMoment : public QObject {
     b.dock->plotVariables({QStringLiteral("B1/ACTION")});
     b.timeline.seek(22.0);
     QTRY_COMPARE(b.dock->currentPage()->panes().size(), 2);
-    const auto isThere = [&b](const PlotPane* pane) {
+    const auto isThere = [&b](const PlotPane* pane, int y) {
       const QImage image = b.dock->grab().toImage();
-      const QPoint at(qRound(pane->timeAxis().pixel(22.0)), pane->surface()->height() / 2);
+      const QPoint at(qRound(pane->timeAxis().pixel(22.0)), y);
       const QPoint in = pane->surface()->mapTo(b.dock.get(), at);
       const QColor line = theme().accentLine;
       for (int x = in.x() - 2; x <= in.x() + 2; ++x) {
@@ -122,7 +122,11 @@ class TestOneMoment : public QObject {
       }
       return false;
     };
-    for (const PlotPane* pane : b.dock->currentPage()->panes()) QTRY_VERIFY(isThere(pane));
+    for (const PlotPane* pane : b.dock->currentPage()->panes()) {
+      QTRY_VERIFY(isThere(pane, pane->surface()->height() / 2));
+    }
+    // The name of a lane is not struck through.
+    QVERIFY(!isThere(b.dock->currentPage()->panes()[1], 4));
   }
 
   void aDoubleClickTakesItsClickBack() {

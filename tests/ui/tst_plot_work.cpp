@@ -301,6 +301,14 @@ class TestPlotWork : public QObject {
     QTRY_VERIFY(!table->horizontalScrollBar()->isVisible());
     QCOMPARE(table->columnAt(table->viewport()->width() - 2), int(MarksModel::columns) - 1);
     QVERIFY(table->columnWidth(0) >= 100);
+    const QFontMetrics metrics(themeFont(TypeRole::Secondary));
+    for (const int column : {MarksModel::Name, MarksModel::AtA, MarksModel::AtB}) {
+      for (int row = 0; row < 2; ++row) {
+        const QString text = table->model()->index(row, column).data().toString();
+        QVERIFY2(metrics.horizontalAdvance(text) + 10 <= table->columnWidth(column),
+                 qPrintable(text));
+      }
+    }
     // Beside it a chart that can be read, and a whole lane.
     PlotPane* chart = b.dock->currentPage()->panes()[0];
     QTRY_VERIFY2(chart->surface()->height() >= 64, qPrintable(QString::number(chart->height())));

@@ -24,6 +24,7 @@
 
 #include "../support/small_disk.h"
 #include "export_rig.h"
+#include "moment_box.h"
 #include "plot_export.h"
 #include "plot_page.h"
 #include "plot_presets.h"
@@ -293,6 +294,25 @@ class TestSessionExportDialog : public QObject {
     QVERIFY(message(dialog).contains(QStringLiteral("ends before it begins")));
   }
 
+  void momentsAreRead_data() {
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<std::optional<double>>("seconds");
+    const auto row = [](const char* text, std::optional<double> seconds) {
+      QTest::newRow(*text == 0 ? "nothing" : text) << QString::fromUtf8(text) << seconds;
+    };
+    row("02:23.683", 143.683);
+    row("1:02:03.5", 3723.5);
+    row("\u221200:05.25", -5.25);
+    row("143.683 s", 143.683);
+    row("62,5", 62.5);
+    for (const char* wrong : {"", "2:", ":30", "a", "1:2:3:4", "1:-5", "nan", "1e9"})
+      row(wrong, {});
+  }
+  void momentsAreRead() {
+    QFETCH(QString, text);
+    QTEST(momentFromText(text), "seconds");
+  }
+
   void theRangeIsTypedAsSecondsOrAsTimesOfDay() {
     ExportSource source;
     source.clock = QDateTime(QDate(2026, 7, 4), QTime(15, 0, 0, 250));
@@ -311,6 +331,15 @@ class TestSessionExportDialog : public QObject {
     from->setDateTime(QDateTime(QDate(2026, 7, 4), QTime(15, 30)));
     QCOMPARE(begin->value(), 1799.75);
     QCOMPARE(end->value(), 3600.0);
+    // Seconds are written as the timeline writes them, and typed in both ways.
+    end->setValue(143.683);
+    QCOMPARE(end->text(), QStringLiteral("02:23.683"));
+    for (const auto& [typed, seconds] : {std::pair("1:05,5", 65.5), {"90", 90.0}, {"a", 90.0}}) {
+      end->selectAll();
+      QTest::keyClicks(end, QLatin1String(typed));
+      QTest::keyClick(end, Qt::Key_Tab);
+      QCOMPARE(end->value(), seconds);
+    }
     // Without a time of day there is nothing to type it into.
     ExportDialog without({}, {0.0, 1.0}, nullptr, nullptr);
     without.show();

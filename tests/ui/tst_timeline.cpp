@@ -152,7 +152,7 @@ class TestTimeline : public QObject {
     QVERIFY(!sign.isVisible());
     b.timeline.seek(62.5);
     QVERIFY(sign.isVisible());
-    QCOMPARE(sign.text(), QStringLiteral("Looking back: 00:01:02 (Now leads back)"));
+    QCOMPARE(sign.text(), QStringLiteral("Looking back: 01:02.50 (Now leads back)"));
     b.timeline.goLive();
     QVERIFY(!sign.isVisible());
   }

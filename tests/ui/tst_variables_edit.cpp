@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values that are typed, names that are imported, blackboards that are attached.
+// Values that are typed, names that are imported, blackboards that are attached, robots that fall
+// silent.
 #include <QSpinBox>
 
 #include <robotlink/blackboard/system_v.h>
@@ -36,6 +37,31 @@ class TestVariablesEdit : public QObject {
     bench.press("editValues");
     QTest::keyClick(bench.view, Qt::Key_F2);
     QVERIFY(bench.view->isEditing());
+  }
+
+  void aSilentRobotIsHistoryFromItsNameOn() {
+    Bench bench;
+    auto store = twoRobots();
+    bench.hand.take(store, SourceKind::Live);
+    const auto look = [&bench] {
+      bench.model->refresh(bench.view->rowsInSight(), bench.view->sparkPixels());
+      return bench.at(QStringLiteral("B2")).data(Qt::ForegroundRole).value<QColor>();
+    };
+    QVERIFY(look() != theme().disabledText);
+    for (int second = 11; second <= 30; ++second) {
+      append(*store, *store->findGroup("B1"), second, 1, 0, 100.0F, 0.5);
+    }
+    QSignalSpy changed(bench.model, &QAbstractItemModel::dataChanged);
+    QCOMPARE(look(), theme().disabledText);
+    // The name is painted anew as well.
+    const QModelIndex name = bench.model->find(QStringLiteral("B2"));
+    QVERIFY(std::ranges::any_of(changed, [&name](const QList<QVariant>& call) {
+      const auto first = call[0].toModelIndex(), last = call[1].toModelIndex();
+      return first.parent() == name.parent() && first.column() == 0 && first.row() <= name.row() &&
+             last.row() >= name.row();
+    }));
+    append(*store, *store->findGroup("B2"), 30.5, 1, 0, 100.0F, 0.5);
+    QVERIFY(look() != theme().disabledText);
   }
 
   void whatCannotBeEditedSaysWhy_data() {

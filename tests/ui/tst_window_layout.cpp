@@ -2,12 +2,14 @@
 // What the window shows in little room, and that its layout is kept.
 
 #include <QDockWidget>
+#include <QHeaderView>
 #include <QLabel>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSlider>
 #include <QToolBar>
 #include <QToolButton>
+#include <QTreeView>
 #include <QtTest>
 
 #include <ui/base/notice_bar.h>
@@ -55,6 +57,56 @@ class TestWindowLayout : public QObject {
     QTRY_VERIFY(score->isVisible() && score->width() >= score->sizeHint().width());
     const QPoint right = score->mapTo(&s.window, QPoint(score->width(), 0));
     QVERIFY(right.x() <= s.window.width());
+  }
+
+  void whatHasNoRoomInTheToolBarIsAClickAway() {
+    Studio s({960, 600});
+    s.play();
+    for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+    s.window.resize(960, 600);
+    auto* bar = s.find<QToolBar>("transportBar");
+    auto* more = bar->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+    const auto* score = s.window.findChild<Scoreboard*>();
+    const auto* record = s.find<QToolButton>("record");
+    QTRY_VERIFY(more->isVisible() && !record->isVisible());
+    QTRY_VERIFY(!more->geometry().intersects(score->geometry()));
+    QVERIFY(bar->rect().contains(more->geometry()));
+    const QImage drawn = more->grab().toImage();
+    bool any = false;
+    for (int x = 0; x < drawn.width(); ++x) {
+      for (int y = 0; y < drawn.height(); ++y) any = any || drawn.pixelColor(x, y) == theme().text;
+    }
+    QVERIFY(any);
+    QTest::mouseClick(more, Qt::LeftButton);
+    QTRY_VERIFY(record->isVisible());
+  }
+
+  void namesOfVariablesAndHeadsAreWhole() {
+    Studio s({1440, 900});
+    s.play();
+    const auto* view = s.find<QTreeView>("variablesView");
+    QTRY_VERIFY(view->model()->rowCount() > 0);
+    const QHeaderView* header = view->header();
+    for (int c = 0; c < header->count(); ++c) {
+      if (header->isSectionHidden(c)) continue;
+      const QString text = view->model()->headerData(c, Qt::Horizontal).toString();
+      const int wide = QFontMetrics(header->font()).horizontalAdvance(text);
+      QVERIFY2(header->sectionSize(c) >= wide + 4, qPrintable(text));
+    }
+    // A robot's variables stand on the third level.
+    const int margin = view->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, view) + 1;
+    const int room = header->sectionSize(0) - 3 * view->indentation() - 2 * margin;
+    const QFontMetrics metrics(view->font());
+    const QModelIndex robot = view->model()->index(0, 0);
+    int count = 0;
+    for (int c = 0; c < view->model()->rowCount(robot); ++c) {
+      const QModelIndex category = view->model()->index(c, 0, robot);
+      for (int v = 0; v < view->model()->rowCount(category); ++v, ++count) {
+        const QString name = view->model()->index(v, 0, category).data().toString();
+        QVERIFY2(metrics.horizontalAdvance(name) <= room, qPrintable(name));
+      }
+    }
+    QVERIFY(count > 50);
   }
 
   // Twice as large on 1920 x 1200, nothing may ask for more than there is.

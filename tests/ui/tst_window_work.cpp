@@ -17,6 +17,7 @@
 
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
+#include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -105,6 +106,12 @@ class TestWindowWork : public QObject {
     const auto selected = s.window.findChild<RobotSelection*>()->ids();
     QCOMPARE(selected.size(), std::size_t(1));
     QCOMPARE(s.controller.edits()->robot(selected[0])->identity.number, 2);
+    s.timeline()->seek(1.0);
+    s.timeline()->addBookmark(QStringLiteral("odd sock"));
+    s.timeline()->seek(3.0);
+    find(QStringLiteral("odd sock"));
+    QCOMPARE(s.timeline()->shownTime(), 1.0);
+    s.timeline()->goLive();
     find(QStringLiteral("b2 vision_ball_angle"));
     const auto* plots = s.window.findChild<PlotsDock*>();
     QVERIFY(plots->currentPage()->panes()[0]->hasCurve(
@@ -145,8 +152,26 @@ class TestWindowWork : public QObject {
     for (const Scoreboard* board : s.window.findChildren<Scoreboard*>())
       boards += board->isVisible();
     QCOMPARE(boards, 1);
+    // Keys do what they always do, also those of bars that are hidden.
+    QWidget* canvas = s.window.findChild<FieldView*>()->focusProxy();
+    canvas->setFocus();
+    const bool paused = s.controller.isPaused();
+    QTest::keyClick(canvas, Qt::Key_P, Qt::ControlModifier);
+    QTRY_COMPARE(s.controller.isPaused(), !paused);
+    QTest::keyClick(canvas, Qt::Key_P, Qt::ControlModifier);
+    QTRY_COMPARE(s.controller.isPaused(), paused);
+    QTest::keyClick(canvas, Qt::Key_1);
+    QCOMPARE(s.window.findChild<RobotSelection*>()->ids().size(), std::size_t(1));
+    QTest::keyClick(canvas, Qt::Key_Escape);
+    QVERIFY(s.window.findChild<RobotSelection*>()->ids().empty());
+    QVERIFY(s.window.isFullScreen());
+    QTest::keyClick(canvas, Qt::Key_Escape);
+    QVERIFY(!s.window.isFullScreen());
+    QTest::keyClick(&s.window, Qt::Key_F11);
+    QVERIFY(s.window.isFullScreen());
     QTest::keyClick(&s.window, Qt::Key_Escape);
     QVERIFY(!s.window.isFullScreen());
+    QVERIFY(!s.window.actions().contains(s.find<QAction>("play")));
     QTRY_VERIFY(s.find<QDockWidget>("robots")->isVisible());
     QVERIFY(s.window.menuBar()->isVisible() && s.window.statusBar()->isVisible());
   }

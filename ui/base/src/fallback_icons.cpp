@@ -21,6 +21,8 @@ constexpr Drawing drawings[] = {
     {"edit-delete", "M5 6h12v2H5zM6 9h10v10H6zM9 3h4v2H9z"},
     {"edit-select", "M5 2l12 10-5 1 3 6-3 1-3-6-4 3z"},
     {"starred-symbolic", "M11 2l2.7 6 6.3.6-4.8 4.3 1.4 6.3L11 16l-5.6 3.2 1.4-6.3L2 8.6 8.3 8z"},
+    {"arrow-right-double", "M4 4l7 7-7 7zM11 4l7 7-7 7z"},
+    {"arrow-down-double", "M4 4l7 7 7-7zM4 11l7 7 7-7z"},
     {"list-add", "M10 3h2v7h7v2h-7v7h-2v-7H3v-2h7z"},
     {"zoom-fit-best", "M2 2h6v2H4v4H2zM14 2h6v6h-2V4h-4zM2 14h2v4h4v2H2zM18 14h2v6h-6v-2h4z"},
 };

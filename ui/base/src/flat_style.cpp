@@ -139,6 +139,24 @@ int FlatStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidg
   return QProxyStyle::styleHint(hint, option, widget, more);
 }
 
+int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption* option,
+                           const QWidget* widget) const {
+  if (metric == PM_ToolBarExtensionExtent) return scaled(widget, 16);
+  return QProxyStyle::pixelMetric(metric, option, widget);
+}
+
+// Qt's own arrow of a bar whose buttons have no room is black, also on dark.
+QIcon FlatStyle::standardIcon(StandardPixmap icon, const QStyleOption* option,
+                              const QWidget* widget) const {
+  if (icon == SP_ToolBarHorizontalExtensionButton) {
+    return themedIcon(QStringLiteral("arrow-right-double"));
+  }
+  if (icon == SP_ToolBarVerticalExtensionButton) {
+    return themedIcon(QStringLiteral("arrow-down-double"));
+  }
+  return QProxyStyle::standardIcon(icon, option, widget);
+}
+
 QRect FlatStyle::subControlRect(ComplexControl control, const QStyleOptionComplex* option,
                                 SubControl part, const QWidget* widget) const {
   const auto* combo = plainCombo(control, option);

@@ -106,7 +106,9 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
 }  // namespace
 
 ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
-  if (frame.origin == link::FrameOrigin::Live || frame.referee) return refereeScoreboard(frame);
+  // Only who plays a match knows its score without a referee: not what is heard, nor its past.
+  const bool played = frame.truthKnown || frame.ballKnown;
+  if (!played || frame.referee) return refereeScoreboard(frame);
   ScoreboardState state;
   std::vector<sim::RobotIdentity> robots;
   for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);

@@ -127,10 +127,10 @@ QToolBar QComboBox { min-height: @24; }
 QToolBar#fieldTools, QToolBar[orientation="1"] { border: none; padding: @4; }
 QToolBar#plotTools { padding: @2 @2; spacing: 1px; }
 QToolBar#plotTools QToolButton { padding: @2; }
-QToolButton#qt_toolbar_ext_button { background: @button; border-color: @line; }
 QToolBar::separator:horizontal { background: @line; width: 1px; margin: @4 @8; }
 QToolButton { border: 1px solid transparent; border-radius: 3px; padding: @3; }
 QToolButton:hover { background: @button; border-color: @line; }
+QToolButton#qt_toolbar_ext_button { background: @button; border-color: @line; padding: 0; }
 QToolButton:pressed, QToolButton:checked { background: @row; border-color: @accent; }
 QToolButton#changedOnly, QToolButton#favouritesOnly {
   border-color: @line; background: @button; }
@@ -178,9 +178,11 @@ QLineEdit#variablesFilter:focus { border-color: @accent; }
 QDockWidget QDoubleSpinBox::up-button, QDockWidget QDoubleSpinBox::down-button,
 QDockWidget QSpinBox::up-button, QDockWidget QSpinBox::down-button { width: 0; border: none; }
 QTableView::item { padding: 0 @5; border: none; }
+QTableView#marksTable::item { padding: 0 @2; }
 QTableView::item:selected { background: @row; color: @text; }
 QHeaderView::section { background: @window; color: @secondary; border: none;
   border-bottom: 1px solid @line; padding: @3 @8; }
+QTreeView#variablesView QHeaderView::section { padding: @3 @5; }
 QToolTip { background: @window; color: @text; border: 1px solid @line; }
 )");
   const std::pair<const char*, QColor> names[] = {

@@ -150,11 +150,11 @@ void FieldScene::showNames() {
     if (!robot->body.isVisible()) continue;
     const RobotLook& look = robot->body.look();
     places.push_back(toScene(look.pose.position));
-    if (!shown) continue;
     named.push_back({id, toScene(look.pose.position), m_style.drawRadius(look.radius),
-                     robotName(look.team, look.number)});
+                     shown ? robotName(look.team, look.number) : QString(), look.word});
   }
   m_names->setRobots(std::move(named));
+  for (const auto& [id, place] : m_names->words()) m_robots.at(id)->body.setWordPlace(place);
   m_teamBall->setRobots(std::move(places), m_style.robotDrawRadius());
 }
 

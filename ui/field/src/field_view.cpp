@@ -102,6 +102,10 @@ struct FieldView::Private : FieldKeyTarget {
       scene->select({});
     }
   }
+  bool hasEscape() const {
+    return pointer->isDragging() || pointer->tool() != FieldTool::Select ||
+           !scene->selection().empty();
+  }
   void fit() override { canvas->fit(); }
   void toggleHelp() override { help->toggle(); }
   void togglePause() override {
@@ -211,6 +215,8 @@ bool FieldView::Private::handleKey(QKeyEvent* event) {
   }
   const FieldKey* key = findFieldKey(event->key(), event->modifiers());
   if (!key) return false;
+  // What is around the field may have a use for it.
+  if (key->key == Qt::Key_Escape && !hasEscape()) return false;
   key->act(*this);
   return true;
 }

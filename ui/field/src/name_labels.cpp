@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
@@ -16,6 +17,9 @@ namespace {
 constexpr double covered = 0.55;  // of the radius: where the number stands
 constexpr double gap_px = 3.0;
 constexpr std::array<double, 4> steps_px{0.0, 12.0, 26.0, 44.0};
+constexpr std::size_t wordSteps = 2;  // no line leads to a word
+constexpr int below = 1;              // of the directions
+constexpr double nose = 0.7;          // of the radius: how far it reaches beyond the disc
 constexpr int namePixels = 10;
 const double diagonal = std::sqrt(0.5);
 
@@ -57,22 +61,16 @@ double overlap(const QRectF& box, std::span<const NamedRobot> robots,
   return sum;
 }
 
-const QFont& nameFont() {
-  return fieldFont(namePixels, true);
-}
-
-}  // namespace
-
-std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots,
-                                   std::map<RobotId, int>& before) {
-  std::vector<PlacedName> placed;
+/// Looks for boxes beside robots, one after the other.
+struct Search {
+  std::span<const NamedRobot> robots;
+  QRectF area;  ///< null: everywhere
   std::vector<QRectF> taken;
-  std::map<RobotId, int> kept;
-  constexpr int count = static_cast<int>(directions.size() * steps_px.size());
-  for (const NamedRobot& robot : robots) {
-    if (!needsName(robot, robots)) continue;
-    const auto known = before.find(robot.id);
-    const int first = known == before.end() ? 0 : known->second;
+  std::size_t steps;
+
+  /// The box that covers least, and its direction and step; `first` is tried before all others.
+  std::pair<QRectF, int> place(const NamedRobot& robot, const QSizeF& size, double gap, int first) {
+    const int count = static_cast<int>(directions.size() * steps);
     int best = first;
     double least = std::numeric_limits<double>::infinity();
     QRectF bestBox;
@@ -80,20 +78,57 @@ std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots,
       const int choice = i < 0 ? first : i;
       const QPointF& way = directions[static_cast<std::size_t>(choice) % directions.size()];
       const double step = steps_px[static_cast<std::size_t>(choice) / directions.size()];
-      const double away = robot.radius + gap_px + step +
-                          std::abs(way.x()) * robot.name.width() / 2 +
-                          std::abs(way.y()) * robot.name.height() / 2;
-      const QRectF box = boxOf(robot.at + way * away, robot.name);
-      const double over = overlap(box, robots, taken);
+      const double away = robot.radius + gap + step + std::abs(way.x()) * size.width() / 2 +
+                          std::abs(way.y()) * size.height() / 2;
+      const QRectF box = boxOf(robot.at + way * away, size);
+      const QRectF seen = area.isNull() ? box : box & area;
+      const double over =
+          overlap(box, robots, taken) + box.width() - seen.width() + box.height() - seen.height();
       if (over >= least) continue;
       least = over;
       best = choice;
       bestBox = box;
     }
     taken.push_back(bestBox);
-    kept[robot.id] = best;
-    placed.push_back(
-        {robot.id, bestBox.center(), static_cast<std::size_t>(best) >= directions.size()});
+    return {bestBox, best};
+  }
+};
+
+const QFont& nameFont() {
+  return fieldFont(namePixels, true);
+}
+
+}  // namespace
+
+std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
+                                   DirectionsBefore& before) {
+  std::vector<PlacedName> placed;
+  Search search{robots, area, {}, wordSteps};
+  DirectionsBefore kept;
+  for (const NamedRobot& robot : robots) {
+    if (robot.word.isEmpty()) continue;
+    const auto known = before.find(robot.id);
+    const int first = known == before.end() ? below : known->second;
+    const auto [box, way] = search.place(robot, robot.word, nose * robot.radius + gap_px, first);
+    kept[robot.id] = way;
+    placed.push_back({robot.id, box.center(), false});
+  }
+  before = std::move(kept);
+  return placed;
+}
+
+std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
+                                   std::vector<QRectF> taken) {
+  std::vector<PlacedName> placed;
+  Search search{robots, {}, std::move(taken), steps_px.size()};
+  DirectionsBefore kept;
+  for (const NamedRobot& robot : robots) {
+    if (robot.name.isEmpty() || !needsName(robot, robots)) continue;
+    const auto known = before.find(robot.id);
+    const auto [box, way] =
+        search.place(robot, robot.name, gap_px, known == before.end() ? 0 : known->second);
+    kept[robot.id] = way;
+    placed.push_back({robot.id, box.center(), static_cast<std::size_t>(way) >= directions.size()});
   }
   before = std::move(kept);
   return placed;
@@ -115,13 +150,26 @@ void NameLabelsItem::place() {
   std::vector<NamedRobot> named;
   named.reserve(m_robots.size());
   for (const Robot& robot : m_robots) {
+    const QSizeF name(wordsWidth(nameFont(), robot.name) + 2, metrics.ascent());
     named.push_back({robot.id,
                      {side * robot.at.x() * scale, -side * robot.at.y() * scale},
                      robot.radius * scale,
-                     {wordsWidth(nameFont(), robot.name) + 2, metrics.ascent()}});
+                     robot.name.isEmpty() ? QSizeF() : name,
+                     robot.word.isEmpty() ? QSizeF() : plateSize(robot.word)});
+  }
+  const QRectF field = m_style->playingArea();
+  const QRectF area = QRectF(side * field.left() * scale, -side * field.top() * scale,
+                             side * field.width() * scale, -side * field.height() * scale)
+                          .normalized();
+  m_words.clear();
+  std::vector<QRectF> taken;
+  for (const PlacedName& word : placeWords(named, area, m_wordsBefore)) {
+    const auto robot = std::ranges::find(named, word.id, &NamedRobot::id);
+    m_words[word.id] = word.centre - robot->at;
+    taken.push_back(boxOf(word.centre, robot->word));
   }
   std::vector<Label> labels;
-  for (const PlacedName& name : placeNames(named, m_before)) {
+  for (const PlacedName& name : placeNames(named, m_before, std::move(taken))) {
     const auto robot = std::ranges::find(m_robots, name.id, &Robot::id);
     const auto screen = std::ranges::find(named, name.id, &NamedRobot::id);
     labels.push_back(

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Names beside robots whose number cannot be read in their disc: it is too small to write in, or
-// another robot covers it. They never lie on each other or on a robot while there is room. UI
-// thread; belongs to the scene.
+// Words beside robots: what is said of them ("timeout 37 s"), and names of those whose number
+// cannot be read in their disc, because it is too small to write in or another robot covers it.
+// They never lie on each other or on a robot while there is room. UI thread; belongs to the scene.
 
 #include <QGraphicsItem>
 #include <QSizeF>
@@ -22,20 +22,26 @@ struct NamedRobot {
   RobotId id;
   QPointF at;
   double radius = 0.0;
-  QSizeF name;  ///< how large its name is when written
+  QSizeF name;       ///< how large its name is when written
+  QSizeF word = {};  ///< the plate with what is said of it; empty: nothing
 };
 
-/// Where a name is written.
+/// Where a name or a word is written.
 struct PlacedName {
   RobotId id;
   QPointF centre;
   bool apart = false;  ///< so far away that a line has to say whose it is
 };
 
-/// Places for the names of those that need one. `before`: the direction that each name had, which
-/// is kept where it can be; changed accordingly.
-std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots,
-                                   std::map<RobotId, int>& before);
+/// The direction that each of them had, which is kept where it can be.
+using DirectionsBefore = std::map<RobotId, int>;
+
+/// Places for the words, below their robots where there is room, and inside `area`.
+std::vector<PlacedName> placeWords(std::span<const NamedRobot> robots, const QRectF& area,
+                                   DirectionsBefore& before);
+/// Places for the names of those that need one; `taken` is not written on.
+std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
+                                   std::vector<QRectF> taken = {});
 
 class NameLabelsItem : public QGraphicsItem {
  public:
@@ -45,9 +51,13 @@ class NameLabelsItem : public QGraphicsItem {
     RobotId id;
     QPointF at;           ///< in the scene, m
     double radius = 0.0;  ///< as drawn, m
-    QString name;
+    QString name;         ///< empty: not to be written
+    QString word;
   };
+  /// Also says where the words go, which the robots write themselves.
   void setRobots(std::vector<Robot> robots);
+  /// In pixels from the robot, of those that have a word.
+  const std::map<RobotId, QPointF>& words() const { return m_words; }
   void styleChanges();
 
   QRectF boundingRect() const override { return m_bounds; }
@@ -66,7 +76,8 @@ class NameLabelsItem : public QGraphicsItem {
   const FieldStyle* m_style;
   std::vector<Robot> m_robots;
   std::vector<Label> m_labels;
-  std::map<RobotId, int> m_before;
+  std::map<RobotId, QPointF> m_words;
+  DirectionsBefore m_before, m_wordsBefore;
   QRectF m_bounds;
 };
 

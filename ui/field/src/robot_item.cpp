@@ -41,6 +41,18 @@ void RobotItem::setLook(const RobotLook& look) {
   update();
 }
 
+void RobotItem::setWordPlace(const QPointF& place) {
+  if (m_wordPlace == place) return;
+  prepareGeometryChange();
+  m_wordPlace = place;
+  update();
+}
+
+QPointF RobotItem::wordPlace() const {
+  return m_wordPlace.value_or(
+      QPointF(0, bodyRadius() * 1.7 * m_style->pixelsPerMetre + wordGap_px));
+}
+
 QPointF RobotItem::handlePosition(const FieldStyle& style, const Pose& pose, double radius) {
   const double reach = style.drawRadius(radius) * 1.7 + style.metres(handleGap_px);
   return {pose.position.x + reach * std::cos(pose.yaw),
@@ -61,8 +73,9 @@ QRectF RobotItem::boundingRect() const {
   QRectF area(-reach, -reach, 2 * reach, 2 * reach);
   if (!m_look.word.isEmpty()) {
     const QSizeF plate = plateSize(m_look.word) / 2;
-    const double half = m_style->metres(plate.width() + 2.0);
-    const double tall = radius * 1.7 + m_style->metres(wordGap_px + plate.height() + 2.0);
+    const QPointF place = wordPlace();
+    const double half = m_style->metres(std::abs(place.x()) + plate.width() + 2.0);
+    const double tall = m_style->metres(std::abs(place.y()) + plate.height() + 2.0);
     area = area.united(QRectF(-half, -tall, 2 * half, 2 * tall));
   }
   return area;
@@ -79,17 +92,7 @@ void RobotItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidge
   painter->setOpacity(before * m_look.opacity);
   paintBody(painter, screen, radius);
   painter->setOpacity(before);
-  if (!m_look.word.isEmpty()) {
-    const double below = radius * 1.7 + wordGap_px;
-    drawPlateText(painter, {0, hasRoomBelow() ? below : -below}, m_look.word);
-  }
-}
-
-// At the lower edge of what is shown of the field words would be cut off.
-bool RobotItem::hasRoomBelow() const {
-  const QRectF area = m_style->playingArea();
-  const double room = m_style->flipped ? area.bottom() - pos().y() : pos().y() - area.top();
-  return room > bodyRadius() * 1.7 + m_style->metres(wordGap_px + plateSize(m_look.word).height());
+  if (!m_look.word.isEmpty()) drawPlateText(painter, wordPlace(), m_look.word);
 }
 
 void RobotItem::paintSelection(QPainter* painter, const ScreenPainting& screen,

@@ -5,6 +5,7 @@
 
 #include <QGraphicsItem>
 #include <QString>
+#include <optional>
 
 #include <base/ids.h>
 
@@ -33,6 +34,8 @@ class RobotItem : public QGraphicsItem {
   RobotId id() const { return m_id; }
   const RobotLook& look() const { return m_look; }
   void setLook(const RobotLook& look);
+  /// Where its word is written, in pixels from its centre; below it while nobody has said.
+  void setWordPlace(const QPointF& place);
   /// Call before the zoom changes what the item covers.
   void styleChanges() { prepareGeometryChange(); }
 
@@ -45,13 +48,14 @@ class RobotItem : public QGraphicsItem {
 
  private:
   double bodyRadius() const { return m_style->drawRadius(m_look.radius); }  // metres
-  bool hasRoomBelow() const;
+  QPointF wordPlace() const;                                                // pixels
   void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 
   const FieldStyle* m_style;
   RobotId m_id;
   RobotLook m_look;
+  std::optional<QPointF> m_wordPlace;
 };
 
 }  // namespace pitchboard::ui

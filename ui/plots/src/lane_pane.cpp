@@ -135,6 +135,15 @@ void LanePane::fitHeight() {
   emit leftChanged();
 }
 
+QList<QRect> LanePane::lineAreas() const {
+  QList<QRect> all;
+  const int name = scaled(this, nameHeight), height = scaled(this, laneHeight + gap);
+  for (int top = 0; top + name < surface()->height(); top += name + height) {
+    all << QRect(0, top + name, surface()->width(), height);
+  }
+  return all;
+}
+
 void LanePane::draw() {
   fitHeight();
   const TimeAxis axis = timeAxis();

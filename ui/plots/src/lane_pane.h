@@ -28,6 +28,7 @@ class LanePane : public PlotPane {
   LanePane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent);
 
   QWidget* surface() const override;
+  QList<QRect> lineAreas() const override;
   void setBoxTool(bool on) override;
   /// Of the lane at this place, in the order of curves().
   const std::vector<LaneStretch>& stretches(std::size_t lane) const { return m_stretches[lane]; }

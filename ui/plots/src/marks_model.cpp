@@ -110,6 +110,7 @@ QVariant MarksModel::data(const QModelIndex& index, int role) const {
     case Qt::DisplayRole:
       return cell(row, index.column());
     case Qt::ToolTipRole:
+      if (index.column() == AtA || index.column() == AtB) return cell(row, index.column());
       return index.column() == Name ? QStringLiteral("%1: %2 samples between A and B")
                                           .arg(row.name)
                                           .arg(row.between.samples)

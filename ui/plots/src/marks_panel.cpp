@@ -6,8 +6,10 @@
 #include <QClipboard>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <iterator>
 
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
@@ -20,7 +22,21 @@
 namespace pitchboard::ui {
 namespace {
 constexpr int mostEventsNamed = 3;
-constexpr int nameWidth = 148, numberWidth = 62;  // px of the mock
+constexpr int nameWidth = 188, numberWidth = 54, wordWidth = 84;  // px of the mock
+constexpr int widestWord = 124;
+constexpr int wordColumns[] = {MarksModel::AtA, MarksModel::AtB};
+
+// Words of a code begin with what matters; robot and unit stand at the end of a name.
+class MarksDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    option->textElideMode = index.column() == MarksModel::Name ? Qt::ElideMiddle : Qt::ElideRight;
+  }
+};
 }  // namespace
 
 QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, double b,
@@ -58,17 +74,16 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   setBackgroundRole(QPalette::Base);
   setAutoFillBackground(true);
   m_table->setModel(m_model);
+  m_table->setObjectName(QStringLiteral("marksTable"));
   styleTable(m_table);
   m_table->setAlternatingRowColors(false);
-  m_table->setTextElideMode(Qt::ElideMiddle);  // robot and unit stand at the end of a name
+  m_table->setItemDelegate(new MarksDelegate(m_table));
   m_table->setIconSize(QSize(scaled(this, 8), scaled(this, 8)));
   m_table->horizontalHeader()->setStretchLastSection(false);
   m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
   m_table->horizontalHeader()->setSectionResizeMode(MarksModel::Name, QHeaderView::Stretch);
-  for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
-    m_table->setColumnWidth(c, scaled(this, numberWidth));
-  }
+  forgetWords();
   m_times->setTextFormat(Qt::RichText);
   m_difference->setFont(themeFont(TypeRole::Secondary, true));
   m_difference->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -100,7 +115,30 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
 
 QSize MarksPanel::sizeHint() const {
   // All columns side by side.
-  return {scaled(this, nameWidth + (MarksModel::columns - 1) * numberWidth), scaled(this, 120)};
+  constexpr int numbers = MarksModel::columns - 1 - static_cast<int>(std::size(wordColumns));
+  return {scaled(this, nameWidth + numbers * numberWidth + 2 * wordWidth), scaled(this, 120)};
+}
+
+void MarksPanel::forgetWords() {
+  for (int c = MarksModel::AtA; c < MarksModel::columns; ++c) {
+    m_table->setColumnWidth(c, scaled(this, numberWidth));
+  }
+}
+
+// Words are wider than numbers. Columns do not become narrower again while a mark is dragged.
+void MarksPanel::fitWords() {
+  QStyleOptionViewItem option;
+  option.initFrom(m_table);
+  option.widget = m_table;
+  for (const int column : wordColumns) {
+    int wanted = m_table->columnWidth(column);
+    for (int row = 0; row < m_model->rowCount(); ++row) {
+      const int wide =
+          m_table->itemDelegate()->sizeHint(option, m_model->index(row, column)).width();
+      wanted = std::max(wanted, std::min(wide, scaled(this, widestWord)));
+    }
+    if (wanted != m_table->columnWidth(column)) m_table->setColumnWidth(column, wanted);
+  }
 }
 
 void MarksPanel::copyTable() const {
@@ -109,6 +147,7 @@ void MarksPanel::copyTable() const {
 
 void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   LinkedTime* time = m_feed->time();
+  if (isHidden()) forgetWords();
   setVisible(time->hasMarks());
   if (!time->hasMarks()) return;
   const double a = *time->mark(TimeMark::A);
@@ -123,6 +162,7 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
     for (const Curve& curve : pane->curves()) rows << marksRow(curve, a, b);
   }
   m_model->setRows(std::move(rows));
+  fitWords();
   m_events->setText(m_timeline != nullptr
                         ? eventsBetween(m_timeline->events()->events(), a, b, *m_feed)
                         : QString());

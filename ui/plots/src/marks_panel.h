@@ -30,6 +30,9 @@ class MarksPanel : public QWidget {
   QSize sizeHint() const override;
 
  private:
+  void forgetWords();
+  void fitWords();
+
   PlotFeed* m_feed;
   Timeline* m_timeline;
   MarksModel* m_model;

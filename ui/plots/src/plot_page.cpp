@@ -289,7 +289,8 @@ void PlotPage::placeLines() {
   for (PlotPane* pane : panes()) {
     if (!pane->isOverTime()) continue;
     const QWidget* surface = pane->surface();
-    plots << QRect(surface->mapTo(m_stack, QPoint()) - m_lines->pos(), surface->size());
+    const QPoint at = surface->mapTo(m_stack, QPoint()) - m_lines->pos();
+    for (const QRect& area : pane->lineAreas()) plots << area.translated(at);
   }
   m_lines->setPlots(plots);
   m_lines->raise();

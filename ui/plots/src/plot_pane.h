@@ -44,6 +44,8 @@ class PlotPane : public QWidget {
   LegendBar* legend() const { return m_legend; }
   /// The part that curves are drawn in.
   virtual QWidget* surface() const = 0;
+  /// Of the surface: where lines of moments go, which strike no name through.
+  virtual QList<QRect> lineAreas() const { return {surface()->rect()}; }
   /// Whether the linked time axis runs along this plot.
   virtual bool isOverTime() const { return true; }
   /// Room that value labels need at the left, px.

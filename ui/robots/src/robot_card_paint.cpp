@@ -19,6 +19,11 @@ QRectF sharp(const QRect& rect) {
   return QRectF(rect).adjusted(0.5, 0.5, -0.5, -0.5);
 }
 
+QString voltsText(const telemetry::Battery& battery) {
+  return battery.volts > 0.0 ? numberText(battery.volts, 1) + QStringLiteral(" V")
+                             : numberText(battery.fraction * 100.0, 0) + QStringLiteral(" %");
+}
+
 }  // namespace
 
 QRect RobotCard::rowRect(int row) const {
@@ -139,7 +144,11 @@ void RobotCard::paintHead(QPainter& painter) const {
   drawWords(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name);
   if (!m_collapsed && !m_state.subtitle.isEmpty()) {
     const int taken = painter.fontMetrics().horizontalAdvance(m_state.name) + scaled(this, 8);
-    const int end = m_state.battery && m_parts.battery ? voltsRect().left() : chevronRect().left();
+    int end = chevronRect().left();
+    if (m_state.battery && m_parts.battery) {
+      const QFontMetrics volts(themeFont(TypeRole::Body, m_state.batteryLow()));
+      end = voltsRect().right() - volts.horizontalAdvance(voltsText(*m_state.battery));
+    }
     const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
     painter.setFont(themeFont(TypeRole::Secondary));
     painter.setPen(theme().secondaryText);
@@ -170,10 +179,7 @@ void RobotCard::paintHead(QPainter& painter) const {
   }
   painter.setFont(themeFont(TypeRole::Body, low));
   painter.setPen(low ? theme().errorText : theme().text);
-  drawWords(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter,
-            m_state.battery->volts > 0.0
-                ? numberText(m_state.battery->volts, 1) + QStringLiteral(" V")
-                : numberText(m_state.battery->fraction * 100.0, 0) + QStringLiteral(" %"));
+  drawWords(painter, voltsRect(), Qt::AlignRight | Qt::AlignVCenter, voltsText(*m_state.battery));
   painter.setOpacity(1.0);
 }
 

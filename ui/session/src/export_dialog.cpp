@@ -26,6 +26,7 @@
 #include <ui/sources/field_pictures.h>
 
 #include "check_list.h"
+#include "moment_box.h"
 #include "video_export.h"
 
 namespace pitchboard::ui {
@@ -55,8 +56,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
       m_source(std::move(source)),
       m_pictures(pictures),
       m_format(new QComboBox(this)),
-      m_begin(new NumberBox(this)),
-      m_end(new NumberBox(this)),
+      m_begin(new MomentBox(this)),
+      m_end(new MomentBox(this)),
       m_when(new QWidget(this)),
       m_beginClock(new QDateTimeEdit(m_when)),
       m_endClock(new QDateTimeEdit(m_when)),
@@ -92,11 +93,6 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(QStringLiteral(" pictures a second"));
-  for (NumberBox* box : {m_begin, m_end}) {
-    box->setRange(-1e7, 1e7);
-    box->setDecimals(3);
-    box->setSuffix(QStringLiteral(" s"));
-  }
   m_begin->setValue(range.begin);
   m_end->setValue(range.end);
   makeChoices();

@@ -19,6 +19,7 @@ struct VariableNode {
   int row = 0;  ///< in its parent
   QString name, path, searchText;
   std::vector<std::unique_ptr<VariableNode>> children;
+  bool isHistory = false;  ///< nothing has come for a while
 
   // Of a group.
   telemetry::GroupId group = 0;

@@ -2,6 +2,7 @@
 #include "variables_header.h"
 
 #include <QMenu>
+#include <algorithm>
 
 #include <ui/base/theme.h>
 
@@ -35,11 +36,17 @@ void VariablesHeader::reset() {
   setMinimumSectionSize(scaled(this, 24));
   setSectionResizeMode(VariablesModel::Name, QHeaderView::Stretch);
   const std::pair<int, int> widths[] = {{VariablesModel::Value, 56},
-                                        {VariablesModel::Unit, 40},
+                                        {VariablesModel::Unit, 38},
                                         {VariablesModel::Rate, 66},
                                         {VariablesModel::Age, 56},
                                         {VariablesModel::Spark, 60}};
-  for (const auto& [column, width] : widths) resizeSection(column, scaled(this, width));
+  const QFontMetrics metrics(font());
+  for (const auto& [column, width] : widths) {
+    // Names get what is left; the heads stay whole.
+    const QString head = model()->headerData(column, Qt::Horizontal).toString();
+    const int least = metrics.horizontalAdvance(head) + scaled(this, 14);
+    resizeSection(column, std::max(scaled(this, width), least));
+  }
   setSectionHidden(VariablesModel::Rate, true);
   setSectionHidden(VariablesModel::Age, true);
   setSortIndicator(-1, Qt::AscendingOrder);

@@ -2,6 +2,7 @@
 // VariablesModel: reading values.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "variable_node.h"
 #include "variable_text.h"
@@ -13,6 +14,8 @@ namespace {
 using telemetry::ColumnKind;
 using telemetry::Sample;
 using telemetry::SeriesBucket;
+
+constexpr double silence = 10.0;  // s; what stands there after it is history
 
 bool same(const SeriesBucket& a, const SeriesBucket& b) {
   const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
@@ -93,16 +96,20 @@ void VariablesModel::refresh(const QModelIndexList& rows, int sparkPixels) {
   ++m_round;
   takeTime();
   std::vector<VariableNode*> changed;
+  bool withNames = false;
   for (const QModelIndex& index : rows) {
     if (!index.isValid()) continue;
     VariableNode* row = node(index);
     VariableNode* group = row->owner();
     const double rate = group->rowsPerSecond;
     lookAt(*group);
-    if (row->kind == Kind::Variable ? read(*row, sparkPixels)
-                                    : row->kind == Kind::Group && rate != group->rowsPerSecond) {
-      changed.push_back(row);
-    }
+    const bool other = row->kind == Kind::Variable
+                           ? read(*row, sparkPixels)
+                           : row->kind == Kind::Group && rate != group->rowsPerSecond;
+    const bool isHistory = m_now - group->newest > silence;
+    const bool turned = std::exchange(row->isHistory, isHistory) != isHistory;
+    withNames = withNames || turned;
+    if (other || turned) changed.push_back(row);
   }
   std::sort(changed.begin(), changed.end(), [](const VariableNode* a, const VariableNode* b) {
     return std::pair(a->parent, a->row) < std::pair(b->parent, b->row);
@@ -113,7 +120,8 @@ void VariablesModel::refresh(const QModelIndexList& rows, int sparkPixels) {
            changed[last + 1]->row <= changed[last]->row + 1) {
       ++last;
     }
-    emit dataChanged(indexOf(changed[first], Value), indexOf(changed[last], columns - 1));
+    emit dataChanged(indexOf(changed[first], withNames ? Name : Value),
+                     indexOf(changed[last], columns - 1));
     first = last + 1;
   }
 }

@@ -29,7 +29,7 @@ QVariant VariablesModel::display(const VariableNode& row, int column) const {
   }
   if (row.kind == Kind::Group) {
     const double rate = rateOf(row);
-    if (column == Value && rate > 0) return QString::number(rate, 'f', rate < 10 ? 1 : 0);
+    if (column == Value && rate > 0) return QString::number(rate, 'f', rate < 9.95 ? 1 : 0);
     return column == Unit && rate > 0 ? QStringLiteral("/s") : QString();
   }
   if (row.kind == Kind::Category) return {};
@@ -164,12 +164,10 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
                      ? Qt::AlignRight
                      : Qt::AlignLeft);
     case Qt::ForegroundRole: {
-      // Nothing has come for a while: what stands there is history.
-      constexpr double silence = 10.0;
       if (row.kind == Kind::Group && !m_notes.value(row.name).trouble.isEmpty()) {
         return theme().warningText;
       }
-      if (m_now - row.owner()->newest > silence) return theme().disabledText;
+      if (row.isHistory) return theme().disabledText;
       if (row.kind == Kind::Rest || index.column() == Unit || index.column() == Age ||
           index.column() == Rate || (row.kind == Kind::Group && index.column() != Name)) {
         return theme().secondaryText;

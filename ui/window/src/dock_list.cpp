@@ -72,12 +72,12 @@ QWidget* timeline(const StudioParts& s, QWidget* parent) {
 std::span<const DockInfo> studioDocks() {
   static constexpr DockInfo docks[] = {
       {"robots", "Robots", Qt::LeftDockWidgetArea, true, 256, robots},
-      {"variables", "Variables", Qt::RightDockWidgetArea, true, 392, variables},
-      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 392, noise},
-      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 392, refereeing},
+      {"variables", "Variables", Qt::RightDockWidgetArea, true, 416, variables},
+      {"noise", "Noise and physics", Qt::RightDockWidgetArea, false, 416, noise},
+      {"refereeing", "Refereeing", Qt::RightDockWidgetArea, false, 416, refereeing},
       {"plots", "Plots", Qt::BottomDockWidgetArea, true, 248, plots},
       {"processes", "Processes", Qt::BottomDockWidgetArea, true, 180, processes},
-      {"referee", "Referee", Qt::RightDockWidgetArea, false, 392, referee},
+      {"referee", "Referee", Qt::RightDockWidgetArea, false, 416, referee},
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, 180, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, 180, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, 280, experiments},

@@ -3,16 +3,18 @@
 
 #include <QAction>
 #include <QDockWidget>
-#include <QEvent>
+#include <QKeyEvent>
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QStatusBar>
 #include <QTimer>
 #include <QToolBar>
+#include <utility>
 
 #include <ui/base/theme.h>
 #include <ui/sources/source_switch.h>
 
+#include "menu_actions.h"
 #include "scoreboard.h"
 
 namespace pitchboard::ui {
@@ -31,16 +33,36 @@ FieldOnly::FieldOnly(QMainWindow* window, SourceSwitch* source)
   m_end->setShortcut(QKeySequence(Qt::Key_Escape));
   m_end->setEnabled(false);
   connect(m_end, &QAction::triggered, this, [this] { set(false); });
-  // The menu bar is hidden meanwhile, and with it the actions that only it has.
   window->addActions({m_action, m_end});
   constexpr int scoreMilliseconds = 100;
   m_timer->setInterval(scoreMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &FieldOnly::place);
 }
 
+// A key of an action counts only where something that shows it is seen.
+void FieldOnly::keepKeys(bool on) {
+  for (const QPointer<QAction>& action : m_kept) {
+    if (action) m_window->removeAction(action);
+  }
+  m_kept.clear();
+  if (!on) return;
+  QList<QAction*> all;
+  for (const MenuAction& each : menuActions(*m_window->menuBar())) all << each.action;
+  for (QToolBar* bar : m_window->findChildren<QToolBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    all << bar->actions();
+  }
+  const QList<QAction*> own = m_window->actions();
+  for (QAction* action : std::as_const(all)) {
+    if (action->shortcut().isEmpty() || own.contains(action)) continue;
+    m_window->addAction(action);
+    m_kept << action;
+  }
+}
+
 void FieldOnly::set(bool on) {
   if (on == m_on) return;
   m_on = on;
+  keepKeys(on);
   m_action->setChecked(on);
   m_end->setEnabled(on);
   if (on) {
@@ -63,12 +85,14 @@ void FieldOnly::set(bool on) {
     delete m_scoreboard;
     m_scoreboard = nullptr;
     m_window->centralWidget()->removeEventFilter(this);
+    m_window->removeEventFilter(this);
     m_window->restoreState(m_layout);
     return;
   }
   m_scoreboard = new Scoreboard(m_window->centralWidget());
   m_scoreboard->setAutoFillBackground(true);
   m_window->centralWidget()->installEventFilter(this);
+  m_window->installEventFilter(this);
   place();
   m_scoreboard->show();
   m_timer->start();
@@ -83,7 +107,16 @@ void FieldOnly::place() {
 }
 
 bool FieldOnly::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && m_scoreboard != nullptr) place();
+  if (watched == m_window) {
+    // The field asks for Escape before shortcuts do, and lets it go when it has no use for it.
+    const bool isKey = event->type() == QEvent::KeyPress;
+    if (isKey && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+      set(false);
+      return true;
+    }
+  } else if (event->type() == QEvent::Resize && m_scoreboard != nullptr) {
+    place();
+  }
   return QObject::eventFilter(watched, event);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The field alone on the whole screen, with the scoreboard above it: for a projector. Bars and
-// docks come back as they were. UI thread only; belongs to the window.
+// The field alone on the whole screen, with the scoreboard above it: for a projector. Keys do what
+// they always do; bars and docks come back as they were. UI thread only; belongs to the window.
 
 #include <QByteArray>
+#include <QList>
 #include <QObject>
 #include <QPointer>
 
@@ -31,6 +32,7 @@ class FieldOnly : public QObject {
 
  private:
   void place();
+  void keepKeys(bool on);
 
   QMainWindow* m_window;
   SourceSwitch* m_source;
@@ -40,6 +42,7 @@ class FieldOnly : public QObject {
   Scoreboard* m_scoreboard = nullptr;
   QByteArray m_layout;
   Qt::WindowStates m_state;
+  QList<QPointer<QAction>> m_kept;  // of hidden bars, whose keys the window keeps meanwhile
   bool m_on = false;
 };
 

@@ -20,14 +20,13 @@ void LookingBackSign::present() {
     hide();
     return;
   }
-  const double at = m_timeline->shownTime();
-  const auto clock = m_timeline->clock();
-  const QString time = clock ? momentText(at, 0, clock) : longMomentText(at);
+  // As the line of this moment says it in the plots.
+  const QString time = momentText(m_timeline->shownTime(), 2, m_timeline->clock());
   const QString text = QStringLiteral("Looking back: %1 (Now leads back)").arg(time);
-  if (text == this->text() && isVisible()) return;
   setText(text);
   QRect box(0, 0, sizeHint().width() + scaled(this, 24), scaled(this, 28));
-  box.moveTop(scaled(this, 8));
+  // Where the field is alone the scoreboard stands above it.
+  box.moveTop(scaled(this, window()->isFullScreen() ? 44 : 8));
   box.moveLeft((parentWidget()->width() - box.width()) / 2);
   setGeometry(box);
   show();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Says at the top of the field that the past is shown: "Looking back: 00:03:12 (Now leads back)".
+// Says at the top of the field that the past is shown: "Looking back: 03:12.50 (Now leads back)".
 // UI thread only.
 
 #include "field_sign.h"

@@ -244,6 +244,16 @@ void TransportBar::placeScoreboard() {
   m_scoreboard->setGeometry(width() - wide, (height() - m_scoreboard->sizeHint().height()) / 2,
                             wide, m_scoreboard->sizeHint().height());
   m_scoreboard->raise();
+  // Qt puts what leads to the buttons that have no room at the right edge, under the scoreboard.
+  auto* more = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+  if (more == nullptr || more->isHidden()) return;
+  more->move(width() - wide - more->width(), more->y());
+}
+
+bool TransportBar::event(QEvent* event) {
+  const bool done = QToolBar::event(event);
+  if (event->type() == QEvent::LayoutRequest) placeScoreboard();
+  return done;
 }
 
 void TransportBar::showMode() {

@@ -53,6 +53,7 @@ class TransportBar : public QToolBar {
   void sourceRequested(pitchboard::ui::SourceKind kind);
 
  protected:
+  bool event(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
