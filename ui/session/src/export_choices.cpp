@@ -15,6 +15,7 @@
 #include <ui/session/export_dialog.h>
 
 #include "check_list.h"
+#include "moment_box.h"
 #include "video_export.h"
 
 namespace pitchboard::ui {
@@ -46,7 +47,7 @@ void ExportDialog::makeChoices() {
   times->addWidget(m_endClock, 1);
   m_beginClock->setObjectName(QStringLiteral("exportBeginClock"));
   m_endClock->setObjectName(QStringLiteral("exportEndClock"));
-  const std::pair<QDateTimeEdit*, NumberBox*> pairs[] = {{m_beginClock, m_begin},
+  const std::pair<QDateTimeEdit*, MomentBox*> pairs[] = {{m_beginClock, m_begin},
                                                          {m_endClock, m_end}};
   for (const auto& [clock, box] : pairs) {
     clock->setDisplayFormat(QStringLiteral("yyyy-MM-dd HH:mm:ss"));
@@ -67,8 +68,8 @@ void ExportDialog::makeChoices() {
   connect(m_show, &QToolButton::clicked, this, [this] {
     QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(m_written).absolutePath()));
   });
-  for (NumberBox* box : {m_begin, m_end}) {
-    connect(box, &NumberBox::valueChanged, this, &ExportDialog::showClock);
+  for (MomentBox* box : {m_begin, m_end}) {
+    connect(box, &MomentBox::valueChanged, this, &ExportDialog::showClock);
   }
   showClock();
 }

@@ -93,8 +93,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(QStringLiteral(" pictures a second"));
-  m_begin->setValue(range.begin);
-  m_end->setValue(range.end);
+  m_begin->setMoment(range.begin);
+  m_end->setMoment(range.end);
   makeChoices();
   m_message->setWordWrap(true);
   m_message->setForegroundRole(QPalette::PlaceholderText);
@@ -189,7 +189,7 @@ void ExportDialog::exportTo(const QString& path) {
   ExportRequest request;
   request.session = m_source.session;
   request.path = path;
-  request.selection.range = {m_begin->value(), m_end->value()};
+  request.selection.range = {m_begin->moment(), m_end->moment()};
   if (chosen.kind == ExportKind::Numbers && !takeChoices(request.selection)) return;
   if (request.selection.range.begin > request.selection.range.end) {
     fail(QStringLiteral("The range ends before it begins."));

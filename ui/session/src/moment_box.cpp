@@ -25,6 +25,12 @@ MomentBox::MomentBox(QWidget* parent) : NumberBox(parent) {
   setDecimals(3);
 }
 
+void MomentBox::setMoment(double seconds) {
+  setValue(seconds);
+  m_moment = seconds;
+  m_shown = value();
+}
+
 QString MomentBox::textFromValue(double seconds) const {
   return momentText(seconds, decimals());
 }

@@ -18,9 +18,17 @@ class MomentBox : public NumberBox {
  public:
   explicit MomentBox(QWidget* parent = nullptr);
 
+  /// The box shows milliseconds; who leaves them as they are means the moment itself.
+  void setMoment(double seconds);
+  double moment() const { return value() == m_shown ? m_moment : value(); }
+
   QString textFromValue(double seconds) const override;
   double valueFromText(const QString& text) const override;
   QValidator::State validate(QString& input, int& position) const override;
+
+ private:
+  double m_moment = 0.0;
+  double m_shown = 0.0;  // the same, as the box rounds it
 };
 
 }  // namespace pitchboard::ui

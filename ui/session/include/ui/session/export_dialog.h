@@ -36,6 +36,7 @@ namespace pitchboard::ui {
 
 class CheckList;
 class FieldPictures;
+class MomentBox;
 class NumberBox;
 class VideoExport;
 
@@ -88,8 +89,8 @@ class ExportDialog : public QDialog {
   ExportSource m_source;
   const FieldPictures* m_pictures;
   QComboBox* m_format;
-  NumberBox* m_begin;
-  NumberBox* m_end;
+  MomentBox* m_begin;
+  MomentBox* m_end;
   QWidget* m_when;  // the range as times of day
   QDateTimeEdit *m_beginClock, *m_endClock;
   CheckList* m_robots;
