@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // pitchboard-robot management with real processes: order, restarts, an end without remains.
+#include <QElapsedTimer>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QtTest>
@@ -172,7 +173,10 @@ class TestManagement : public QObject {
           "\nstart_interval = 0.05\nsilent_after = 2.5\nrestart_wait = 0.05\n");
     QTRY_VERIFY(!pidsOf(name).empty());
     ::kill(static_cast<pid_t>(pidsOf(name).front()), SIGSTOP);
+    QElapsedTimer timer;
+    timer.start();
     QTRY_COMPARE_WITH_TIMEOUT(pidsOf(name).size(), std::size_t{2}, 30'000);
+    QVERIFY(timer.elapsed() > 1000);
     QVERIFY(said(qPrintable(name + " showed no sign of life for 2.5 s and was ended")));
     QVERIFY(!alive(pidsOf(name).front()));
     QCOMPARE(output().count("no sign of life"), qsizetype{1});  // the others are not blamed
