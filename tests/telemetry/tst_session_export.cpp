@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include <telemetry/session/session_export.h>
-#include <telemetry/session/session_time.h>
 
 #include "session_rig.h"
 
@@ -272,58 +271,6 @@ class TestSessionExport : public QObject {
     const auto rows = textOf(session(), ExportFormat::CsvLong, selection);
     QCOMPARE(rows[0], QByteArray("time,clock,robot,variable,value"));
     QVERIFY(rows[1].startsWith("0,2023-11-14T22:13:20.000Z,match,BALL_X,"));
-  }
-
-  /// A session from 23:58:20.25 until 00:15 of a summer's night in central Europe, UTC+2.
-  void aMomentIsTypedAsPeopleSayIt_data() {
-    QTest::addColumn<QString>("text");
-    QTest::addColumn<double>("seconds");
-    const auto row = [](const char* text, double seconds) {
-      QTest::newRow(text) << QString::fromLatin1(text) << seconds;
-    };
-    row("90.5", 90.5);
-    row("-3", -3.0);
-    row("23:58:20.25", 0.0);
-    row("23:59", 39.75);
-    row("00:01:00.5", 160.25);
-    row("21:59:00Z", 39.75);
-    row("22:01Z", 159.75);
-    row("2026-07-01T23:59:00", 39.75);
-    row("2026-07-02 00:01:00", 159.75);
-    row("2026-07-01T22:01:00Z", 159.75);
-    row("2026-07-01T23:59", 39.75);
-    // Outside: the nearest, whatever the day.
-    row("23:58", -20.25);
-    row("00:20", 1299.75);
-    row("23:00", -3500.25);
-  }
-  void aMomentIsTypedAsPeopleSayIt() {
-    qputenv("TZ", "CET-1CEST,M3.5.0,M10.5.0/3");
-    const auto back = qScopeGuard([] {
-      qunsetenv("TZ");
-      tzset();
-    });
-    tzset();
-    QFETCH(QString, text);
-    QFETCH(double, seconds);
-    using namespace std::chrono;
-    const WallTime start =
-        sys_days(2026y / July / 1) + 21h + 58min + 20s + milliseconds(250) + nanoseconds(0);
-    const auto time = sessionTime(text.toStdString(), start, {0.0, 1000.0});
-    QVERIFY2(time, time ? "" : time.error().text().c_str());
-    QVERIFY2(std::abs(*time - seconds) < 1e-6, qPrintable(QString::number(*time, 'f', 6)));
-  }
-  void whatIsNoMomentIsSaid() {
-    const WallTime start{std::chrono::seconds(1'800'000'000)};
-    for (const char* text :
-         {"", "soon", "25:00", "12:60", "12:00:60", "12:00:", "12:00:00.", "1:00", "12:00x",
-          "2026-02-30T12:00", "2026-13-01T12:00", "2026-01-01", "nan", "inf", "12:00:00+01:00"}) {
-      const auto time = sessionTime(text, start, {0.0, 10.0});
-      QVERIFY2(!time, text);
-      QVERIFY2(time.error().text().find("is no time; write seconds") != std::string::npos, text);
-    }
-    QVERIFY(!sessionTime("12:00", WallTime{}, {0.0, 10.0}));
-    QVERIFY(sessionTime("5", WallTime{}, {0.0, 10.0}));
   }
 };
 

@@ -311,7 +311,7 @@ class TestSessionExportDialog : public QObject {
     row("\u221200:05.25", -5.25);
     row("143.683 s", 143.683);
     row("62,5", 62.5);
-    for (const char* wrong : {"", "2:", ":30", "a", "1:2:3:4", "1:-5", "nan", "1e9"})
+    for (const char* wrong : {"", "2:", ":30", "a", "1:2:3:4", "1:-5", "nan", "1e9", "1:75"})
       row(wrong, {});
   }
   void momentsAreRead() {

@@ -9,6 +9,8 @@
 #include <ctime>
 #include <optional>
 
+#include <base/time_text.h>
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -114,34 +116,23 @@ double secondsAt(WallTime start, double wall) {
   return wall - static_cast<double>(whole.time_since_epoch().count()) - rest;
 }
 
-}  // namespace
-
-Result<double> sessionTime(std::string_view text, WallTime start, TimeRange range) {
-  double plain = 0.0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), plain);
-  if (error == std::errc() && stop == text.data() + text.size() && std::isfinite(plain)) {
-    return plain;
-  }
-  const auto moment = parsed(text);
-  if (!moment) {
-    return failure(ErrorCode::InvalidArgument, '"' + std::string(text.substr(0, 40)) +
-                                                   "\" is no time; write " + sessionTimeForms);
-  }
+/// The moment of a time of day; without its date the one in `range`, or nearest to it.
+Result<double> momentOf(const Moment& moment, WallTime start, TimeRange range) {
   if (start.time_since_epoch().count() <= 0) {
     return failure(ErrorCode::InvalidArgument,
-                   "this session does not say when it was recorded; write seconds of the session");
+                   "This session does not say when it was recorded. Write seconds of the session.");
   }
   std::tm day{};
-  if (moment->day) {
-    day.tm_year = (*moment->day)[0] - 1900;
-    day.tm_mon = (*moment->day)[1] - 1;
-    day.tm_mday = (*moment->day)[2];
-    return secondsAt(start, wallOf(*moment, day));
+  if (moment.day) {
+    day.tm_year = (*moment.day)[0] - 1900;
+    day.tm_mon = (*moment.day)[1] - 1;
+    day.tm_mday = (*moment.day)[2];
+    return secondsAt(start, wallOf(moment, day));
   }
   const double begin = std::floor(std::clamp(range.begin, -1e9, 1e9));
   const auto first = static_cast<std::time_t>(floor<seconds>(start).time_since_epoch().count() +
                                               static_cast<std::int64_t>(begin));
-  if ((moment->utc ? gmtime_r(&first, &day) : localtime_r(&first, &day)) == nullptr) {
+  if ((moment.utc ? gmtime_r(&first, &day) : localtime_r(&first, &day)) == nullptr) {
     return failure(ErrorCode::SystemError, "the time zone of this computer cannot be used");
   }
   const auto away = [range](double time) {
@@ -151,9 +142,57 @@ Result<double> sessionTime(std::string_view text, WallTime start, TimeRange rang
   for (std::size_t i = 0; i < days.size(); ++i) {
     std::tm one = day;
     one.tm_mday += static_cast<int>(i) - 1;
-    days[i] = secondsAt(start, wallOf(*moment, one));
+    days[i] = secondsAt(start, wallOf(moment, one));
   }
   return *std::ranges::min_element(days, {}, away);
+}
+
+/// "2026-11-23 14:03:20" by this computer's clock, cut off to the second.
+std::string localTime(WallTime start, double time) {
+  const auto away = std::chrono::nanoseconds(std::llround(std::clamp(time, -1e9, 1e9) * 1e9));
+  const auto whole = floor<seconds>(start + away);
+  const auto wall = static_cast<std::time_t>(whole.time_since_epoch().count());
+  std::tm parts{};
+  char text[32] = "";
+  if (localtime_r(&wall, &parts) == nullptr) return {};
+  (void)std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
+}
+
+std::string quoted(std::string_view text) {
+  return '"' + std::string(text.substr(0, 40)) + '"';
+}
+
+}  // namespace
+
+Result<double> sessionTime(std::string_view text, WallTime start, TimeRange range, TimeForms forms,
+                           std::optional<double> after) {
+  constexpr double edge = 1.0;  // s
+  const bool clock = forms == TimeForms::Clock && text.find(':') != std::string_view::npos;
+  auto time = clock ? std::nullopt : secondsFromText(text);
+  const bool ofDay = !time;
+  if (ofDay) {
+    const auto moment = parsed(text);
+    if (!moment || !(moment->day || clock)) {
+      return failure(ErrorCode::InvalidArgument,
+                     quoted(text) + " is not a time. Write " + sessionTimeForms + '.');
+    }
+    const double first = std::max(range.begin, after.value_or(range.begin));
+    const auto found = momentOf(*moment, start, {first, range.end});
+    if (!found) return found;
+    time = *found;
+  }
+  if (*time >= range.begin - edge && *time <= range.end + edge) {
+    return std::clamp(*time, range.begin, range.end);
+  }
+  std::string words = quoted(text) + " is outside the session, which goes from " +
+                      secondsToText(range.begin) + " to " + secondsToText(range.end);
+  if (ofDay) {
+    words += " (" + localTime(start, range.begin) + " to " + localTime(start, range.end) + ')';
+  } else if (text.find(':') != std::string_view::npos) {
+    words += "; for a time of day add its date or --clock";
+  }
+  return failure(ErrorCode::InvalidArgument, words + '.');
 }
 
 }  // namespace pitchboard::telemetry

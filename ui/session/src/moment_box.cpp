@@ -3,20 +3,16 @@
 
 #include <QRegularExpression>
 
+#include <base/time_text.h>
 #include <ui/base/time_axis.h>
 
 namespace pitchboard::ui {
 
 std::optional<double> momentFromText(const QString& text) {
-  static const QRegularExpression form(
-      QStringLiteral("^([-\u2212]?)(?:(?:(\\d{1,4}):)?(\\d{1,4}):)?(\\d{1,7}(?:[.,]\\d*)?) ?s?$"));
-  const QRegularExpressionMatch found = form.match(text.trimmed());
-  if (!found.hasMatch()) return {};
-  const auto seconds = numberFromText(found.captured(4));
-  if (!seconds) return {};
-  const double all =
-      found.captured(2).toInt() * 3600.0 + found.captured(3).toInt() * 60.0 + *seconds;
-  return found.captured(1).isEmpty() ? all : -all;
+  QString plain = text.trimmed();
+  if (plain.endsWith(u's')) plain = plain.chopped(1).trimmed();
+  const QByteArray bytes = plain.replace(u',', u'.').toUtf8();
+  return secondsFromText({bytes.constData(), static_cast<std::size_t>(bytes.size())});
 }
 
 MomentBox::MomentBox(QWidget* parent) : NumberBox(parent) {
