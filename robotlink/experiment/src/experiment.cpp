@@ -9,10 +9,10 @@
 #include <base/random.h>
 #include <base/read_file.h>
 #include <resources/resources.h>
+#include <robotlink/scenario/team_programs.h>
 
 #include "checks.h"
 #include "experiment_reader.h"
-#include "own_programs.h"
 
 namespace pitchboard::link {
 namespace {
@@ -126,13 +126,9 @@ bool hasRobot(const Scenario& scenario, std::string_view name) {
 /// Who plays decides how runs are played, and which figures they have.
 void findOwnPrograms(Experiment& e, const JsonObject& root) {
   for (const Condition& condition : e.conditions) {
-    const auto own = hasOwnPrograms(condition.scenario);
+    const auto own = usesTeamPrograms(condition.scenario, e.separateProcesses,
+                                      "add \"processes\": \"separate\"");
     if (!own) return root.fail("scenario", "runtime: " + own.error().text());
-    if (*own && !e.separateProcesses) {
-      return root.fail("scenario",
-                       "a robot is played by a team's own programs, which only run as programs; "
-                       "add \"processes\": \"separate\"");
-    }
     e.ownPrograms = e.ownPrograms || *own;
   }
 }

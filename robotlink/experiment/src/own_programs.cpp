@@ -18,20 +18,6 @@ constexpr int mostRestarts = 2;     // of a program that ends at once
 
 }  // namespace
 
-Result<bool> hasOwnPrograms(const Scenario& scenario) {
-  for (const ScenarioRobot& robot : scenario.robots) {
-    const RuntimeChoice choice = scenario.runtimeOf(robot);
-    if (!choice.isChosen()) continue;
-    const auto runtime = loadRuntime(choice);
-    if (!runtime) return tl::unexpected(runtime.error());
-    const auto& all = runtime->processes;
-    if (std::any_of(all.begin(), all.end(), [](const auto& p) { return !p.isReference(); })) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// It has attached the blackboard of its robot; the match is the first to have it.
 bool OwnPrograms::isThere(const ProcessStatus& program) const {
   if (!program.foreign) return true;

@@ -9,12 +9,8 @@
 #include <chrono>
 
 #include <robotlink/match/match_player.h>
-#include <robotlink/scenario/scenario.h>
 
 namespace pitchboard::link {
-
-/// A robot of it is played by programs that are not ours. Fails where a profile cannot be read.
-Result<bool> hasOwnPrograms(const Scenario& scenario);
 
 class OwnPrograms {
  public:
