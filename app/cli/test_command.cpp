@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include <base/file_target.h>
@@ -23,25 +24,57 @@ struct Options {
   bool list = false;
 };
 
-/// Every *.json of the folder and the folders in it, in order of name; the shipped ones without a
-/// folder.
-Result<std::vector<std::string>> testsIn(const std::string& folder) {
-  std::vector<std::string> out;
-  if (folder.empty()) {
-    for (const link::ExperimentName& one : link::builtInSituations()) out.push_back(one.name);
-    return out;
-  }
+/// A file to play, or a folder that cannot be read.
+struct Found {
+  std::string path;
+  std::optional<Error> error;
+};
+
+/// Adds every *.json in `folder` and below it; links to folders are followed once.
+void collect(const std::filesystem::path& folder, std::set<std::filesystem::path>& seen,
+             std::vector<Found>& out) {
   std::error_code code;
-  if (std::filesystem::is_regular_file(folder, code)) return std::vector<std::string>{folder};
-  std::filesystem::recursive_directory_iterator files(folder, code);
-  if (code) return failure(ErrorCode::NotFound, "cannot be read: " + code.message(), folder);
-  for (const auto& entry : files) {
-    if (entry.is_regular_file() && entry.path().extension() == ".json") {
-      out.push_back(entry.path().string());
+  const auto place = std::filesystem::canonical(folder, code);
+  if (!code && !seen.insert(place).second) return;
+  std::filesystem::directory_iterator files(folder, code);
+  for (; !code && files != std::filesystem::directory_iterator(); files.increment(code)) {
+    std::error_code unknown;  // a link to nothing is no folder, and reading it says why
+    if (files->is_directory(unknown)) {
+      collect(files->path(), seen, out);
+    } else if (files->path().extension() == ".json") {
+      out.push_back({files->path().string(), {}});
     }
   }
-  std::sort(out.begin(), out.end());
-  if (out.empty()) return failure(ErrorCode::NotFound, "there is no .json file in it", folder);
+  if (!code) return;
+  out.push_back({folder.string(),
+                 Error{ErrorCode::NotFound, "cannot be read: " + code.message(), folder.string()}});
+}
+
+/// The tests of a folder in order of their paths, one file, or an example that is part of the
+/// program; all examples if `name` is empty.
+std::vector<Found> testsOf(const std::string& name) {
+  std::vector<Found> out;
+  bool example = false;
+  for (const link::ExperimentName& one : link::builtInSituations()) {
+    if (name.empty()) out.push_back({one.name, {}});
+    example = example || one.name == name;
+  }
+  std::error_code code;
+  if (name.empty()) return out;
+  const bool folder = std::filesystem::is_directory(name, code);
+  if (!folder && (example || std::filesystem::exists(name, code))) return {{name, {}}};
+  if (!folder && name.find_first_of("/.") == std::string::npos) {
+    return {{name, Error{ErrorCode::NotFound,
+                         "there is no such folder or file, and no example of this name (--list "
+                         "prints them)",
+                         name}}};
+  }
+  std::set<std::filesystem::path> seen;
+  collect(name, seen, out);
+  std::ranges::sort(out, {}, &Found::path);
+  if (out.empty()) {
+    out.push_back({name, Error{ErrorCode::NotFound, "there is no .json file in it", name}});
+  }
   return out;
 }
 
@@ -65,37 +98,54 @@ Result<link::ExperimentSummary> played(const link::Experiment& experiment, const
   return link::summarize(experiment, table);
 }
 
+Result<link::TestedExperiment> tested(const Found& test, const Options& options) {
+  if (test.error) return tl::unexpected(*test.error);
+  auto experiment = link::loadExperiment(test.path);
+  if (!experiment) return tl::unexpected(experiment.error());
+  if (experiment->assertions.empty()) {
+    return failure(ErrorCode::InvalidArgument, "has no assertions, so it tests nothing", test.path);
+  }
+  auto summary = played(*experiment, options);
+  if (!summary) {
+    return failure(summary.error().code, summary.error().text(), test.path);
+  }
+  return link::TestedExperiment{std::move(*experiment), std::move(*summary), {}};
+}
+
 int run(const Options& options) {
-  const auto tests = testsIn(options.folder);
-  if (!tests) return reportError(tests.error());
+  const std::vector<Found> tests = testsOf(options.folder);
   const InterruptGuard signals;
-  std::vector<link::TestedExperiment> tested;
-  std::size_t assertions = 0, failures = 0;
-  for (const std::string& name : *tests) {
-    auto experiment = link::loadExperiment(name);
-    if (!experiment) return reportError(experiment.error());
-    if (experiment->assertions.empty()) {
-      return reportError(
-          {ErrorCode::InvalidArgument, "has no assertions, so it tests nothing", name});
+  std::vector<link::TestedExperiment> all;
+  std::size_t assertions = 0, failures = 0, errors = 0;
+  for (const Found& test : tests) {
+    auto one = tested(test, options);
+    if (!one) {
+      ++errors;
+      reportError(one.error());
+      link::TestedExperiment& unread = all.emplace_back();
+      unread.experiment.name = test.path;
+      unread.error = one.error().text();
+      if (interrupted) break;
+      continue;
     }
-    auto summary = played(*experiment, options);
-    if (!summary) return reportError(summary.error());
-    for (const link::CheckedAssertion& one : summary->assertions) {
+    for (const link::CheckedAssertion& checked : one->summary.assertions) {
       ++assertions;
-      failures += !one.holds;
-      std::printf("%s  %s, %s: %s (%s)\n", one.holds ? "holds " : "FAILED",
-                  experiment->name.c_str(), one.condition.c_str(), one.text.c_str(),
-                  one.values.c_str());
+      failures += !checked.holds;
+      std::printf("%s  %s, %s: %s (%s)\n", checked.holds ? "holds " : "FAILED",
+                  one->experiment.name.c_str(), checked.condition.c_str(), checked.text.c_str(),
+                  checked.values.c_str());
       std::fflush(stdout);
     }
-    tested.push_back({std::move(*experiment), std::move(*summary)});
+    all.push_back(std::move(*one));
   }
-  std::printf("%zu tests, %zu assertions, %zu failed\n", tests->size(), assertions, failures);
+  std::printf("%zu tests, %zu assertions, %zu failed", all.size(), assertions, failures);
+  if (errors > 0) std::printf(", %zu with errors", errors);
+  std::printf("\n");
   if (!options.junit.empty()) {
-    const auto wrote = writeFile(options.junit, link::junitReport(tested), IfExists::Replace);
+    const auto wrote = writeFile(options.junit, link::junitReport(all), IfExists::Replace);
     if (!wrote) return reportError(wrote.error());
   }
-  return failures == 0 ? 0 : 1;
+  return errors > 0 ? shared::exitRefused : failures == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -105,15 +155,19 @@ void addTestCommand(CLI::App& parent, int& exitCode) {
   Options& o = *options;
   CLI::App* command = parent.add_subcommand(
       "test",
-      "Plays situations with assertions (experiment files) and says which hold. Exit 1 when one "
-      "does not\n"
-      "Example: pitchboard-cli test situations --junit results.xml");
+      "Play situations with assertions (experiment files) and print which of them hold. Exits with "
+      "1 if one does not, with 2 if a file cannot be read or played (the others are played all the "
+      "same)\n"
+      "Examples: pitchboard-cli test situations --junit results.xml\n"
+      "          pitchboard-cli test striker-scores");
   command
-      ->add_option("folder", o.folder,
-                   "A folder of experiment files, or one file; default: the examples that are part "
-                   "of the program")
-      ->type_name("DIR|FILE");
-  command->add_option("--junit", o.junit, "Write the outcome as JUnit XML")->type_name("FILE.xml");
+      ->add_option(
+          "folder", o.folder,
+          "A folder of experiment files (with its subfolders), one file, or the name of an "
+          "example (--list); default: all examples")
+      ->type_name("DIR|FILE|NAME");
+  command->add_option("--junit", o.junit, "Write the results as JUnit XML, errors included")
+      ->type_name("FILE.xml");
   command->add_option("--jobs", o.jobs, "Runs at a time; default: one for each processor")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

@@ -47,6 +47,22 @@ grep -q '<failure message="success_rate = 0"/>' bad/junit.xml || fail "junit.xml
 mkdir cases && cp bad.json short.json cases
 expect 1 "2 tests, 2 assertions, 1 failed" test cases --junit all.xml
 expect 0 "5 tests, 21 assertions, 0 failed" test
+expect 0 "1 tests, " test ready-positions
+expect 2 "no example of this name" test no-such-test
+# What cannot be read is an error of its own; the rest, in subfolders too, is played, and the JUnit file is written.
+mkdir -p mixed/sub && cp short.json mixed/sub && cp bad.json mixed/z.json
+echo '{"version": 1' > mixed/broken.json
+printf '{"version": 1, "name": "n\u0001", "x": 1}' > mixed/a.json
+sed 's/, *"assertions": \[[^]]*\]//' short.json > mixed/empty.json
+ln -s .. mixed/sub/above
+expect 2 "5 tests, 2 assertions, 1 failed, 3 with errors" test mixed --junit mixed.xml
+expect 2 "no/such/folder" test no/such/folder --junit nothing.xml
+python3 -c 'import xml.etree.ElementTree as t
+suites = t.parse("mixed.xml").getroot()
+assert [s.get("errors", "0") for s in suites] == ["1", "1", "1", "0", "0"], [s.attrib for s in suites]
+assert [s.get("failures") for s in suites] == ["0", "0", "0", "0", "1"], [s.attrib for s in suites]
+assert "assertions" in suites[2].find("testcase/error").get("message")
+assert t.parse("nothing.xml").getroot().find("testsuite/testcase/error") is not None' || fail "mixed.xml"
 python3 -c 'import xml.etree.ElementTree as t
 r = t.parse("all.xml").getroot()
 assert [s.get("failures") for s in r] == ["1", "0"], [s.attrib for s in r]' || fail "all.xml"

@@ -33,11 +33,21 @@ std::string suites(const Experiment& experiment, const ExperimentSummary& summar
   return out;
 }
 
+std::string errorSuite(const std::string& name, const std::string& error) {
+  return "  <testsuite name=\"" + escaped(name) +
+         "\" tests=\"1\" failures=\"0\" errors=\"1\">\n    <testcase classname=\"" + escaped(name) +
+         "\" name=\"can be played\">\n      <error message=\"" + escaped(error) +
+         "\"/>\n    </testcase>\n  </testsuite>\n";
+}
+
 }  // namespace
 
 std::string junitReport(std::span<const TestedExperiment> tested) {
   std::string out = head;
-  for (const TestedExperiment& one : tested) out += suites(one.experiment, one.summary);
+  for (const TestedExperiment& one : tested) {
+    out += one.error.empty() ? suites(one.experiment, one.summary)
+                             : errorSuite(one.experiment.name, one.error);
+  }
   return out + foot;
 }
 

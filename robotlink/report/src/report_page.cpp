@@ -38,7 +38,8 @@ std::string escaped(std::string_view text) {
         out += "&#39;";
         break;
       default:
-        out += c;
+        // XML has no other control characters.
+        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
     }
   }
   return out;

@@ -2,7 +2,8 @@
 #pragma once
 
 // Assertions as JUnit XML, which continuous integration reads: a test suite for each condition of
-// an experiment, a test for each of its assertions. Pure; any thread.
+// an experiment, a test for each of its assertions; a suite with an error for a file that could not
+// be read or played. Pure; any thread.
 
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@ namespace pitchboard::link {
 struct TestedExperiment {
   Experiment experiment;
   ExperimentSummary summary;
+  std::string error;  ///< why there is no summary; then only the experiment's name is used
 };
 
 std::string junitReport(std::span<const TestedExperiment> tested);
