@@ -49,6 +49,19 @@ expect 0 "scenario-1" --list
 expect 0 "" --render-scenario one-robot --picture field.png
 expect_picture "--render-scenario"
 
+# In a checkout the picture goes to the build folder, which git ignores.
+mkdir -p checkout/docs checkout/scripts
+cp "$run" checkout/ && cp "$(dirname "$run")/scripts/common.sh" checkout/scripts/
+for place in . docs; do
+  said=$(cd checkout/$place && "$folder/checkout/run" --scenario one-robot --duration 1 --cognition inline 2>&1)
+  pictures=$(cd checkout && find . -name '*.png')
+  if [ "$pictures" != ./build/field.png ] || [[ $said != *"checkout/build/field.png"* ]]; then
+    printf 'FAIL: in %s of a checkout there is "%s", and ./run says:\n%s\n' $place "$pictures" "$said"
+    failures=$((failures + 1))
+  fi
+  rm -rf checkout/build
+done
+
 "$PITCHBOARD_BIN/pitchboard-cli" record --scenario one-robot --duration 2 -o match.mcap >/dev/null 2>&1
 expect 0 "Replay needs a window" match.mcap
 expect 0 "121 rows of" match.mcap
