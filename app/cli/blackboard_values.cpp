@@ -187,7 +187,7 @@ struct WatchOptions {
   std::vector<std::string> names;
   int intervalMs = 20;
   long long count = 0;
-  double duration = 0.0;
+  std::optional<double> duration;
   bool json = false;
 };
 
@@ -227,8 +227,9 @@ Result<void> watch(WatchOptions& options) {
   board->copyWords(before);
   // Whoever reads our output knows from here on that no change is missed.
   std::fprintf(stderr, "watching blackboard %d; Ctrl+C ends\n", board->key());
-  const auto end = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
-                                            std::chrono::duration<double>(options.duration));
+  const auto end =
+      SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
+                               std::chrono::duration<double>(options.duration.value_or(0.0)));
   auto nextCheck = SteadyClock::now();
   for (long long printed = 0; !interrupted;) {
     Words now{};
@@ -243,7 +244,7 @@ Result<void> watch(WatchOptions& options) {
     if (std::fflush(stdout) != 0) return {};  // nobody reads any more
     if (options.count > 0 && printed >= options.count) return {};
     const auto time = SteadyClock::now();
-    if (options.duration > 0.0 && time >= end) return {};
+    if (options.duration && time >= end) return {};
     if (time >= nextCheck) {
       // Removed, or removed and made anew: what we hold will never change again.
       const auto there = SystemVSegments::info(board->key());
@@ -367,8 +368,7 @@ void addWatchCommand(CLI::App& parent, int& exitCode) {
       ->capture_default_str();
   command->add_option("--count", options->count, "end after this many changes")
       ->check(CLI::PositiveNumber);
-  command->add_option("--duration", options->duration, "end after this many seconds")
-      ->check(CLI::Range(0.001, 1e9));
+  shared::addDuration(*command, "--duration", options->duration, "end after this time");
   command->add_flag("--json", options->json, "one JSON object a line");
   whenChosen(*command, options, exitCode, &watch);
 }

@@ -36,20 +36,25 @@ struct Part {
 
 Result<Part> partOf(const SessionReader& session, const Options& options) {
   Part part;
-  const auto read = [&session](const char* option, const std::string& text, TimeRange range,
-                               std::optional<double>& to) -> Result<void> {
+  const auto range = session.range();
+  if (!range && (!options.from.empty() || !options.until.empty())) {
+    return failure(ErrorCode::InvalidArgument,
+                   "There is nothing in this session, so --from and --until cannot be used.");
+  }
+  const auto read = [&](const char* option, const std::string& text,
+                        std::optional<double>& to) -> Result<void> {
     if (text.empty()) return {};
-    auto time = sessionTime(text, session.info().start, range);
+    auto time = sessionTime(text, session.info().start, *range,
+                            options.clock ? TimeForms::Clock : TimeForms::Session, part.from);
     if (!time) return failure(time.error().code, option + (": " + time.error().message));
     to = *time;
     return {};
   };
-  TimeRange all = session.range().value_or(TimeRange{});
-  if (auto from = read("--from", options.from, all, part.from); !from) {
+  if (auto from = read("--from", options.from, part.from); !from) {
     return tl::unexpected(from.error());
   }
-  all.begin = part.from.value_or(all.begin);  // from 23:59 until 00:01 is two minutes
-  if (auto until = read("--until", options.until, all, part.until); !until) {
+  // From 23:59 until 00:01 is two minutes.
+  if (auto until = read("--until", options.until, part.until); !until) {
     return tl::unexpected(until.error());
   }
   return part;
@@ -126,8 +131,9 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       "'VISION_*'\n"
       "          pitchboard-cli export live.mcap --to csv-even --rate 5 --robots 'Robot 1' "
       "--clock\n"
-      "          pitchboard-cli export match.mcap --to mcap --from 60 --until 90 -o goal.mcap\n"
-      "          pitchboard-cli export live.mcap --to mcap --from 14:03:20 --until 14:05 -o "
+      "          pitchboard-cli export match.mcap --to mcap --from 1:00 --until 1:30 -o goal.mcap\n"
+      "          pitchboard-cli export live.mcap --to mcap --clock --from 14:03:20 --until 14:05 "
+      "-o "
       "goal.mcap\n"
       "          pitchboard-cli export match.mcap --to mp4 --from 60 --until 90 -o goal.mp4");
   command->add_option("file", options->file, "The session")->required()->type_name("FILE");
@@ -141,7 +147,7 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->capture_default_str();
   command->add_option("--from", options->from, std::string("Begin: ") + sessionTimeForms)
       ->type_name("T");
-  command->add_option("--until", options->until, "End, in the same ways")->type_name("T");
+  command->add_option("--until", options->until, "End, in the same forms")->type_name("T");
   command->add_option("--robots", options->robots, "Only these, e.g. B1,R2 or match")
       ->type_name("NAMES")
       ->delimiter(',');
@@ -153,7 +159,9 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->capture_default_str();
   command->add_flag("--interpolate", options->interpolate,
                     "csv-even: on the line between two rows; else each value holds until the next");
-  command->add_flag("--clock", options->clock, "CSV: the time of day (UTC) behind each time");
+  command->add_flag("--clock", options->clock,
+                    "Read --from and --until as times of day (this computer's time zone); CSV: add "
+                    "a column with the time of day (UTC)");
   command->add_flag("--rows-only", options->rowsOnly,
                     "Without events, log and datagrams (jsonl, mcap)");
   command->add_option("-o,--output", options->output, "A new file; else the text goes to stdout")

@@ -209,8 +209,8 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "          pitchboard-cli listen --json --duration 60 > match.jsonl\n"
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24\n"
       "          pitchboard-cli listen --team ours.json --team theirs.json");
-  command->add_option("--duration", options->duration, "Seconds; without it until Ctrl+C")
-      ->check(CLI::Range(0.0, 1e9));
+  shared::addDuration(*command, "--duration", options->duration,
+                      "Stop after this time; without it until Ctrl+C");
   addListenOptions(*command, options->network);
   command->add_option("--monitor", options->monitor,
                       "Ask the referee at this address for monitor mode (controllers of 2026).\n"

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include <base/time_text.h>
+
 namespace pitchboard::shared {
 
 int reportError(const Error& error) {
@@ -29,6 +31,22 @@ std::optional<double> numberFrom(std::string_view text) {
   const auto [rest, code] = std::from_chars(text.data(), end, value);
   if (code != std::errc() || rest != end) return {};
   return value;
+}
+
+CLI::Option* addDuration(CLI::App& command, const std::string& name, std::optional<double>& seconds,
+                         const std::string& description) {
+  const auto read = [name, &seconds](const std::string& text) {
+    seconds = secondsFromText(text);
+    if (!seconds) {
+      throw CLI::ValidationError(name + " must be a time, not \"" + text.substr(0, 40) +
+                                 "\"; write " + timeForms);
+    }
+    if (!(*seconds > 0.0 && *seconds <= 1e9)) {
+      throw CLI::ValidationError(name + " must be above 0 and at most 1e9 seconds");
+    }
+  };
+  return command.add_option_function<std::string>(name, read, description + ". Write " + timeForms)
+      ->type_name("T");
 }
 
 }  // namespace pitchboard::shared

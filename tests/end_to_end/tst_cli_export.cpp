@@ -89,8 +89,43 @@ class TestCliExport : public QObject {
     check(local(from), local(until));
     const ProgramRun wrong = cli({"export", m_session, "--from", "14:99"});
     QCOMPARE(wrong.exitCode, 2);
-    QVERIFY2(wrong.err.contains("--from: \"14:99\" is no time; write seconds"), wrong.err);
+    QVERIFY2(wrong.err.contains("--from: \"14:99\" is not a time. Write seconds"), wrong.err);
     QCOMPARE(cli({"export", m_session, "--from", until, "--until", from}).exitCode, 2);
+  }
+
+  void aPartIsChosenByMinutesAndSeconds() {
+    const auto table = [this](const QString& from, const QString& until) {
+      const ProgramRun run =
+          cli({"export", m_session, "--robots", "match", "--from", from, "--until", until});
+      return run.exitCode == 0 ? run.out : run.err;
+    };
+    const QByteArray part = table("2.5", "4");
+    QVERIFY2(part.count('\n') > 80 && part.count('\n') < 100, part.left(300).constData());
+    QCOMPARE(table("0:02.5", "00:04"), part);
+    QCOMPARE(table("0:00:02.5", "0:00:04.0"), part);
+    QCOMPARE(table("0", "0:06"), table("0", "6"));
+  }
+
+  void aPartOutsideIsRefusedWithTheRangeOfTheSession_data() {
+    QTest::addColumn<QStringList>("part");
+    QTest::newRow("from") << QStringList{"--from", "01:30"};
+    QTest::newRow("until") << QStringList{"--until", "100"};
+    QTest::newRow("before") << QStringList{"--until", "-5"};
+    QTest::newRow("no date") << QStringList{"--from", "14:03:20"};
+    QTest::newRow("by the clock") << QStringList{
+        "--clock", "--from", QDateTime::currentDateTime().addSecs(-40'000).toString("HH:mm:ss")};
+    QTest::newRow("date") << QStringList{"--from", "2001-02-03T14:03:20"};
+  }
+  void aPartOutsideIsRefusedWithTheRangeOfTheSession() {
+    QFETCH(QStringList, part);
+    for (const char* format : {"csv-wide", "svg", "mcap", "report"}) {
+      const QString to = path("outside");
+      const ProgramRun run =
+          cli(QStringList{"export", m_session, "--to", QLatin1String(format), "-o", to} + part);
+      QCOMPARE(run.exitCode, 2);
+      QVERIFY2(run.err.contains("is outside the session, which goes from 0:00 to 0:06"), run.err);
+      QVERIFY(!QFile::exists(to));
+    }
   }
 
   void aPictureAsSvg() {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <base/result.h>
@@ -24,5 +25,10 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv);
 
 /// The whole text as a number with a decimal point.
 std::optional<double> numberFrom(std::string_view text);
+
+/// Adds an option that takes a length of time above 0, at most 1e9 s, as secondsFromText() reads
+/// it. `seconds` stays empty without the option and must live as long as the command.
+CLI::Option* addDuration(CLI::App& command, const std::string& name, std::optional<double>& seconds,
+                         const std::string& description);
 
 }  // namespace pitchboard::shared
