@@ -8,7 +8,6 @@
 #include <set>
 #include <thread>
 
-#include <app/scenario_options.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/session/recording_health.h>
@@ -16,6 +15,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "listen_options.h"
+#include "match_play.h"
 #include "progress.h"
 
 namespace pitchboard::cli {
@@ -24,14 +24,12 @@ namespace {
 using namespace telemetry;
 using Clock = std::chrono::steady_clock;
 
-constexpr double defaultDuration = 60.0;  // s simulated
 constexpr auto pollInterval = std::chrono::milliseconds(20);
 constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
 
 struct Options {
   std::string output;
-  shared::ScenarioOptions match;
-  std::optional<double> duration;
+  PlayOptions play;
   bool live = false, progress = false;
   ListenOptions network;
 };
@@ -76,14 +74,15 @@ class Health {
   std::set<RecordingTrouble> m_told;
 };
 
-/// As fast as it can be played.
 int recordMatch(const Options& options) {
-  auto scenario = shared::scenarioFrom(options.match);
+  const auto cognition = cognitionOf(options.play);
+  if (!cognition) return reportError(cognition.error());
+  const auto speed = speedOf(options.play, *cognition);
+  if (!speed) return reportError(speed.error());
+  const auto scenario =
+      scenarioToPlay(shared::scenarioFrom(options.play.match), options.play, *cognition);
   if (!scenario) return reportError(scenario.error());
-  shared::warnOfIgnoredSettings(*scenario);
-  scenario->stop.duration =
-      options.duration.value_or(scenario->stop.duration.value_or(defaultDuration));
-  auto match = link::SimulatedMatch::create(*scenario, {});
+  auto match = createMatch(*scenario, options.play, *cognition);
   if (!match) return reportError(match.error());
 
   SessionWriterOptions writing;
@@ -98,16 +97,18 @@ int recordMatch(const Options& options) {
   link::MatchPlayer player(std::move(*match));
   player.observe(sampler);
   player.observe(recorder);
-  Result<void> finished;
+  Outcome outcome;
   {
     Health health(options.progress);
-    while (!interrupted && !player.match().finished() && writer->status().recording) {
-      player.play(Clock::now());
+    outcome = playToEnd(player, *speed, [&] {
       health.say(writer->status());
-    }
-    finished = recorder->finish();
+      return writer->status().recording;
+    });
   }
-  return ended(writer->path(), writer->status(), finished);
+  const auto finished = recorder->finish();
+  const int exitCode = ended(writer->path(), writer->status(), finished);
+  if (exitCode == 0) printResult(player.match(), outcome);
+  return exitCode;
 }
 
 int recordLive(const Options& options) {
@@ -147,8 +148,8 @@ int recordLive(const Options& options) {
     std::map<std::size_t, std::string> told;
     const auto begin = Clock::now();
     const auto isOver = [&] {
-      return options.duration &&
-             Clock::now() - begin >= std::chrono::duration<double>(*options.duration);
+      return options.play.duration &&
+             Clock::now() - begin >= std::chrono::duration<double>(*options.play.duration);
     };
     while (!interrupted && !isOver() && (*recorder)->status().recording) {
       reportPorts(watch.details().network, told);
@@ -183,16 +184,25 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   Options& o = *options;
   CLI::App* command = parent.add_subcommand(
       "record",
-      "Play a match as fast as possible, or listen to live robots, and record everything.\n"
-      "Examples: pitchboard-cli record --scenario match-3v3 --duration 600 -o match.mcap\n"
+      "Play a match (as fast as possible by default), or listen to live robots, and record "
+      "everything.\n"
+      "Examples: pitchboard-cli record --scenario match-3v3 --duration 10:00 -o match.mcap\n"
+      "          pitchboard-cli record --scenario match --referee humanoid-soccer-2026 -o "
+      "final.mcap\n"
       "          pitchboard-cli record --live -o training.mcap");
   command->add_option("-o,--output", o.output, "A new session")->required()->type_name("FILE.mcap");
-  command
-      ->add_option("--duration", o.duration,
-                   "Seconds; without it the scenario's, else 60; live: until Ctrl+C")
-      ->check(CLI::Range(0.001, 1e9));
-  shared::addScenarioOptions(*command, o.match);
-  command->add_flag("--live", o.live, "Record what robots and the referee send");
+  shared::addDuration(
+      *command, "--duration", o.play.duration,
+      "How long; default: the scenario's stop conditions or the final whistle, else "
+      "60 s of the match; live: until Ctrl+C");
+  addPlayOptions(*command, o.play);
+  CLI::Option* live =
+      command->add_flag("--live", o.live, "Record what robots and the referee send");
+  for (const char* ofAMatch :
+       {"--scenario", "--seed", "--noise", "--physics", "--robot-model", "--speed", "--cognition",
+        "--referee", "--obey-referee", "--match", "--key-base", "--runtime"}) {
+    live->excludes(command->get_option(ofAMatch));
+  }
   addListenOptions(*command, o.network);
   command->add_flag("--progress", o.progress,
                     "Say on stderr how far it is, also without a terminal");

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <unistd.h>
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
-#include <app/robots_options.h>
-#include <app/scenario_options.h>
-#include <robotlink/match/match_player.h>
-#include <robotlink/match/simulated_match.h>
-#include <robotlink/processes/own_program.h>
-#include <robotlink/scenario/referee_rule_sets.h>
+#include <base/file_target.h>
+#include <base/time_text.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
+#include <telemetry/session/session_time.h>
 
 #include "commands.h"
 #include "interrupt.h"
+#include "match_play.h"
+#include "progress.h"
 #include "simulate_report.h"
 #include "simulate_stdio.h"
 #include "trace_writer.h"
@@ -25,52 +19,18 @@
 namespace pitchboard::cli {
 namespace {
 
-using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
-
-constexpr double defaultDuration = 60.0;  // s simulated
-constexpr auto pollInterval = 50ms;
-constexpr auto progressInterval = 500ms;
-
 struct Arguments {
-  shared::ScenarioOptions match;
+  PlayOptions play;
   std::string session;
-  double at = 0.0;
-  std::optional<double> duration;
-  std::string speed;
-  std::string cognition = "inline";
+  std::string at;
+  bool clock = false;
   std::string trace;
   std::string moment;
-  std::string robotProgram;
-  shared::RobotsOptions robots;
   bool force = false;
   bool json = false;
   bool list = false;
   bool stdio = false;
-  std::string rules;
-  std::optional<int> obeyReferee;
 };
-
-struct CognitionName {
-  const char* name;
-  link::Cognition cognition;
-};
-constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
-                                                   {"external", link::Cognition::External},
-                                                   {"none", link::Cognition::None}}};
-
-/// 0 = as fast as possible.
-Result<double> speedFrom(const Arguments& arguments, link::Cognition cognition) {
-  const std::string& text = arguments.speed;
-  if (text.empty()) return cognition == link::Cognition::Inline ? 0.0 : 1.0;
-  if (text == "max") return 0.0;
-  const std::optional<double> speed = shared::numberFrom(text);
-  if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
-    return failure(ErrorCode::InvalidArgument,
-                   "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
-  }
-  return *speed;
-}
 
 /// A recorded match, and the moment from which it is to go on.
 struct Recorded {
@@ -81,10 +41,25 @@ struct Recorded {
   }
 };
 
+/// The moment of --at, in seconds of the session.
+Result<double> momentIn(const telemetry::SessionReader& session, const Arguments& arguments) {
+  const auto range = session.range();
+  if (!range) {
+    return failure(ErrorCode::NotFound, "There is nothing in this session.", arguments.session);
+  }
+  using telemetry::TimeForms;
+  const auto time = telemetry::sessionTime(arguments.at, session.info().start, *range,
+                                           arguments.clock ? TimeForms::Clock : TimeForms::Session);
+  if (!time) return failure(time.error().code, "--at: " + time.error().message);
+  return time;
+}
+
 Result<Recorded> recordedMoment(const Arguments& arguments) {
   const auto session = telemetry::SessionReader::open(arguments.session);
   if (!session) return tl::unexpected(session.error());
-  auto moment = link::momentFromSession(*session, arguments.at, link::VariableCatalog::published());
+  const auto at = momentIn(*session, arguments);
+  if (!at) return tl::unexpected(at.error());
+  auto moment = link::momentFromSession(*session, *at, link::VariableCatalog::published());
   if (!moment) {
     Error error = moment.error();
     error.context =
@@ -104,33 +79,18 @@ Result<Recorded> recordedMoment(const Arguments& arguments) {
 
 Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
                                     const std::optional<Recorded>& recorded) {
-  auto scenario = recorded ? shared::changed(recorded->scenario, arguments.match)
-                           : shared::scenarioFrom(arguments.match);
-  if (!scenario) return scenario;
-  if (!arguments.rules.empty()) {
-    auto rules = link::refereeRuleSet(arguments.rules);
-    if (!rules) return tl::unexpected(rules.error());
-    scenario->settings.referee = *rules;
-  }
-  if (arguments.duration) {
-    if (!(*arguments.duration > 0.0 && *arguments.duration <= 1e9)) {
-      return failure(ErrorCode::InvalidArgument,
-                     "--duration must be above 0 and at most 1e9 seconds");
-    }
-    scenario->stop.duration = arguments.duration;
-  } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None &&
-             !(scenario->settings.referee && scenario->settings.referee->automatic)) {
-    scenario->stop.duration = defaultDuration;
-  }
-  if (recorded) {
-    // Seconds from here on; a match that was over by then goes on all the same.
-    auto& duration = scenario->stop.duration;
-    const double now = recorded->seconds();
-    if (arguments.duration) {
-      duration = now + *arguments.duration;
-    } else if (duration && *duration <= now + defaultDuration / 60.0) {
-      duration = now + defaultDuration;
-    }
+  const PlayOptions& play = arguments.play;
+  auto scenario = scenarioToPlay(
+      recorded ? shared::changed(recorded->scenario, play.match) : shared::scenarioFrom(play.match),
+      play, cognition);
+  if (!scenario || !recorded) return scenario;
+  // Seconds from here on; a match that was over by then goes on all the same.
+  auto& duration = scenario->stop.duration;
+  const double now = recorded->seconds();
+  if (play.duration) {
+    duration = now + *play.duration;
+  } else if (duration && *duration <= now + defaultDuration / 60.0) {
+    duration = now + defaultDuration;
   }
   return scenario;
 }
@@ -161,87 +121,10 @@ class TraceRows : public link::TickObserver {
   Result<void> m_written;
 };
 
-/// Says which processes ended before the match did.
-class ProcessNews : public link::TickObserver {
- public:
-  void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
-  void happened(std::span<const link::MatchEvent> events) override {
-    for (const link::MatchEvent& event : events) {
-      using Kind = link::MatchEventKind;
-      constexpr std::array told{Kind::ProcessDied, Kind::ProcessEnded, Kind::ProcessRestarted,
-                                Kind::ProcessSilent, Kind::ProcessGivenUp};
-      if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
-      std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
-                   link::sentenceOf(event).c_str());
-    }
-  }
-};
-
-/// Plays the match to its end and looks after its processes.
-class Playing {
- public:
-  Playing(link::MatchPlayer& player, double speed)
-      : m_player(player), m_match(player.match()), m_begin(Clock::now()) {
-    m_player.setSpeed(speed, m_begin);
-    m_match.setPlaying(speed, false, m_begin);
-  }
-
-  /// Ends early when `trace` cannot be written.
-  Outcome play(const TraceRows* trace) {
-    const std::uint64_t first = m_player.currentTick();
-    while (!interrupted && !m_match.finished() && (!trace || trace->written())) {
-      const auto next = m_player.play(Clock::now()).next;
-      lookAfter();
-      const auto now = Clock::now();
-      if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
-    }
-    if (m_showsProgress) std::fprintf(stderr, "\r\033[K");
-    Outcome outcome;
-    outcome.ticks = m_player.currentTick() - first;
-    outcome.simulatedSeconds =
-        static_cast<double>(outcome.ticks) / m_match.simulation().state().settings.tickRate;
-    outcome.wallSeconds = std::chrono::duration<double>(Clock::now() - m_begin).count();
-    outcome.finishedBy = m_match.finished() ? std::string(m_match.finishedBy()) : "interrupted";
-    outcome.noise = noiseName(m_match.simulation().state().settings.noise);
-    return outcome;
-  }
-
- private:
-  void lookAfter() {
-    const auto now = Clock::now();
-    if (now - m_lastPoll >= pollInterval) {
-      m_lastPoll = now;
-      pollProcesses();
-    }
-    if (m_showsProgress && now - m_lastProgress >= progressInterval) {
-      m_lastProgress = now;
-      const double rate = m_match.simulation().state().settings.tickRate;
-      std::fprintf(stderr, "\r%.1f s simulated",
-                   static_cast<double>(m_player.currentTick()) / rate);
-    }
-  }
-
-  void pollProcesses() {
-    m_match.lookAfterProcesses(Clock::now());
-    (void)m_match.processes().takeLines();
-    m_player.tellEvents();
-  }
-
-  link::MatchPlayer& m_player;
-  link::SimulatedMatch& m_match;
-  Clock::time_point m_begin, m_lastPoll, m_lastProgress;
-  bool m_showsProgress = ::isatty(STDERR_FILENO) == 1;
-};
-
 Result<void> simulate(const Arguments& arguments) {
-  const auto cognition = std::find_if(cognitions.begin(), cognitions.end(),
-                                      [&](const auto& c) { return arguments.cognition == c.name; });
-  if (cognition == cognitions.end()) {
-    return failure(
-        ErrorCode::InvalidArgument,
-        "--cognition must be inline, external or none, not \"" + arguments.cognition + "\"");
-  }
-  const auto speed = speedFrom(arguments, cognition->cognition);
+  const auto cognition = cognitionOf(arguments.play);
+  if (!cognition) return tl::unexpected(cognition.error());
+  const auto speed = speedOf(arguments.play, *cognition);
   if (!speed) return tl::unexpected(speed.error());
   std::optional<Recorded> recorded;
   if (!arguments.session.empty()) {
@@ -249,29 +132,16 @@ Result<void> simulate(const Arguments& arguments) {
     if (!read) return tl::unexpected(read.error());
     recorded = std::move(*read);
   }
-  auto scenario = scenarioFrom(arguments, cognition->cognition, recorded);
-  if (scenario) scenario = shared::withRuntimes(std::move(*scenario), arguments.robots);
+  const auto scenario = scenarioFrom(arguments, *cognition, recorded);
   if (!scenario) return tl::unexpected(scenario.error());
-
-  shared::warnOfIgnoredSettings(*scenario);
-  link::MatchOptions options;
-  options.cognition = cognition->cognition;
-  shared::apply(arguments.robots, options);
-  options.robotProgram = arguments.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
-                                                        : arguments.robotProgram;
-  options.obeyReferee = arguments.obeyReferee;
   const InterruptGuard signals;
-  auto match = link::SimulatedMatch::create(*scenario, options);
+  auto match = createMatch(*scenario, arguments.play, *cognition);
   if (!match) return tl::unexpected(match.error());
-  if (const std::string notice = shared::numberNotice(*match); !notice.empty()) {
-    std::fprintf(stderr, "%s\n", notice.c_str());
-  }
   if (recorded) {
     if (auto entered = match->reenter(recorded->moment); !entered) return entered;
   }
 
   link::MatchPlayer player(std::move(*match));
-  player.observe(std::make_shared<ProcessNews>());
   const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
   std::shared_ptr<TraceRows> trace;
   if (!arguments.trace.empty()) {
@@ -281,7 +151,15 @@ Result<void> simulate(const Arguments& arguments) {
     trace = std::make_shared<TraceRows>(std::move(*made));
     player.observe(trace);
   }
-  const Outcome outcome = Playing(player, *speed).play(trace.get());
+  Outcome outcome;
+  {
+    Progress progress("simulated", false);
+    outcome = playToEnd(player, *speed, [&] {
+      const double rate = player.match().simulation().state().settings.tickRate;
+      progress.say(secondsToText(static_cast<double>(player.currentTick()) / rate));
+      return !trace || trace->written();
+    });
+  }
   if (trace) {
     if (auto finished = trace->finish(); !finished) return finished;
   }
@@ -311,44 +189,23 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
       "          pitchboard-cli simulate --scenario my.json --cognition external --speed 1\n"
       "          echo '{\"do\": \"create\", \"worlds\": 2}' | pitchboard-cli simulate --stdio");
-  shared::addScenarioOptions(*command, a.match);
+  addPlayOptions(*command, a.play);
   CLI::Option* from =
       command
           ->add_option("--from", a.session,
                        "Go on from a recorded moment, exactly; the robots' processes start anew")
           ->type_name("FILE.mcap");
-  CLI::Option* at = command->add_option("--at", a.at, "The moment, in seconds of the session")
-                        ->type_name("S")
-                        ->needs(from);
+  CLI::Option* at =
+      command->add_option("--at", a.at, std::string("The moment: ") + telemetry::sessionTimeForms)
+          ->type_name("T")
+          ->needs(from);
   from->needs(at);
-  command
-      ->add_option(
-          "--duration", a.duration,
-          "Simulated seconds; default: the scenario's stop conditions or the final whistle, "
-          "else 60 (with --cognition none: until Ctrl+C)")
-      ->type_name("S");
-  command
-      ->add_option("--speed", a.speed,
-                   "Times real time, or max; default: max for inline cognition, else 1")
-      ->type_name("X|max");
-  command
-      ->add_option("--cognition", a.cognition,
-                   "inline: decision in this program; external: robot processes on System V "
-                   "blackboards; none: blackboards for your own processes")
-      ->type_name("inline|external|none")
-      ->capture_default_str();
-  std::string ruleSets;
-  for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
-  command
-      ->add_option("--referee", a.rules,
-                   "Rules of the match instead of the scenario's: " + ruleSets.substr(2) +
-                       "; published is no referee")
-      ->type_name("RULES");
-  command
-      ->add_option("--obey-referee", a.obeyReferee,
-                   "Obey the GameController that is heard on this UDP port")
-      ->type_name("PORT")
-      ->check(CLI::Range(1, 65535));
+  command->add_flag("--clock", a.clock, "Read --at as a time of day (this computer's time zone)")
+      ->needs(at);
+  shared::addDuration(
+      *command, "--duration", a.play.duration,
+      "Simulated time; default: the scenario's stop conditions or the final whistle, else 60 s "
+      "(with --cognition none: until Ctrl+C)");
   command->add_option("--trace", a.trace, "Write one CSV row per tick")->type_name("FILE.csv");
   command
       ->add_option("--save-moment", a.moment,
@@ -356,11 +213,6 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       ->type_name("FILE.json");
   command->add_flag("--force", a.force, "Overwrite the trace or the moment if it exists");
   command->add_flag("--json", a.json, "Print the outcome as one JSON object");
-  shared::addRobotsOptions(*command, a.robots);
-  command
-      ->add_option("--robot-program", a.robotProgram,
-                   "Program of the external processes; default: pitchboard-robot beside this one")
-      ->type_name("FILE");
   command->add_flag("--list", a.list, "Print the built-in scenarios");
   CLI::Option* stdio =
       command->add_flag("--stdio", a.stdio,

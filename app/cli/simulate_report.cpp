@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate_report.h"
 
+#include <cctype>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -27,7 +28,43 @@ const char* reasonText(const std::string& finishedBy) {
   return "interrupted";
 }
 
+std::string titleOf(const TeamOutcome& team, bool withSide) {
+  std::string out(info(team.colour).name);
+  out.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(out.front())));
+  return withSide ? out + " (" + std::string(link::sideName(team.side)) + ')' : out;
+}
+
 }  // namespace
+
+std::array<TeamOutcome, 2> teamOutcomes(const link::SimulatedMatch& match) {
+  using link::Side;
+  const sim::WorldState& world = match.simulation().state();
+  if (world.game) {
+    std::array<TeamOutcome, 2> out;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const sim::GameTeam& team = world.game->teams[i];
+      out[i] = {team.colour, i == world.game->leftTeam() ? Side::Left : Side::Right, team.number,
+                team.score};
+    }
+    return out;
+  }
+  const TeamOutcome left{link::teamOn(Side::Left, world.robots), Side::Left, {}, world.score.left};
+  const TeamOutcome right{
+      link::teamOn(Side::Right, world.robots), Side::Right, {}, world.score.right};
+  if (right.colour < left.colour) return {right, left};
+  return {left, right};
+}
+
+std::string scoreText(const link::SimulatedMatch& match) {
+  const auto [first, second] = teamOutcomes(match);
+  const bool alike = first.colour == second.colour;
+  return titleOf(first, alike) + ' ' + std::to_string(first.score) + " : " +
+         std::to_string(second.score) + ' ' + titleOf(second, alike);
+}
+
+void printResult(const link::SimulatedMatch& match, const Outcome& outcome) {
+  std::printf("%s; %s\n", scoreText(match).c_str(), reasonText(outcome.finishedBy));
+}
 
 std::string noiseName(const sim::NoiseParameters& noise) {
   for (const std::string& name : link::noisePresets()) {
@@ -44,7 +81,7 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
               (scenario.title.empty() ? scenario.name : scenario.title).c_str(),
               settings.physics.c_str(), outcome.noise.c_str(), settings.seed);
   std::printf("  Ended      %s\n", reasonText(outcome.finishedBy));
-  std::printf("  Score      left %d : %d right\n", now.score.left, now.score.right);
+  std::printf("  Score      %s\n", scoreText(match).c_str());
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
@@ -70,6 +107,13 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
                       {"falls", robot.statistics.falls},
                       {"unknown_actions", robot.statistics.unknownActions}});
   }
+  Json teams = Json::array();
+  for (const TeamOutcome& team : teamOutcomes(match)) {
+    Json one{{"side", link::sideName(team.side)}, {"colour", info(team.colour).name}};
+    if (team.number) one["number"] = *team.number;
+    one["score"] = team.score;
+    teams.push_back(std::move(one));
+  }
   const Json out{{"scenario", match.scenario().name},
                  {"seed", settings.seed},
                  {"physics", settings.physics},
@@ -79,6 +123,7 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
                  {"wall_seconds", outcome.wallSeconds},
                  {"speed", speedOf(outcome)},
                  {"score", {{"left", now.score.left}, {"right", now.score.right}}},
+                 {"teams", std::move(teams)},
                  {"robots", std::move(robots)},
                  {"finished_by", outcome.finishedBy},
                  {"state_hash", hashText(match.simulation().hash())}};

@@ -42,8 +42,8 @@ class TestCliMoments : public QObject {
     QVERIFY2(text.contains("at 8.0 s"), text.left(300).constData());
     // The same again: entered exactly, and played from there without chance.
     const QString second = m_folder.filePath("moment2.json");
-    QCOMPARE(cli({"simulate", "--from", m_session, "--at", "5", "--duration", "3", "--save-moment",
-                  second})
+    QCOMPARE(cli({"simulate", "--from", m_session, "--at", "0:05", "--duration", "0:03",
+                  "--save-moment", second})
                  .exitCode,
              0);
     QFile other(second);
@@ -56,7 +56,16 @@ class TestCliMoments : public QObject {
     QTest::addColumn<QString>("words");
     QTest::newRow("before the beginning")
         << QStringList{"simulate", "--from", "SESSION", "--at", "-3"}
-        << "no state of a simulated match";
+        << "is outside the session, which goes from 0:00 to 0:12";
+    QTest::newRow("behind the end")
+        << QStringList{"simulate", "--from", "SESSION", "--at", "9999"}
+        << "--at: \"9999\" is outside the session, which goes from 0:00 to 0:12";
+    QTest::newRow("another day") << QStringList{"simulate", "--from", "SESSION", "--at",
+                                                "1999-12-31 14:03:20"}
+                                 << "is outside the session";
+    QTest::newRow("report of nothing")
+        << QStringList{"export", "SESSION", "--to", "report", "-o", "x.html", "--from", "14:03:20"}
+        << "for a time of day add its date or --clock";
     QTest::newRow("no time") << QStringList{"simulate", "--from", "SESSION"} << "--at";
     QTest::newRow("both") << QStringList{"simulate", "--from", "SESSION", "--at",
                                          "1",        "--seed", "3"}

@@ -26,6 +26,18 @@ Run simulate(const QStringList& arguments) {
   return runProgram("pitchboard-cli", QStringList("simulate") + arguments);
 }
 
+/// Two halves of 5 s in which nobody moves; red, at first on the right, is four goals ahead.
+QString shortMatch(const QTemporaryDir& dir) {
+  QFile file(dir.filePath("short.json"));
+  if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
+  file.write(R"({"version": 1, "name": "short", "noise": "none", "field": "kid-2020",
+    "referee": {"rules": "humanoid-2021", "half_time": 5, "break_time": 1, "before_match": 1},
+    "score": {"left": 0, "right": 4}, "ball": {"x": 0, "y": 0},
+    "robots": [{"team": "blue", "number": 1, "x": -3, "y": 2, "behaviour": "none"},
+               {"team": "red", "number": 1, "x": 3, "y": 2, "behaviour": "none"}]})");
+  return file.fileName();
+}
+
 }  // namespace
 
 class TestCliSimulate : public QObject {
@@ -47,15 +59,67 @@ class TestCliSimulate : public QObject {
     std::uint64_t hash = 0;
     runner->execute([&](link::SimulatedMatch& match) { hash = match.simulation().hash(); });
     QCOMPARE(out["state_hash"].toString(), QString("0x%1").arg(hash, 16, 16, QChar('0')));
-    const Run paced = simulate({"--duration", "10", "--seed", "5", "--json", "--speed", "20"});
+    const Run paced = simulate({"--duration", "0:10", "--seed", "5", "--json", "--speed", "20"});
     QCOMPARE(QJsonDocument::fromJson(paced.out).object()["state_hash"], out["state_hash"]);
   }
 
   void summaryAndList() {
     const Run run = simulate({"--scenario", "one-robot", "--duration", "1"});
-    QVERIFY(run.out.contains("Score      left 0 : 0 right") && run.err.isEmpty());
+    QVERIFY(run.out.contains("Score      Blue 0 : 0 Red") && run.err.isEmpty());
     QVERIFY(simulate({"--list"}).out.startsWith("match "));
     QVERIFY(simulate({"--help"}).out.contains("pitchboard-cli simulate --scenario"));
+  }
+
+  /// Who won is the same before and after a change of sides.
+  void theOutcomeNamesTheTeams() {
+    QTemporaryDir dir;
+    const QString file = shortMatch(dir);
+    const Run run = simulate({"--scenario", file, "--json"});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const QJsonObject out = QJsonDocument::fromJson(run.out).object();
+    QCOMPARE(out["finished_by"].toString(), QString("full_time"));
+    QCOMPARE(out["score"].toObject(), (QJsonObject{{"left", 4}, {"right", 0}}));
+    QCOMPARE(out["teams"].toArray(),
+             (QJsonArray{
+                 QJsonObject{{"side", "right"}, {"colour", "blue"}, {"number", 1}, {"score", 0}},
+                 QJsonObject{{"side", "left"}, {"colour", "red"}, {"number", 2}, {"score", 4}}}));
+    QVERIFY(simulate({"--scenario", file}).out.contains("Score      Blue 0 : 4 Red\n"));
+    const Run unrefereed = simulate({"--scenario", "one-robot", "--duration", "1", "--json"});
+    QCOMPARE(QJsonDocument::fromJson(unrefereed.out)["teams"].toArray(),
+             (QJsonArray{QJsonObject{{"side", "left"}, {"colour", "blue"}, {"score", 0}},
+                         QJsonObject{{"side", "right"}, {"colour", "red"}, {"score", 0}}}));
+  }
+
+  void aRecordingPlaysToTheFinalWhistle() {
+    QTemporaryDir dir;
+    const QString file = shortMatch(dir), session = dir.filePath("match.mcap");
+    const Run run = runProgram("pitchboard-cli", {"record", "--scenario", file, "-o", session});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY2(run.out.contains("\nBlue 0 : 4 Red; the final whistle\n"), run.out.constData());
+    const Run events = runProgram("pitchboard-cli", {"inspect", session, "--events"});
+    QVERIFY2(events.out.contains("final whistle"), events.out.constData());
+  }
+
+  /// It takes the options of `simulate` that say who plays, and by which rules.
+  void aRecordingTakesRefereeRuntimeAndCognition() {
+    QTemporaryDir dir;
+    const QString session = dir.filePath("match.mcap");
+    const auto record = [&](const QStringList& options) {
+      QFile::remove(session);
+      return runProgram("pitchboard-cli", QStringList{"record", "--scenario", "one-robot",
+                                                      "--duration", "0:02", "-o", session} +
+                                              options);
+    };
+    Run run = record({"--referee", "humanoid-2021"});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    run = runProgram("pitchboard-cli", {"inspect", session, "--json"});
+    QVERIFY2(run.out.contains("GAME_STATE"), run.out.constData());
+    run = record({"--runtime", "B1=program=/bin/true"});
+    QCOMPARE(run.exitCode, 2);
+    QVERIFY2(run.err.contains("add --cognition external"), run.err.constData());
+    run = record({"--cognition", "external", "--speed", "max", "--key-base",
+                  QString::number(testKeyBase() + 60)});
+    QVERIFY2(run.exitCode == 0 && run.out.contains(": 2.000 s,"), run.err + run.out);
   }
 
   void savedMomentGoesOn() {
@@ -97,6 +161,16 @@ class TestCliSimulate : public QObject {
     QTest::newRow("speed") << QStringList{"--speed", "fast"} << QByteArray("--speed must be");
     QTest::newRow("cognition") << QStringList{"--cognition", "x"} << QByteArray("--cognition must");
     QTest::newRow("duration") << QStringList{"--duration", "-1"} << QByteArray("--duration must");
+    QTest::newRow("seconds") << QStringList{"--duration", "1:75"}
+                             << QByteArray("write seconds (78.7), m:ss (1:18.7) or h:mm:ss");
+    QTest::newRow("inline program")
+        << QStringList{"--runtime", "B1=program=/bin/true", "--duration", "1"}
+        << QByteArray(
+               "B1 is played by a team program (program=/bin/true), which only runs as a "
+               "separate process; add --cognition external");
+    QTest::newRow("program of nobody")
+        << QStringList{"--runtime", "B1=program=/bin/true", "--cognition", "none"}
+        << QByteArray("only runs as a separate process");
     QTest::newRow("physics") << QStringList{"--physics", "x"} << QByteArray("physics model");
     QTest::newRow("noise") << QStringList{"--noise", "papr"}
                            << QByteArray("did you mean \"paper\"");

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "match_play.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include <app/command_line.h>
+#include <robotlink/processes/own_program.h>
+#include <robotlink/scenario/referee_rule_sets.h>
+#include <robotlink/scenario/team_programs.h>
+
+#include "interrupt.h"
+
+namespace pitchboard::cli {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto pollInterval = 50ms;
+
+struct CognitionName {
+  const char* name;
+  link::Cognition cognition;
+};
+constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
+                                                   {"external", link::Cognition::External},
+                                                   {"none", link::Cognition::None}}};
+
+/// Says which processes ended before the match did.
+class ProcessNews : public link::TickObserver {
+ public:
+  void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
+  void happened(std::span<const link::MatchEvent> events) override {
+    for (const link::MatchEvent& event : events) {
+      using Kind = link::MatchEventKind;
+      constexpr std::array told{Kind::ProcessDied, Kind::ProcessEnded, Kind::ProcessRestarted,
+                                Kind::ProcessSilent, Kind::ProcessGivenUp};
+      if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
+      std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
+                   link::sentenceOf(event).c_str());
+    }
+  }
+};
+
+/// Plays the match to its end and looks after its processes.
+class Playing {
+ public:
+  Playing(link::MatchPlayer& player, double speed)
+      : m_player(player), m_match(player.match()), m_begin(Clock::now()) {
+    m_player.setSpeed(speed, m_begin);
+    m_match.setPlaying(speed, false, m_begin);
+  }
+
+  Outcome play(const std::function<bool()>& goOn) {
+    const std::uint64_t first = m_player.currentTick();
+    while (!interrupted && !m_match.finished()) {
+      const auto next = m_player.play(Clock::now()).next;
+      lookAfter();
+      if (!goOn()) break;
+      const auto now = Clock::now();
+      if (next > now) std::this_thread::sleep_until(std::min(next, now + pollInterval));
+    }
+    Outcome outcome;
+    outcome.ticks = m_player.currentTick() - first;
+    outcome.simulatedSeconds =
+        static_cast<double>(outcome.ticks) / m_match.simulation().state().settings.tickRate;
+    outcome.wallSeconds = std::chrono::duration<double>(Clock::now() - m_begin).count();
+    outcome.finishedBy = m_match.finished() ? std::string(m_match.finishedBy()) : "interrupted";
+    outcome.noise = noiseName(m_match.simulation().state().settings.noise);
+    return outcome;
+  }
+
+ private:
+  void lookAfter() {
+    const auto now = Clock::now();
+    if (now - m_lastPoll >= pollInterval) {
+      m_lastPoll = now;
+      pollProcesses();
+    }
+  }
+
+  void pollProcesses() {
+    m_match.lookAfterProcesses(Clock::now());
+    (void)m_match.processes().takeLines();
+    m_player.tellEvents();
+  }
+
+  link::MatchPlayer& m_player;
+  link::SimulatedMatch& m_match;
+  Clock::time_point m_begin, m_lastPoll;
+};
+
+}  // namespace
+
+void addPlayOptions(CLI::App& command, PlayOptions& o) {
+  shared::addScenarioOptions(command, o.match);
+  command
+      .add_option("--speed", o.speed,
+                  "Times real time, or max; default: max for inline cognition, else 1")
+      ->type_name("X|max");
+  command
+      .add_option("--cognition", o.cognition,
+                  "inline: decision in this program; external: robot processes on System V "
+                  "blackboards; none: blackboards for your own processes")
+      ->type_name("inline|external|none")
+      ->capture_default_str();
+  std::string ruleSets;
+  for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
+  command
+      .add_option("--referee", o.rules,
+                  "Rules of the match instead of the scenario's: " + ruleSets.substr(2) +
+                      "; published is no referee")
+      ->type_name("RULES");
+  command
+      .add_option("--obey-referee", o.obeyReferee,
+                  "Obey the GameController that is heard on this UDP port")
+      ->type_name("PORT")
+      ->check(CLI::Range(1, 65535));
+  shared::addRobotsOptions(command, o.robots);
+  command
+      .add_option("--robot-program", o.robotProgram,
+                  "Program of the external processes; default: pitchboard-robot beside this one")
+      ->type_name("FILE");
+}
+
+Result<link::Cognition> cognitionOf(const PlayOptions& options) {
+  const auto found = std::find_if(cognitions.begin(), cognitions.end(),
+                                  [&](const auto& c) { return options.cognition == c.name; });
+  if (found != cognitions.end()) return found->cognition;
+  return failure(ErrorCode::InvalidArgument,
+                 "--cognition must be inline, external or none, not \"" + options.cognition + "\"");
+}
+
+Result<double> speedOf(const PlayOptions& options, link::Cognition cognition) {
+  const std::string& text = options.speed;
+  if (text.empty()) return cognition == link::Cognition::Inline ? 0.0 : 1.0;
+  if (text == "max") return 0.0;
+  const std::optional<double> speed = shared::numberFrom(text);
+  if (!speed || !(*speed >= 0.001 && *speed <= 1e6)) {
+    return failure(ErrorCode::InvalidArgument,
+                   "--speed must be \"max\" or a number from 0.001 to 1000000 (1 = real time)");
+  }
+  return *speed;
+}
+
+Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const PlayOptions& options,
+                                      link::Cognition cognition) {
+  if (!scenario) return scenario;
+  if (!options.rules.empty()) {
+    auto rules = link::refereeRuleSet(options.rules);
+    if (!rules) return tl::unexpected(rules.error());
+    scenario->settings.referee = *rules;
+  }
+  if (options.duration) {
+    scenario->stop.duration = options.duration;
+  } else if (scenario->stop == link::StopConditions{} && cognition != link::Cognition::None &&
+             !(scenario->settings.referee && scenario->settings.referee->automatic)) {
+    scenario->stop.duration = defaultDuration;
+  }
+  scenario = shared::withRuntimes(std::move(*scenario), options.robots);
+  // With none, programs that the scenario names are somebody else's to start.
+  if (!scenario || (cognition == link::Cognition::None && options.robots.runtimes.empty())) {
+    return scenario;
+  }
+  const auto allowed = link::usesTeamPrograms(*scenario, cognition == link::Cognition::External,
+                                              "add --cognition external");
+  if (!allowed) return tl::unexpected(allowed.error());
+  return scenario;
+}
+
+Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
+                                         link::Cognition cognition) {
+  shared::warnOfIgnoredSettings(scenario);
+  link::MatchOptions made;
+  made.cognition = cognition;
+  shared::apply(options.robots, made);
+  made.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
+                                                   : options.robotProgram;
+  made.obeyReferee = options.obeyReferee;
+  auto match = link::SimulatedMatch::create(scenario, made);
+  if (!match) return match;
+  if (const std::string notice = shared::numberNotice(*match); !notice.empty()) {
+    std::fprintf(stderr, "%s\n", notice.c_str());
+  }
+  return match;
+}
+
+Outcome playToEnd(link::MatchPlayer& player, double speed, const std::function<bool()>& goOn) {
+  player.observe(std::make_shared<ProcessNews>());
+  return Playing(player, speed).play(goOn);
+}
+
+}  // namespace pitchboard::cli
