@@ -37,6 +37,7 @@ CLI::Option* addDuration(CLI::App& command, const std::string& name, std::option
                          const std::string& description) {
   const auto read = [name, &seconds](const std::string& text) {
     seconds = secondsFromText(text);
+    if (!seconds) seconds = numberFrom(text);  // programs write 1e3, too
     if (!seconds) {
       throw CLI::ValidationError(name + " must be a time, not \"" + text.substr(0, 40) +
                                  "\"; write " + timeForms);
