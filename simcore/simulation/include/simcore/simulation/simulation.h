@@ -74,6 +74,11 @@ class Simulation {
   Result<void> setRobotModel(RobotId id, const RobotModel& model);
   /// Constants of the rigid-body model; changeable while running.
   Result<void> setRigidBody(const RigidBodySettings& settings);
+  /// Another model of motion and collisions (a name of physicsModels()) from now on; changeable
+  /// while running. Places, headings, IMU errors and the ball's velocity are kept; robots stop, get
+  /// up if they lay, and begin their action again at the next step. Error NotFound for an unknown
+  /// name.
+  Result<void> setPhysics(const std::string& name);
 
   /// A call of the referee, between two steps. Refused (Conflict) when the state of the game does
   /// not allow it, and when there is no referee. What it does is in events() of the next step.
