@@ -375,7 +375,7 @@ void MainWindow::connectField() {
   connect(m_field, &FieldView::loadMatchRequested, m_files,
           [this] { m_files->load(QStringLiteral("match-3v3")); });
   connect(m_field, &FieldView::resetRequested, m_controller, [this] {
-    link::Scenario again = m_controller->scenario();
+    link::Scenario again = m_controller->beginning();
     again.score = {};
     again.clock = 0.0;
     m_controller->edits()->load(again, QStringLiteral("Start the match again"));
