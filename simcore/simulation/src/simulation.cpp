@@ -137,22 +137,6 @@ Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   return {};
 }
 
-Result<void> Simulation::setGame(const GameState& game) {
-  if (!m_state.game || !isPlausible(game, robotCount())) {
-    return failure(ErrorCode::InvalidArgument, "This game does not fit the match.");
-  }
-  const bool swapped = m_state.game->swapped != game.swapped;
-  m_state.game = game;
-  const std::size_t left = game.leftTeam();
-  m_state.score = {game.teams[left].score, game.teams[1 - left].score};
-  if (swapped) {
-    for (RobotIdentity& robot : m_state.robots) {
-      if (game.teamOf(robot.team) >= 0) robot.imuStartsAt180 = !robot.imuStartsAt180;
-    }
-  }
-  return {};
-}
-
 Result<void> Simulation::restore(const WorldState& state) {
   if (auto valid = validate(state.settings); !valid) return valid;
   if (state.settings.referee) {

@@ -85,8 +85,6 @@ class Simulation {
   Result<void> call(const RefereeCall& call);
   /// Puts a referee's rules in, or takes the referee away; the game begins anew.
   Result<void> setReferee(const std::optional<RefereeRules>& rules);
-  /// The game as it was before some calls: what undoing them puts back.
-  Result<void> setGame(const GameState& game);
 
   /// For conformance runs and scripts that speak the published frame: the state may be edited
   /// directly between steps. Sizes of per-robot vectors must not change.
