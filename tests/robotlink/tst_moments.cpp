@@ -68,6 +68,9 @@ struct Played {
       (void)m.addRobot({{RobotId{9}, TeamColor::Blue, 7, false}, {{-2, 2}, 1.0}, "striker", {}});
       (void)m.removeRobot(RobotId{2});
     });
+    runner->runTo(700);
+    if (!runner->waitUntilStill(60s)) qFatal("still playing");
+    runner->execute([](SimulatedMatch& m) { (void)m.simulation().setPhysics("published"); });
     runner->runTo(1200);
     if (!runner->waitUntilStill(60s)) qFatal("still playing");
   }

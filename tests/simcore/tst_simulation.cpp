@@ -205,6 +205,67 @@ class TestSimulation : public QObject {
     QVERIFY(walkFar(false) == walkFar(true));
   }
 
+  void anotherPhysicsGoesOnFromTheMoment_data() { addModelRows(); }
+  void anotherPhysicsGoesOnFromTheMoment() {
+    QFETCH(QString, physics);
+    const std::string other = physics == "published" ? "rigid-body" : "published";
+    SimulationSettings settings;
+    settings.physics = physics.toStdString();
+    settings.noise.imuDrift = 0.01;
+    Simulation simulation = Simulation::create(settings).value();
+    (void)simulation.addRobot(blue(1), {{-2, 1}, 0.5});
+    (void)simulation.addRobot({RobotId{2}, TeamColor::Red, 1, true}, {{2, -1}, 3.0});
+    (void)simulation.placeBall({0.3, 0.2}, {0.5, -0.2});
+    simulation.setScore({2, 1});
+    RobotCommand walk;
+    walk.actionA = 1;
+    walk.searchOn = 1;
+    run(simulation, walk, 90);
+    const Snapshot before = simulation.snapshot();
+    const WorldState saved = simulation.state();
+    std::vector<Percepts> felt(2), feltAfter(2);
+    const std::vector<RobotCommand> stop(2);
+    simulation.step(stop, felt);
+    QVERIFY(simulation.restore(saved).has_value());
+    QVERIFY(!simulation.setPhysics("magic").has_value());
+    QVERIFY(simulation.state() == saved);
+
+    QVERIFY(simulation.setPhysics(other).has_value());
+    QCOMPARE(simulation.state().settings.physics, other);
+    const Snapshot after = simulation.snapshot();
+    QCOMPARE(after.tick, before.tick);
+    QVERIFY(after.score == before.score);
+    QVERIFY(distance(after.ball, before.ball) < 1e-9);
+    QVERIFY(std::hypot(after.ballVelocity.x - before.ballVelocity.x,
+                       after.ballVelocity.y - before.ballVelocity.y) < 1e-9);
+    for (std::size_t i = 0; i < 2; ++i) {
+      QVERIFY(after.robots[i].identity == before.robots[i].identity);
+      QVERIFY(after.robots[i].statistics == before.robots[i].statistics);
+      QVERIFY(distance(after.robots[i].pose.position, before.robots[i].pose.position) < 1e-9);
+      QVERIFY(std::abs(wrapToPi(after.robots[i].pose.yaw - before.robots[i].pose.yaw)) < 1e-9);
+      QVERIFY(std::abs(wrapToPi(after.robots[i].headYaw - before.robots[i].headYaw)) < 1e-9);
+      QCOMPARE(after.robots[i].velocity, Velocity{});
+    }
+    // Robots keep their heading: the error of their IMU goes on from where it was.
+    simulation.step(stop, feltAfter);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double turned = wrapToPi(feltAfter[i].imu.eulerZ - felt[i].imu.eulerZ);
+      QVERIFY2(std::abs(turned) < 0.1, qPrintable(QString::number(turned)));
+    }
+    // The state is whole: it is saved, restored and played on as any other.
+    const WorldState kept = simulation.state();
+    run(simulation, walk, 60);
+    const std::uint64_t hash = simulation.hash();
+    QVERIFY(simulation.snapshot().robots[0].statistics.distanceWalked >
+            before.robots[0].statistics.distanceWalked);
+    Simulation again = make("rigid-body");
+    QVERIFY(again.restore(kept).has_value());
+    run(again, walk, 60);
+    QCOMPARE(again.hash(), hash);
+    QVERIFY(again.restore(saved).has_value());
+    QCOMPARE(again.state().settings.physics, physics.toStdString());
+  }
+
   void unknownActionIsAStopAndCounted_data() { addModelRows(); }
   void unknownActionIsAStopAndCounted() {
     QFETCH(QString, physics);

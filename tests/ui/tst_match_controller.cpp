@@ -3,11 +3,13 @@
 #include <QSignalSpy>
 #include <QUndoStack>
 #include <QtTest>
+#include <atomic>
 #include <cmath>
 
 #include <robotlink/models/robot_models.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
 
 #include "../support/segment_keys.h"
 
@@ -27,6 +29,9 @@ class TestMatchController : public QObject {
     if (!c.frame()) return NAN;
     const link::RobotFrame* robot = c.frame()->robot(RobotId{id});
     return robot != nullptr ? robot->pose.position.x : NAN;
+  }
+  static std::uint64_t tickOf(const MatchController& c) {
+    return c.frame() ? c.frame()->snapshot.tick : 0;
   }
   static std::size_t count(const MatchController& c) {
     return c.frame() ? c.frame()->robots.size() : 0;
@@ -143,6 +148,116 @@ class TestMatchController : public QObject {
     QTRY_VERIFY(std::abs(xOf(c, id.value) - 1.5) < 1e-6);
     stack->undo();
     QTRY_VERIFY(std::abs(xOf(c, id.value) - 1.5) > 0.1);
+  }
+
+  void anotherPhysicsKeepsThePast() {
+    MatchController c(inside());
+    link::Scenario scenario = match();
+    scenario.score = {1, 0};
+    c.open(scenario, true);
+    c.runTo(600);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(600));
+    const link::MatchFrame before = *c.frame();
+    QVERIFY(before.robots[0].statistics.distanceWalked > 0.05);
+    QSignalSpy restarts(&c, &MatchController::restarted);
+    c.edits()->setPhysics(QStringLiteral("published"));
+    QTRY_COMPARE(c.frame()->physics, std::string("published"));
+    QCOMPARE(c.frame()->snapshot.tick, before.snapshot.tick);
+    QVERIFY(c.frame()->snapshot.score == before.snapshot.score);
+    for (std::size_t i = 0; i < before.robots.size(); ++i) {
+      const link::RobotFrame& robot = c.frame()->robots[i];
+      QVERIFY(distance(robot.pose.position, before.robots[i].pose.position) < 1e-9);
+      QVERIFY(robot.statistics == before.robots[i].statistics);
+    }
+    c.runTo(1200);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(1200));
+    QCOMPARE(restarts.count(), 0);
+    // Memory, and what is true in it, before and after.
+    QVERIFY(c.series()->range()->begin < 0.05 && c.series()->range()->end > 19.9);
+    QCOMPARE(c.frameAt(1.0)->physics, std::string("rigid-body"));
+    QCOMPARE(c.frameAt(15.0)->physics, std::string("published"));
+    QCOMPARE(c.frameAt(1.0)->snapshot.tick, std::uint64_t(60));
+    const auto archive = c.memory()->archive();
+    QCOMPARE(archive->reenter(60)->settings.physics, std::string("rigid-body"));
+    QCOMPARE(sim::stateHash(archive->reenter(1200).value()), c.stateHash());
+    // As any edit it is undone, and time goes on.
+    c.edits()->undoStack()->undo();
+    QTRY_COMPARE(c.frame()->physics, std::string("rigid-body"));
+    QCOMPARE(tickOf(c), std::uint64_t(1200));
+    c.edits()->undoStack()->redo();
+    QTRY_COMPARE(c.frame()->physics, std::string("published"));
+    const std::uint64_t hashThen = sim::stateHash(archive->reenter(60).value());
+    c.memory()->continueFrom(1.0);
+    QTRY_COMPARE(c.frame()->physics, std::string("rigid-body"));
+    QCOMPARE(c.stateHash(), hashThen);
+    QCOMPARE(c.edits()->physics(), std::string("rigid-body"));
+  }
+
+  void restartPlaysFromTheBeginning() {
+    MatchController c(inside());
+    const link::Scenario scenario = match();
+    c.open(scenario, true);
+    c.runTo(600);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(600));
+    c.edits()->setPhysics(QStringLiteral("published"));
+    c.restart();
+    QTRY_VERIFY(c.frame());
+    QCOMPARE(tickOf(c), std::uint64_t(0));
+    QCOMPARE(c.frame()->physics, std::string("published"));  // as chosen
+    QVERIFY(std::abs(xOf(c, 1) - scenario.robots[0].pose.position.x) < 1e-9);
+    // Also when the match goes on from a moment that an undo has brought back.
+    c.runTo(600);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(600));
+    const double x = xOf(c, 1);
+    QVERIFY(std::abs(x - scenario.robots[0].pose.position.x) > 0.01);
+    c.edits()->load(link::loadScenario("one-robot").value(), QStringLiteral("Load it"));
+    QTRY_COMPARE(count(c), std::size_t(1));
+    c.edits()->undoStack()->undo();
+    QTRY_VERIFY(std::abs(xOf(c, 1) - x) < 1e-6);
+    c.restart();
+    QTRY_VERIFY(std::abs(xOf(c, 1) - scenario.robots[0].pose.position.x) < 1e-9);
+    QCOMPARE(c.frame()->robots.size(), std::size_t(6));
+  }
+
+  void whileLockedNothingPasses() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    const std::uint64_t hash = c.stateHash();
+    const int known = c.edits()->undoStack()->count();
+    const auto ordered = std::make_shared<std::atomic<int>>(0);
+    const auto change = [&] {
+      c.edits()->order([ordered](link::SimulatedMatch&) { ++*ordered; });
+      c.edits()->order(MatchOrder{QString(), [ordered](link::SimulatedMatch&) -> Result<void> {
+                                    ++*ordered;
+                                    return {};
+                                  }});
+      c.edits()->moveBall({}, {1, 1});
+      c.edits()->setPhysics(QStringLiteral("published"));
+      c.edits()->setNoise({});
+      c.edits()->setRuntime(RobotId{1}, {});
+      c.edits()->previewBall({2, 2});
+      c.edits()->previewRobots({{RobotId{1}, {}, {{1, 2}, 0}}});
+      c.edits()->pushTogether(QStringLiteral("Two"), [&] { c.edits()->moveBall({}, {1, 1}); });
+      c.edits()->resetScore();
+      c.edits()->setClockRunning(false);
+    };
+    c.edits()->setLocked(true);
+    change();
+    c.edits()->load(link::loadScenario("empty").value(), QStringLiteral("Load it"));
+    c.restart();
+    QVERIFY(c.isOpen());
+    QCOMPARE(c.stateHash(), hash);
+    QCOMPARE(ordered->load(), 0);
+    QCOMPARE(c.edits()->undoStack()->count(), known);
+    QCOMPARE(errors.count(), 1);
+    QCOMPARE(errors[0][0].toString(), MatchEdits::lockedText());
+    c.edits()->setLocked(false);
+    change();
+    QVERIFY(c.stateHash() != hash);
+    QCOMPARE(ordered->load(), 2);
+    QCOMPARE(c.edits()->undoStack()->count(), known + 3);
   }
 
   void aNumberThatIsTakenIsRefused() {

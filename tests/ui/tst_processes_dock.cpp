@@ -18,6 +18,7 @@
 #include <ui/processes/orphan_notice.h>
 #include <ui/processes/processes_dock.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/sources/source_switch.h>
 #include <ui/sources/timeline.h>
 
@@ -188,6 +189,18 @@ class TestProcessesDock : public QObject {
     };
     QTRY_VERIFY_WITH_TIMEOUT(givesSigns(), 30'000);
     QVERIFY2(m_told.isEmpty(), qPrintable(m_told.join(QLatin1Char('\n'))));
+
+    // Nothing while the past is shown.
+    m_controller->edits()->setLocked(true);
+    const pid_t last = process("decision").pid;
+    choose("decision", QStringLiteral("Stop decision of B1"));
+    choose("decision", QStringLiteral("Restart decision of B1"));
+    choose("decision", QStringLiteral("Kill decision of B1"));
+    QCOMPARE(m_told, QStringList{MatchEdits::lockedText()});
+    const double then = now();
+    QTRY_VERIFY(now() > then + 0.5);
+    QVERIFY(runs("decision"));
+    QCOMPARE(process("decision").pid, last);
   }
 
   void oneThatASignalStoppedIsShownAsSilent() {

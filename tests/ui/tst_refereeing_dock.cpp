@@ -328,6 +328,64 @@ class TestRefereeingDock : public QObject {
     QTRY_VERIFY(desk.frame().referee.has_value());
     QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-soccer-2026"));
   }
+
+  void otherRulesAreUndone_data() {
+    QTest::addColumn<int>("rules");
+    QTest::newRow("no referee") << 0;
+    QTest::newRow("2026") << 3;
+  }
+  void otherRulesAreUndone() {
+    QFETCH(int, rules);
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    for (const char* state : {"READY", "SET", "PLAYING", "Goal Red"}) desk.press(state);
+    for (const char* state : {"SET", "PLAYING"}) desk.press(state);
+    QTRY_COMPARE(desk.state(), QString("PLAYING"));
+    QTRY_COMPARE(scoreboardOf(desk.frame()).right, 1);
+    auto* robots = desk.dock->findChild<QTableWidget*>("refereeRobots");
+    robots->selectRow(0);
+    desk.press("Penalise");
+    QTRY_VERIFY(desk.frame().robots[0].penalty.has_value());
+    desk.controller.runTo(90);
+    QTRY_COMPARE(desk.frame().snapshot.tick, std::uint64_t(90));
+    const std::uint64_t hash = desk.controller.stateHash();
+    const link::MatchFrame before = desk.frame();
+    QUndoStack* stack = desk.controller.edits()->undoStack();
+    const int steps = stack->count();
+
+    auto* box = desk.dock->findChild<QComboBox*>("refereeRules");
+    const std::string name = box->itemData(rules).toString().toStdString();
+    box->setCurrentIndex(rules);
+    emit box->activated(rules);
+    QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
+    if (rules != 0) QCOMPARE(scoreboardOf(desk.frame()).right, 0);
+    QCOMPARE(stack->count(), steps + 1);
+    stack->undo();
+    QTRY_COMPARE(desk.frame().refereeRules, std::string("humanoid-2021"));
+    QCOMPARE(desk.controller.stateHash(), hash);
+    QCOMPARE(scoreboardOf(desk.frame()).clock, scoreboardOf(before).clock);
+    QCOMPARE(scoreboardOf(desk.frame()).penalties, scoreboardOf(before).penalties);
+    stack->redo();
+    QTRY_COMPARE(desk.frame().refereeRules, rules == 0 ? std::string() : name);
+    stack->undo();
+    QTRY_COMPARE(desk.controller.stateHash(), hash);
+    // What was done before it can still be undone.
+    stack->undo();
+    QTRY_VERIFY(!desk.frame().robots[0].penalty.has_value());
+    QVERIFY(desk.errors.isEmpty());
+  }
+
+  void whoCallsIsUndone() {
+    Desk desk;
+    QTRY_COMPARE(desk.state(), QString("INITIAL"));
+    auto* automatic = desk.dock->findChild<QCheckBox*>("refereeAutomatic");
+    QVERIFY(!automatic->isChecked());
+    automatic->click();
+    QTRY_VERIFY(desk.frame().refereeAutomatic);
+    desk.controller.edits()->undoStack()->undo();
+    QTRY_VERIFY(!desk.frame().refereeAutomatic);
+    QTRY_VERIFY(!automatic->isChecked());
+  }
 };
 
 QTEST_MAIN(TestRefereeingDock)

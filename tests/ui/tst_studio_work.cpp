@@ -14,7 +14,6 @@
 #include <QSemaphore>
 #include <QSettings>
 #include <QSignalSpy>
-#include <QSlider>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -247,36 +246,6 @@ class TestStudioWork : public QObject {
     emit model->activated(published);
     QTRY_COMPARE(s.controller.frame() ? s.controller.frame()->physics : std::string(),
                  std::string("published"));
-  }
-
-  void scrollingTheNoiseDockChangesNothing() {
-    Studio s(options(link::Cognition::Inline));
-    s.controller.open(match(), true);
-    QTRY_VERIFY(s.controller.frame());
-    auto* dock = s.window.findChild<QDockWidget*>(QStringLiteral("noise"));
-    dock->show();
-    s.window.field()->setFocus();
-    QList<QWidget*> controls = dock->findChildren<QWidget*>(QStringLiteral("physicsModel"));
-    for (auto* box : dock->findChildren<QDoubleSpinBox*>()) controls << box;
-    for (auto* slider : dock->findChildren<QSlider*>()) controls << slider;
-    const std::string physics = s.controller.scenario().settings.physics;
-    const auto values = [&controls] {
-      QList<double> all;
-      for (QWidget* control : controls) {
-        if (auto* box = qobject_cast<QDoubleSpinBox*>(control)) all << box->value();
-      }
-      return all;
-    };
-    const QList<double> before = values();
-    for (QWidget* control : controls) {
-      const QPointF at = control->rect().center();
-      QWheelEvent wheel(at, control->mapToGlobal(at), {}, {0, -120}, {}, {}, Qt::NoScrollPhase,
-                        false);
-      QCoreApplication::sendEvent(control, &wheel);
-    }
-    QCOMPARE(values(), before);
-    QCOMPARE(s.controller.scenario().settings.physics, physics);
-    QVERIFY(s.controller.isOpen());
   }
 
   void aSecondStudioOnTheSameKeysPlaysInside() {

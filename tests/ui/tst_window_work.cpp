@@ -53,7 +53,7 @@ class TestWindowWork : public QObject {
     QVERIFY(!s.menuAction(QStringLiteral("Undo"))->isEnabled());
     s.controller.edits()->removeRobots({RobotId{2}});
     s.controller.edits()->writeVariable(RobotId{3}, QStringLiteral("DECISION_ACTION_A"), 5);
-    QVERIFY2(s.window.notices()->text().contains(QStringLiteral("past moment")),
+    QVERIFY2(s.window.notices()->text().contains(QStringLiteral("viewing the past")),
              qPrintable(s.window.notices()->text()));
     QCOMPARE(s.controller.edits()->undoStack()->count(), 1);
     // Back at now the notice has no cause any more, and edits reach the match.

@@ -136,27 +136,37 @@ std::optional<StateArchive::TickRange> StateArchive::range() const {
   return TickRange{first, open->lastTick(), open->tickRate()};
 }
 
-Result<sim::WorldState> StateArchive::reenter(std::uint64_t tick) const {
-  StateSegment open;
+/// Null when no segment has this tick.
+std::shared_ptr<const StateSegment> StateArchive::segmentAt(std::uint64_t tick) const {
+  const std::lock_guard lock(m_mutex);
   std::shared_ptr<const StateSegment> found;
-  {
-    const std::lock_guard lock(m_mutex);
-    if (m_segmenter.open() && m_segmenter.open()->firstTick() <= tick) {
-      open = *m_segmenter.open();
-      found = std::shared_ptr<const StateSegment>(std::shared_ptr<void>(), &open);
-    } else {
-      const auto after = std::upper_bound(
-          m_segments.begin(), m_segments.end(), tick,
-          [](std::uint64_t t, const auto& segment) { return t < segment->firstTick(); });
-      if (after != m_segments.begin()) found = *std::prev(after);
-    }
+  if (m_segmenter.open() && m_segmenter.open()->firstTick() <= tick) {
+    found = std::make_shared<const StateSegment>(*m_segmenter.open());
+  } else {
+    const auto after = std::upper_bound(
+        m_segments.begin(), m_segments.end(), tick,
+        [](std::uint64_t t, const auto& segment) { return t < segment->firstTick(); });
+    if (after != m_segments.begin()) found = *std::prev(after);
   }
-  if (!found || tick > found->lastTick()) {
+  return found && tick <= found->lastTick() ? found : nullptr;
+}
+
+Result<sim::WorldState> StateArchive::reenter(std::uint64_t tick) const {
+  const auto found = segmentAt(tick);
+  if (!found) {
     return failure(
         ErrorCode::NotFound,
         "this moment is not in memory any more; record a session to keep all of a match");
   }
   return found->at(tick);
+}
+
+std::optional<sim::SimulationSettings> StateArchive::settings(std::uint64_t tick) const {
+  const auto found = segmentAt(tick);
+  if (!found) return {};
+  auto state = found->at(found->firstTick());
+  if (!state) return {};
+  return std::move(state->settings);
 }
 
 std::vector<std::shared_ptr<const StateSegment>> StateArchive::segments(std::uint64_t first,

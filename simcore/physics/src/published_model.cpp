@@ -90,6 +90,14 @@ class PublishedModel : public PhysicsModel {
     ball.vy = -published_frame::cmPerFrameFromMps(velocity.y);
   }
 
+  double imuError(const WorldState& world, std::size_t index) const override {
+    return radiansFromDegrees(stateOf(world).robots[index].orientationError);
+  }
+
+  void setImuError(WorldState& world, std::size_t index, double error) const override {
+    stateOf(world).robots[index].orientationError = degreesFromRadians(error);
+  }
+
   void settingsChanged(WorldState&) const override {}
 
   Pose robotPose(const WorldState& world, std::size_t index) const override {

@@ -123,6 +123,17 @@ class RigidBodyModel final : public PhysicsModel {
     stateOf(world).ball = {position, velocity};
   }
 
+  double imuError(const WorldState& world, std::size_t index) const override {
+    const RigidRobot& robot = stateOf(world).robots[index];
+    return robot.imuDrift - robot.imuZero;
+  }
+
+  void setImuError(WorldState& world, std::size_t index, double error) const override {
+    RigidRobot& robot = stateOf(world).robots[index];
+    robot.imuDrift = error;
+    robot.imuZero = 0.0;
+  }
+
   void settingsChanged(WorldState& world) const override {
     rigid::resizePast(world, stateOf(world));
   }

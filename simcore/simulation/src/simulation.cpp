@@ -19,6 +19,15 @@ tl::unexpected<Error> noSuchRobot(RobotId id) {
                  "There is no robot " + std::to_string(id.value) + " on the field.");
 }
 
+tl::unexpected<Error> noSuchPhysics(const std::string& name) {
+  std::string known;
+  for (const PhysicsModelInfo& model : physicsModels()) {
+    known += (known.empty() ? "" : ", ") + std::string(model.name);
+  }
+  return failure(ErrorCode::NotFound,
+                 "There is no physics model called \"" + name + "\". Known models: " + known + ".");
+}
+
 }  // namespace
 
 std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
@@ -56,14 +65,7 @@ Result<Simulation> Simulation::create(const SimulationSettings& settings) {
   if (auto valid = validate(settings); !valid) return tl::unexpected(valid.error());
   Simulation simulation;
   simulation.m_model = makePhysicsModel(settings.physics);
-  if (!simulation.m_model) {
-    std::string known;
-    for (const PhysicsModelInfo& model : physicsModels()) {
-      known += (known.empty() ? "" : ", ") + std::string(model.name);
-    }
-    return failure(ErrorCode::NotFound, "There is no physics model called \"" + settings.physics +
-                                            "\". Known models: " + known + ".");
-  }
+  if (!simulation.m_model) return noSuchPhysics(settings.physics);
   simulation.m_state.settings = settings;
   simulation.m_model->reset(simulation.m_state);
   if (settings.referee) {
@@ -132,22 +134,6 @@ Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   m_state.game = newGame(m_state, m_seen);
   m_state.score = {};
   m_state.clockRunning = false;
-  return {};
-}
-
-Result<void> Simulation::setGame(const GameState& game) {
-  if (!m_state.game || !isPlausible(game, robotCount())) {
-    return failure(ErrorCode::InvalidArgument, "This game does not fit the match.");
-  }
-  const bool swapped = m_state.game->swapped != game.swapped;
-  m_state.game = game;
-  const std::size_t left = game.leftTeam();
-  m_state.score = {game.teams[left].score, game.teams[1 - left].score};
-  if (swapped) {
-    for (RobotIdentity& robot : m_state.robots) {
-      if (game.teamOf(robot.team) >= 0) robot.imuStartsAt180 = !robot.imuStartsAt180;
-    }
-  }
   return {};
 }
 
@@ -302,6 +288,29 @@ Result<void> Simulation::setRobotModel(RobotId id, const RobotModel& model) {
 Result<void> Simulation::setRigidBody(const RigidBodySettings& settings) {
   if (auto valid = validate(settings); !valid) return valid;
   m_state.settings.rigidBody = settings;
+  m_model->settingsChanged(m_state);
+  return {};
+}
+
+Result<void> Simulation::setPhysics(const std::string& name) {
+  if (name == m_state.settings.physics) return {};
+  auto model = makePhysicsModel(name);
+  if (!model) return noSuchPhysics(name);
+  const Snapshot now = snapshot();
+  std::vector<double> imuErrors;
+  for (std::size_t i = 0; i < robotCount(); ++i) imuErrors.push_back(m_model->imuError(m_state, i));
+  m_model = std::move(model);
+  m_state.settings.physics = name;
+  m_model->reset(m_state);
+  const FieldSpec& field = m_state.settings.field;
+  for (std::size_t i = 0; i < robotCount(); ++i) {
+    const RobotSnapshot& robot = now.robots[i];
+    const Point place = insideWalls(field, robot.pose.position, robotRadius(m_state, i));
+    m_model->robotAdded(m_state, {place, robot.pose.yaw});
+    m_model->placeHead(m_state, i, robot.headYaw);
+    m_model->setImuError(m_state, i, imuErrors[i]);
+  }
+  m_model->placeBall(m_state, insideWalls(field, now.ball, field.ballRadius), now.ballVelocity);
   m_model->settingsChanged(m_state);
   return {};
 }

@@ -55,8 +55,12 @@ struct FieldView::Private : FieldKeyTarget {
   void openMenu(QPoint globalPosition, QPointF metres);
   FieldMenuActions menuActions();
   bool handleKey(QKeyEvent* event);
-  /// Nothing can be moved in a match that is only watched.
-  MatchController* editor() const { return scene->style().readOnly ? nullptr : controller; }
+  /// Null in a match that is only watched; says why while the past is shown.
+  MatchController* editor() const {
+    if (!scene->style().readOnly) return controller;
+    if (controller) controller->edits()->allowsChange();
+    return nullptr;
+  }
   void setReadOnly(bool readOnly);
   void addAtCursor(TeamColor color);
 
@@ -77,14 +81,14 @@ struct FieldView::Private : FieldKeyTarget {
     if (editor()) controller->edits()->removeRobots(scene->selection());
   }
   void commandSelected(int action, int actionB) override {
-    if (!editor()) return;
+    if (scene->selection().empty() || !editor()) return;
     for (const RobotId id : scene->selection()) {
       controller->edits()->commandAction(id, action,
                                          actionB < 0 ? std::nullopt : std::optional(actionB));
     }
   }
   void searchSelected(bool on) override {
-    if (!editor()) return;
+    if (scene->selection().empty() || !editor()) return;
     for (const RobotId id : scene->selection()) controller->edits()->commandSearch(id, on);
   }
   void nudgeSelected(int right, int up, bool coarse) override {
@@ -112,13 +116,13 @@ struct FieldView::Private : FieldKeyTarget {
     if (editor() && controller->frame()) controller->setPaused(!controller->frame()->paused);
   }
   void loadMatch() override {
-    if (!scene->style().readOnly) emit q->loadMatchRequested();
+    if (editor()) emit q->loadMatchRequested();
   }
   void reset() override {
-    if (!scene->style().readOnly) emit q->resetRequested();
+    if (editor()) emit q->resetRequested();
   }
   void clear() override {
-    if (!scene->style().readOnly) emit q->clearRequested();
+    if (editor()) emit q->clearRequested();
   }
 
   FieldView* q;
@@ -146,7 +150,7 @@ void FieldView::Private::addAtCursor(TeamColor color) {
 }
 
 void FieldView::Private::moveSelectedToCursor() {
-  if (!editor() || scene->selection().empty()) return;
+  if (scene->selection().empty() || !editor()) return;
   const auto first = scene->pose(scene->selection().front());
   const Point cursor = fromScene(canvas->cursor());
   // Several robots keep their formation round the first one.

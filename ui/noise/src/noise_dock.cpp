@@ -5,7 +5,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QScrollArea>
-#include <QScrollBar>
 #include <QVBoxLayout>
 #include <array>
 #include <functional>
@@ -49,31 +48,15 @@ class NoiseDock : public QScrollArea {
     column->addStretch(1);
     setWidget(form);
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
-    for (auto* control : form->findChildren<QWidget*>()) {
-      if (control->focusPolicy() != Qt::WheelFocus && !qobject_cast<QSlider*>(control)) continue;
-      if (control->focusPolicy() == Qt::WheelFocus) control->setFocusPolicy(Qt::StrongFocus);
-      control->installEventFilter(this);
-    }
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
     connect(m_controller, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { follow(*frame); });
     connect(m_controller->edits(), &MatchEdits::modelsChanged, this, [this] { showRobots(); });
+    connect(m_controller->edits(), &MatchEdits::physicsChanged, this, [this] { showPhysics(); });
     connect(m_controller->edits(), &MatchEdits::lockedChanged, form,
             [form](bool locked) { form->setEnabled(!locked); });
     connect(m_selection, &RobotSelection::changed, this, [this] { showRobots(); });
     adopt();
-  }
-
- protected:
-  // Scrolling the panel must not change what happens to lie under the cursor.
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    // The area watches its own scroll bars with this filter, too.
-    if (event->type() != QEvent::Wheel || qobject_cast<QScrollBar*>(watched) != nullptr ||
-        static_cast<QWidget*>(watched)->hasFocus()) {
-      return QScrollArea::eventFilter(watched, event);
-    }
-    event->ignore();
-    return true;
   }
 
  private:
@@ -165,7 +148,7 @@ class NoiseDock : public QScrollArea {
   /// What the first of them is; all get what is changed.
   void showRobots() {
     const std::vector<RobotId> ids = edited();
-    const bool any = !ids.empty() && m_controller->scenario().settings.physics != "published";
+    const bool any = !ids.empty() && m_controller->edits()->physics() != "published";
     m_robots->setVisible(any);
     m_whose->setVisible(any);
     if (!any) return;
@@ -200,7 +183,8 @@ class NoiseDock : public QScrollArea {
             [this] { m_controller->edits()->setPhysics(m_model->currentData().toString()); });
     column->addWidget(m_model);
     column->addWidget(makeExplanation(
-        QStringLiteral("Changing it goes on from this moment with everything at rest."), form));
+        QStringLiteral("The match goes on with another model; its robots stop for a moment."),
+        form));
     m_exact = makeExplanation(
         QStringLiteral("“published” follows the published simulator to the last bit: it has no "
                        "constants and one kind of robot, no IMU noise but drift, misses nothing, "
@@ -284,10 +268,14 @@ class NoiseDock : public QScrollArea {
     showRows(m_bodyRows, sim::rigidBodyParameters, m_constants);
     const QSignalBlocker quiet(m_falls);
     m_falls->setChecked(m_constants.falls);
-    const QString model = QString::fromStdString(settings.physics);
-    m_model->setCurrentIndex(m_model->findData(model));
-    m_exact->setVisible(settings.physics == "published");
-    m_body->setVisible(settings.physics != "published");
+    showPhysics();
+  }
+
+  void showPhysics() {
+    const std::string& model = m_controller->edits()->physics();
+    m_model->setCurrentIndex(m_model->findData(QString::fromStdString(model)));
+    m_exact->setVisible(model == "published");
+    m_body->setVisible(model != "published");
     showRobots();
   }
 

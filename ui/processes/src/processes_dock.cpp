@@ -86,7 +86,9 @@ class ProcessesDock : public QStackedWidget {
     else
       m_model->clear();
     m_empty->setText(
-        simulated
+        m_controller->edits()->isLocked()
+            ? QStringLiteral("Processes are shown as they are now. ") + MatchEdits::lockedText()
+        : simulated
             ? emptyText(*m_controller)
             : QStringLiteral("These robots' processes run on the robots. The letters on the cards "
                              "tell which of them work."));

@@ -38,7 +38,7 @@ RefereeGame::RefereeGame(MatchController* match, QWidget* parent)
 }
 
 void RefereeGame::call(const sim::RefereeCall& made, const QString& words) {
-  callReferee(m_match, made, words);
+  callReferee(m_match->edits(), made, words);
 }
 
 QPushButton* RefereeGame::button(const QString& text, const QString& tip,

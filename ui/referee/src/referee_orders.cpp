@@ -1,70 +1,109 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referee_orders.h"
 
-#include <QUndoStack>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include <ui/sources/match_controller.h>
+#include <robotlink/scenario/referee_rule_sets.h>
 #include <ui/sources/match_edits.h>
 
 namespace pitchboard::ui {
 
-/// What the call changed; filled and read on the match's thread.
+/// What the decision changed; filled and read on the match's thread.
 struct RefereeCommand::Before {
+  bool decided = false;
+  std::optional<sim::RefereeRules> rules;
   std::optional<sim::GameState> game;
+  sim::Score score;
+  bool clockRunning = false;
+  std::uint64_t clockTicks = 0;
+  std::vector<sim::RobotIdentity> identities;  // they tell the sides
   std::optional<Point> ball;
   Velocity ballVelocity;
-  std::vector<std::pair<RobotId, Pose>> robots;
+  std::vector<std::pair<RobotId, Pose>> moved;
+
+  void take(const sim::WorldState& state) {
+    *this = {};
+    rules = state.settings.referee;
+    game = state.game;
+    score = state.score;
+    clockRunning = state.clockRunning;
+    clockTicks = state.clockTicks;
+    identities = state.robots;
+  }
+
+  Result<void> putBack(sim::Simulation& simulation) const {
+    sim::WorldState state = simulation.state();
+    state.settings.referee = rules;
+    state.game = game;
+    state.score = score;
+    state.clockRunning = clockRunning;
+    state.clockTicks = clockTicks;
+    for (sim::RobotIdentity& robot : state.robots) {
+      for (const sim::RobotIdentity& known : identities) {
+        if (known.id == robot.id) robot.imuStartsAt180 = known.imuStartsAt180;
+      }
+    }
+    if (auto restored = simulation.restore(state); !restored) return restored;
+    if (ball) (void)simulation.placeBall(*ball, ballVelocity);
+    for (const auto& [robot, pose] : moved) (void)simulation.placeRobot(robot, pose);
+    return {};
+  }
 };
 
-RefereeCommand::RefereeCommand(MatchController* match, const sim::RefereeCall& call,
-                               const QString& words)
-    : QUndoCommand(words), m_match(match), m_call(call), m_before(std::make_shared<Before>()) {}
+RefereeCommand::RefereeCommand(MatchEdits* edits, const QString& text, const QString& whatFailed,
+                               Decide decide)
+    : QUndoCommand(text),
+      m_edits(edits),
+      m_whatFailed(whatFailed),
+      m_decide(std::move(decide)),
+      m_before(std::make_shared<Before>()) {}
 
 void RefereeCommand::redo() {
-  m_match->post(
-      MatchOrder{QStringLiteral("The referee's call was not carried out"),
-                 [call = m_call, before = m_before](link::SimulatedMatch& match) -> Result<void> {
-                   sim::Simulation& simulation = match.simulation();
-                   *before = {};
-                   const std::optional<sim::GameState> game = simulation.state().game;
-                   const sim::Snapshot then = simulation.snapshot();
-                   if (auto called = match.call(call); !called) return called;
-                   before->game = game;
-                   const sim::Snapshot now = simulation.snapshot();
-                   if (now.ball != then.ball) {
-                     before->ball = then.ball;
-                     before->ballVelocity = then.ballVelocity;
-                   }
-                   for (std::size_t i = 0; i < now.robots.size(); ++i) {
-                     if (now.robots[i].pose == then.robots[i].pose) continue;
-                     before->robots.emplace_back(then.robots[i].identity.id, then.robots[i].pose);
-                   }
-                   return {};
-                 }});
+  m_edits->order(MatchOrder{
+      m_whatFailed,
+      [decide = m_decide, before = m_before](link::SimulatedMatch& match) -> Result<void> {
+        const sim::Simulation& simulation = match.simulation();
+        const sim::Snapshot then = simulation.snapshot();
+        before->take(simulation.state());
+        if (auto decided = decide(match); !decided) return decided;
+        before->decided = true;
+        const sim::Snapshot now = simulation.snapshot();
+        if (now.ball != then.ball) {
+          before->ball = then.ball;
+          before->ballVelocity = then.ballVelocity;
+        }
+        for (std::size_t i = 0; i < now.robots.size(); ++i) {
+          if (now.robots[i].pose == then.robots[i].pose) continue;
+          before->moved.emplace_back(then.robots[i].identity.id, then.robots[i].pose);
+        }
+        return {};
+      }});
 }
 
 void RefereeCommand::undo() {
-  m_match->post(MatchOrder{QStringLiteral("The referee's call was not undone"),
-                           [before = m_before](link::SimulatedMatch& match) -> Result<void> {
-                             if (!before->game) return {};  // it had been refused
-                             sim::Simulation& simulation = match.simulation();
-                             if (auto put = simulation.setGame(*before->game); !put) return put;
-                             if (before->ball) {
-                               (void)simulation.placeBall(*before->ball, before->ballVelocity);
-                             }
-                             for (const auto& [robot, pose] : before->robots) {
-                               (void)simulation.placeRobot(robot, pose);
-                             }
-                             return {};
-                           }});
+  m_edits->order(MatchOrder{QStringLiteral("The referee's decision was not undone"),
+                            [before = m_before](link::SimulatedMatch& match) -> Result<void> {
+                              if (!before->decided) return {};  // it had been refused
+                              return before->putBack(match.simulation());
+                            }});
 }
 
-void callReferee(MatchController* match, const sim::RefereeCall& call, const QString& words) {
-  if (match->isOpen()) {
-    match->edits()->undoStack()->push(new RefereeCommand(match, call, words));
-  }
+void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& words) {
+  edits->push(std::make_unique<RefereeCommand>(
+      edits, words, QStringLiteral("The referee's call was not carried out"),
+      [call](link::SimulatedMatch& match) { return match.call(call); }));
+}
+
+void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {
+  edits->push(std::make_unique<RefereeCommand>(
+      edits, QStringLiteral("rules: ") + title, QStringLiteral("The rules were not changed"),
+      [ruleSet](link::SimulatedMatch& match) -> Result<void> {
+        auto rules = link::refereeRuleSet(ruleSet);
+        if (!rules) return tl::unexpected(rules.error());
+        return match.simulation().setReferee(*rules);
+      }));
 }
 
 }  // namespace pitchboard::ui

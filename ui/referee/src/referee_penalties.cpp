@@ -5,7 +5,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
-#include <QUndoStack>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -134,14 +133,14 @@ std::vector<RobotId> RefereePenalties::chosen() const {
 void RefereePenalties::callForChosen(const sim::RefereeCall& call, const QString& words) {
   const std::vector<RobotId> robots = chosen();
   if (robots.empty()) return;
-  QUndoStack* undo = m_match->edits()->undoStack();
-  if (robots.size() > 1) undo->beginMacro(words);
-  for (const RobotId robot : robots) {
-    sim::RefereeCall one = call;
-    one.robot = robot;
-    callReferee(m_match, one, words);
-  }
-  if (robots.size() > 1) undo->endMacro();
+  MatchEdits* edits = m_match->edits();
+  edits->pushTogether(words, [&] {
+    for (const RobotId robot : robots) {
+      sim::RefereeCall one = call;
+      one.robot = robot;
+      callReferee(edits, one, words);
+    }
+  });
 }
 
 void RefereePenalties::show(const link::MatchFrame* frame) {

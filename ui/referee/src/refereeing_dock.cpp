@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QUndoStack>
 #include <QVBoxLayout>
 
 #include <robotlink/scenario/referee_rule_sets.h>
@@ -49,16 +48,24 @@ class RefereeingDock : public QScrollArea {
     addLog(form);
     setWidget(form);
     setMinimumWidth(form->minimumSizeHint().width() + scaled(this, 14));
-    connect(m_match, &MatchController::frameReceived, this,
-            [this](const FramePtr& frame) { show(frame); });
+    connect(&shown(), &FrameSource::frameReceived, this, &RefereeingDock::refresh);
+    connect(&shown(), &FrameSource::restarted, this, &RefereeingDock::refresh);
     if (m_source != nullptr) {
-      connect(m_source, &SourceSwitch::changed, this, [this] { show(m_match->frame()); });
+      connect(m_source, &SourceSwitch::changed, this, &RefereeingDock::refresh);
     }
-    show(m_match->frame());
+    connect(m_match->edits(), &MatchEdits::lockedChanged, this, &RefereeingDock::refresh);
+    refresh();
   }
 
  private:
-  void call(const sim::RefereeCall& made, const QString& text) { callReferee(m_match, made, text); }
+  /// Whose moment the dock shows: as the rest of the window, also while looking back.
+  const FrameSource& shown() const {
+    return m_source != nullptr ? static_cast<const FrameSource&>(*m_source) : *m_match;
+  }
+
+  void call(const sim::RefereeCall& made, const QString& text) {
+    callReferee(m_match->edits(), made, text);
+  }
 
   void addRules(QWidget* form) {
     m_column->addWidget(makeRefereeHeading(QStringLiteral("Rules"), form));
@@ -69,8 +76,12 @@ class RefereeingDock : public QScrollArea {
       m_rules->setItemData(m_rules->count() - 1, QString::fromStdString(set.description),
                            Qt::ToolTipRole);
     }
-    m_rules->setToolTip(QStringLiteral("Choosing rules begins the game anew, in INITIAL."));
-    connect(m_rules, &QComboBox::activated, this, [this] { chooseRules(); });
+    m_rules->setToolTip(
+        QStringLiteral("Choosing rules restarts the game in INITIAL. Undo brings it back."));
+    connect(m_rules, &QComboBox::activated, this, [this] {
+      chooseReferee(m_match->edits(), m_rules->currentData().toString().toStdString(),
+                    m_rules->currentText());
+    });
     m_column->addWidget(m_rules);
     m_automatic = new QCheckBox(QStringLiteral("The referee calls by itself"), form);
     m_automatic->setObjectName(QStringLiteral("refereeAutomatic"));
@@ -84,18 +95,10 @@ class RefereeingDock : public QScrollArea {
     m_state = new QLabel(form);
     m_state->setObjectName(QStringLiteral("refereeState"));
     m_state->setWordWrap(true);
+    m_state->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    // Room for the second line, so that no button moves when somebody looks back.
+    m_state->setMinimumHeight(2 * m_state->fontMetrics().lineSpacing());
     m_column->addWidget(m_state);
-  }
-
-  void chooseRules() {
-    const std::string name = m_rules->currentData().toString().toStdString();
-    m_match->post(MatchOrder{QStringLiteral("The rules were not changed"),
-                             [name](link::SimulatedMatch& match) -> Result<void> {
-                               auto rules = link::refereeRuleSet(name);
-                               if (!rules) return tl::unexpected(rules.error());
-                               return match.simulation().setReferee(*rules);
-                             }});
-    m_match->edits()->undoStack()->clear();
   }
 
   void addFormations(QWidget* form) {
@@ -139,18 +142,18 @@ class RefereeingDock : public QScrollArea {
         moves.push_back({id, robot->pose, pose});
       }
     }
-    QUndoStack* undo = m_match->edits()->undoStack();
-    undo->beginMacro(QStringLiteral("formation: ") + m_formation->currentText());
-    m_match->edits()->moveRobots(moves);
-    m_match->edits()->moveBall(frame->snapshot.ball, places.ball);
-    if (m_asSetPlay->isChecked() && frame->referee && places.setPlay != sim::SetPlay::None) {
-      call({.kind = CallKind::SetPlay,
-            .team = places.attackers == TeamColor::Blue ? 0 : 1,
-            .setPlay = places.setPlay,
-            .place = places.ball},
-           m_formation->currentText());
-    }
-    undo->endMacro();
+    MatchEdits* edits = m_match->edits();
+    edits->pushTogether(QStringLiteral("formation: ") + m_formation->currentText(), [&] {
+      edits->moveRobots(moves);
+      edits->moveBall(frame->snapshot.ball, places.ball);
+      if (m_asSetPlay->isChecked() && frame->referee && places.setPlay != sim::SetPlay::None) {
+        call({.kind = CallKind::SetPlay,
+              .team = places.attackers == TeamColor::Blue ? 0 : 1,
+              .setPlay = places.setPlay,
+              .place = places.ball},
+             m_formation->currentText());
+      }
+    });
   }
 
   void addLog(QWidget* form) {
@@ -158,40 +161,44 @@ class RefereeingDock : public QScrollArea {
     m_column->addWidget(new RefereeLog(m_match, form), 1);
   }
 
-  void show(const FramePtr& frame) {
+  void refresh() {
     // In Live and Replay the match goes on unseen, and nobody leads what he does not see.
-    const bool seen = frame && (m_source == nullptr || m_source->kind() == SourceKind::Simulate);
-    const bool refereed = seen && frame->referee;
-    m_game->setEnabled(refereed);
-    m_penalties->setEnabled(refereed);
-    m_asSetPlay->setEnabled(refereed);
+    const bool simulating = m_source == nullptr || m_source->kind() == SourceKind::Simulate;
+    const FramePtr frame = simulating ? shown().frame() : nullptr;
+    const bool refereed = frame && frame->referee;
+    const bool free = !m_match->edits()->isLocked();
+    m_game->setEnabled(refereed && free);
+    m_penalties->setEnabled(refereed && free);
+    m_asSetPlay->setEnabled(refereed && free);
     m_penalties->show(refereed ? frame.get() : nullptr);
-    m_automatic->setEnabled(refereed);
-    m_rules->setEnabled(seen);
-    m_formations->setEnabled(seen);
-    if (!m_rules->view()->isVisible()) {
-      const QString name =
-          frame ? QString::fromStdString(frame->refereeRules) : QStringLiteral("published");
+    m_automatic->setEnabled(refereed && free);
+    m_rules->setEnabled(frame && free);
+    m_formations->setEnabled(frame && free);
+    if (frame && !m_rules->view()->isVisible()) {
+      const QString name = QString::fromStdString(frame->refereeRules);
       const int index = m_rules->findData(name.isEmpty() ? QStringLiteral("published") : name);
       if (index != m_rules->currentIndex()) m_rules->setCurrentIndex(index);
     }
-    if (!refereed) {
-      m_state->setText(
-          seen    ? QStringLiteral("This match has no referee. Choose rules to get one.")
-          : frame ? QStringLiteral("Only the match in Simulate is led from here. What a referee "
-                                   "sends stands in View > Referee.")
-                  : QStringLiteral("No simulated match is open."));
-      return;
-    }
-    const link::RefereeView& view = *frame->referee;
-    m_automatic->setChecked(frame->refereeAutomatic);
+    if (refereed) m_automatic->setChecked(frame->refereeAutomatic);
+    QString text = refereed ? stateText(*frame->referee)
+                   : frame  ? QStringLiteral("This match has no referee. Choose rules to get one.")
+                   : !simulating && m_match->frame()
+                       ? QStringLiteral(
+                             "Only the match in Simulate is led from here. What a "
+                             "referee sends stands in View > Referee.")
+                       : QStringLiteral("No simulated match is open.");
+    if (!free) text += QLatin1Char('\n') + MatchEdits::lockedText();
+    m_state->setText(text);
+  }
+
+  static QString stateText(const link::RefereeView& view) {
     QString text = QString::fromStdString(view.state);
     if (!view.setPlay.empty()) text += QStringLiteral(", ") + QString::fromStdString(view.setPlay);
     if (!view.phase.empty()) text += QStringLiteral(", ") + QString::fromStdString(view.phase);
     text += view.firstHalf ? QStringLiteral(", first half") : QStringLiteral(", second half");
     if (view.stopped) text += QStringLiteral(", stopped");
     if (view.secondaryTime) text += QStringLiteral(", %1 s").arg(*view.secondaryTime);
-    m_state->setText(text);
+    return text;
   }
 
   MatchController* m_match;

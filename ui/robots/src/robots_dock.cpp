@@ -238,7 +238,7 @@ void RobotsDock::drop(RobotCard* card, const QPoint& at) {
   if (m_floating.count(id) != 0) return;
   if (viewport()->rect().contains(viewport()->mapFromGlobal(at))) return;
   floatCard(id);
-  floating(id)->move(at);
+  if (QDockWidget* window = floating(id)) window->move(at);
 }
 
 QDockWidget* RobotsDock::floating(RobotId id) const {
@@ -248,7 +248,11 @@ QDockWidget* RobotsDock::floating(RobotId id) const {
 
 void RobotsDock::floatCard(RobotId id) {
   const auto card = m_cards.find(id);
-  auto* main = qobject_cast<QMainWindow*>(window());
+  // Not window(): while this panel floats, that is its dock.
+  QMainWindow* main = nullptr;
+  for (QWidget* above = this; above != nullptr && main == nullptr; above = above->parentWidget()) {
+    main = qobject_cast<QMainWindow*>(above);
+  }
   if (card == m_cards.end() || m_floating.count(id) != 0 || main == nullptr) return;
   auto* dock = new QDockWidget(card->second->state().name, main);
   dock->setObjectName(QStringLiteral("card-%1").arg(id.value));

@@ -138,7 +138,12 @@ void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
 void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
   const RobotId id = card->state().id;
   QMenu menu(this);
-  if (m_context.source->kind() == SourceKind::Simulate) addMatchActions(menu, card);
+  if (m_context.source->kind() == SourceKind::Simulate) {
+    addMatchActions(menu, card);
+    if (m_context.controller->edits()->isLocked()) {
+      for (QAction* change : menu.actions()) change->setEnabled(false);
+    }
+  }
   if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
     addForgetting(menu, card);
     menu.addSeparator();

@@ -146,17 +146,32 @@ bool ModelCommand::mergeWith(const QUndoCommand* other) {
   return true;
 }
 
-ReopenCommand::ReopenCommand(MatchEdits* edits, link::Scenario before, link::Scenario after,
-                             const QString& words)
-    : m_edits(edits), m_before(std::move(before)), m_after(std::move(after)) {
+PhysicsCommand::PhysicsCommand(MatchRoster* roster, std::string after)
+    : m_roster(roster), m_before(roster->physics()), m_after(std::move(after)) {
+  setText(QStringLiteral("Play with %1 physics").arg(QString::fromStdString(m_after)));
+}
+
+void PhysicsCommand::redo() {
+  m_roster->setPhysics(m_after);
+}
+void PhysicsCommand::undo() {
+  m_roster->setPhysics(m_before);
+}
+
+ReopenCommand::ReopenCommand(MatchEdits* edits, link::Scenario before, link::Scenario beginning,
+                             link::Scenario after, const QString& words)
+    : m_edits(edits),
+      m_before(std::move(before)),
+      m_beginning(std::move(beginning)),
+      m_after(std::move(after)) {
   setText(words);
 }
 
 void ReopenCommand::redo() {
-  m_edits->reopen(m_after);
+  m_edits->reopen(m_after, m_after);
 }
 void ReopenCommand::undo() {
-  m_edits->reopen(m_before);
+  m_edits->reopen(m_before, m_beginning);
 }
 
 void RemoveRobotsCommand::undo() {

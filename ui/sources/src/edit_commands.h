@@ -120,17 +120,30 @@ class ModelCommand : public QUndoCommand {
   QElapsedTimer m_age;
 };
 
+/// Another model of motion and collisions.
+class PhysicsCommand : public QUndoCommand {
+ public:
+  PhysicsCommand(MatchRoster* roster, std::string after);
+  void redo() override;
+  void undo() override;
+
+ private:
+  MatchRoster* m_roster;
+  std::string m_before, m_after;
+};
+
 /// Another match, or this one anew. The moment that it leaves is kept to be gone back to.
 class ReopenCommand : public QUndoCommand {
  public:
-  ReopenCommand(MatchEdits* edits, link::Scenario before, link::Scenario after,
-                const QString& words);
+  /// `before`: the moment, of a match that began as `beginning`.
+  ReopenCommand(MatchEdits* edits, link::Scenario before, link::Scenario beginning,
+                link::Scenario after, const QString& words);
   void redo() override;
   void undo() override;
 
  private:
   MatchEdits* m_edits;
-  link::Scenario m_before, m_after;
+  link::Scenario m_before, m_beginning, m_after;
 };
 
 }  // namespace pitchboard::ui

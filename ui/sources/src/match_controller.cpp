@@ -136,7 +136,18 @@ void MatchController::close() {
 }
 
 void MatchController::open(const link::Scenario& scenario, bool paused) {
-  openAfter(scenario, paused, {});
+  openAfter(scenario, scenario, paused, {});
+}
+
+void MatchController::openMoment(const link::Scenario& moment, const link::Scenario& beginning,
+                                 bool paused) {
+  openAfter(moment, beginning, paused, {});
+}
+
+link::Scenario MatchController::beginning() const {
+  link::Scenario scenario = m_beginning;
+  if (isOpen() || isOpening()) scenario.settings.physics = m_edits->physics();
+  return scenario;
 }
 
 void MatchController::restart() {
@@ -144,14 +155,16 @@ void MatchController::restart() {
 }
 
 void MatchController::restartAfter(std::function<void()> between) {
-  const link::Scenario scenario = m_scenario;
-  openAfter(scenario, m_paused, std::move(between));
+  if (!m_edits->allowsChange()) return;
+  const link::Scenario scenario = beginning();
+  openAfter(scenario, scenario, m_paused, std::move(between));
 }
 
-void MatchController::openAfter(const link::Scenario& scenario, bool paused,
-                                std::function<void()> between) {
+void MatchController::openAfter(const link::Scenario& scenario, const link::Scenario& beginning,
+                                bool paused, std::function<void()> between) {
   auto old = retire();
   m_scenario = scenario;
+  m_beginning = beginning;
   m_paused = paused;
   m_opening = true;
   m_catalog = m_nextCatalog;

@@ -32,10 +32,10 @@ MatchEdits::MatchEdits(MatchController* match)
   m_undoStack->setUndoLimit(undoLimit);
   connect(match, &MatchController::scenarioChanged, this, [this] {
     if (!m_reopening) m_undoStack->clear();
-    m_roster->begin(m_match->isOpening() ? m_match->scenario().robots
-                                         : std::vector<link::ScenarioRobot>{});
+    m_roster->begin(m_match->isOpening() ? m_match->scenario() : link::Scenario{});
   });
   m_roster->whenModelsChange([this] { emit modelsChanged(); });
+  m_roster->whenPhysicsChanges([this] { emit physicsChanged(); });
 }
 
 MatchEdits::~MatchEdits() = default;
@@ -51,13 +51,36 @@ void MatchEdits::setLocked(bool on) {
   emit lockedChanged(on);
 }
 
-bool MatchEdits::refuses() {
-  if (m_locked && !std::exchange(m_toldLocked, true)) {
-    emit failed(
-        QStringLiteral("A past moment is shown, and the match cannot be changed from it. Now leads "
-                       "back to the match."));
-  }
-  return m_locked;
+const std::string& MatchEdits::physics() const {
+  return m_roster->physics();
+}
+
+QString MatchEdits::lockedText() {
+  return QStringLiteral("You are viewing the past. Press Now to return to the match.");
+}
+
+bool MatchEdits::allowsChange() {
+  if (m_locked && !std::exchange(m_toldLocked, true)) emit failed(lockedText());
+  return !m_locked;
+}
+
+void MatchEdits::push(std::unique_ptr<QUndoCommand> command) {
+  if (m_match->isOpen() && allowsChange()) m_undoStack->push(command.release());
+}
+
+void MatchEdits::pushTogether(const QString& words, const std::function<void()>& steps) {
+  if (!m_match->isOpen() || !allowsChange()) return;
+  m_undoStack->beginMacro(words);
+  steps();
+  m_undoStack->endMacro();
+}
+
+void MatchEdits::order(MatchOrder change) {
+  if (allowsChange()) m_match->post(std::move(change));
+}
+
+void MatchEdits::order(link::MatchRunner::Command change) {
+  if (allowsChange()) m_match->post(std::move(change));
 }
 
 void MatchEdits::adopt(const link::Moment& moment) {
@@ -66,36 +89,26 @@ void MatchEdits::adopt(const link::Moment& moment) {
 }
 
 void MatchEdits::moveRobots(const std::vector<RobotPlacement>& placements) {
-  if (refuses()) return;
-  if (m_match->isOpen() && !placements.empty()) {
-    m_undoStack->push(new PlacementCommand(m_roster.get(), placements));
-  }
+  if (!placements.empty()) push(std::make_unique<PlacementCommand>(m_roster.get(), placements));
 }
 
 void MatchEdits::nudgeRobots(const std::vector<RobotPlacement>& placements) {
-  if (refuses()) return;
-  if (m_match->isOpen() && !placements.empty()) {
-    m_undoStack->push(new NudgeCommand(m_roster.get(), placements));
-  }
+  if (!placements.empty()) push(std::make_unique<NudgeCommand>(m_roster.get(), placements));
 }
 
 void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
-  if (refuses()) return;
-  if (m_match->isOpen()) m_undoStack->push(new BallCommand(m_roster.get(), from, to, velocity));
+  push(std::make_unique<BallCommand>(m_roster.get(), from, to, velocity));
 }
 
 void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
-  if (refuses()) return;
-  m_roster->place(placements, false);
+  if (allowsChange()) m_roster->place(placements, false);
 }
 
 void MatchEdits::previewBall(Point position) {
-  if (refuses()) return;
-  m_roster->placeBall(position);
+  if (allowsChange()) m_roster->placeBall(position);
 }
 
 void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
-  if (refuses()) return;
   if (!m_match->isOpen()) return;
   std::set<int> ids, numbers;
   for (const auto& [id, entry] : m_roster->robots()) {
@@ -122,11 +135,10 @@ void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> n
                     .arg(robotName(entry.identity)));
     return;
   }
-  m_undoStack->push(new AddRobotCommand(m_roster.get(), entry));
+  push(std::make_unique<AddRobotCommand>(m_roster.get(), entry));
 }
 
 void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
-  if (refuses()) return;
   const FramePtr newest = m_match->frame();
   std::vector<link::ScenarioRobot> leaving;
   for (const RobotId id : ids) {
@@ -137,11 +149,10 @@ void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
     if (const link::RobotFrame* seen = newest->robot(id)) leaving.back().pose = seen->pose;
   }
   if (!leaving.empty())
-    m_undoStack->push(new RemoveRobotsCommand(m_roster.get(), std::move(leaving)));
+    push(std::make_unique<RemoveRobotsCommand>(m_roster.get(), std::move(leaving)));
 }
 
 void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
-  if (refuses()) return;
   if (!m_match->isOpen()) return;
   std::set<int> numbers;
   for (const auto& [id, entry] : m_roster->robots()) {
@@ -169,9 +180,8 @@ void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
 }
 
 void MatchEdits::setNumber(RobotId id, int number) {
-  if (refuses()) return;
   const link::ScenarioRobot* known = robot(id);
-  if (!m_match->isOpen() || known == nullptr || known->identity.number == number) return;
+  if (known == nullptr || known->identity.number == number) return;
   sim::RobotIdentity after = known->identity;
   after.number = number;
   for (const auto& [other, entry] : m_roster->robots()) {
@@ -182,26 +192,24 @@ void MatchEdits::setNumber(RobotId id, int number) {
                     .arg(robotName(entry.identity)));
     return;
   }
-  m_undoStack->push(new IdentityCommand(
-      m_roster.get(), {known->identity}, {after},
+  push(std::make_unique<IdentityCommand>(
+      m_roster.get(), std::vector{known->identity}, std::vector{after},
       QStringLiteral("Make %1 %2").arg(robotName(known->identity), robotName(after))));
 }
 
 void MatchEdits::setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour) {
-  if (refuses()) return;
   std::vector<BehaviourCommand::Change> changes;
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
     if (known == nullptr || known->behaviour == behaviour.toStdString()) continue;
     changes.push_back({id, known->behaviour, behaviour.toStdString()});
   }
-  if (m_match->isOpen() && !changes.empty()) {
-    m_undoStack->push(new BehaviourCommand(m_roster.get(), std::move(changes)));
+  if (!changes.empty()) {
+    push(std::make_unique<BehaviourCommand>(m_roster.get(), std::move(changes)));
   }
 }
 
 void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model) {
-  if (refuses()) return;
   ModelCommand::Models before, after;
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
@@ -209,29 +217,29 @@ void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel
     before.emplace_back(id, known->model);
     after.emplace_back(id, model);
   }
-  if (m_match->isOpen() && !after.empty()) {
-    m_undoStack->push(new ModelCommand(m_roster.get(), std::move(before), std::move(after)));
+  if (!after.empty()) {
+    push(std::make_unique<ModelCommand>(m_roster.get(), std::move(before), std::move(after)));
   }
 }
 
 void MatchEdits::load(const link::Scenario& scenario, const QString& words) {
-  if (refuses()) return;
+  if (!allowsChange()) return;
   if (!m_match->isOpen()) {
     m_match->open(scenario, m_match->isPaused());
     return;
   }
-  m_undoStack->push(new ReopenCommand(this, m_match->currentMoment(), scenario, words));
+  push(std::make_unique<ReopenCommand>(this, m_match->currentMoment(), m_match->beginning(),
+                                       scenario, words));
 }
 
-void MatchEdits::reopen(const link::Scenario& scenario) {
+void MatchEdits::reopen(const link::Scenario& scenario, const link::Scenario& beginning) {
   m_reopening = true;
-  m_match->open(scenario, m_match->isPaused());
+  m_match->openMoment(scenario, beginning, m_match->isPaused());
   m_reopening = false;
 }
 
 void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actionB) {
-  if (refuses()) return;
-  m_match->post([id, actionA, actionB](link::SimulatedMatch& match) {
+  order([id, actionA, actionB](link::SimulatedMatch& match) {
     link::Blackboard* board = match.blackboard(id);
     if (board == nullptr) return;
     // B first: control reads it in the moment it sees a new A.
@@ -241,8 +249,7 @@ void MatchEdits::commandAction(RobotId id, int actionA, std::optional<int> actio
 }
 
 void MatchEdits::commandSearch(RobotId id, bool on) {
-  if (refuses()) return;
-  m_match->post([id, on](link::SimulatedMatch& match) {
+  order([id, on](link::SimulatedMatch& match) {
     if (link::Blackboard* board = match.blackboard(id)) {
       board->write(match.variables().decisionSearchOn, on ? 1 : 0);
     }
@@ -250,7 +257,6 @@ void MatchEdits::commandSearch(RobotId id, bool on) {
 }
 
 void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
-  if (refuses()) return;
   const link::Variable* variable = m_match->catalog().find(name.toStdString());
   const QString notWritten = QStringLiteral("%1 is not written").arg(name);
   if (variable == nullptr) {
@@ -258,83 +264,72 @@ void MatchEdits::writeVariable(RobotId id, const QString& name, double value) {
     return;
   }
   const auto time = std::make_shared<double>();  // of the tick after which it was written, s
-  m_match->post({notWritten,
-                 [id, value, type = variable->type, index = variable->index,
-                  time](link::SimulatedMatch& match) -> Result<void> {
-                   link::Blackboard* board = match.blackboard(id);
-                   if (board == nullptr) {
-                     return failure(ErrorCode::NotFound, "the robot is not on the field any more");
-                   }
-                   if (type == link::VariableType::Int) {
-                     board->write(link::IntVar{index}, static_cast<int>(value));
-                   } else {
-                     board->write(link::FloatVar{index}, static_cast<float>(value));
-                   }
-                   const sim::WorldState& state = match.simulation().state();
-                   *time = static_cast<double>(state.tick) / state.settings.tickRate;
-                   return {};
-                 },
-                 {},
-                 [this, id, name, time] { emit variableWritten(id, name, *time); }});
+  order({notWritten,
+         [id, value, type = variable->type, index = variable->index,
+          time](link::SimulatedMatch& match) -> Result<void> {
+           link::Blackboard* board = match.blackboard(id);
+           if (board == nullptr) {
+             return failure(ErrorCode::NotFound, "the robot is not on the field any more");
+           }
+           if (type == link::VariableType::Int) {
+             board->write(link::IntVar{index}, static_cast<int>(value));
+           } else {
+             board->write(link::FloatVar{index}, static_cast<float>(value));
+           }
+           const sim::WorldState& state = match.simulation().state();
+           *time = static_cast<double>(state.tick) / state.settings.tickRate;
+           return {};
+         },
+         {},
+         [this, id, name, time] { emit variableWritten(id, name, *time); }});
 }
 
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
-  if (refuses()) return;
-  m_match->post({QStringLiteral("The noise stays as it was"), [noise](link::SimulatedMatch& match) {
-                   return match.simulation().setNoise(noise);
-                 }});
+  order({QStringLiteral("The noise stays as it was"),
+         [noise](link::SimulatedMatch& match) { return match.simulation().setNoise(noise); }});
 }
 
 void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
-  if (refuses()) return;
-  m_match->post(
-      {QStringLiteral("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
-         return match.simulation().setRigidBody(settings);
-       }});
+  order({QStringLiteral("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
+           return match.simulation().setRigidBody(settings);
+         }});
 }
 
 void MatchEdits::setPhysics(const QString& model) {
-  if (refuses()) return;
-  link::Scenario moment = m_match->currentMoment();
-  if (moment.settings.physics == model.toStdString()) return;
-  moment.settings.physics = model.toStdString();
-  load(moment, QStringLiteral("Play with %1 physics").arg(model));
+  if (model.toStdString() == physics()) return;
+  push(std::make_unique<PhysicsCommand>(m_roster.get(), model.toStdString()));
 }
 
 void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
-  if (refuses()) return;
-  m_roster->setRuntime(id, choice);
+  if (allowsChange()) m_roster->setRuntime(id, choice);
 }
 
 void MatchEdits::startProcess(int process) {
-  m_match->post([process](link::SimulatedMatch& match) {
+  order([process](link::SimulatedMatch& match) {
     match.processes().start(process, std::chrono::steady_clock::now());
   });
 }
 
 void MatchEdits::stopProcess(int process) {
-  m_match->post([process](link::SimulatedMatch& match) { match.processes().stop(process); });
+  order([process](link::SimulatedMatch& match) { match.processes().stop(process); });
 }
 
 void MatchEdits::restartProcess(int process) {
-  m_match->post([process](link::SimulatedMatch& match) {
+  order([process](link::SimulatedMatch& match) {
     match.processes().restart(process, std::chrono::steady_clock::now());
   });
 }
 
 void MatchEdits::killProcess(int process) {
-  m_match->post([process](link::SimulatedMatch& match) { match.processes().kill(process); });
+  order([process](link::SimulatedMatch& match) { match.processes().kill(process); });
 }
 
 void MatchEdits::setClockRunning(bool running) {
-  if (refuses()) return;
-  m_match->post(
-      [running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
+  order([running](link::SimulatedMatch& match) { match.simulation().setClockRunning(running); });
 }
 
 void MatchEdits::resetScore() {
-  if (refuses()) return;
-  m_match->post([](link::SimulatedMatch& match) {
+  order([](link::SimulatedMatch& match) {
     match.simulation().setScore({});
     match.simulation().editState().clockTicks = 0;
   });

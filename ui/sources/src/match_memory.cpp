@@ -80,6 +80,14 @@ FramePtr MatchMemory::frameAt(double time) const {
     return nullptr;
   }
   past->drawings = m_drawn.at(*m_drawings, time);
+  // Rows do not tell what was changed by hand while the match ran.
+  const auto tick =
+      static_cast<std::uint64_t>(std::llround(std::max(past->snapshot.time, 0.0) * past->tickRate));
+  if (const auto settings = m_archive->settings(tick)) {
+    past->noise = settings->noise;
+    past->physics = settings->physics;
+    past->refereeRules = settings->referee ? settings->referee->name : std::string();
+  }
   return past;
 }
 

@@ -12,9 +12,12 @@ const link::ScenarioRobot* MatchRoster::robot(RobotId id) const {
   return found != m_robots.end() ? &found->second : nullptr;
 }
 
-void MatchRoster::begin(const std::vector<link::ScenarioRobot>& robots) {
+void MatchRoster::begin(const link::Scenario& scenario) {
   m_robots.clear();
-  for (const link::ScenarioRobot& entry : robots) m_robots.emplace(entry.identity.id, entry);
+  for (const link::ScenarioRobot& entry : scenario.robots) {
+    m_robots.emplace(entry.identity.id, entry);
+  }
+  takePhysics(scenario.settings.physics);
 }
 
 void MatchRoster::adopt(const link::Moment& moment) {
@@ -29,6 +32,7 @@ void MatchRoster::adopt(const link::Moment& moment) {
     robots.emplace(identity.id, entry);
   }
   m_robots = std::move(robots);
+  takePhysics(moment.state.settings.physics);
 }
 
 void MatchRoster::insert(const link::ScenarioRobot& entry) {
@@ -95,6 +99,19 @@ void MatchRoster::placeBall(Point position, Velocity velocity) {
                  [position, velocity](link::SimulatedMatch& match) {
                    return match.simulation().placeBall(position, velocity);
                  }});
+}
+
+void MatchRoster::takePhysics(const std::string& name) {
+  if (std::exchange(m_physics, name) != name && m_physicsChanged) m_physicsChanged();
+}
+
+void MatchRoster::setPhysics(const std::string& name) {
+  const std::string before = m_physics;
+  takePhysics(name);
+  m_match->post(
+      {QStringLiteral("Could not change the physics model"),
+       [name](link::SimulatedMatch& match) { return match.simulation().setPhysics(name); },
+       [this, before] { takePhysics(before); }});
 }
 
 void MatchRoster::setModels(const std::vector<std::pair<RobotId, sim::RobotModel>>& models) {

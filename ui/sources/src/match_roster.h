@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The robots of the match as a person's edits know them, present or about to be, and the orders
-// that bring them in, move and remove them: what undoable commands are made of. Belongs to
-// MatchEdits. UI thread only.
+// The robots and the physics of the match as a person's edits know them, present or about to be,
+// and the orders that change them: what undoable commands are made of. Belongs to MatchEdits. UI
+// thread only.
 
 #include <functional>
 #include <map>
@@ -23,8 +23,9 @@ class MatchRoster {
   const Robots& robots() const { return m_robots; }
   /// Null when it is not there.
   const link::ScenarioRobot* robot(RobotId id) const;
-  /// Another match, with these.
-  void begin(const std::vector<link::ScenarioRobot>& robots);
+  const std::string& physics() const { return m_physics; }
+  /// Another match, which begins like this.
+  void begin(const link::Scenario& scenario);
   /// The same match at another moment.
   void adopt(const link::Moment& moment);
 
@@ -38,13 +39,18 @@ class MatchRoster {
   void placeBall(Point position, Velocity velocity = {});
   /// Does nothing for robots that are not there.
   void setModels(const std::vector<std::pair<RobotId, sim::RobotModel>>& models);
+  void setPhysics(const std::string& name);
   /// Called whenever a robot became another kind of robot.
   void whenModelsChange(std::function<void()> tell) { m_modelsChanged = std::move(tell); }
+  void whenPhysicsChanges(std::function<void()> tell) { m_physicsChanged = std::move(tell); }
 
  private:
+  void takePhysics(const std::string& name);
+
   MatchController* m_match;
   Robots m_robots;
-  std::function<void()> m_modelsChanged;
+  std::string m_physics;
+  std::function<void()> m_modelsChanged, m_physicsChanged;
 };
 
 }  // namespace pitchboard::ui

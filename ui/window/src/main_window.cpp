@@ -20,6 +20,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/time_axis.h>
+#include <ui/base/wheel_guard.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
@@ -79,6 +80,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_replay(new ReplayController(this)),
       m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
       m_timelineActions(new TimelineActions(m_timeline, m_time, this)) {
+  guardWheel(*qApp);
   m_source->add(m_live);
   m_source->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
   m_source->add(m_replay);
@@ -373,7 +375,7 @@ void MainWindow::connectField() {
   connect(m_field, &FieldView::loadMatchRequested, m_files,
           [this] { m_files->load(QStringLiteral("match-3v3")); });
   connect(m_field, &FieldView::resetRequested, m_controller, [this] {
-    link::Scenario again = m_controller->scenario();
+    link::Scenario again = m_controller->beginning();
     again.score = {};
     again.clock = 0.0;
     m_controller->edits()->load(again, QStringLiteral("Start the match again"));

@@ -8,6 +8,7 @@
 #include <robotlink/blackboard/match_number.h>
 #include <ui/base/notice_bar.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
 namespace pitchboard::ui {
@@ -47,7 +48,7 @@ QString matchFacts(const MatchController& controller) {
 }
 
 void askForSeed(MatchController* controller, MainWindow* window) {
-  link::Scenario again = controller->scenario();
+  link::Scenario again = controller->beginning();
   bool chosen = false;
   const QString text = QInputDialog::getText(
       window, QStringLiteral("Seed"),
@@ -63,7 +64,7 @@ void askForSeed(MatchController* controller, MainWindow* window) {
     return;
   }
   again.settings.seed = wanted;
-  controller->open(again, controller->isPaused());
+  controller->edits()->load(again, QStringLiteral("Play with seed %1").arg(wanted));
 }
 
 void fillWhoDecides(QMenu* menu, MatchController* controller) {
@@ -120,22 +121,22 @@ void fillNumbers(QMenu* menu, MatchController* controller, MainWindow* window) {
 }  // namespace
 
 void addMatchEntries(QMenu* menu, MatchController* controller, MainWindow* window,
-                     const std::function<void(QAction*)>& onlyWhenSimulating) {
+                     const std::function<void(QAction*)>& onlyInTheMatch) {
   QAction* seed = menu->addAction(QStringLiteral("S&eed…"), window,
                                   [controller, window] { askForSeed(controller, window); });
   seed->setObjectName(QStringLiteral("matchSeed"));
-  onlyWhenSimulating(seed);
+  onlyInTheMatch(seed);
   QMenu* who = menu->addMenu(QStringLiteral("Robots &decide"));
   who->setObjectName(QStringLiteral("whoDecides"));
   who->setToolTipsVisible(true);
   QObject::connect(who, &QMenu::aboutToShow, who,
                    [who, controller] { fillWhoDecides(who, controller); });
-  onlyWhenSimulating(who->menuAction());
+  onlyInTheMatch(who->menuAction());
   QMenu* number = menu->addMenu(QStringLiteral("Match &number"));
   number->setObjectName(QStringLiteral("matchNumber"));
   QObject::connect(number, &QMenu::aboutToShow, number,
                    [number, controller, window] { fillNumbers(number, controller, window); });
-  onlyWhenSimulating(number->menuAction());
+  onlyInTheMatch(number->menuAction());
   QAction* facts = menu->addAction(QStringLiteral("This match"));
   facts->setObjectName(QStringLiteral("matchFacts"));
   facts->setEnabled(false);

@@ -14,8 +14,9 @@ namespace pitchboard::ui {
 class MainWindow;
 class MatchController;
 
-/// `onlyWhenSimulating` greys an entry while another source is shown. Everything outlives `menu`.
+/// `onlyInTheMatch` greys an entry while another source or the past is shown. Everything outlives
+/// `menu`.
 void addMatchEntries(QMenu* menu, MatchController* controller, MainWindow* window,
-                     const std::function<void(QAction*)>& onlyWhenSimulating);
+                     const std::function<void(QAction*)>& onlyInTheMatch);
 
 }  // namespace pitchboard::ui

@@ -67,11 +67,12 @@ void StudioMenus::make() {
   makeHelp();
 }
 
-void StudioMenus::onlyWhenSimulating(QAction* action) {
-  SourceSwitch* source = m_parts.source;
-  QObject::connect(source, &SourceSwitch::changed, action, [action, source] {
-    action->setEnabled(source->kind() == SourceKind::Simulate);
-  });
+void StudioMenus::onlyInTheMatch(QAction* action) {
+  const auto show = [action, source = m_parts.source, edits = m_parts.controller->edits()] {
+    action->setEnabled(source->kind() == SourceKind::Simulate && !edits->isLocked());
+  };
+  QObject::connect(m_parts.source, &SourceSwitch::changed, action, show);
+  QObject::connect(m_parts.controller->edits(), &MatchEdits::lockedChanged, action, show);
 }
 
 void StudioMenus::makeFile() {
@@ -102,10 +103,9 @@ void StudioMenus::makeFile() {
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
            "document-open-folder", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
-  QAction* save = menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
-                                  &ScenarioFiles::askAndSave);
-  withIcon(save, "document-save", QKeySequence::Save);
-  onlyWhenSimulating(save);
+  onlyInTheMatch(withIcon(menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
+                                          &ScenarioFiles::askAndSave),
+                          "document-save", QKeySequence::Save));
   SituationTests* tests = m_parts.tests;
   QAction* asTest = withIcon(
       menu->addAction(QStringLiteral("Save this moment as a &test…"), tests, &SituationTests::ask),
@@ -270,6 +270,7 @@ void StudioMenus::makeSimulation() {
   MatchController* controller = m_parts.controller;
   for (QAction* action : m_context.transport) menu->addAction(action);
   QMenu* speeds = menu->addMenu(QStringLiteral("S&peed"));
+  onlyInTheMatch(speeds->menuAction());
   QObject::connect(speeds, &QMenu::aboutToShow, speeds, [speeds, controller] {
     speeds->clear();
     for (const double speed : matchSpeeds) {
@@ -279,8 +280,7 @@ void StudioMenus::makeSimulation() {
       action->setChecked(speed == controller->speed());
     }
   });
-  addMatchEntries(menu, controller, &m_window,
-                  [this](QAction* action) { onlyWhenSimulating(action); });
+  addMatchEntries(menu, controller, &m_window, [this](QAction* action) { onlyInTheMatch(action); });
   menu->addSeparator();
   QAction* freely = menu->addAction(QStringLiteral("Robot processes run &freely at ×1"));
   freely->setCheckable(true);
@@ -301,14 +301,14 @@ void StudioMenus::makeSimulation() {
   QObject::connect(wait, &QAction::triggered, controller, &MatchController::setWaitForOwnPrograms);
   QAction* clock = menu->addAction(QStringLiteral("Game &clock runs"));
   clock->setCheckable(true);
-  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, controller, source = m_parts.source] {
-    const FramePtr frame = controller->frame();
-    clock->setEnabled(frame && source->kind() == SourceKind::Simulate);
+  onlyInTheMatch(clock);
+  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, source = m_parts.source] {
+    const FramePtr frame = source->frame();
     clock->setChecked(frame && frame->snapshot.clockRunning);
   });
   QObject::connect(clock, &QAction::triggered, controller->edits(), &MatchEdits::setClockRunning);
-  onlyWhenSimulating(menu->addAction(QStringLiteral("Reset &score"), controller->edits(),
-                                     &MatchEdits::resetScore));
+  onlyInTheMatch(menu->addAction(QStringLiteral("Reset &score"), controller->edits(),
+                                 &MatchEdits::resetScore));
 }
 
 void StudioMenus::makeTimeline() {

@@ -55,7 +55,7 @@ class StudioMenus {
   void makePlots();
   void makeHelp();
   /// Greyed while another source than the simulation is shown.
-  void onlyWhenSimulating(QAction* action);
+  void onlyInTheMatch(QAction* action);
 
   MenuContext m_context;
   const StudioParts& m_parts;

@@ -66,6 +66,8 @@ class StateArchive : public TickObserver {
   /// The state that the match went on from at this tick: after changes by hand, where there were
   /// some. Error NotFound when the tick is not (or no longer) there.
   Result<sim::WorldState> reenter(std::uint64_t tick) const;
+  /// What the match was played with at this tick; nothing when it is not (or no longer) there.
+  std::optional<sim::SimulationSettings> settings(std::uint64_t tick) const;
   /// From what the robots' processes remembered to this tick; null when that is not (or no longer)
   /// there, or when none run inside the match.
   std::shared_ptr<const MomentPast> past(std::uint64_t tick) const;
@@ -76,6 +78,7 @@ class StateArchive : public TickObserver {
 
  private:
   void keep(std::optional<StateSegment> ended);
+  std::shared_ptr<const StateSegment> segmentAt(std::uint64_t tick) const;
   void remember(const SimulatedMatch& match);
   void dropMemory(std::deque<std::shared_ptr<const RobotsMemory>>::iterator memory);
   bool remembersRobotsOf(const SimulatedMatch& match) const;

@@ -52,6 +52,9 @@ class PhysicsModel {
   virtual void placeHead(WorldState& world, std::size_t index, double headYaw) const = 0;
   virtual void placeBall(WorldState& world, const Point& position,
                          const Velocity& velocity) const = 0;
+  /// By how much the yaw of the robot's IMU is off, rad: its drift, and where it was reset.
+  virtual double imuError(const WorldState& world, std::size_t index) const = 0;
+  virtual void setImuError(WorldState& world, std::size_t index, double error) const = 0;
   /// Called after settings (noise, constants) changed, to resize what depends on them.
   virtual void settingsChanged(WorldState& world) const = 0;
 

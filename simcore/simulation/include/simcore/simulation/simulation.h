@@ -74,14 +74,17 @@ class Simulation {
   Result<void> setRobotModel(RobotId id, const RobotModel& model);
   /// Constants of the rigid-body model; changeable while running.
   Result<void> setRigidBody(const RigidBodySettings& settings);
+  /// Another model of motion and collisions (a name of physicsModels()) from now on; changeable
+  /// while running. Places, headings, IMU errors and the ball's velocity are kept; robots stop, get
+  /// up if they lay, and begin their action again at the next step. Error NotFound for an unknown
+  /// name.
+  Result<void> setPhysics(const std::string& name);
 
   /// A call of the referee, between two steps. Refused (Conflict) when the state of the game does
   /// not allow it, and when there is no referee. What it does is in events() of the next step.
   Result<void> call(const RefereeCall& call);
   /// Puts a referee's rules in, or takes the referee away; the game begins anew.
   Result<void> setReferee(const std::optional<RefereeRules>& rules);
-  /// The game as it was before some calls: what undoing them puts back.
-  Result<void> setGame(const GameState& game);
 
   /// For conformance runs and scripts that speak the published frame: the state may be edited
   /// directly between steps. Sizes of per-robot vectors must not change.

@@ -52,12 +52,17 @@ class MatchController : public FrameSource {
   /// be had (a key is in use), the match plays with inline processes on heap blackboards and
   /// `errorOccurred` says so.
   void open(const link::Scenario& scenario, bool paused = false);
+  /// The same from a moment of a match that began as `beginning`: restart() plays that.
+  void openMoment(const link::Scenario& moment, const link::Scenario& beginning, bool paused);
   /// Ends the match; its processes and blackboards go, on the worker thread. restart() plays it
   /// again.
   void close();
   bool isOpen() const { return m_runner != nullptr; }
   bool isOpening() const { return m_opening; }
+  /// What this match was opened with.
   const link::Scenario& scenario() const { return m_scenario; }
+  /// What restart() plays: the scenario from its beginning, with the physics model chosen since.
+  link::Scenario beginning() const;
   SourceKind kind() const override { return SourceKind::Simulate; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
@@ -91,12 +96,14 @@ class MatchController : public FrameSource {
   void setWaitForOwnPrograms(bool on);
   bool waitsForOwnPrograms() const { return m_options.waitForOwnPrograms; }
   bool isPaused() const { return m_paused; }
-  void restart();  ///< the scenario from its beginning
+  /// Plays beginning(). Refused as an edit is (MatchEdits::allowsChange()).
+  void restart();
   /// The same; `between` runs on the worker thread when the old match is gone and the new one is
   /// not made yet.
   void restartAfter(std::function<void()> between);
 
-  // Orders to the match, or to the one that is being opened.
+  // Orders to the match, or to the one that is being opened. A change by hand goes through
+  // MatchEdits::order() instead, which refuses it while the past is shown.
   void post(link::MatchRunner::Command command);
   /// A failure is told by errorOccurred, after `onFailure` has run.
   void post(MatchOrder order);
@@ -120,7 +127,8 @@ class MatchController : public FrameSource {
  private:
   struct Opening;  ///< what the worker made
   void poll();
-  void openAfter(const link::Scenario& scenario, bool paused, std::function<void()> between);
+  void openAfter(const link::Scenario& scenario, const link::Scenario& beginning, bool paused,
+                 std::function<void()> between);
   /// Forgets the match; the worker ends it.
   std::shared_ptr<link::MatchRunner> retire();
   void take(Opening& opening);
@@ -129,7 +137,7 @@ class MatchController : public FrameSource {
 
   link::MatchOptions m_options;
   link::Cognition m_cognition = link::Cognition::Inline;
-  link::Scenario m_scenario;
+  link::Scenario m_scenario, m_beginning;
   std::shared_ptr<const link::VariableCatalog> m_nextCatalog, m_catalog;
   std::shared_ptr<link::MatchRunner> m_runner;  // keeps its catalog
   FramePtr m_frame;

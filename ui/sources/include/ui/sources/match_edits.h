@@ -4,11 +4,14 @@
 // Everything that is done by hand to the match being simulated: robots and ball are placed, added,
 // removed, get another behaviour, number or model, the match gets another physics or starts anew,
 // all of which can be undone; processes, noise, constants, words of the blackboards, which cannot.
-// Belongs to the MatchController and ends with it. UI thread only; what is ordered is carried out
-// on the match's thread between two ticks.
+// It is the one gate for all changes by hand: whoever has a change of its own (the referee) pushes
+// or orders it here, and nothing passes while the past is shown. Belongs to the MatchController and
+// ends with it. UI thread only; what is ordered is carried out on the match's thread between two
+// ticks.
 
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +19,7 @@
 #include <robotlink/session/moment_reader.h>
 #include <ui/sources/match_controller.h>
 
+class QUndoCommand;
 class QUndoStack;
 
 namespace pitchboard::ui {
@@ -38,11 +42,27 @@ class MatchEdits : public QObject {
   QUndoStack* undoStack() const { return m_undoStack; }
   /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
   const link::ScenarioRobot* robot(RobotId id) const;
+  /// The name of its physics model.
+  const std::string& physics() const;
   /// While on, nothing that is done by hand reaches the match: a person looks at another moment of
-  /// it. The first attempt is answered by `failed`. Processes can be started and ended all the
-  /// same.
+  /// it. The first attempt is answered by `failed`.
   void setLocked(bool on);
   bool isLocked() const { return m_locked; }
+  /// Why, for people.
+  static QString lockedText();
+
+  // The gate. Each does nothing when no match is open, and while locked.
+  /// Whether the match may be changed; when it is locked, `failed` says why.
+  bool allowsChange();
+  /// Does the command and puts it on the undo stack.
+  void push(std::unique_ptr<QUndoCommand> command);
+  /// What `steps` pushes becomes one command.
+  void pushTogether(const QString& words, const std::function<void()>& steps);
+  /// A change that cannot be undone, or a part of a command. Reaches a match that is being opened,
+  /// too.
+  void order(MatchOrder change);
+  void order(link::MatchRunner::Command change);
+
   /// The match goes on from this moment: its robots are known, and nothing can be undone.
   void adopt(const link::Moment& moment);
 
@@ -63,7 +83,7 @@ class MatchEdits : public QObject {
   void setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour);
   /// They become robots of this kind. Changes of one thing within a second are one command.
   void setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model);
-  /// The model of motion and collisions: starts the present moment anew with it.
+  /// The model of motion and collisions: the match goes on with it (Simulation::setPhysics()).
   void setPhysics(const QString& model);
   /// Plays another scenario, or this one from its beginning; undone, the match goes on from the
   /// moment that it had. `words`: what was done.
@@ -99,13 +119,15 @@ class MatchEdits : public QObject {
   void lockedChanged(bool on);
   /// A robot became another kind of robot, by hand or by undo.
   void modelsChanged();
+  /// physics() changed: by hand, by undo, or with another match.
+  void physicsChanged();
   /// `time`: of the tick after which it was written, simulated s.
   void variableWritten(pitchboard::RobotId id, const QString& name, double time);
 
  private:
   friend class ReopenCommand;
-  void reopen(const link::Scenario& scenario);
-  bool refuses();
+  /// `beginning`: how a match began of which `scenario` is a moment.
+  void reopen(const link::Scenario& scenario, const link::Scenario& beginning);
 
   MatchController* m_match;
   std::unique_ptr<MatchRoster> m_roster;

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Nothing happens by accident: the wheel changes no control without focus, nothing acts on the
+// match while the past is shown, and a card that is dragged out of a floating panel floats.
+#include <QAbstractSpinBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QDockWidget>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSlider>
+#include <QTabBar>
+#include <QTableWidget>
+#include <QTimer>
+#include <QUndoStack>
+#include <QtTest>
+
+#include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/robots/robots_dock.h>
+#include <ui/sources/match_edits.h>
+
+#include "../support/mouse_wheel.h"
+#include "field_keys.h"
+#include "window_rig.h"
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+using window_rig::Studio;
+
+namespace {
+
+/// What a turn of the wheel could change; invalid for any other widget.
+QVariant valueOf(QWidget* widget) {
+  if (auto* combo = qobject_cast<QComboBox*>(widget)) return combo->currentIndex();
+  if (auto* spin = qobject_cast<QAbstractSpinBox*>(widget)) return spin->text();
+  if (auto* tabs = qobject_cast<QTabBar*>(widget)) return tabs->currentIndex();
+  if (qobject_cast<QScrollBar*>(widget) != nullptr) return {};
+  if (auto* slider = qobject_cast<QAbstractSlider*>(widget)) return slider->value();
+  return {};
+}
+
+QString nameOf(const QWidget* widget) {
+  return QStringLiteral("%1 \"%2\" in %3")
+      .arg(QLatin1String(widget->metaObject()->className()), widget->objectName(),
+           widget->window()->windowTitle());
+}
+
+/// Turns the wheel both ways over every control of it that is seen; how many there are.
+int turnOverAll(QWidget* owner) {
+  int found = 0;
+  for (QWidget* control : owner->findChildren<QWidget*>()) {
+    const QVariant before = valueOf(control);
+    if (!before.isValid() || !control->isVisible()) continue;
+    ++found;
+    if (QWidget* focus = QApplication::focusWidget()) focus->clearFocus();
+    for (const int delta : {-120, 120, 120, -120}) {
+      turnWheel(control, control->rect().center(), delta);
+      if (valueOf(control) != before) qWarning() << "changed:" << nameOf(control);
+      if (valueOf(control) != before) return -1;
+      if (control->hasFocus()) qWarning() << "took the focus:" << nameOf(control);
+      if (control->hasFocus()) return -1;
+    }
+  }
+  return found;
+}
+
+/// Answers the menu that comes up next.
+template <class Answer>
+void whenMenuOpens(Answer answer) {
+  QTimer::singleShot(0, qApp, [answer] {
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    answer(menu);
+    menu->close();
+  });
+}
+
+QAction* entryOf(const QMenu* menu, const QString& text) {
+  for (QAction* action : menu->actions()) {
+    if (action->text() == text) return action;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+class TestSafeHands : public QObject {
+  Q_OBJECT
+
+  /// A match of two seconds in INITIAL and three in READY, paused, with the dock Refereeing.
+  static void playRefereed(Studio& s) {
+    s.controller.open(link::loadScenario("match").value(), true);
+    s.find<QDockWidget>("refereeing")->show();
+    s.find<QDockWidget>("refereeing")->raise();
+    s.controller.runTo(120);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 120);
+    QTest::mouseClick(s.find<QPushButton>("referee READY"), Qt::LeftButton);
+    QTRY_COMPARE(s.controller.frame()->referee->state, std::string("READY"));
+    s.controller.runTo(300);
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(300));
+  }
+
+ private slots:
+  void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  void theWheelChangesNothingWithoutFocus() {
+    Studio s;
+    s.play();
+    const std::uint64_t hash = s.controller.stateHash();
+    for (const char* dialog : {"Settings and teams", "Attach blackboard", "Export…", "Keyboard"}) {
+      QVERIFY2(s.menuAction(QString::fromUtf8(dialog)), dialog);
+      s.menuAction(QString::fromUtf8(dialog))->trigger();
+    }
+    s.window.field()->editPose(RobotId{1});
+    int inDialogs = 0, inDocks = 0;
+    for (QWidget* top : QApplication::topLevelWidgets()) {
+      if (top == &s.window || !top->isVisible()) continue;
+      const int found = turnOverAll(top);
+      QVERIFY(found >= 0);
+      inDialogs += found;
+    }
+    QVERIFY2(inDialogs > 8, qPrintable(QString::number(inDialogs)));
+    qDeleteAll(s.window.findChildren<QDialog*>());
+    for (auto* dock : s.window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
+      for (const bool floats : {false, true}) {
+        dock->setFloating(floats);
+        dock->show();
+        dock->raise();
+        QTRY_VERIFY2(dock->isVisible(), qPrintable(dock->windowTitle()));
+        const int found = turnOverAll(dock);
+        QVERIFY2(found >= 0, qPrintable(dock->windowTitle()));
+        inDocks += found;
+      }
+      dock->setFloating(false);
+    }
+    QVERIFY2(inDocks > 60, qPrintable(QString::number(inDocks)));
+    QVERIFY(turnOverAll(&s.window) > 10);  // the tool bar, tabs between docks
+    QCOMPARE(s.controller.stateHash(), hash);
+    QCOMPARE(s.controller.edits()->undoStack()->count(), 0);
+  }
+
+  void theWheelChangesWhatHasTheFocusAndScrollsTheRest() {
+    Studio s;
+    s.play();
+    auto* dock = s.find<QDockWidget>("noise");
+    dock->show();
+    dock->raise();
+    s.window.activateWindow();
+    QTRY_VERIFY(s.window.isActiveWindow());
+    auto* area = qobject_cast<QScrollArea*>(dock->widget());
+    QVERIFY(area);
+    QTRY_VERIFY(area->verticalScrollBar()->maximum() > 0);
+    auto* slider = area->findChild<QSlider*>();
+    s.window.field()->setFocus();
+    const QWidget* field = QApplication::focusWidget();
+    turnWheel(slider, slider->rect().center(), -120);
+    QVERIFY(area->verticalScrollBar()->value() > 0);  // what lies behind
+    QCOMPARE(QApplication::focusWidget(), field);
+    for (QWidget* control : {static_cast<QWidget*>(area->findChild<QAbstractSpinBox*>()),
+                             static_cast<QWidget*>(slider),
+                             static_cast<QWidget*>(s.find<QComboBox>("refereePenalty"))}) {
+      if (qobject_cast<QComboBox*>(control) != nullptr) {
+        s.find<QDockWidget>("refereeing")->show();
+        s.find<QDockWidget>("refereeing")->raise();
+        QTRY_VERIFY(control->isVisible());
+      }
+      QVERIFY(control->focusPolicy() != Qt::WheelFocus);
+      control->setEnabled(true);
+      control->parentWidget()->setEnabled(true);
+      control->setFocus();
+      QTRY_VERIFY2(control->hasFocus(), qPrintable(nameOf(control)));
+      const QVariant before = valueOf(control);
+      turnWheel(control, control->rect().center(), 120);
+      if (valueOf(control) == before) turnWheel(control, control->rect().center(), -120);
+      QVERIFY2(valueOf(control) != before, qPrintable(nameOf(control)));
+    }
+  }
+
+  void nothingActsOnTheMatchWhileThePastIsShown() {
+    Studio s;
+    playRefereed(s);
+    for (const char* dock : {"noise", "refereeing"}) {
+      s.find<QDockWidget>(dock)->show();
+      s.find<QDockWidget>(dock)->raise();
+    }
+    const std::uint64_t hash = s.controller.stateHash();
+    const QUndoStack* stack = s.controller.edits()->undoStack();
+    const int steps = stack->count();
+    auto* state =
+        s.find<QDockWidget>("refereeing")->findChild<QLabel*>(QStringLiteral("refereeState"));
+    QTRY_VERIFY2(state->text().startsWith(QStringLiteral("READY")), qPrintable(state->text()));
+
+    const auto lookBack = [&s] {
+      if (!s.timeline()->isLookingBack()) s.timeline()->seek(1.0);
+    };
+    lookBack();
+    QVERIFY(s.controller.edits()->isLocked());
+    // The panel shows the moment that everything else shows, and says why it is grey.
+    QVERIFY2(state->text().startsWith(QStringLiteral("INITIAL")), qPrintable(state->text()));
+    QVERIFY(state->text().contains(MatchEdits::lockedText()));
+    QCOMPARE(s.find<QComboBox>("refereeRules")->currentData().toString(),
+             QStringLiteral("humanoid-2021"));
+
+    auto* refereeing = s.find<QDockWidget>("refereeing");
+    s.find<QTableWidget>("refereeRobots")->selectRow(0);
+    for (auto* button : refereeing->findChildren<QPushButton*>()) {
+      QVERIFY2(!button->isEnabled(), qPrintable(button->text()));
+      QTest::mouseClick(button, Qt::LeftButton);
+    }
+    for (QAction* key : refereeing->findChildren<QAction*>()) key->trigger();
+    QTest::keyClick(s.find<QComboBox>("refereeRules"), Qt::Key_Down);
+    QTest::mouseClick(s.find<QWidget>("refereeAutomatic"), Qt::LeftButton);
+    QCOMPARE(s.controller.stateHash(), hash);
+
+    for (auto* slider : s.find<QDockWidget>("noise")->findChildren<QSlider*>()) {
+      QVERIFY(!slider->isEnabled());
+      QTest::keyClick(slider, Qt::Key_PageUp);
+    }
+    QTest::keyClick(s.find<QComboBox>("physicsModel"), Qt::Key_Down);
+
+    s.window.field()->setFocus();
+    for (const FieldKey& key : fieldKeys()) {
+      lookBack();
+      s.window.field()->select({RobotId{1}});
+      QTest::keyClick(s.window.field()->focusProxy(), static_cast<Qt::Key>(key.key), key.modifiers);
+      if (s.controller.stateHash() != hash) qWarning() << key.shown << "acted on the match";
+      QCOMPARE(s.controller.stateHash(), hash);
+    }
+    lookBack();
+    s.window.field()->select({RobotId{1}});
+    for (const char* text : {"Seed", "Robots decide", "Match number", "Reset score", "Speed",
+                             "Game clock runs", "Undo"}) {
+      QAction* action = s.menuAction(QString::fromUtf8(text));
+      if (action != nullptr) QVERIFY2(!action->isEnabled(), text);
+    }
+    QVERIFY(s.menuAction(QStringLiteral("Reset score")));
+    s.menuAction(QStringLiteral("Delete selected robots"))->trigger();
+    RobotCard* card = s.window.findChild<RobotsDock*>()->cards().first();
+    whenMenuOpens([](QMenu* menu) {
+      for (const char* text : {"Order", "Behaviour", "Runtime", "Team", "Remove B1"}) {
+        QVERIFY2(entryOf(menu, QString::fromUtf8(text)), text);
+        QVERIFY2(!entryOf(menu, QString::fromUtf8(text))->isEnabled(), text);
+      }
+      QVERIFY(entryOf(menu, QStringLiteral("Follow"))->isEnabled());
+    });
+    emit card->menuRequested(card->mapToGlobal(QPoint(20, 20)));
+    for (const auto order : {&MatchEdits::startProcess, &MatchEdits::stopProcess,
+                             &MatchEdits::restartProcess, &MatchEdits::killProcess}) {
+      (s.controller.edits()->*order)(1);
+    }
+    s.controller.restart();
+    QCOMPARE(s.controller.stateHash(), hash);
+    QCOMPARE(stack->count(), steps);
+    QCOMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(300));
+    QVERIFY2(s.window.notices()->text().contains(MatchEdits::lockedText()),
+             qPrintable(s.window.notices()->text()));
+
+    // At now the same controls work.
+    s.timeline()->goLive();
+    QVERIFY2(state->text().startsWith(QStringLiteral("READY")), qPrintable(state->text()));
+    QVERIFY(!state->text().contains(MatchEdits::lockedText()));
+    QTest::mouseClick(s.find<QPushButton>("referee SET"), Qt::LeftButton);
+    QTRY_VERIFY(state->text().startsWith(QStringLiteral("SET")));
+    QCOMPARE(stack->count(), steps + 1);
+    QVERIFY(s.menuAction(QStringLiteral("Reset score"))->isEnabled());
+    s.window.field()->select({RobotId{1}});
+    const std::size_t robots = s.controller.frame()->robots.size();
+    s.menuAction(QStringLiteral("Delete selected robots"))->trigger();
+    QTRY_COMPARE(s.controller.frame()->robots.size(), robots - 1);
+  }
+
+  void aCardIsDraggedOutOfAFloatingPanel() {
+    Studio s;
+    s.play();
+    auto* panel = s.find<QDockWidget>("robots");
+    auto* dock = s.window.findChild<RobotsDock*>();
+    panel->setFloating(true);
+    QTRY_COMPARE(dock->cards().size(), qsizetype(6));
+    QVERIFY(panel->isFloating() && dock->window() != &s.window);
+    QTRY_VERIFY(dock->cards()[1]->geometry().top() > dock->cards()[0]->geometry().bottom());
+    RobotCard* card = dock->cards()[0];
+    const RobotId first = card->state().id, second = dock->cards()[1]->state().id;
+    const QPoint grip(60, 30);
+    const QPoint away = card->mapFromGlobal(panel->frameGeometry().topRight() + QPoint(90, 60));
+    QTest::mousePress(card, Qt::LeftButton, {}, grip);
+    QTest::mouseMove(card, grip + QPoint(30, 0));
+    QTest::mouseMove(card, away);
+    QTest::mouseRelease(card, Qt::LeftButton, {}, away);
+    QVERIFY(dock->floating(first));
+    QVERIFY(dock->floating(first)->isFloating() && dock->floating(first)->isVisible());
+    QCOMPARE(dock->cards().size(), qsizetype(5));
+
+    whenMenuOpens([](QMenu* menu) {
+      QAction* entry = entryOf(menu, QStringLiteral("In a window of its own"));
+      QVERIFY(entry);
+      entry->trigger();
+    });
+    RobotCard* other = dock->cards()[0];
+    emit other->menuRequested(other->mapToGlobal(QPoint(20, 20)));
+    QVERIFY(dock->floating(second));
+    QVERIFY(dock->floating(second)->isVisible());
+    dock->floating(first)->close();
+    QCOMPARE(dock->cards().size(), qsizetype(5));
+    QCOMPARE(dock->cards()[0]->state().id.value, first.value);
+  }
+};
+
+QTEST_MAIN(TestSafeHands)
+#include "tst_safe_hands.moc"
