@@ -161,15 +161,16 @@ class TraceRows : public link::TickObserver {
   Result<void> m_written;
 };
 
-/// Says which processes ended before the match did.
+/// Says which processes ended before the match did, or do not play with it.
 class ProcessNews : public link::TickObserver {
  public:
   void ticked(const link::SimulatedMatch& /*match*/, std::chrono::nanoseconds /*time*/) override {}
   void happened(std::span<const link::MatchEvent> events) override {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
-      constexpr std::array told{Kind::ProcessDied, Kind::ProcessEnded, Kind::ProcessRestarted,
-                                Kind::ProcessSilent, Kind::ProcessGivenUp};
+      constexpr std::array told{
+          Kind::ProcessDied,    Kind::ProcessEnded,    Kind::ProcessRestarted,  Kind::ProcessSilent,
+          Kind::ProcessGivenUp, Kind::ProcessRealTime};
       if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
@@ -260,6 +261,7 @@ Result<void> simulate(const Arguments& arguments) {
   options.robotProgram = arguments.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")
                                                         : arguments.robotProgram;
   options.obeyReferee = arguments.obeyReferee;
+  options.speed = *speed;
   const InterruptGuard signals;
   auto match = link::SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());

@@ -72,7 +72,8 @@ Result<void> OwnPrograms::begin(const std::atomic<bool>* cancelled) {
   // What they see first is a moment of the match, not an empty blackboard.
   match.setPlaying(m_speed, true, Clock::now());
   m_player.tick();
-  match.setPlaying(1.0, false, Clock::now());
+  match.setPlaying(m_speed, false, Clock::now());
+  match.slowTo(1.0, Clock::now());
   const auto latest = Clock::now() + mostPatience;
   while (!areThere() && Clock::now() < latest) {
     if (cancelled && *cancelled) return {};
@@ -81,14 +82,14 @@ Result<void> OwnPrograms::begin(const std::atomic<bool>* cancelled) {
   }
   if (auto here = missing(); !here) return here;
   m_looked = m_followed = Clock::now();
-  setSpeed(m_speed, m_looked);
+  setSpeed(match.ownPace(m_speed, m_speed), m_looked);
   return {};
 }
 
 void OwnPrograms::setSpeed(double speed, Clock::time_point now) {
   m_now = speed;
   SimulatedMatch& match = m_player.match();
-  match.setPlaying(speed, false, now);
+  match.slowTo(speed, now);
   m_pacer.start(now, m_player.currentTick(), speed * match.simulation().state().settings.tickRate);
 }
 
@@ -102,7 +103,7 @@ void OwnPrograms::look(Clock::time_point now) {
   m_looks += 1.0;
   if (now - m_followed < ownPaceInterval) return;
   m_followed = now;
-  const double speed = paceWithOwnPrograms(m_speed, m_now, slowest);
+  const double speed = match.ownPace(m_speed, m_now);
   if (speed != m_now) setSpeed(speed, now);
 }
 

@@ -36,7 +36,8 @@ class MatchEvents {
 
   void add(MatchEvent event);
   void lookAtGame(const sim::WorldState& state, double time, std::string_view finishedBy);
-  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, const ProcessNews& news);
+  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, RobotId robot,
+                       const std::string& process);
 
   std::vector<MatchEvent> m_events;
   Game m_game = Game::Unknown;

@@ -28,6 +28,14 @@ struct ProcessUse {
 /// Nothing once it is gone.
 std::optional<ProcessUse> processUse(pid_t pid);
 
+struct ThreadWaits {
+  std::uint64_t sleeps = 0;  ///< of all threads: how often they went to sleep by themselves
+  bool forEver = false;      ///< one of them waits with a time limit that is years away
+};
+
+/// What its threads wait for. Nothing for ever where the system does not let us look.
+ThreadWaits threadWaits(pid_t pid);
+
 /// Living processes of this user whose mark begins with `mark`, but for ourselves.
 std::vector<pid_t> markedProcesses(std::string_view mark);
 
