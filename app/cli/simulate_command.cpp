@@ -170,7 +170,7 @@ class ProcessNews : public link::TickObserver {
       using Kind = link::MatchEventKind;
       constexpr std::array told{
           Kind::ProcessDied,    Kind::ProcessEnded,    Kind::ProcessRestarted,  Kind::ProcessSilent,
-          Kind::ProcessGivenUp, Kind::ProcessRealTime};
+          Kind::ProcessGivenUp, Kind::ProcessRealTime, Kind::ProcessNotAttached};
       if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());

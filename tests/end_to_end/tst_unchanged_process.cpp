@@ -49,7 +49,8 @@ class TestUnchangedProcess : public QObject {
   }
 
   /// A match of one robot, a metre behind the ball, whose processes are those of the profile.
-  std::unique_ptr<MatchRunner> startWith(const QByteArray& profile, bool paused, double speed = 1.0) const {
+  std::unique_ptr<MatchRunner> startWith(const QByteArray& profile, bool paused, double speed = 1.0,
+                                         std::optional<double> duration = {}) const {
     QFile file(m_folder.filePath("profile.json"));
     if (!file.open(QIODevice::WriteOnly)) qFatal("no profile can be written");
     file.write(profile);
@@ -61,6 +62,7 @@ class TestUnchangedProcess : public QObject {
     robot.runtime.profile = file.fileName().toStdString();
     scenario.robots = {robot};
     scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
+    scenario.stop.duration = duration;
     MatchOptions options;
     options.cognition = Cognition::External;
     options.keyBase = m_base;
@@ -283,6 +285,18 @@ class TestUnchangedProcess : public QObject {
     });
     QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).restarts, 1, 30'000);
     QCOMPARE(timeVariables(*runner).contains("libfaketime"), startedAt == 1.0);
+  }
+
+  // A minute is played in no time: without waiting it would be over before Python runs.
+  void asFastAsPossibleItWaitsForTheProgram() {
+    const auto runner = startWith(
+        profileOf({"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py", "${key}"}),
+        false, MatchRunner::unlimitedSpeed, 60.0);
+    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->finished, 60'000);
+    QVERIFY(runner->latest()->robots[0].statistics.distanceWalked > 0.1);
+    for (const MatchEvent& event : runner->takeEvents()) {
+      QVERIFY2(event.kind != MatchEventKind::ProcessNotAttached, sentenceOf(event).c_str());
+    }
   }
 
   // Played faster than a team's program can think, the match slows down to it when the user wants,

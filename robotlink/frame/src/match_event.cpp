@@ -64,6 +64,8 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      true, ""},
     {Kind::ProcessRealTime, "process-real-time", "keeps real time", Shape::None, 0, false, true,
      ""},
+    {Kind::ProcessNotAttached, "process-not-attached", "has not attached to its blackboard",
+     Shape::Warning, 5, false, true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
     {Kind::PortBack, "port-back", "is received now", Shape::None, 0, false, false, "network"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
@@ -166,6 +168,8 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::ProcessRestarted:
       return std::string(info(event.kind).words) +
              (event.value ? " (process " + std::to_string(*event.value) + ')' : std::string());
+    case Kind::ProcessNotAttached:
+      return wordsAnd(event, " ");
     case Kind::PortLost:
       return event.detail + " It is tried again; the other ports work.";
     case Kind::PortBack:

@@ -88,6 +88,13 @@ void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<Proce
   }
 }
 
+void MatchEvents::notAttached(const sim::WorldState& state, RobotId robot,
+                              const std::string& process, std::string detail) {
+  MatchEvent event = ofProcess(MatchEventKind::ProcessNotAttached, state, robot, process);
+  event.detail = std::move(detail);
+  add(std::move(event));
+}
+
 void MatchEvents::take(std::vector<MatchEvent>& out) {
   out.insert(out.end(), std::make_move_iterator(m_events.begin()),
              std::make_move_iterator(m_events.end()));

@@ -102,4 +102,17 @@ void ProcessManager::watchWaits(Entry& entry, Time now) {
   }
 }
 
+bool ProcessManager::hasSegment(int id, int shmid) const {
+  const ProcessStatus* one = status(id);
+  if (!one || one->pid == 0) return false;
+  if (mapsSegment(one->pid, shmid)) return true;
+  for (const Entry& entry : m_entries) {
+    if (entry.id != id) continue;
+    for (const pid_t pid : m_supervisor.startedBy(entry.handle)) {
+      if (mapsSegment(pid, shmid)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace pitchboard::link

@@ -101,6 +101,24 @@ ThreadWaits threadWaits(pid_t pid) {
   return all;
 }
 
+bool mapsSegment(pid_t pid, int shmid) {
+  const auto maps = readFile(folderOf(pid) + "/maps", mostBytes);
+  if (!maps) {
+    const auto use = processUse(pid);
+    return use && use->state != 'Z';
+  }
+  std::istringstream lines(*maps);
+  // addresses, rights, offset, device, the segment's number, /SYSV and its key
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string skipped, path;
+    long long inode = 0;
+    fields >> skipped >> skipped >> skipped >> skipped >> inode >> path;
+    if (inode == shmid && path.starts_with("/SYSV")) return true;
+  }
+  return false;
+}
+
 std::vector<pid_t> markedProcesses(std::string_view mark) {
   std::vector<pid_t> found;
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir("/proc"), &::closedir);

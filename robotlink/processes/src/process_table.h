@@ -36,6 +36,9 @@ struct ThreadWaits {
 /// What its threads wait for. Nothing for ever where the system does not let us look.
 ThreadWaits threadWaits(pid_t pid);
 
+/// It has attached to this System V segment. True where the system does not let us look.
+bool mapsSegment(pid_t pid, int shmid);
+
 /// Living processes of this user whose mark begins with `mark`, but for ourselves.
 std::vector<pid_t> markedProcesses(std::string_view mark);
 

@@ -54,12 +54,13 @@ enum class MatchEventKind : std::uint8_t {
   ProcessSilent,       ///< robot, process; detail: for how long there was no sign of life
   ProcessGivenUp,      ///< robot, process; it ends again and again and is not started any more
   ProcessRealTime,     ///< robot, process; it does not follow the match's speed; detail: why
+  ProcessNotAttached,  ///< robot, process; the match does not wait for it; detail: how long it has
   PortLost,            ///< value: the port; detail: why it cannot be received
   PortBack,            ///< value: the port
   Bookmark,            ///< detail: the user's note
   Other                ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 38;
+inline constexpr std::size_t matchEventKindCount = 39;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

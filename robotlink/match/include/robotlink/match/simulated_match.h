@@ -140,6 +140,13 @@ class SimulatedMatch {
   /// At which pace to go on to `wanted` with a team's programs: see paceWithOwnPrograms(). Faster
   /// than real time only when the clocks of all of them can follow.
   double ownPace(double wanted, double now) const;
+  /// A team's program that has just been started has not attached to its blackboard, so that a
+  /// match without a pace is to wait; meanwhile the clocks of programs run at ×1. Ask again, and
+  /// look after the processes, until it is false: the last one has attached, or ended, or was given
+  /// up after its `silent_after`, at least 10 s (an event names it).
+  bool awaitsPrograms(std::chrono::steady_clock::time_point now);
+  /// This program, or one that it started, has attached to the blackboard of its robot.
+  bool hasAttached(const ProcessStatus& program) const;
   /// Lets a team's own programs go on for this time while the match stands still.
   void letOwnProgramsRun(std::chrono::duration<double> time);
   void setPace(RobotsPace pace) { m_options.pace = pace; }
@@ -248,6 +255,7 @@ class SimulatedMatch {
   void endProcesses(Seat& seat);
   void runSeparate(Seat& seat, SeatProcess& process);
   void runFreely(Seat& seat, SeatProcess& process);
+  bool isAwaited(const Seat& seat, SeatProcess& process, std::chrono::steady_clock::time_point now);
   bool dueNow(SeatProcess& process, std::optional<double> period);
   void giveTurn(Seat& seat, SeatProcess& process, bool lockStep);
   std::shared_ptr<TeamChannel> teamChannel(RobotId id);

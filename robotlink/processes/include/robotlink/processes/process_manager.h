@@ -168,6 +168,9 @@ class ProcessManager {
   const std::vector<ProcessStatus>& statuses() const { return m_statuses; }
   std::uint64_t version() const { return m_version; }
   const ProcessStatus* status(int id) const;
+  /// It, or a program that it started, has attached to this System V segment. True where the system
+  /// does not let us see it. Costs some milliseconds while it has not.
+  bool hasSegment(int id, int shmid) const;
   std::vector<ProcessNews> takeNews();
   /// What they wrote, the newest 10 000 lines.
   std::vector<ProcessLine> takeLines();
