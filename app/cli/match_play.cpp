@@ -38,8 +38,9 @@ class ProcessNews : public link::TickObserver {
   void happened(std::span<const link::MatchEvent> events) override {
     for (const link::MatchEvent& event : events) {
       using Kind = link::MatchEventKind;
-      constexpr std::array told{Kind::ProcessDied, Kind::ProcessEnded, Kind::ProcessRestarted,
-                                Kind::ProcessSilent, Kind::ProcessGivenUp};
+      constexpr std::array told{
+          Kind::ProcessDied,    Kind::ProcessEnded,    Kind::ProcessRestarted,  Kind::ProcessSilent,
+          Kind::ProcessGivenUp, Kind::ProcessRealTime, Kind::ProcessNotAttached};
       if (std::find(told.begin(), told.end(), event.kind) == told.end()) continue;
       std::fprintf(stderr, "%s%s\n", link::info(event.kind).warning ? "warning: " : "",
                    link::sentenceOf(event).c_str());
@@ -175,8 +176,11 @@ Result<link::Scenario> scenarioToPlay(Result<link::Scenario> scenario, const Pla
 
 Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario, const PlayOptions& options,
                                          link::Cognition cognition) {
+  const auto speed = speedOf(options, cognition);
+  if (!speed) return tl::unexpected(speed.error());
   shared::warnOfIgnoredSettings(scenario);
   link::MatchOptions made;
+  made.speed = *speed;
   made.cognition = cognition;
   shared::apply(options.robots, made);
   made.robotProgram = options.robotProgram.empty() ? link::besideOwnProgram("pitchboard-robot")

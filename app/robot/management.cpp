@@ -47,6 +47,8 @@ std::string wordsOf(const link::ProcessNews& news) {
       return "showed " + news.detail + " and was ended" + again;
     case Kind::GivenUp:
       return "is not started any more: " + news.detail;
+    case Kind::RealTime:
+      return "keeps real time: " + news.detail;
   }
   return {};
 }

@@ -187,6 +187,55 @@ class TestCliSimulate : public QObject {
     QVERIFY2(run.err.startsWith("error: ") && run.err.contains(words), run.err.constData());
   }
 
+  // As fast as possible a match is over before a program in Python has begun: it is waited for.
+  void asFastAsPossibleAMatchWaitsForPrograms_data() {
+    QTest::addColumn<QStringList>("command");
+    QTest::addColumn<bool>("plays");
+    const QString late =
+        "import runpy, time\ntime.sleep(2)\n"
+        "runpy.run_path('" PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py')";
+    QTest::newRow("begins late") << QStringList{"python3", "-c", late, "${key}"} << true;
+    QTest::newRow("is started by another one")
+        << QStringList{"/bin/sh", "-c", "python3 -c \"$0\" $1; true", late, "${key}"} << true;
+    QTest::newRow("never attaches") << QStringList{"/bin/sleep", "600"} << false;
+  }
+  void asFastAsPossibleAMatchWaitsForPrograms() {
+    QFETCH(QStringList, command);
+    QFETCH(bool, plays);
+    QTemporaryDir dir;
+    const auto write = [&dir](const char* name, const QJsonObject& json) {
+      QFile file(dir.filePath(name));
+      if (!file.open(QIODevice::WriteOnly)) qFatal("no file");
+      file.write(QJsonDocument(json).toJson());
+      return file.fileName();
+    };
+    const QString profile = write(
+        "profile.json",
+        {{"version", 1},
+         {"name", "own"},
+         {"processes", QJsonArray{QJsonObject{{"name", "decision"},
+                                              {"command", QJsonArray::fromStringList(command)}}}}});
+    const QString scenario =
+        write("scenario.json",
+              {{"version", 1},
+               {"noise", "none"},
+               {"robots",
+                QJsonArray{QJsonObject{
+                    {"team", "blue"}, {"number", 1}, {"x", -1}, {"y", 0}, {"runtime", profile}}}},
+               {"writes", QJsonArray{QJsonObject{{"variable", "COM_REFEREE"}, {"value", 2}}}}});
+    const Run run = simulate({"--scenario", scenario, "--cognition", "external", "--speed", "max",
+                              "--duration", "60", "--json"});
+    QCOMPARE(run.exitCode, 0);
+    const QJsonObject out = QJsonDocument::fromJson(run.out).object();
+    QCOMPARE(out["simulated_seconds"].toDouble(), 60.0);
+    const double walked = out["robots"].toArray()[0].toObject()["distance_m"].toDouble();
+    QCOMPARE(walked > 0.1, plays);
+    const QByteArray told =
+        "warning: B1 decision has not attached to its blackboard after 10 s; the match starts "
+        "without it\n";
+    QCOMPARE(QByteArray(run.err), plays ? QByteArray() : told);
+  }
+
   void aSignalEndsProcessesAndRemovesSegments() {
     const int base = testKeyBase();
     QProcess process;

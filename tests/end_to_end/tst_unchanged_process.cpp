@@ -4,6 +4,8 @@
 #include <robotlink/match/simulated_match.h>
 
 #include <QElapsedTimer>
+#include <QJsonArray>
+#include <QJsonDocument>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -22,8 +24,33 @@ class TestUnchangedProcess : public QObject {
   const int m_base = testKeyBase();
   const QTemporaryDir m_folder;
 
+  /// A profile of one process; `more`: further keys of it.
+  static QByteArray profileOf(const QStringList& command, const QByteArray& more = {}) {
+    return R"({"version": 1, "name": "own", "processes": [{"name": "decision", "command": )" +
+           QJsonDocument(QJsonArray::fromStringList(command)).toJson(QJsonDocument::Compact) +
+           more + "}]}";
+  }
+
+  static ProcessStatus firstProgram(const MatchRunner& runner) {
+    const auto frame = runner.latest();
+    const auto all = frame->robots[0].processes();
+    return all.empty() ? ProcessStatus{} : all.front();
+  }
+
+  /// What is loaded into the first program of the match, and how it gets its time.
+  static QByteArray timeVariables(const MatchRunner& runner) {
+    QByteArray found;
+    QFile environment(QStringLiteral("/proc/%1/environ").arg(firstProgram(runner).pid));
+    if (!environment.open(QIODevice::ReadOnly)) return "no environment";
+    for (const QByteArray& one : environment.readAll().split('\0')) {
+      if (one.contains("faketime") || one.startsWith("FAKETIME")) found += one + ' ';
+    }
+    return found;
+  }
+
   /// A match of one robot, a metre behind the ball, whose processes are those of the profile.
-  std::unique_ptr<MatchRunner> startWith(const char* profile, bool paused) const {
+  std::unique_ptr<MatchRunner> startWith(const QByteArray& profile, bool paused, double speed = 1.0,
+                                         std::optional<double> duration = {}) const {
     QFile file(m_folder.filePath("profile.json"));
     if (!file.open(QIODevice::WriteOnly)) qFatal("no profile can be written");
     file.write(profile);
@@ -35,10 +62,12 @@ class TestUnchangedProcess : public QObject {
     robot.runtime.profile = file.fileName().toStdString();
     scenario.robots = {robot};
     scenario.writes = {{{1}, "COM_REFEREE", 2, 0.0}};
+    scenario.stop.duration = duration;
     MatchOptions options;
     options.cognition = Cognition::External;
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    options.speed = speed;
     auto runner = MatchRunner::start(scenario, options, paused);
     if (!runner) qFatal("%s", runner.error().text().c_str());
     return std::move(*runner);
@@ -142,8 +171,7 @@ class TestUnchangedProcess : public QObject {
     auto runner = startWith(R"({"version": 1, "name": "python", "processes": [{"name":
       "decision", "command": ["python3", "naive_robot.py", "${key}"], "directory": ")" PITCHBOARD_SOURCE_DIR
                             R"(/tests/end_to_end", "heartbeat": "DECISION_WORKING"}]})",
-                            true);
-    runner->setSpeed(speed);
+                            true, speed);
     runner->setPaused(false);
     double walkedAtKick = 0.0, ballPath = 0.0;
     const auto kicked = [&] {
@@ -175,6 +203,102 @@ class TestUnchangedProcess : public QObject {
     QVERIFY(!SystemVSegments::info(m_base + 100));
   }
 
+  // At ×1 nothing stands between a program and the system, so every kind of wait returns.
+  void timedWaitsReturnAtRealTime_data() {
+    QTest::addColumn<QStringList>("program");
+    QTest::addColumn<std::vector<std::string>>("lines");
+    QTest::newRow("Python") << QStringList{"python3",
+                                           PITCHBOARD_SOURCE_DIR "/tests/end_to_end/timed_waits.py"}
+                            << std::vector<std::string>{"began", "Event.wait", "queue.get",
+                                                        "lock.acquire"};
+    QTest::newRow("C++") << QStringList{QCoreApplication::applicationDirPath() + "/timed_waits"}
+                         << std::vector<std::string>{"began", "wait_for", "wait_until"};
+  }
+  void timedWaitsReturnAtRealTime() {
+    QFETCH(QStringList, program);
+    QFETCH(std::vector<std::string>, lines);
+    const auto runner = startWith(profileOf(program), false);
+    QCOMPARE(timeVariables(*runner), QByteArray());
+    std::vector<std::string> said;
+    std::vector<double> times;  // of the match
+    const auto isDone = [&] {
+      for (const LogLine& line : runner->takeLog()) {
+        said.push_back(line.text);
+        times.push_back(line.time);
+      }
+      return said.size() >= lines.size();
+    };
+    // A wait that does not return fails here.
+    QTRY_VERIFY2_WITH_TIMEOUT(isDone(), said.empty() ? "nothing" : said.back().c_str(), 60'000);
+    QCOMPARE(said, lines);
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      const double waited = times[i] - times[i - 1];
+      QVERIFY2(waited > 0.3 && waited < 20.0, qPrintable(QString::number(waited)));
+    }
+    QVERIFY(firstProgram(*runner).hangs.empty());
+  }
+
+  // Who keeps real time has nothing loaded, and is named as soon as the match does not.
+  void whoKeepsRealTimeIsNamed_data() {
+    QTest::addColumn<QByteArray>("more");
+    QTest::addColumn<double>("startedAt");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("started at ×1")
+        << QByteArray() << 1.0
+        << "B1 decision keeps real time: restart to follow the match's speed";
+    QTest::newRow("clock real")
+        << QByteArray(R"(, "clock": "real")") << 8.0
+        << R"(B1 decision keeps real time: its runtime profile says "clock": "real")";
+  }
+  void whoKeepsRealTimeIsNamed() {
+    QFETCH(QByteArray, more);
+    QFETCH(double, startedAt);
+    QFETCH(QString, sentence);
+    const auto runner = startWith(profileOf({"/bin/sleep", "600"}, more), false, startedAt);
+    QTRY_VERIFY(firstProgram(*runner).pid != 0);
+    QCOMPARE(timeVariables(*runner), QByteArray());
+    QStringList told;
+    const auto isTold = [&] {
+      for (const MatchEvent& event : runner->takeEvents()) {
+        if (event.kind != MatchEventKind::ProcessRealTime) continue;
+        told << QString::fromStdString(sentenceOf(event));
+      }
+      return !told.isEmpty();
+    };
+    if (startedAt == 1.0) QVERIFY(!isTold());
+    runner->setSpeed(8.0);
+    QTRY_VERIFY_WITH_TIMEOUT(isTold(), 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(runner->latest()->slowestOwnProgram, std::optional(1.0), 30'000);
+    // A match that waits for its programs does not leave it behind.
+    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(true); });
+    QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 1.0, 30'000);
+    runner->execute([](SimulatedMatch& match) { match.setWaitForOwnPrograms(false); });
+    runner->setSpeed(4.0);
+    QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).speed, 4.0, 30'000);
+    (void)isTold();
+    QCOMPARE(told, QStringList{sentence});
+    if (FakeTime::library().empty()) return;
+    // Started again it follows, unless it is not to.
+    runner->execute([](SimulatedMatch& match) {
+      ProcessManager& processes = match.processes();
+      processes.restart(processes.statuses().front().id, std::chrono::steady_clock::now());
+    });
+    QTRY_COMPARE_WITH_TIMEOUT(firstProgram(*runner).restarts, 1, 30'000);
+    QCOMPARE(timeVariables(*runner).contains("libfaketime"), startedAt == 1.0);
+  }
+
+  // A minute is played in no time: without waiting it would be over before Python runs.
+  void asFastAsPossibleItWaitsForTheProgram() {
+    const auto runner = startWith(
+        profileOf({"python3", PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py", "${key}"}),
+        false, MatchRunner::unlimitedSpeed, 60.0);
+    QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->finished, 60'000);
+    QVERIFY(runner->latest()->robots[0].statistics.distanceWalked > 0.1);
+    for (const MatchEvent& event : runner->takeEvents()) {
+      QVERIFY2(event.kind != MatchEventKind::ProcessNotAttached, sentenceOf(event).c_str());
+    }
+  }
+
   // Played faster than a team's program can think, the match slows down to it when the user wants,
   // and is as fast as it was asked to be when not.
   void theMatchWaitsForOwnProgramsWhenAsked() {
@@ -183,12 +307,9 @@ class TestUnchangedProcess : public QObject {
     auto runner = startWith(R"json({"version": 1, "name": "slow", "processes": [{"name":
       "decision", "command": ["python3", "-c",
         "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)"]}]})json",
-                            false);
-    const auto program = [&runner] {
-      const auto frame = runner->latest();
-      const auto all = frame->robots[0].processes();
-      return all.empty() ? ProcessStatus{} : all.front();
-    };
+                            false, wanted);
+    const auto program = [&runner] { return firstProgram(*runner); };
+    runner->setSpeed(1.0);
     // At x1 it is learned what the program does in a second of its own.
     QTRY_VERIFY_WITH_TIMEOUT(program().achieved == 1.0, 30'000);
     runner->setSpeed(wanted);

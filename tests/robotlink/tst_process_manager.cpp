@@ -284,53 +284,6 @@ class TestProcessManager : public QObject {
     QVERIFY(status(ids[2]).started >= status(ids[1]).started + std::chrono::milliseconds(50));
   }
 
-  // A program knows its time by sleeping and by looking at clocks: both follow the speed.
-  void aForeignProgramsTimeFollowsTheMatch() {
-    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
-    ManagedProcess process = shell("");
-    process.spec.command = {"python3", "-u", "-c",
-                            "import time\nt = time.time(); m = time.monotonic()\n"
-                            "while True:\n time.sleep(1)\n print(round(time.time() - t), "
-                            "round(time.monotonic() - m))\n"};
-    process.ownTime = true;
-    m_manager->setSpeed(50.0, SteadyClock::now());
-    const int id = add(process);
-    QTRY_VERIFY_WITH_TIMEOUT(m_lines.size() > 60 || (look(), false), 40'000);
-    // Sixty sleeps of a second; a busy computer wakes it late, but both of its clocks agree.
-    int passed = 0, monotonic = 0;
-    QCOMPARE(std::sscanf(m_lines[59].c_str(), "%d %d", &passed, &monotonic), 2);
-    QVERIFY2(passed >= 60 && std::abs(passed - monotonic) <= 1, m_lines[59].c_str());
-    // Its time stands still while it is stopped, and goes on from there.
-    m_manager->setPaused(true, SteadyClock::now());
-    look();
-    const int before = std::stoi(m_lines.back());
-    QTest::qWait(1000);  // 50 s at its speed
-    look();
-    m_lines.clear();
-    m_manager->setPaused(false, SteadyClock::now());
-    QTRY_VERIFY((look(), !m_lines.empty()));
-    QVERIFY2(std::stoi(m_lines.front()) <= before + 25, m_lines.front().c_str());
-    const pid_t pid = status(id).pid;
-    m_manager->stop(id);
-    QVERIFY(!QFile::exists(QString("/dev/shm/faketime_shm_%1").arg(pid)));
-  }
-
-  // Work, and half a second of sleep: at a high speed nothing is left of the sleep.
-  void whatAProgramCannotKeepUpWithIsTold() {
-    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
-    ManagedProcess process = shell("");
-    process.spec.command = {"python3", "-c",
-                            "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)\n"};
-    process.ownTime = true;
-    const int id = add(process);
-    QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved == 1.0), 30'000);
-    m_manager->setSpeed(1000.0, SteadyClock::now());
-    QCOMPARE(status(id).achieved, 0.0);
-    QTRY_VERIFY_WITH_TIMEOUT((look(), status(id).achieved > 0.0 && status(id).achieved < 900.0),
-                             20'000);
-    QCOMPARE(status(id).speed, 1000.0);
-  }
-
   // The guard of a supervisor that is killed ends grandchildren and removes segments.
   void nothingSurvivesAKilledSupervisor() {
     QProcess host;

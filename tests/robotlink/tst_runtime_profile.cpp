@@ -74,7 +74,8 @@ class TestRuntimeProfile : public QObject {
         "directory": "/home/robot", "environment": {"SIDE": "${side}"}, "delay": 0.5,
         "heartbeat": "DECISION_WORKING", "silent_after": 2, "restart": "on_failure",
         "first_wait": 0.1, "longest_wait": 3, "steady_after": 20, "give_up_after": 5,
-        "stop_signal": "INT", "watch_program": true, "only_for": "everyone"}]})",
+        "stop_signal": "INT", "watch_program": true, "only_for": "everyone",
+        "clock": "real"}]})",
                                                 "team.json");
     QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
     const ProfileProcess& process = profile->processes.front();
@@ -88,6 +89,8 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(process.restart.longestWait.count(), 3.0);
     QCOMPARE(process.stopSignal, SIGINT);
     QVERIFY(process.watchFile && profile->hasOwn());
+    QVERIFY(process.clock == ProfileProcess::Clock::Real);
+    QVERIFY(ProfileProcess{}.clock == ProfileProcess::Clock::Match);
     QCOMPARE(expanded("a ${x}b${x}", {{"x", "1"}}).value(), std::string("a 1b1"));
     QVERIFY(!expanded("a ${y}", {{"x", "1"}}));
     QVERIFY(!expanded("a ${x", {{"x", "1"}}));
@@ -117,6 +120,10 @@ class TestRuntimeProfile : public QObject {
         "processes[0].stop_signal: there is no signal");
     row("time", R"([{"name": "a", "command": ["b"], "silent_after": 0}])",
         "processes[0].silent_after: must");
+    row("clock", R"([{"name": "a", "command": ["b"], "clock": "rael"}])",
+        "processes[0].clock: there is no clock \"rael\"; did you mean \"real\"");
+    row("clock of ours", R"([{"name": "a", "reference": "decision", "clock": "real"}])",
+        "processes[0].clock: is for a process with \"command\"");
     row("environment", R"([{"name": "a", "command": ["b"], "environment": {"A": 3}}])",
         "processes[0].environment.A");
   }

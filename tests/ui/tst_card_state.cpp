@@ -104,6 +104,25 @@ class TestCardState : public QObject {
     QCOMPARE(tracker.update(frame, 100)[0].lamps[0].state, LampState::Silent);
   }
 
+  // The robot does what its program last said: nothing else on the card is worth more.
+  void aProgramThatHangsIsNamedWithTheReason() {
+    CardTracker tracker;
+    link::MatchFrame frame = frameOf(1);
+    link::ProcessStatus process;
+    process.robot = RobotId{4};
+    process.name = "decision";
+    process.state = link::ProcessState::Restarting;
+    process.hangs = "its timed waits cannot follow its clock.";
+    frame.robots[0].board->voltage = 151;
+    frame.robots[0].processList =
+        std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
+    const CardState card = tracker.update(frame, 0)[0];
+    QCOMPARE(card.tag, QStringLiteral("decision stopped responding"));
+    QCOMPARE(card.tagTip, QStringLiteral("R2 decision stopped responding: its timed waits cannot "
+                                         "follow its clock."));
+    QCOMPARE(card.tagKind, TagKind::Error);
+  }
+
   void tags_data() {
     QTest::addColumn<int>("voltage");
     QTest::addColumn<bool>("fallen");

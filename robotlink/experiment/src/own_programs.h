@@ -18,8 +18,8 @@ class OwnPrograms {
   /// `speed`: times real time, at most. The match must outlive it.
   OwnPrograms(MatchPlayer& player, double speed) : m_player(player), m_speed(speed), m_now(speed) {}
 
-  /// The first tick, so that there is something to be seen, and then until every program has its
-  /// robot's blackboard. Error NotFound when one of them does not run; none when `cancelled`.
+  /// Until the match awaits none of its programs (MatchPlayer::awaitPrograms()). Error NotFound
+  /// when one of them does not run; none when `cancelled`.
   Result<void> begin(const std::atomic<bool>* cancelled);
   /// Until the next tick is due; looks after the processes meanwhile.
   void wait();
@@ -27,8 +27,6 @@ class OwnPrograms {
   double keptUp() const { return m_looks > 0 ? m_kept / m_looks : 1.0; }
 
  private:
-  bool isThere(const ProcessStatus& program) const;
-  bool areThere() const;
   Result<void> missing() const;
   void look(Clock::time_point now);
   void setSpeed(double speed, Clock::time_point now);

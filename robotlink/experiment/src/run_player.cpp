@@ -98,6 +98,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   MatchOptions options;
   options.cognition = e.separateProcesses ? Cognition::External : Cognition::Inline;
   options.robotProgram = m_settings.robotProgram;
+  options.speed = e.ownPrograms ? e.speed : MatchPlayer::unlimitedSpeed;
   auto match = SimulatedMatch::create(*scenario, options);
   if (!match) return tl::unexpected(match.error());
 

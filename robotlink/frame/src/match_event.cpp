@@ -58,9 +58,14 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      ""},
     {Kind::ProcessEnded, "process-ended", "ended", Shape::None, 0, false, false, ""},
     {Kind::ProcessDied, "process-died", "died", Shape::Died, 8, false, true, ""},
-    {Kind::ProcessSilent, "process-silent", "is silent", Shape::Silent, 7, false, true, ""},
+    {Kind::ProcessSilent, "process-silent", "stopped responding", Shape::Silent, 7, false, true,
+     ""},
     {Kind::ProcessGivenUp, "process-given-up", "is not started any more", Shape::Died, 8, false,
      true, ""},
+    {Kind::ProcessRealTime, "process-real-time", "keeps real time", Shape::None, 0, false, true,
+     ""},
+    {Kind::ProcessNotAttached, "process-not-attached", "has not attached to its blackboard",
+     Shape::Warning, 5, false, true, ""},
     {Kind::PortLost, "port-lost", "cannot be received", Shape::None, 0, false, true, "network"},
     {Kind::PortBack, "port-back", "is received now", Shape::None, 0, false, false, "network"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
@@ -163,6 +168,8 @@ std::string predicateOf(const MatchEvent& event) {
     case Kind::ProcessRestarted:
       return std::string(info(event.kind).words) +
              (event.value ? " (process " + std::to_string(*event.value) + ')' : std::string());
+    case Kind::ProcessNotAttached:
+      return wordsAnd(event, " ");
     case Kind::PortLost:
       return event.detail + " It is tried again; the other ports work.";
     case Kind::PortBack:

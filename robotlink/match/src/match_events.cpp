@@ -35,22 +35,22 @@ void MatchEvents::lookAtGame(const sim::WorldState& state, double time,
   add(std::move(event));
 }
 
-MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& state,
-                                  const ProcessNews& news) {
+MatchEvent MatchEvents::ofProcess(MatchEventKind kind, const sim::WorldState& state, RobotId id,
+                                  const std::string& process) {
   const double time = static_cast<double>(state.tick) / state.settings.tickRate;
   const auto robot = std::find_if(state.robots.begin(), state.robots.end(),
-                                  [&news](const auto& r) { return r.id == news.robot; });
+                                  [id](const auto& r) { return r.id == id; });
   MatchEvent event;
   if (robot != state.robots.end()) {
     event = eventOf(kind, time, *robot);
-    m_names[news.robot] = event.name;
+    m_names[id] = event.name;
   } else {
     event.kind = kind;
     event.time = time;
-    event.robot = news.robot;
-    event.name = m_names[news.robot];
+    event.robot = id;
+    event.name = m_names[id];
   }
-  event.process = news.process;
+  event.process = process;
   return event;
 }
 
@@ -76,13 +76,23 @@ void MatchEvents::takeNews(const sim::WorldState& state, const std::vector<Proce
       case ProcessNewsKind::GivenUp:
         kind = MatchEventKind::ProcessGivenUp;
         break;
+      case ProcessNewsKind::RealTime:
+        kind = MatchEventKind::ProcessRealTime;
+        break;
     }
-    MatchEvent event = ofProcess(kind, state, one);
+    MatchEvent event = ofProcess(kind, state, one.robot, one.process);
     event.detail = one.detail;
     if (!one.lastWords.empty()) event.detail += "; its last words: " + one.lastWords;
     if (one.detail.empty()) event.value = static_cast<int>(one.pid);
     add(std::move(event));
   }
+}
+
+void MatchEvents::notAttached(const sim::WorldState& state, RobotId robot,
+                              const std::string& process, std::string detail) {
+  MatchEvent event = ofProcess(MatchEventKind::ProcessNotAttached, state, robot, process);
+  event.detail = std::move(detail);
+  add(std::move(event));
 }
 
 void MatchEvents::take(std::vector<MatchEvent>& out) {

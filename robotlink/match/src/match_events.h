@@ -27,6 +27,9 @@ class MatchEvents {
   void look(const sim::WorldState& state, std::string_view finishedBy);
   /// What the supervisor tells of processes.
   void takeNews(const sim::WorldState& state, const std::vector<ProcessNews>& news);
+  /// A team's program, which the match does not wait for any longer.
+  void notAttached(const sim::WorldState& state, RobotId robot, const std::string& process,
+                   std::string detail);
   /// Appends what came since the last call, at most the newest 1000.
   void take(std::vector<MatchEvent>& out);
 
@@ -36,7 +39,8 @@ class MatchEvents {
 
   void add(MatchEvent event);
   void lookAtGame(const sim::WorldState& state, double time, std::string_view finishedBy);
-  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, const ProcessNews& news);
+  MatchEvent ofProcess(MatchEventKind kind, const sim::WorldState& state, RobotId robot,
+                       const std::string& process);
 
   std::vector<MatchEvent> m_events;
   Game m_game = Game::Unknown;

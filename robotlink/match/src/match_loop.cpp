@@ -160,13 +160,11 @@ void MatchLoop::followOwnPrograms(Clock::time_point now) {
   }
   m_lastFollow = now;
   const double speed =
-      m_match.waitsForOwnPrograms()
-          ? paceWithOwnPrograms(m_wantedSpeed, m_speed, m_match.slowestOwnProgram())
-          : m_wantedSpeed;
+      m_match.waitsForOwnPrograms() ? m_match.ownPace(m_wantedSpeed, m_speed) : m_wantedSpeed;
   if (speed == m_speed) return;
   m_speed = speed;
   m_player.setSpeed(speed, now);
-  m_match.setPlaying(speed, m_still, now);
+  m_match.slowTo(speed, now);
 }
 
 bool MatchLoop::refreshesWhileStill() const {

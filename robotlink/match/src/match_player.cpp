@@ -8,6 +8,7 @@ namespace {
 
 // Then whoever plays can look after commands, frames, child processes and a stop.
 constexpr std::chrono::milliseconds longestBatch{8};
+constexpr std::chrono::milliseconds awaitInterval{20};
 
 }  // namespace
 
@@ -32,6 +33,10 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
   const auto begin = Clock::now();
   auto reached = begin;
   Played played;
+  if (!paced && currentTick() < target && !m_match.finished() && awaitPrograms(now)) {
+    played.next = now + awaitInterval;
+    return played;
+  }
   while (currentTick() < target && !m_match.finished()) {
     tick();
     ++played.ticks;
@@ -48,6 +53,13 @@ MatchPlayer::Played MatchPlayer::play(Clock::time_point now, std::uint64_t lastT
         m_pacer.target(after) > currentTick() ? after : m_pacer.wake(after, currentTick());
   }
   return played;
+}
+
+bool MatchPlayer::awaitPrograms(Clock::time_point now) {
+  const bool awaits = m_match.awaitsPrograms(now);
+  if (awaits && !m_awaits) tick();
+  m_awaits = awaits;
+  return awaits;
 }
 
 void MatchPlayer::tick() {

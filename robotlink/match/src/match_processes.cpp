@@ -245,7 +245,7 @@ Result<void> SimulatedMatch::startForeign(Seat& seat, SeatProcess& process) {
   managed.delay = profile.delay;
   managed.silentAfter = RestartRule::Seconds(profile.silentAfter);
   managed.watchFile = profile.watchFile;
-  managed.ownTime = true;
+  managed.ownTime = profile.clock == ProfileProcess::Clock::Match;
   if (!profile.heartbeat.empty()) {
     const auto variable = m_catalog->intVar(profile.heartbeat);
     if (!variable) {

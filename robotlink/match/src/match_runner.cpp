@@ -7,12 +7,22 @@
 #include "match_loop.h"
 
 namespace pitchboard::link {
+namespace {
+
+/// Far above what any machine reaches; also keeps the pacer's arithmetic finite.
+double limitedSpeed(double timesRealTime) {
+  const bool limited = timesRealTime > 0.0 && timesRealTime < 1e6;
+  return limited ? timesRealTime : MatchRunner::unlimitedSpeed;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<MatchRunner>> MatchRunner::start(
     const Scenario& scenario, const MatchOptions& options, bool paused,
     const VariableCatalog& catalog, std::vector<std::shared_ptr<TickObserver>> observers) {
   auto shared = std::make_shared<Shared>();
   shared->paused = paused;
+  shared->speed = limitedSpeed(options.speed);
   std::unique_ptr<MatchRunner> runner(new MatchRunner(shared));
   std::promise<Result<void>> made;
   auto outcome = made.get_future();
@@ -66,9 +76,7 @@ void MatchRunner::stepOnce() {
 
 void MatchRunner::setSpeed(double timesRealTime) {
   const std::lock_guard lock(m_shared->mutex);
-  // Far above what any machine reaches; also keeps the pacer's arithmetic finite.
-  const bool limited = timesRealTime > 0.0 && timesRealTime < 1e6;
-  m_shared->speed = limited ? timesRealTime : unlimitedSpeed;
+  m_shared->speed = limitedSpeed(timesRealTime);
   m_shared->paceChanged = true;
   m_shared->settled = false;
   m_shared->changed.notify_all();

@@ -23,6 +23,10 @@ struct SeatProcess {
   std::uint64_t startTick = 0;               ///< after which it was started
   std::uint64_t nextTick = 0;                ///< runs after the tick that ends here
 
+  // Of a team's program: see SimulatedMatch::awaitsPrograms().
+  bool settled = false;  ///< it is not waited for any more
+  std::optional<std::chrono::steady_clock::time_point> awaitedSince{};
+
   // Of a separate one that takes turns (a reference process).
   int place = -1;      ///< its place in the turns; below 0: it has not been started
   bool given = false;  ///< it has been given the turn of this tick

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include <robotlink/match/own_pace.h>
 #include <robotlink/match/simulated_match.h>
 
 #include "match_events.h"
@@ -31,6 +32,11 @@ bool comesSoon(const ProcessStatus& status, const ProfileProcess& profile,
     default:
       return false;
   }
+}
+
+bool fallsBehind(const ProcessStatus& program) {
+  constexpr double keepsUp = 0.95;
+  return program.foreign && program.achieved > 0.0 && program.achieved < keepsUp * program.speed;
 }
 
 bool isTeam(const SeatProcess& process) {
@@ -206,16 +212,32 @@ void SimulatedMatch::setPlaying(double speed, bool still,
   m_still = still;
   m_measured = now;
   m_measuredTick = m_simulation.state().tick;
+  m_processes->setClocksFollow(speed != 1.0);
   if (speed > 0.0) m_processes->setSpeed(speed, now);
   m_processes->setPaused(still, now);
 }
 
-std::optional<double> SimulatedMatch::slowestOwnProgram() const {
-  constexpr double keepsUp = 0.95;
+void SimulatedMatch::slowTo(double speed, std::chrono::steady_clock::time_point now) {
+  m_processes->setSpeed(speed, now);
+}
+
+double SimulatedMatch::ownPace(double wanted, double now) const {
   std::optional<double> slowest;
   for (const ProcessStatus& one : m_processes->statuses()) {
-    if (!one.foreign || one.achieved <= 0.0 || one.achieved >= keepsUp * one.speed) continue;
-    slowest = std::min(slowest.value_or(one.achieved), one.achieved);
+    if (!one.foreign || one.pid == 0) continue;
+    if (one.clock != ProcessClock::Match) {
+      wanted = std::min(wanted, 1.0);  // slower does not help it either
+    } else if (fallsBehind(one)) {
+      slowest = std::min(slowest.value_or(one.achieved), one.achieved);
+    }
+  }
+  return paceWithOwnPrograms(wanted, now, slowest);
+}
+
+std::optional<double> SimulatedMatch::slowestOwnProgram() const {
+  std::optional<double> slowest;
+  for (const ProcessStatus& one : m_processes->statuses()) {
+    if (fallsBehind(one)) slowest = std::min(slowest.value_or(one.achieved), one.achieved);
   }
   return slowest;
 }

@@ -86,6 +86,10 @@ Result<SimulatedMatch> SimulatedMatch::create(const Scenario& scenario, const Ma
     return tl::unexpected(placed.error());
   }
   match.m_simulation.setClockRunning(scenario.clockRunning);
+  match.m_processes->setClocksFollow(options.speed != 1.0);
+  if (options.speed > 0.0) {
+    match.m_processes->setSpeed(options.speed, std::chrono::steady_clock::now());
+  }
   if (options.thoughts && options.cognition == Cognition::External) {
     auto receiver = ThoughtsReceiver::listen();
     if (!receiver) return tl::unexpected(receiver.error());

@@ -171,14 +171,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   ManagedProcess& process = entry.process;
   if (entry.board) writeIfPresent(*entry.board, process.heartbeat, 0);  // what an earlier one left
   ChildSpec spec = process.spec;
-  if (process.ownTime && !entry.time) {
-    if (auto time = FakeTime::create()) entry.time = std::move(*time);
-  }
-  if (entry.time) {
-    for (auto& variable : entry.time->start(m_paused ? 0.0 : m_speed, now)) {
-      spec.environment.push_back(std::move(variable));
-    }
-  }
+  giveClock(entry, spec, now);
   Result<int> handle = 0;
   if (process.prepare) {
     if (auto prepared = process.prepare(spec); !prepared) handle = tl::unexpected(prepared.error());
@@ -194,6 +187,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   }
   entry.handle = *handle;
   entry.lastSign = entry.stoppedSince = entry.sampled = now;
+  entry.hangsSince.reset();
   entry.sleeps = 0;
   entry.cpuSeconds = entry.cyclesPerSecond = 0.0;
   entry.programStamp = process.watchFile ? programStamp(process.spec) : std::string();
@@ -202,8 +196,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   status.pid = child(*handle)->pid;
   status.started = now;
   status.detail.clear();
-  status.speed = entry.time ? m_speed : 0.0;
-  status.achieved = 0.0;
+  if (!entry.time || process.watch == ManagedProcess::Watch::Nobody) status.hangs.clear();
   if (again) ++status.restarts;
   if (m_paused && spec.foreign) m_supervisor.pauseChild(entry.handle, true);
   m_news.push_back({again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started,
@@ -211,6 +204,7 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
                     spec.name,
                     status.pid,
                     {}});
+  askForSpeed(entry);
   return {};
 }
 
@@ -310,32 +304,6 @@ void ProcessManager::restart(int id, Time now) {
 void ProcessManager::kill(int id) {
   const Entry* entry = find(id);
   if (entry && entry->handle != 0) m_supervisor.signalChild(entry->handle, SIGKILL);
-}
-
-void ProcessManager::setPaused(bool paused, Time now) {
-  if (m_paused == paused) return;
-  m_paused = paused;
-  for (Entry& entry : m_entries) {
-    if (entry.handle == 0 || !entry.process.spec.foreign) continue;
-    // Its time stands still before it stops, and goes on before it goes on.
-    if (entry.time) entry.time->setSpeed(paused ? 0.0 : m_speed, now);
-    m_supervisor.pauseChild(entry.handle, paused);
-    entry.lastSign = entry.stoppedSince = now;
-  }
-}
-
-void ProcessManager::setSpeed(double speed, Time now) {
-  if (speed == m_speed) return;
-  m_speed = speed;
-  for (Entry& entry : m_entries) {
-    if (!entry.time || entry.handle == 0) continue;
-    if (!m_paused) entry.time->setSpeed(speed, now);
-    statusOf(entry).speed = speed;
-    statusOf(entry).achieved = 0.0;
-    entry.sampled = now;  // a second that is not half of this speed
-    entry.cpuSeconds = 0.0;
-    changed();
-  }
 }
 
 void ProcessManager::takeOutput() {

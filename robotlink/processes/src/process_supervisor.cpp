@@ -216,13 +216,17 @@ void ProcessSupervisor::signalChild(int handle, int signal) const {
   signalGroups({handle}, signal);
 }
 
+std::vector<pid_t> ProcessSupervisor::startedBy(int handle) const {
+  return markedProcesses(markOf(handle));
+}
+
 void ProcessSupervisor::pauseChild(int handle, bool paused) {
   const int signal = paused ? SIGSTOP : SIGCONT;
   for (const ChildStatus& child : m_children) {
     if (child.handle != handle || !m_outputs.contains(handle)) continue;
     ::kill(-child.pid, signal);
     if (!child.spec.foreign) continue;
-    for (const pid_t pid : markedProcesses(markOf(handle))) ::kill(pid, signal);
+    for (const pid_t pid : startedBy(handle)) ::kill(pid, signal);
   }
 }
 
@@ -231,7 +235,7 @@ void ProcessSupervisor::killStrays(const ChildStatus& child) const {
   // What is killed may just have started another one.
   for (int round = 0; round < 8; ++round) {
     bool any = false;
-    for (const pid_t pid : markedProcesses(markOf(child.handle))) {
+    for (const pid_t pid : startedBy(child.handle)) {
       if (pid != child.pid) any = ::kill(pid, SIGKILL) == 0 || any;
     }
     if (!any) return;

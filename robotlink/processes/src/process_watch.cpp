@@ -43,6 +43,9 @@ void ProcessManager::watch(Entry& entry, Time now) {
     if (readOr(*entry.board, process.heartbeat) != 0) {
       if (process.clears) writeIfPresent(*entry.board, process.heartbeat, 0);
       entry.lastSign = now;
+      // What it did right after its start may have been the last.
+      if (Seconds(now - statusOf(entry).started) > process.silentAfter)
+        statusOf(entry).hangs.clear();
     }
   } else if (process.watch == Watch::Sleeps) {
     const auto use = processUse(statusOf(entry).pid);
@@ -59,7 +62,11 @@ void ProcessManager::watch(Entry& entry, Time now) {
   const bool listens = process.watch == Watch::Variable || process.watch == Watch::Sleeps;
   ProcessStatus& status = statusOf(entry);
   if (listens && now - entry.lastSign >= ticks(process.silentAfter)) {
-    silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
+    if (status.state == ProcessState::Silent) return;  // it has been told
+    const bool hangs = entry.time && threadWaits(status.pid).forEver;
+    if (hangs) status.hangs = whyItHangs();
+    silenced(entry, now,
+             hangs ? status.hangs : "no sign of life for " + inSeconds(process.silentAfter));
   } else if (listens && status.state == ProcessState::Silent) {
     status.state = ProcessState::Running;
     changed();
@@ -104,7 +111,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
   ProcessStatus& status = statusOf(entry);
   const double passed = Seconds(now - entry.sampled).count();
   if (entry.cpuSeconds > 0.0) status.cpu = (use->cpuSeconds - entry.cpuSeconds) / passed;
-  if (entry.cpuSeconds > 0.0 && entry.time && !m_paused) measurePace(entry, *use, passed);
+  if (entry.cpuSeconds > 0.0 && status.foreign && !m_paused) measurePace(entry, *use, passed);
   entry.sampledSleeps = use->sleeps;
   entry.readySeconds = use->readySeconds;
   entry.cpuSeconds = std::max(use->cpuSeconds, 1e-9);
@@ -115,12 +122,14 @@ void ProcessManager::sample(Entry& entry, Time now) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
   changed();
+  watchWaits(entry, now);
   // Who listens for a heartbeat, or counts sleeps, notices it by that.
   const bool listens =
       entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
   if (use->state != 'T' || listens) {
     entry.stoppedSince = now;
-    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
+    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent &&
+        status.hangs.empty()) {
       status.state = ProcessState::Running;
     }
   } else if (now - entry.stoppedSince >= ticks(entry.process.silentAfter)) {
@@ -135,19 +144,19 @@ void ProcessManager::sample(Entry& entry, Time now) {
 void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
   constexpr double busy = 0.9, idle = 0.1;
   ProcessStatus& status = statusOf(entry);
-  const double speed = entry.time->speed();
+  const double speed = entry.time ? m_speed : 1.0;
   const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
   const double rate = cycles / (seconds * speed);
   // In which it worked, or waited for a core.
   const double share = std::clamp((use.readySeconds - entry.readySeconds) / seconds, 0.0, 1.0);
   if (share < (speed <= 1.0 ? busy : idle)) {
     entry.cyclesPerSecond = entry.cyclesPerSecond > 0.0 ? (entry.cyclesPerSecond + rate) / 2 : rate;
-    status.achieved = status.speed;
+    status.achieved = speed;
   } else if (entry.cyclesPerSecond > 0.0) {
     // While it sleeps its time passes as it should: no more than the rest can be lost.
-    status.achieved = status.speed * std::clamp(rate / entry.cyclesPerSecond, 1.0 - share, 1.0);
+    status.achieved = speed * std::clamp(rate / entry.cyclesPerSecond, 1.0 - share, 1.0);
   } else if (share < busy) {
-    status.achieved = status.speed * (1.0 - share);
+    status.achieved = speed * (1.0 - share);
   }
 }
 

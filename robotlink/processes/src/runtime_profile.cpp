@@ -22,6 +22,7 @@ constexpr std::size_t longestProcessName = 32;
 constexpr double longestTime = 3600.0;  // s
 
 constexpr std::array<std::string_view, 3> policies{"never", "on_failure", "always"};
+constexpr std::array<std::string_view, 2> clocks{"match", "real"};
 constexpr std::array<std::string_view, 5> conditions{"everyone", "behaviour", "pose", "separate",
                                                      "target"};
 
@@ -83,7 +84,7 @@ class Reader {
         m_report, node, path,
         {"name", "reference", "command", "directory", "environment", "delay", "heartbeat",
          "silent_after", "restart", "first_wait", "longest_wait", "steady_after", "give_up_after",
-         "stop_signal", "watch_program", "only_for"});
+         "stop_signal", "watch_program", "only_for", "clock"});
     if (m_report.failed()) return;
     ProfileProcess process;
     object.require("name");
@@ -108,6 +109,14 @@ class Reader {
     process.watchFile = object.boolean("watch_program", false);
     if (const auto condition = object.choice("only_for", conditions, "condition")) {
       process.onlyFor = static_cast<ProfileProcess::OnlyFor>(*condition);
+    }
+    if (const auto clock = object.choice("clock", clocks, "clock")) {
+      process.clock = static_cast<ProfileProcess::Clock>(*clock);
+      if (process.isReference()) {
+        object.fail("clock",
+                    "is for a process with \"command\"; a reference process takes its "
+                    "time from the match");
+      }
     }
     m_profile.processes.push_back(std::move(process));
   }

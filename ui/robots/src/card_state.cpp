@@ -48,6 +48,20 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
   }
 }
 
+/// A program that hangs comes before all else: its robot does what it last said.
+void tagHanging(CardState& card, const link::RobotFrame& robot) {
+  for (const link::ProcessStatus& one : robot.processes()) {
+    if (one.hangs.empty()) continue;
+    const QString name = QString::fromStdString(one.name);
+    card.tagKind = TagKind::Error;
+    card.tagIsBattery = false;
+    card.tag = QStringLiteral("%1 stopped responding").arg(name);
+    card.tagTip =
+        QStringLiteral("%1 %2: %3").arg(card.name, card.tag, QString::fromStdString(one.hangs));
+    return;
+  }
+}
+
 void chooseTag(CardState& card, const sim::RobotStatistics& statistics, int action, bool fallen) {
   for (std::size_t i = 0; i < card.lamps.size(); ++i) {
     if (card.lamps[i].state != LampState::Silent) continue;
@@ -173,6 +187,7 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
       card.tag = QStringLiteral("penalised %1").arg(durationText(robot.penalty->secondsLeft));
     }
     if (card.tagKind == TagKind::None) tagProcesses(card, robot);
+    tagHanging(card, robot);
     cards.push_back(std::move(card));
   }
   std::erase_if(m_robots,

@@ -87,7 +87,7 @@ bool RobotCard::event(QEvent* event) {
     const bool alarm = showsTag();
     QString tip;
     if (alarm && tagRect().contains(help->pos())) {
-      tip = m_state.tag;
+      tip = m_state.tagTip.isEmpty() ? m_state.tag : m_state.tagTip;
     } else if (!m_collapsed && rowRect(2).contains(help->pos())) {
       tip = QStringLiteral("%1\n%2").arg(m_state.action, m_state.detailTip);
     } else if (rowRect(0).contains(help->pos())) {

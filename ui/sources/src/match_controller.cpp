@@ -3,6 +3,7 @@
 
 #include <QTimer>
 #include <algorithm>
+#include <map>
 
 #include <ui/base/robot_words.h>
 #include <ui/sources/match_edits.h>
@@ -169,6 +170,7 @@ void MatchController::openAfter(const link::Scenario& scenario, const link::Scen
   m_opening = true;
   m_catalog = m_nextCatalog;
   m_memory->begin();
+  m_options.speed = m_speed;
   m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused,
                   options = m_options, catalog = m_catalog, observers = m_memory->observers(),
                   generation = m_generation.load()]() mutable {
@@ -217,7 +219,10 @@ void MatchController::poll() {
   }
   // A receiver may have opened another match.
   if (!m_runner) return;
-  if (const auto events = m_runner->takeEvents(); !events.empty()) emit eventsReceived(events);
+  if (const auto events = m_runner->takeEvents(); !events.empty()) {
+    tellWhoKeepsRealTime(events);
+    emit eventsReceived(events);
+  }
   if (!m_runner) return;
   if (const auto lines = m_runner->takeLog(); !lines.empty()) emit logReceived(lines);
 }
@@ -247,6 +252,18 @@ void MatchController::tellWhoWillNotFollow() {
                      "stands still or runs at another speed. Choose their programs on the card, "
                      "Runtime, and they follow.")
           .arg(names.join(QStringLiteral(", "))));
+}
+
+void MatchController::tellWhoKeepsRealTime(std::span<const link::MatchEvent> events) {
+  std::map<std::string, QStringList> programs;  // by reason
+  for (const link::MatchEvent& event : events) {
+    if (event.kind != link::MatchEventKind::ProcessRealTime) continue;
+    programs[event.detail] << QString::fromStdString(event.name + ' ' + event.process);
+  }
+  for (const auto& [reason, names] : programs) {
+    emit errorOccurred(QStringLiteral("Real time only: %1. %2.")
+                           .arg(names.join(QStringLiteral(", ")), capitalised(reason)));
+  }
 }
 
 void MatchController::setPaused(bool paused) {

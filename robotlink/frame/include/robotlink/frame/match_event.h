@@ -20,45 +20,47 @@
 namespace pitchboard::link {
 
 enum class MatchEventKind : std::uint8_t {
-  Goal,              ///< side, team, score
-  ScoreCorrected,    ///< side, team, score
-  BallOut,           ///<
-  Kick,              ///< robot; value: the action
-  Fall,              ///< robot
-  GotUp,             ///< robot
-  UnknownAction,     ///< robot; value: the code
-  GameState,         ///< detail: "PLAYING"; value: seconds left, where there is a clock
-  MatchOver,         ///< detail: the scenario's stop condition that is met
-  Half,              ///< value: 1 or 2
-  SetPlay,           ///< detail: "corner"; empty: normal play again
-  GamePhase,         ///< detail: "penalty shoot-out"; empty: normal time
-  PlayStopped,       ///< by the referee
-  PlayGoesOn,        ///<
-  RefereeHeard,      ///< for the first time, or another one; detail: who; value: its version
-  RefereeSilent,     ///<
-  RefereeBack,       ///<
-  SecondReferee,     ///< detail: the one that is shown
-  RobotHeard,        ///< robot; for the first time; detail: its sender
-  RobotSilent,       ///< robot
-  RobotBack,         ///< robot
-  SecondSender,      ///< robot; detail: the sender that is shown
-  BatteryLow,        ///< robot; value: tenths of a volt
-  AddressChanged,    ///< robot; detail: "10.0.0.3 to 10.0.0.7"
-  ClockSet,          ///< the computer's; value: by so many seconds
-  Penalised,         ///< robot; detail: for what; value: seconds left
-  PenaltyOver,       ///< robot
-  ProcessStarted,    ///< robot, process; value: its process number
-  ProcessRestarted,  ///< the same, when one of this name ran before
-  ProcessEnded,      ///< robot, process; as it should: it was asked to, or exit code 0
-  ProcessDied,       ///< robot, process; detail: how, and its last words
-  ProcessSilent,     ///< robot, process; detail: for how long there was no sign of life
-  ProcessGivenUp,    ///< robot, process; it ends again and again and is not started any more
-  PortLost,          ///< value: the port; detail: why it cannot be received
-  PortBack,          ///< value: the port
-  Bookmark,          ///< detail: the user's note
-  Other              ///< detail: what a later version, or a file of another one, calls it
+  Goal,                ///< side, team, score
+  ScoreCorrected,      ///< side, team, score
+  BallOut,             ///<
+  Kick,                ///< robot; value: the action
+  Fall,                ///< robot
+  GotUp,               ///< robot
+  UnknownAction,       ///< robot; value: the code
+  GameState,           ///< detail: "PLAYING"; value: seconds left, where there is a clock
+  MatchOver,           ///< detail: the scenario's stop condition that is met
+  Half,                ///< value: 1 or 2
+  SetPlay,             ///< detail: "corner"; empty: normal play again
+  GamePhase,           ///< detail: "penalty shoot-out"; empty: normal time
+  PlayStopped,         ///< by the referee
+  PlayGoesOn,          ///<
+  RefereeHeard,        ///< for the first time, or another one; detail: who; value: its version
+  RefereeSilent,       ///<
+  RefereeBack,         ///<
+  SecondReferee,       ///< detail: the one that is shown
+  RobotHeard,          ///< robot; for the first time; detail: its sender
+  RobotSilent,         ///< robot
+  RobotBack,           ///< robot
+  SecondSender,        ///< robot; detail: the sender that is shown
+  BatteryLow,          ///< robot; value: tenths of a volt
+  AddressChanged,      ///< robot; detail: "10.0.0.3 to 10.0.0.7"
+  ClockSet,            ///< the computer's; value: by so many seconds
+  Penalised,           ///< robot; detail: for what; value: seconds left
+  PenaltyOver,         ///< robot
+  ProcessStarted,      ///< robot, process; value: its process number
+  ProcessRestarted,    ///< the same, when one of this name ran before
+  ProcessEnded,        ///< robot, process; as it should: it was asked to, or exit code 0
+  ProcessDied,         ///< robot, process; detail: how, and its last words
+  ProcessSilent,       ///< robot, process; detail: for how long there was no sign of life
+  ProcessGivenUp,      ///< robot, process; it ends again and again and is not started any more
+  ProcessRealTime,     ///< robot, process; it does not follow the match's speed; detail: why
+  ProcessNotAttached,  ///< robot, process; the match does not wait for it; detail: how long it has
+  PortLost,            ///< value: the port; detail: why it cannot be received
+  PortBack,            ///< value: the port
+  Bookmark,            ///< detail: the user's note
+  Other                ///< detail: what a later version, or a file of another one, calls it
 };
-inline constexpr std::size_t matchEventKindCount = 37;
+inline constexpr std::size_t matchEventKindCount = 39;
 
 /// Half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

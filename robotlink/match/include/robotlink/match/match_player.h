@@ -43,8 +43,12 @@ class MatchPlayer {
     Clock::duration busy{};
     Clock::time_point next{};  ///< when to play on; in the past: at once
   };
-  /// Plays what is due at `now`, for some milliseconds at most and not past `lastTick`.
+  /// Plays what is due at `now`, for some milliseconds at most and not past `lastTick`. As fast as
+  /// possible, it first waits until a team's programs are there: see awaitPrograms().
   Played play(Clock::time_point now, std::uint64_t lastTick = noLastTick);
+  /// A team's program has yet to attach to its blackboard: do not go on, ask again soon. The first
+  /// time it plays a tick, so that there is something to be seen.
+  bool awaitPrograms(Clock::time_point now);
   /// One tick, whatever the pace.
   void tick();
   /// Tells the observers what has happened between ticks: processes that ended, orders by hand,
@@ -59,6 +63,7 @@ class MatchPlayer {
   SimulatedMatch m_match;
   Pacer m_pacer;
   double m_speed = unlimitedSpeed;
+  bool m_awaits = false;
   std::vector<std::shared_ptr<TickObserver>> m_observers;
   std::vector<MatchEvent> m_events;  // scratch of tellEvents()
   std::vector<HeardDrawing> m_drawings;

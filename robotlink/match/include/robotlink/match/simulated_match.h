@@ -53,6 +53,9 @@ struct MatchOptions {
   ProcessOptions process;      ///< for the processes; the ports are the match's
   bool thoughts = false;       ///< hear particles and paths, for display
   RobotsPace pace = RobotsPace::LockStep;
+  /// Times real time, with which it begins; 0 = as fast as possible. A team's programs that are
+  /// started at 1 keep real time. MatchRunner plays at it, others say it by setPlaying().
+  double speed = 1.0;
   /// Played at ×n, the match slows down to what a team's own programs manage.
   bool waitForOwnPrograms = false;
   /// Reference processes are told where their team attacks; else they find out.
@@ -132,6 +135,18 @@ class SimulatedMatch {
   void lookAfterProcesses(std::chrono::steady_clock::time_point now);
   /// How it is played from now on: times real time, 0 = as fast as possible; standing still.
   void setPlaying(double speed, bool still, std::chrono::steady_clock::time_point now);
+  /// Slower than that for now, because a team's programs cannot keep up: their clocks follow.
+  void slowTo(double speed, std::chrono::steady_clock::time_point now);
+  /// At which pace to go on to `wanted` with a team's programs: see paceWithOwnPrograms(). Faster
+  /// than real time only when the clocks of all of them can follow.
+  double ownPace(double wanted, double now) const;
+  /// A team's program that has just been started has not attached to its blackboard, so that a
+  /// match without a pace is to wait; meanwhile the clocks of programs run at ×1. Ask again, and
+  /// look after the processes, until it is false: the last one has attached, or ended, or was given
+  /// up after its `silent_after`, at least 10 s (an event names it).
+  bool awaitsPrograms(std::chrono::steady_clock::time_point now);
+  /// This program, or one that it started, has attached to the blackboard of its robot.
+  bool hasAttached(const ProcessStatus& program) const;
   /// Lets a team's own programs go on for this time while the match stands still.
   void letOwnProgramsRun(std::chrono::duration<double> time);
   void setPace(RobotsPace pace) { m_options.pace = pace; }
@@ -240,6 +255,7 @@ class SimulatedMatch {
   void endProcesses(Seat& seat);
   void runSeparate(Seat& seat, SeatProcess& process);
   void runFreely(Seat& seat, SeatProcess& process);
+  bool isAwaited(const Seat& seat, SeatProcess& process, std::chrono::steady_clock::time_point now);
   bool dueNow(SeatProcess& process, std::optional<double> period);
   void giveTurn(Seat& seat, SeatProcess& process, bool lockStep);
   std::shared_ptr<TeamChannel> teamChannel(RobotId id);

@@ -30,7 +30,6 @@ class FakeTime {
   std::vector<std::pair<std::string, std::string>> start(double speed, Time now);
   /// 0 while it is stopped.
   void setSpeed(double speed, Time now);
-  double speed() const { return m_speed; }
 
   /// What the library of a process that was killed leaves in /dev/shm.
   static void removeRemains(int pid);

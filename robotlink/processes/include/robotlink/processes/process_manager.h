@@ -43,7 +43,7 @@ struct ManagedProcess {
   bool clears = false;     ///< the manager clears it
   Seconds silentAfter{5};  ///< or stopped by somebody for so long
   bool watchFile = false;  ///< starts again when its program is replaced
-  bool ownTime = false;    ///< a foreign program, whose clocks are to follow setSpeed()
+  bool ownTime = false;    ///< a foreign program, whose clocks may follow setSpeed()
   /// Called before every start; may change what is started.
   std::function<Result<void>(ChildSpec&)> prepare{};
 };
@@ -56,6 +56,14 @@ enum class ProcessState : std::uint8_t {
   Ended,       ///< and is not started again
   Stopped,     ///< by hand
   GivenUp      ///< ended too often
+};
+
+/// Whose time the clocks of a foreign program tell.
+enum class ProcessClock : std::uint8_t {
+  Match,             ///< they follow setSpeed()
+  Real,              ///< real time, as its profile asks
+  RealUntilRestart,  ///< real time, because it was started at ×1
+  RealNoLibrary      ///< real time, because libfaketime is not installed
 };
 
 struct ProcessStatus {
@@ -72,16 +80,28 @@ struct ProcessStatus {
   std::chrono::steady_clock::time_point nextStart{};  ///< while it is Restarting
   double cpu = 0.0;                                   ///< share of a core, of the last second
   std::uint64_t memoryBytes = 0;
-  std::optional<double> heartbeatAge{};  ///< s since a sign of life; nothing: nobody watches
-  bool foreign = false;                  ///< a program of the team
-  double speed = 0.0;  ///< of a foreign program's clocks; 0: they cannot follow the match
-  /// What it manages of that, times real time: less than `speed` when it cannot keep up. 0: nobody
-  /// has seen yet how often it works when it can.
+  std::optional<double> heartbeatAge{};     ///< s since a sign of life; nothing: nobody watches
+  bool foreign = false;                     ///< a program of the team
+  ProcessClock clock = ProcessClock::Real;  ///< of a foreign program
+  double speed = 0.0;  ///< times real time, that a foreign program is to keep; 0: ours
+  /// What it manages of that, times real time: less than `speed` when it cannot keep up, at most 1
+  /// when its clocks keep real time. 0: nobody has seen yet how often it works when it can.
   double achieved = 0.0;
+  /// Why it stopped responding, as the end of a sentence, until it is seen to work again: its
+  /// timed waits cannot follow its clock. Empty: no such trouble.
+  std::string hangs;
   bool operator==(const ProcessStatus&) const = default;
 };
 
-enum class ProcessNewsKind : std::uint8_t { Started, Restarted, Ended, Died, Silent, GivenUp };
+enum class ProcessNewsKind : std::uint8_t {
+  Started,
+  Restarted,
+  Ended,
+  Died,
+  Silent,
+  GivenUp,
+  RealTime  ///< its clocks keep real time at a speed other than ×1; told once
+};
 
 /// What happened to a process; words are made from it by those who show it.
 struct ProcessNews {
@@ -134,14 +154,23 @@ class ProcessManager {
   /// With Watch::Caller: it owes a sign of life, or gave one.
   void setSilent(int id, bool silent, Time now);
 
-  /// Foreign programs: stopped and continued with the match, and how fast their clocks run.
+  /// Foreign programs: stopped and continued with the match. Clocks that keep real time go on
+  /// meanwhile, as those of a computer that was suspended.
   void setPaused(bool paused, Time now);
+  /// How fast the clocks of foreign programs run, times real time.
   void setSpeed(double speed, Time now);
+  /// Whether the clocks of foreign programs that are started from now on can follow setSpeed().
+  /// When not (the default) nothing is loaded into them, and they keep real time until they are
+  /// started again.
+  void setClocksFollow(bool follow) { m_clocksFollow = follow; }
 
   /// All, in the order in which they were added. A new `version()` tells that something changed.
   const std::vector<ProcessStatus>& statuses() const { return m_statuses; }
   std::uint64_t version() const { return m_version; }
   const ProcessStatus* status(int id) const;
+  /// It, or a program that it started, has attached to this System V segment. True where the system
+  /// does not let us see it. Costs some milliseconds while it has not.
+  bool hasSegment(int id, int shmid) const;
   std::vector<ProcessNews> takeNews();
   /// What they wrote, the newest 10 000 lines.
   std::vector<ProcessLine> takeLines();
@@ -165,7 +194,10 @@ class ProcessManager {
     std::uint64_t sampledSleeps = 0;
     Time sampled{};
     std::string programStamp, newStamp;  // of the program's file when it was started, and since
-    std::unique_ptr<FakeTime> time;
+    std::unique_ptr<FakeTime> time;      // null: its clocks keep real time
+    bool toldRealTime = false;
+    std::uint64_t threadSleeps = 0;  // of all its threads, while one of them hangs
+    std::optional<Time> hangsSince;
   };
   Entry* find(int id);
   ProcessStatus& statusOf(const Entry& entry);
@@ -179,6 +211,10 @@ class ProcessManager {
   void watchFile(Entry& entry, Time now);
   void sample(Entry& entry, Time now);
   void measurePace(Entry& entry, const ProcessUse& use, double seconds);
+  void giveClock(Entry& entry, ChildSpec& spec, Time now);
+  void askForSpeed(Entry& entry);
+  void watchWaits(Entry& entry, Time now);
+  std::string whyItHangs() const;
   void silenced(Entry& entry, Time now, const std::string& detail);
   void takeOutput();
   void changed() { ++m_version; }
@@ -193,6 +229,7 @@ class ProcessManager {
   std::uint64_t m_version = 1;
   int m_nextId = 1;
   bool m_paused = false;
+  bool m_clocksFollow = false;
   double m_speed = 1.0;
   ProcessSupervisor m_supervisor;  // last: its children end before the rest goes
 };

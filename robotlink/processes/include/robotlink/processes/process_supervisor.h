@@ -87,6 +87,9 @@ class ProcessSupervisor {
   /// The guard removes a segment that we made, if nobody uses it any more.
   void guardSegment(const Blackboard& board);
 
+  /// It and what it started, as far as that lives; of a foreign program. Looks at all processes.
+  std::vector<pid_t> startedBy(int handle) const;
+
   /// Stops it, or lets it go on, with all that it started.
   void pauseChild(int handle, bool paused);
   void signalChild(int handle, int signal) const;

@@ -38,6 +38,11 @@ struct ProfileProcess {
     Separate,   ///< not where processes run inside the program
     Target      ///< only for behaviours of ours, whose decision says where to walk
   };
+  /// Whose time a team program's clocks tell.
+  enum class Clock {
+    Match,  ///< the match's, at every speed
+    Real    ///< the computer's: nothing is loaded into the program
+  };
 
   std::string name;
   std::string reference;             ///< a process of pitchboard-robot; else `command` is run
@@ -51,6 +56,7 @@ struct ProfileProcess {
   int stopSignal = 15;     ///< SIGTERM
   bool watchFile = false;  ///< starts again when its program is replaced
   OnlyFor onlyFor = OnlyFor::Everyone;
+  Clock clock = Clock::Match;
   bool isReference() const { return !reference.empty(); }
   bool operator==(const ProfileProcess&) const = default;
 };

@@ -43,6 +43,7 @@ struct CardState {
   QString runtime;   ///< who runs, where somebody has chosen
   std::array<Lamp, lampCount> lamps;
   QString tag;
+  QString tagTip;  ///< a whole sentence where the tag is not all there is to say
   TagKind tagKind = TagKind::None;
   bool tagIsBattery = false;  ///< volts and bar, which are red, say the same
   QString action;

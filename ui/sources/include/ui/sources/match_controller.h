@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <robotlink/match/match_runner.h>
@@ -134,6 +135,7 @@ class MatchController : public FrameSource {
   void take(Opening& opening);
   /// Says once in a match which robots do not stop or hurry with it.
   void tellWhoWillNotFollow();
+  void tellWhoKeepsRealTime(std::span<const link::MatchEvent> events);
 
   link::MatchOptions m_options;
   link::Cognition m_cognition = link::Cognition::Inline;
