@@ -211,7 +211,8 @@ class TestSeparateMatch : public QObject {
       return event.kind == MatchEventKind::ProcessSilent;
     });
     QVERIFY(silent != events.end());
-    QCOMPARE(sentenceOf(*silent), std::string("B1 decision stopped responding: no cycle done for 0.3 s"));
+    QCOMPARE(sentenceOf(*silent),
+             std::string("B1 decision stopped responding: no cycle done for 0.3 s"));
     ::kill(stopped, SIGCONT);
     const auto back = [&] {
       match.tick();

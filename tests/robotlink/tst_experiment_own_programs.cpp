@@ -17,7 +17,6 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
-#include <robotlink/processes/fake_time.h>
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -81,7 +80,6 @@ class TestExperimentOwnPrograms : public QObject {
 };
 
 void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
-  if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
   const Rig rig(QStringLiteral("naive_robot.py"));
   const auto e = rig.experiment();
   QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
@@ -137,7 +135,6 @@ void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
 }
 
 void TestExperimentOwnPrograms::aProgramThatDoesNotRunIsNamed() {
-  if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
   const Rig rig(QStringLiteral("no_such_program.py"));
   const auto e = rig.experiment();
   QVERIFY(e.has_value());

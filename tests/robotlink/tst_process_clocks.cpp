@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The clocks of real programs: those that follow the match, and those whose waits hang with it.
+// The clocks and waits of real programs follow the match, and who cannot follow is named.
 #include <QtTest>
 
 #include <robotlink/processes/process_manager.h>
@@ -27,7 +27,7 @@ class TestProcessClocks : public QObject {
   Q_OBJECT
   std::unique_ptr<ProcessManager> m_manager;
   Blackboard m_board = Blackboard::onHeap();
-  std::vector<ProcessNews> m_silent;
+  std::vector<ProcessNews> m_realTime;
   std::vector<std::string> m_lines;
 
   int add(const ManagedProcess& process) {
@@ -38,7 +38,7 @@ class TestProcessClocks : public QObject {
   void look() {
     (void)m_manager->step(SteadyClock::now());
     for (ProcessNews& one : m_manager->takeNews()) {
-      if (one.kind == ProcessNewsKind::Silent) m_silent.push_back(std::move(one));
+      if (one.kind == ProcessNewsKind::RealTime) m_realTime.push_back(std::move(one));
     }
     for (ProcessLine& one : m_manager->takeLines()) m_lines.push_back(std::move(one.text));
   }
@@ -47,14 +47,13 @@ class TestProcessClocks : public QObject {
  private slots:
   void init() {
     m_manager = std::make_unique<ProcessManager>();
-    m_silent.clear();
+    m_realTime.clear();
     m_lines.clear();
   }
   void cleanup() { m_manager.reset(); }
 
   // A program knows its time by sleeping and by looking at clocks: both follow the speed.
   void aForeignProgramsTimeFollowsTheMatch() {
-    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
     ManagedProcess process = python({"-u", "-c",
                                      "import time\nt = time.time(); m = time.monotonic()\n"
                                      "while True:\n time.sleep(1)\n print(round(time.time() - t), "
@@ -77,14 +76,11 @@ class TestProcessClocks : public QObject {
     m_manager->setPaused(false, SteadyClock::now());
     QTRY_VERIFY((look(), !m_lines.empty()));
     QVERIFY2(std::stoi(m_lines.front()) <= before + 25, m_lines.front().c_str());
-    const pid_t pid = status(id).pid;
     m_manager->stop(id);
-    QVERIFY(!QFile::exists(QString("/dev/shm/faketime_shm_%1").arg(pid)));
   }
 
   // Work, and half a second of sleep: at a high speed nothing is left of the sleep.
   void whatAProgramCannotKeepUpWithIsTold() {
-    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
     ManagedProcess process =
         python({"-c", "import time\nwhile True:\n sum(range(300000))\n time.sleep(0.5)\n"});
     m_manager->setClocksFollow(true);
@@ -97,48 +93,62 @@ class TestProcessClocks : public QObject {
     QCOMPARE(status(id).speed, 1000.0);
   }
 
-  // libfaketime knows nothing of this wait, which does not return; others that sleep for long do.
-  void aProgramWhoseWaitHangsIsNamedWithTheReason_data() {
-    QTest::addColumn<bool>("heartbeat");
-    QTest::newRow("nobody listens to it") << false;
-    QTest::newRow("a heartbeat is expected") << true;
+  // Each line is a way to wait, and how long the program waited by its own clock. A wait that is
+  // not scaled lasts 8 times as long as it should at \u00d78, and less than it should after a
+  // pause.
+  void everyWayToWaitFollowsTheMatch_data() {
+    QTest::addColumn<bool>("inPython");
+    QTest::addColumn<bool>("changes");
+    QTest::newRow("C and C++ at x8") << false << false;
+    QTest::newRow("C and C++, speed changes and pauses") << false << true;
+    QTest::newRow("Python at x8") << true << false;
+    QTest::newRow("Python, speed changes and pauses") << true << true;
   }
-  void aProgramWhoseWaitHangsIsNamedWithTheReason() {
-    if (FakeTime::library().empty()) QSKIP("libfaketime is not installed");
-    QFETCH(bool, heartbeat);
+  void everyWayToWaitFollowsTheMatch() {
+    QFETCH(bool, inPython);
+    QFETCH(bool, changes);
+    constexpr double seconds = 2.0;
+    ManagedProcess process = python({PITCHBOARD_SOURCE_DIR "/tests/robotlink/all_waits.py", "2"});
+    if (!inPython) {
+      process.spec.command = {(QCoreApplication::applicationDirPath() + "/all_waits").toStdString(),
+                              "2"};
+    }
     m_manager->setClocksFollow(true);
     m_manager->setSpeed(8.0, SteadyClock::now());
-    ManagedProcess sleeper = python({"-c", "import time\ntime.sleep(6000)\n"});
-    sleeper.silentAfter = RestartRule::Seconds(2);
-    const int sleeps = add(sleeper);
-    ManagedProcess waiter = python({"-c", "import threading\nthreading.Event().wait(0.5)\n"});
-    waiter.silentAfter = RestartRule::Seconds(2);
-    if (heartbeat) {
-      waiter.watch = ManagedProcess::Watch::Variable;
-      waiter.heartbeat = IntVar{10};
+    const int id = add(process);
+    const std::array speeds{8.0, 1.0, 0.0, 4.0};
+    for (std::size_t turn = 0; status(id).state != ProcessState::Ended; ++turn) {
+      const double speed = speeds[turn % speeds.size()];
+      if (changes) {
+        m_manager->setPaused(speed == 0.0, SteadyClock::now());
+        if (speed > 0.0) m_manager->setSpeed(speed, SteadyClock::now());
+      }
+      look();
+      QTest::qWait(60);
     }
-    const int waits = add(waiter);
-    QTRY_VERIFY((look(), !m_silent.empty()));
-    const std::string reason =
-        "its timed waits cannot follow \u00d78. Restart the match at \u00d71, or set \"clock\": "
-        "\"real\" in its runtime profile.";
-    QCOMPARE(m_silent.front().detail, reason);
-    QCOMPARE(status(waits).hangs, reason);
-    QCOMPARE(status(waits).state, ProcessState::Silent);
-    // It stays like this, is told once, and the other one is not suspected.
-    const auto later = SteadyClock::now() + std::chrono::seconds(4);
-    QTRY_VERIFY((look(), SteadyClock::now() > later));
-    QCOMPARE(m_silent.size(), std::size_t{1});
-    QCOMPARE(status(waits).state, ProcessState::Silent);
-    QCOMPARE(status(sleeps).state, ProcessState::Running);
-    QVERIFY(status(sleeps).hangs.empty());
-    // Started again at ×1 it works.
-    m_manager->setClocksFollow(false);
-    m_manager->setSpeed(1.0, SteadyClock::now());
-    m_manager->restart(waits, SteadyClock::now());
-    QTRY_COMPARE((look(), status(waits).state), ProcessState::Ended);
-    QCOMPARE(status(waits).detail, std::string("exit code 0"));
-    QVERIFY(status(waits).hangs.empty());
+    QCOMPARE(status(id).detail, std::string("exit code 0"));
+    QVERIFY(m_lines.size() >= (inPython ? std::size_t{15} : std::size_t{25}));
+    for (const std::string& line : m_lines) {
+      char way[64]{};
+      double monotonic = 0.0, wall = 0.0;
+      QCOMPARE(std::sscanf(line.c_str(), "%63s %lf %lf", way, &monotonic, &wall), 3);
+      QVERIFY2(monotonic > 0.99 * seconds && monotonic < 2.0 * seconds, line.c_str());
+      QVERIFY2(std::abs(wall - monotonic) < 0.1, line.c_str());
+    }
+  }
+
+  // Nothing can be loaded into it.
+  void aStaticProgramIsNamedWithTheReason() {
+    ManagedProcess process = python({});
+    process.spec.command = {
+        (QCoreApplication::applicationDirPath() + "/static_sleeper").toStdString()};
+    m_manager->setClocksFollow(true);
+    m_manager->setSpeed(8.0, SteadyClock::now());
+    const int id = add(process);
+    QTRY_VERIFY((look(), !m_realTime.empty()));
+    QCOMPARE(m_realTime.front().detail, std::string(whyRealTime(ProcessClock::RealNotLoaded)));
+    QCOMPARE(status(id).clock, ProcessClock::RealNotLoaded);
+    QCOMPARE(status(id).achieved, 1.0);
   }
 };
 

@@ -104,23 +104,26 @@ class TestCardState : public QObject {
     QCOMPARE(tracker.update(frame, 100)[0].lamps[0].state, LampState::Silent);
   }
 
-  // The robot does what its program last said: nothing else on the card is worth more.
-  void aProgramThatHangsIsNamedWithTheReason() {
+  void aProgramThatKeepsRealTimeIsNamedWithTheReason() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
     link::ProcessStatus process;
     process.robot = RobotId{4};
     process.name = "decision";
-    process.state = link::ProcessState::Restarting;
-    process.hangs = "its timed waits cannot follow its clock.";
+    process.state = link::ProcessState::Running;
+    process.foreign = true;
+    process.clock = link::ProcessClock::RealNotLoaded;
+    process.speed = 8.0;
+    process.achieved = 1.0;
     frame.robots[0].board->voltage = 151;
     frame.robots[0].processList =
         std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
     const CardState card = tracker.update(frame, 0)[0];
-    QCOMPARE(card.tag, QStringLiteral("decision stopped responding"));
-    QCOMPARE(card.tagTip, QStringLiteral("R2 decision stopped responding: its timed waits cannot "
-                                         "follow its clock."));
-    QCOMPARE(card.tagKind, TagKind::Error);
+    QCOMPARE(card.tag, QStringLiteral("decision reaches \u00d71.0"));
+    QCOMPARE(card.tagTip,
+             QStringLiteral("R2 decision keeps real time: the clock of the match cannot be loaded "
+                            "into it (static or setuid program)"));
+    QCOMPARE(card.tagKind, TagKind::Warning);
   }
 
   void tags_data() {

@@ -331,15 +331,14 @@ class TestProcessesDock : public QObject {
     const pid_t first = process("decision").pid;
     choose("decision", QStringLiteral("Restart"));
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != first, 30'000);
-    const bool follows = process("decision").clock == link::ProcessClock::Match;
-    QCOMPARE(follows, !link::FakeTime::library().empty());
+    QCOMPARE(process("decision").clock, link::ProcessClock::Match);
     // What is opened at this speed follows from the start.
     m_told.clear();
     const pid_t second = process("decision").pid;
     m_controller->restart();
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision") && process("decision").pid != second, 30'000);
-    QCOMPARE(process("decision").clock == link::ProcessClock::Match, follows);
-    QCOMPARE(m_told.isEmpty(), follows);
+    QCOMPARE(process("decision").clock, link::ProcessClock::Match);
+    QVERIFY(m_told.isEmpty());
   }
 };
 

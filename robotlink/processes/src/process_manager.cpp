@@ -117,7 +117,6 @@ void ProcessManager::stopAll() {
   takeOutput();
   for (Entry& entry : m_entries) {
     if (entry.handle == 0) continue;
-    FakeTime::removeRemains(statusOf(entry).pid);
     m_supervisor.forget(entry.handle);
     entry.handle = 0;
     ProcessStatus& status = statusOf(entry);
@@ -187,7 +186,6 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   }
   entry.handle = *handle;
   entry.lastSign = entry.stoppedSince = entry.sampled = now;
-  entry.hangsSince.reset();
   entry.sleeps = 0;
   entry.cpuSeconds = entry.cyclesPerSecond = 0.0;
   entry.programStamp = process.watchFile ? programStamp(process.spec) : std::string();
@@ -196,7 +194,6 @@ Result<void> ProcessManager::startNow(Entry& entry, Time now) {
   status.pid = child(*handle)->pid;
   status.started = now;
   status.detail.clear();
-  if (!entry.time || process.watch == ManagedProcess::Watch::Nobody) status.hangs.clear();
   if (again) ++status.restarts;
   if (m_paused && spec.foreign) m_supervisor.pauseChild(entry.handle, true);
   m_news.push_back({again ? ProcessNewsKind::Restarted : ProcessNewsKind::Started,
@@ -215,7 +212,6 @@ void ProcessManager::collectEnded(Time now) {
     if (!status || status->state == ChildState::Running) continue;
     const bool died = status->state == ChildState::Failed;
     const std::string detail = status->detail;
-    if (entry.time) FakeTime::removeRemains(status->pid);
     m_supervisor.forget(entry.handle);
     entry.handle = 0;
     ended(entry, now, died, detail, false);
@@ -266,10 +262,8 @@ void ProcessManager::planRestart(Entry& entry, Time now, ProcessNews news) {
 }
 
 void ProcessManager::endChild(Entry& entry) {
-  const pid_t pid = statusOf(entry).pid;
   m_supervisor.stopChild(entry.handle);
   takeOutput();
-  if (entry.time) FakeTime::removeRemains(pid);
   m_supervisor.forget(entry.handle);
   entry.handle = 0;
 }

@@ -2,12 +2,8 @@
 #include "process_table.h"
 
 #include <dirent.h>
-#include <linux/futex.h>
-#include <sys/syscall.h>
-#include <sys/uio.h>
 #include <unistd.h>
 #include <charconv>
-#include <ctime>
 #include <memory>
 #include <sstream>
 
@@ -63,60 +59,37 @@ std::optional<ProcessUse> processUse(pid_t pid) {
 
 namespace {
 
-/// Its thread waits for a futex until a moment of the monotonic clock that is years away.
-bool waitsForEver(pid_t pid, const std::string& threadFolder) {
-  constexpr std::int64_t year = 365 * 24 * 3600;
-  const auto call = readFile(threadFolder + "/syscall", mostBytes);
-  if (!call) return false;
-  std::istringstream fields(*call);
-  long number = -1;
-  std::uint64_t address = 0, operation = 0, value = 0, limit = 0;
-  if (!(fields >> number >> std::hex >> address >> operation >> value >> limit)) return false;
-  const bool waits = number == SYS_futex && (operation & FUTEX_CMD_MASK) == FUTEX_WAIT_BITSET &&
-                     (operation & FUTEX_CLOCK_REALTIME) == 0 && limit != 0;
-  if (!waits) return false;
-  timespec until{}, now{};
-  iovec here{&until, sizeof until};
-  iovec there{reinterpret_cast<void*>(limit), sizeof until};  // NOLINT: an address of the other one
-  if (::process_vm_readv(pid, &here, 1, &there, 1, 0) != sizeof until) return false;
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return until.tv_sec - now.tv_sec > year;
-}
-
-}  // namespace
-
-ThreadWaits threadWaits(pid_t pid) {
-  ThreadWaits all;
-  const std::string tasks = folderOf(pid) + "/task";
-  const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(tasks.c_str()), &::closedir);
-  if (!folder) return all;
-  while (const dirent* entry = ::readdir(folder.get())) {
-    if (entry->d_name[0] == '.') continue;
-    const std::string thread = tasks + '/' + entry->d_name;
-    if (const auto status = readFile(thread + "/status", mostBytes)) {
-      all.sleeps += numberAfter(*status, "\nvoluntary_ctxt_switches:");
-    }
-    all.forEver = all.forEver || waitsForEver(pid, thread);
-  }
-  return all;
-}
-
-bool mapsSegment(pid_t pid, int shmid) {
-  const auto maps = readFile(folderOf(pid) + "/maps", mostBytes);
-  if (!maps) {
+/// Whether a line of its map, with the inode and the path in it, is what `isIt` looks for. True
+/// where the system does not let us look.
+template <class IsIt>
+bool maps(pid_t pid, IsIt isIt) {
+  const auto text = readFile(folderOf(pid) + "/maps", mostBytes);
+  if (!text) {
     const auto use = processUse(pid);
     return use && use->state != 'Z';
   }
-  std::istringstream lines(*maps);
-  // addresses, rights, offset, device, the segment's number, /SYSV and its key
+  std::istringstream lines(*text);
+  // addresses, rights, offset, device, inode, path
   for (std::string line; std::getline(lines, line);) {
     std::istringstream fields(line);
     std::string skipped, path;
     long long inode = 0;
     fields >> skipped >> skipped >> skipped >> skipped >> inode >> path;
-    if (inode == shmid && path.starts_with("/SYSV")) return true;
+    if (isIt(inode, path)) return true;
   }
   return false;
+}
+
+}  // namespace
+
+bool mapsSegment(pid_t pid, int shmid) {
+  return maps(pid, [shmid](long long inode, const std::string& path) {
+    return inode == shmid && path.starts_with("/SYSV");
+  });
+}
+
+bool mapsFile(pid_t pid, std::string_view name) {
+  return maps(pid, [name](long long, const std::string& path) { return path.ends_with(name); });
 }
 
 std::vector<pid_t> markedProcesses(std::string_view mark) {

@@ -28,16 +28,10 @@ struct ProcessUse {
 /// Nothing once it is gone.
 std::optional<ProcessUse> processUse(pid_t pid);
 
-struct ThreadWaits {
-  std::uint64_t sleeps = 0;  ///< of all threads: how often they went to sleep by themselves
-  bool forEver = false;      ///< one of them waits with a time limit that is years away
-};
-
-/// What its threads wait for. Nothing for ever where the system does not let us look.
-ThreadWaits threadWaits(pid_t pid);
-
 /// It has attached to this System V segment. True where the system does not let us look.
 bool mapsSegment(pid_t pid, int shmid);
+/// It has loaded a file of this name. True where the system does not let us look.
+bool mapsFile(pid_t pid, std::string_view name);
 
 /// Living processes of this user whose mark begins with `mark`, but for ourselves.
 std::vector<pid_t> markedProcesses(std::string_view mark);

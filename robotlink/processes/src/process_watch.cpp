@@ -43,9 +43,6 @@ void ProcessManager::watch(Entry& entry, Time now) {
     if (readOr(*entry.board, process.heartbeat) != 0) {
       if (process.clears) writeIfPresent(*entry.board, process.heartbeat, 0);
       entry.lastSign = now;
-      // What it did right after its start may have been the last.
-      if (Seconds(now - statusOf(entry).started) > process.silentAfter)
-        statusOf(entry).hangs.clear();
     }
   } else if (process.watch == Watch::Sleeps) {
     const auto use = processUse(statusOf(entry).pid);
@@ -63,10 +60,7 @@ void ProcessManager::watch(Entry& entry, Time now) {
   ProcessStatus& status = statusOf(entry);
   if (listens && now - entry.lastSign >= ticks(process.silentAfter)) {
     if (status.state == ProcessState::Silent) return;  // it has been told
-    const bool hangs = entry.time && threadWaits(status.pid).forEver;
-    if (hangs) status.hangs = whyItHangs();
-    silenced(entry, now,
-             hangs ? status.hangs : "no sign of life for " + inSeconds(process.silentAfter));
+    silenced(entry, now, "no sign of life for " + inSeconds(process.silentAfter));
   } else if (listens && status.state == ProcessState::Silent) {
     status.state = ProcessState::Running;
     changed();
@@ -122,14 +116,13 @@ void ProcessManager::sample(Entry& entry, Time now) {
     status.heartbeatAge = Seconds(now - entry.lastSign).count();
   }
   changed();
-  watchWaits(entry, now);
+  lookForLibrary(entry, now);
   // Who listens for a heartbeat, or counts sleeps, notices it by that.
   const bool listens =
       entry.process.watch == Watch::Variable || entry.process.watch == Watch::Sleeps;
   if (use->state != 'T' || listens) {
     entry.stoppedSince = now;
-    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent &&
-        status.hangs.empty()) {
+    if (entry.process.watch == Watch::Nobody && status.state == ProcessState::Silent) {
       status.state = ProcessState::Running;
     }
   } else if (now - entry.stoppedSince >= ticks(entry.process.silentAfter)) {
@@ -144,7 +137,7 @@ void ProcessManager::sample(Entry& entry, Time now) {
 void ProcessManager::measurePace(Entry& entry, const ProcessUse& use, double seconds) {
   constexpr double busy = 0.9, idle = 0.1;
   ProcessStatus& status = statusOf(entry);
-  const double speed = entry.time ? m_speed : 1.0;
+  const double speed = entry.clock ? m_speed : 1.0;
   const auto cycles = static_cast<double>(use.sleeps - entry.sampledSleeps);
   const double rate = cycles / (seconds * speed);
   // In which it worked, or waited for a core.

@@ -44,21 +44,11 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
                one.achieved < 0.95 * one.speed) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 reaches ×%2").arg(name).arg(one.achieved, 0, 'f', 1);
+      const QString why = QString::fromUtf8(link::whyRealTime(one.clock));
+      if (!why.isEmpty()) {
+        card.tagTip = QStringLiteral("%1 %2 keeps real time: %3").arg(card.name, name, why);
+      }
     }
-  }
-}
-
-/// A program that hangs comes before all else: its robot does what it last said.
-void tagHanging(CardState& card, const link::RobotFrame& robot) {
-  for (const link::ProcessStatus& one : robot.processes()) {
-    if (one.hangs.empty()) continue;
-    const QString name = QString::fromStdString(one.name);
-    card.tagKind = TagKind::Error;
-    card.tagIsBattery = false;
-    card.tag = QStringLiteral("%1 stopped responding").arg(name);
-    card.tagTip =
-        QStringLiteral("%1 %2: %3").arg(card.name, card.tag, QString::fromStdString(one.hangs));
-    return;
   }
 }
 
@@ -187,7 +177,6 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
       card.tag = QStringLiteral("penalised %1").arg(durationText(robot.penalty->secondsLeft));
     }
     if (card.tagKind == TagKind::None) tagProcesses(card, robot);
-    tagHanging(card, robot);
     cards.push_back(std::move(card));
   }
   std::erase_if(m_robots,

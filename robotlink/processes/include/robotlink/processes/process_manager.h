@@ -23,8 +23,8 @@
 #include <vector>
 
 #include <robotlink/blackboard/robot_variables.h>
-#include <robotlink/processes/fake_time.h>
 #include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/program_clock.h>
 #include <robotlink/processes/runtime_profile.h>
 
 namespace pitchboard::link {
@@ -63,8 +63,11 @@ enum class ProcessClock : std::uint8_t {
   Match,             ///< they follow setSpeed()
   Real,              ///< real time, as its profile asks
   RealUntilRestart,  ///< real time, because it was started at ×1
-  RealNoLibrary      ///< real time, because libfaketime is not installed
+  RealNotLoaded      ///< real time, because our library cannot be loaded into it
 };
+
+/// Why the clocks of a program do not follow the match, as a clause; empty if they do.
+const char* whyRealTime(ProcessClock clock);
 
 struct ProcessStatus {
   static constexpr std::size_t mostLastLines = 5;
@@ -87,9 +90,6 @@ struct ProcessStatus {
   /// What it manages of that, times real time: less than `speed` when it cannot keep up, at most 1
   /// when its clocks keep real time. 0: nobody has seen yet how often it works when it can.
   double achieved = 0.0;
-  /// Why it stopped responding, as the end of a sentence, until it is seen to work again: its
-  /// timed waits cannot follow its clock. Empty: no such trouble.
-  std::string hangs;
   bool operator==(const ProcessStatus&) const = default;
 };
 
@@ -193,11 +193,10 @@ class ProcessManager {
     double readySeconds = 0.0;
     std::uint64_t sampledSleeps = 0;
     Time sampled{};
-    std::string programStamp, newStamp;  // of the program's file when it was started, and since
-    std::unique_ptr<FakeTime> time;      // null: its clocks keep real time
+    std::string programStamp, newStamp;   // of the program's file when it was started, and since
+    std::unique_ptr<ProgramClock> clock;  // null: its clocks keep real time
+    bool sawLibrary = false;              // in the program
     bool toldRealTime = false;
-    std::uint64_t threadSleeps = 0;  // of all its threads, while one of them hangs
-    std::optional<Time> hangsSince;
   };
   Entry* find(int id);
   ProcessStatus& statusOf(const Entry& entry);
@@ -213,8 +212,7 @@ class ProcessManager {
   void measurePace(Entry& entry, const ProcessUse& use, double seconds);
   void giveClock(Entry& entry, ChildSpec& spec, Time now);
   void askForSpeed(Entry& entry);
-  void watchWaits(Entry& entry, Time now);
-  std::string whyItHangs() const;
+  void lookForLibrary(Entry& entry, Time now);
   void silenced(Entry& entry, Time now, const std::string& detail);
   void takeOutput();
   void changed() { ++m_version; }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/processes/program_clock.h>
+
+#include <linux/futex.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+
+#include <base/system_reason.h>
+#include <robotlink/processes/own_program.h>
+
+#include "../preload/time_page.h"
+
+namespace pitchboard::link {
+
+Result<std::unique_ptr<ProgramClock>> ProgramClock::create() {
+  const std::string file = besideOwnProgram(std::string("../lib/pitchboard/") + library);
+  if (::access(file.c_str(), R_OK) != 0) {
+    return failure(ErrorCode::NotFound, "Cannot read " + file + ": " + systemReason(errno) +
+                                            ". Programs keep real time without it.");
+  }
+  Descriptor memory(::memfd_create("pitchboard-time", MFD_CLOEXEC));
+  if (!memory || ::ftruncate(memory.get(), sizeof(pitchboard_time_page)) != 0) {
+    return failure(ErrorCode::SystemError,
+                   "Cannot share the time with a program: " + systemReason(errno));
+  }
+  void* page = ::mmap(nullptr, sizeof(pitchboard_time_page), PROT_READ | PROT_WRITE, MAP_SHARED,
+                      memory.get(), 0);
+  if (page == MAP_FAILED) {
+    return failure(ErrorCode::SystemError,
+                   "Cannot share the time with a program: " + systemReason(errno));
+  }
+  return std::unique_ptr<ProgramClock>(
+      new ProgramClock(file, std::move(memory), static_cast<pitchboard_time_page*>(page)));
+}
+
+ProgramClock::ProgramClock(std::string path, Descriptor file, pitchboard_time_page* page)
+    : m_library(std::move(path)), m_file(std::move(file)), m_page(page) {}
+
+ProgramClock::~ProgramClock() {
+  ::munmap(m_page, sizeof *m_page);
+}
+
+std::vector<std::pair<std::string, std::string>> ProgramClock::start(double speed, Time now) {
+  write(std::chrono::nanoseconds(0), speed, now);
+  const char* before = std::getenv("LD_PRELOAD");
+  const std::string others =
+      before != nullptr && *before != '\0' ? ' ' + std::string(before) : std::string();
+  return {{"LD_PRELOAD", m_library + others},
+          {PITCHBOARD_TIME_VARIABLE,
+           "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(m_file.get())}};
+}
+
+void ProgramClock::setSpeed(double speed, Time now) {
+  const double passed =
+      static_cast<double>(now.time_since_epoch().count() - m_page->since) * (m_page->rate - 1.0);
+  write(std::chrono::nanoseconds(m_page->offset + static_cast<std::int64_t>(passed)), speed, now);
+}
+
+void ProgramClock::write(std::chrono::nanoseconds offset, double speed, Time now) {
+  // steady_clock is CLOCK_MONOTONIC.
+  static_assert(std::is_same_v<Time::duration, std::chrono::nanoseconds>);
+  const std::atomic_ref sequence(m_page->sequence);
+  const auto store = [](auto& value, auto to) {
+    std::atomic_ref(value).store(to, std::memory_order_relaxed);
+  };
+  sequence.fetch_add(1, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_release);
+  store(m_page->since, static_cast<std::int64_t>(now.time_since_epoch().count()));
+  store(m_page->offset, static_cast<std::int64_t>(offset.count()));
+  store(m_page->rate, speed);
+  sequence.fetch_add(1, std::memory_order_release);
+  ::syscall(SYS_futex, &m_page->sequence, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+}
+
+}  // namespace pitchboard::link
