@@ -19,6 +19,8 @@
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/processes/fake_time.h>
 
+namespace tst_experiment_own_programs {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -217,5 +219,8 @@ void TestExperimentOwnPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWer
   }
 }
 
-QTEST_GUILESS_MAIN(TestExperimentOwnPrograms)
+PITCHBOARD_TEST(TestExperimentOwnPrograms)
+
+}  // namespace tst_experiment_own_programs
+
 #include "tst_experiment_own_programs.moc"
