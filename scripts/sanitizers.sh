@@ -19,8 +19,8 @@ END
 label=
 case ${1:-asan} in
   asan) preset=asan-ubsan targets=(all) ;;
-  asan-core) preset=asan-core targets=(tests_simcore tests_telemetry tests_robotlink) label='^(simcore|telemetry|robotlink)$' ;;
-  tsan) preset=tsan targets=(tests_threads) label='^threads$' ;;
+  asan-core) preset=asan-core targets=(build_simcore_tests build_telemetry_tests build_robotlink_tests) label='^(simcore|telemetry|robotlink)$' ;;
+  tsan) preset=tsan targets=(build_threads_tests) label='^threads$' ;;
   -h | --help) usage; exit 0 ;;
   *) echo "error: no sanitizer \"$1\"" >&2; usage >&2; exit 2 ;;
 esac

@@ -113,50 +113,64 @@ function(pitchboard_program name)
   set_property(GLOBAL APPEND PROPERTY PITCHBOARD_PROGRAMS ${name})
 endfunction()
 
-# 150 tests are linked; lld takes a sixth of the time of ld.
-find_program(LLD_PROGRAM ld.lld)
+find_program(LLD_PROGRAM ld.lld)  # a sixth of the time of ld
 
-# pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE rooms] [LABELS ...] [GUI]): one QtTest
-# executable per unit. GUI tests run offscreen. INSIDE names the rooms (ui/plots) whose private headers
-# it may include. Tests find the programs in PITCHBOARD_BIN and their data in PITCHBOARD_TEST_DATA.
-# The tests of a label are built by the target tests_<label>. Every test has its folder as a label;
-# `threads` are those in which threads of ours work at the same time: they run under TSan too.
-function(pitchboard_test name)
-  cmake_parse_arguments(ARG "GUI" "TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+# What every program of tests has: QtTest, the paths of programs and data, no optimization.
+function(pitchboard_test_options name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  # moc for the one file that has a test class. AUTOMOC would look at each test twice and compile an
-  # empty file for it: a tenth of the time of a build.
-  qt6_generate_moc(${name}.cpp ${name}.moc.d/${name}.moc TARGET ${name})
-  target_sources(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc.d/${name}.moc)
-  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc.d)
-  target_link_libraries(${name} PRIVATE ${ARG_LIBS} Qt6::Test)
-  foreach(room IN LISTS ARG_INSIDE)
-    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/${room}/src)
-  endforeach()
+  target_link_libraries(${name} PRIVATE Qt6::Test)
+  target_compile_options(${name} PRIVATE "SHELL:-include ${PROJECT_SOURCE_DIR}/tests/support/test_program.h")
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/moc)
   target_compile_definitions(${name} PRIVATE
     PITCHBOARD_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data"
     PITCHBOARD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PITCHBOARD_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   pitchboard_warnings(${name})
+  # gcc takes what stands in an unnamed namespace of a file compiled together with others for a header's.
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   pitchboard_compile_quickly(${name} -O0)
   if(LLD_PROGRAM)
     target_link_options(${name} PRIVATE -fuse-ld=lld)
   endif()
-  add_test(NAME ${name} COMMAND ${name})
-  set(environment "LC_ALL=C.UTF-8")
-  if(ARG_LIBS MATCHES ui::)
-    target_precompile_headers(${name} REUSE_FROM tests_pch_window)
-  elseif(Qt6::Gui IN_LIST ARG_LIBS)  # QtTest reads QT_GUI_LIB: none of the headers fits
-    set(without_pch ON)
-  elseif(ARG_LIBS MATCHES robotlink::)
-    target_precompile_headers(${name} REUSE_FROM tests_pch_robots)
+  if(PITCHBOARD_SANITIZE MATCHES thread)
+    target_sources(${name} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
+  endif()
+endfunction()
+
+# pitchboard_test(<name> SOURCES ... LIBS ... [INSIDE modules] [LABELS ...] [TIMEOUT s] [GUI] [ALONE]): a test
+# <name>.cpp with one QtTest class, registered as tests/support/test_program.h says. It becomes part of the
+# program tests_<folder>, and a test of its own for ctest. ALONE makes a program of its own, for tests that replace
+# functions of the C library or that other checks build alone. GUI tests run offscreen. INSIDE names the modules
+# (ui/plots) whose private headers it may include. Every test has its folder as a label; `threads` are those in
+# which threads of ours work at the same time: they run under TSan too. build_<label>_tests builds the tests of a label.
+function(pitchboard_test name)
+  cmake_parse_arguments(ARG "GUI;ALONE" "TIMEOUT" "SOURCES;LIBS;LABELS;INSIDE" ${ARGN})
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
+  if(ARG_ALONE)
+    set(program ${name})
+    set(command ${name})
   else()
-    target_precompile_headers(${name} REUSE_FROM tests_pch)
+    set(program tests_${folder})
+    set(command ${program} ${name})
   endif()
-  if(without_pch OR CMAKE_DISABLE_PRECOMPILE_HEADERS)  # what the precompiled headers end with
-    target_compile_options(${name} PRIVATE "SHELL:-include ${PROJECT_SOURCE_DIR}/tests/support/patience.h")
+  if(NOT TARGET ${program})
+    add_executable(${program})
+    pitchboard_test_options(${program})
+    if(NOT ARG_ALONE)
+      target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/test_program.cpp)
+    endif()
   endif()
+  # moc for the one file that has a test class. AUTOMOC would look at each test twice and compile an
+  # empty file for it: a tenth of the time of a build.
+  set(moc ${CMAKE_CURRENT_BINARY_DIR}/moc/${name}.moc)
+  qt6_generate_moc(${name}.cpp ${moc} TARGET ${program})
+  target_sources(${program} PRIVATE ${ARG_SOURCES} ${moc})
+  target_link_libraries(${program} PRIVATE ${ARG_LIBS})
+  foreach(module IN LISTS ARG_INSIDE)
+    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/${module}/src)
+  endforeach()
+  add_test(NAME ${name} COMMAND ${command})
+  set(environment "LC_ALL=C.UTF-8")
   if(ARG_GUI)
     list(APPEND environment "QT_QPA_PLATFORM=offscreen")
   endif()
@@ -172,18 +186,13 @@ function(pitchboard_test name)
          # The child of a process with threads: it soon becomes another program.
          "TSAN_OPTIONS=suppressions=${suppressions}/tsan.supp:second_deadlock_stack=1:die_after_fork=0")
     math(EXPR ARG_TIMEOUT "${ARG_TIMEOUT} * 4")
-    if(PITCHBOARD_SANITIZE MATCHES thread)
-      target_sources(${name} PRIVATE $<TARGET_OBJECTS:tests_own_memory>)
-    endif()
   endif()
-  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME folder)
-  list(PREPEND ARG_LABELS ${folder})
-  foreach(label IN LISTS ARG_LABELS)
-    if(NOT TARGET tests_${label})
-      add_custom_target(tests_${label})
-    endif()
-    add_dependencies(tests_${label} ${name})
-  endforeach()
-  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${ARG_LABELS}"
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${folder};${ARG_LABELS}"
                        TIMEOUT ${ARG_TIMEOUT})
+  foreach(label IN ITEMS ${folder} ${ARG_LABELS})
+    if(NOT TARGET build_${label}_tests)
+      add_custom_target(build_${label}_tests)
+    endif()
+    add_dependencies(build_${label}_tests ${program})
+  endforeach()
 endfunction()

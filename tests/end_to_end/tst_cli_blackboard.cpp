@@ -11,6 +11,8 @@
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
 
+namespace tst_cli_blackboard {
+
 namespace {
 
 ProgramRun cli(const QStringList& arguments) {
@@ -124,5 +126,8 @@ class TestCliBlackboard : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCliBlackboard)
+PITCHBOARD_TEST(TestCliBlackboard)
+
+}  // namespace tst_cli_blackboard
+
 #include "tst_cli_blackboard.moc"

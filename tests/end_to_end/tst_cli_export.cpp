@@ -13,6 +13,8 @@
 #include "../support/program_run.h"
 #include "../support/small_disk.h"
 
+namespace tst_cli_export {
+
 namespace {
 
 ProgramRun cli(const QStringList& arguments) {
@@ -262,5 +264,8 @@ class TestCliExport : public QObject {
 #endif
 };
 
-QTEST_GUILESS_MAIN(TestCliExport)
+PITCHBOARD_TEST(TestCliExport)
+
+}  // namespace tst_cli_export
+
 #include "tst_cli_export.moc"

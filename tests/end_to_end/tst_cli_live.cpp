@@ -14,6 +14,8 @@
 #include "../support/program_run.h"
 #include "../support/test_socket.h"
 
+namespace tst_cli_live {
+
 namespace {
 
 const QString program = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
@@ -345,5 +347,8 @@ class TestCliLive : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCliLive)
+PITCHBOARD_TEST(TestCliLive)
+
+}  // namespace tst_cli_live
+
 #include "tst_cli_live.moc"

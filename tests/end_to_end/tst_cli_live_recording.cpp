@@ -12,6 +12,8 @@
 #include "../support/session_values.h"
 #include "../support/test_socket.h"
 
+namespace tst_cli_live_recording {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 
@@ -112,5 +114,8 @@ class TestCliLiveRecording : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCliLiveRecording)
+PITCHBOARD_TEST(TestCliLiveRecording)
+
+}  // namespace tst_cli_live_recording
+
 #include "tst_cli_live_recording.moc"

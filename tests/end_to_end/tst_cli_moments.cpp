@@ -7,6 +7,8 @@
 
 #include "../support/program_run.h"
 
+namespace tst_cli_moments {
+
 namespace {
 
 using Run = ProgramRun;
@@ -104,5 +106,8 @@ class TestCliMoments : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCliMoments)
+PITCHBOARD_TEST(TestCliMoments)
+
+}  // namespace tst_cli_moments
+
 #include "tst_cli_moments.moc"

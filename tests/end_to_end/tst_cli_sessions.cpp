@@ -17,6 +17,8 @@
 #include "../support/program_run.h"
 #include "../support/session_values.h"
 
+namespace tst_cli_sessions {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 
@@ -324,5 +326,8 @@ class TestCliSessions : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCliSessions)
+PITCHBOARD_TEST(TestCliSessions)
+
+}  // namespace tst_cli_sessions
+
 #include "tst_cli_sessions.moc"

@@ -15,6 +15,8 @@
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
 
+namespace tst_cli_simulate {
+
 using namespace pitchboard;
 using namespace std::chrono_literals;
 
@@ -301,5 +303,8 @@ class TestCliSimulate : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCliSimulate)
+PITCHBOARD_TEST(TestCliSimulate)
+
+}  // namespace tst_cli_simulate
+
 #include "tst_cli_simulate.moc"

@@ -21,6 +21,8 @@
 #include <telemetry/wire/gamecontroller_encoder.h>
 #include <telemetry/wire/profile.h>
 
+namespace tst_documents {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -139,5 +141,8 @@ class TestDocuments : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestDocuments)
+PITCHBOARD_TEST(TestDocuments)
+
+}  // namespace tst_documents
+
 #include "tst_documents.moc"

@@ -13,6 +13,8 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/live_watch.h>
 
+namespace tst_live_match {
+
 using namespace pitchboard;
 
 class TestLiveMatch : public QObject {
@@ -73,5 +75,8 @@ class TestLiveMatch : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveMatch)
+PITCHBOARD_TEST(TestLiveMatch)
+
+}  // namespace tst_live_match
+
 #include "tst_live_match.moc"

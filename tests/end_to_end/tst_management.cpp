@@ -12,6 +12,8 @@
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
 
+namespace tst_management {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -250,5 +252,8 @@ class TestManagement : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestManagement)
+PITCHBOARD_TEST(TestManagement)
+
+}  // namespace tst_management
+
 #include "tst_management.moc"

@@ -11,6 +11,8 @@
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/match/simulated_match.h>
 
+namespace tst_many_matches {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -166,5 +168,8 @@ class TestManyMatches : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestManyMatches)
+PITCHBOARD_TEST(TestManyMatches)
+
+}  // namespace tst_many_matches
+
 #include "tst_many_matches.moc"

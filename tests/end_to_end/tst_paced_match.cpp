@@ -14,6 +14,8 @@
 #include "../support/measured_match.h"
 #include "../support/segment_keys.h"
 
+namespace tst_paced_match {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -288,5 +290,8 @@ class TestPacedMatch : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestPacedMatch)
+PITCHBOARD_TEST(TestPacedMatch)
+
+}  // namespace tst_paced_match
+
 #include "tst_paced_match.moc"

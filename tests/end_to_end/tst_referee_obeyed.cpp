@@ -13,6 +13,8 @@
 #include "../support/segment_keys.h"
 #include "../support/test_socket.h"
 
+namespace tst_referee_obeyed {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -237,5 +239,8 @@ class TestRefereeObeyed : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRefereeObeyed)
+PITCHBOARD_TEST(TestRefereeObeyed)
+
+}  // namespace tst_referee_obeyed
+
 #include "tst_referee_obeyed.moc"

@@ -11,6 +11,8 @@
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
 
+namespace tst_robot_program {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -209,5 +211,8 @@ class TestRobotProgram : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRobotProgram)
+PITCHBOARD_TEST(TestRobotProgram)
+
+}  // namespace tst_robot_program
+
 #include "tst_robot_program.moc"

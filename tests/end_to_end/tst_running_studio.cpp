@@ -7,6 +7,8 @@
 
 #include "studio_program.h"
 
+namespace tst_running_studio {
+
 using studio_program::Studio;
 
 namespace {
@@ -166,5 +168,8 @@ class TestRunningStudio : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRunningStudio)
+PITCHBOARD_TEST(TestRunningStudio)
+
+}  // namespace tst_running_studio
+
 #include "tst_running_studio.moc"

@@ -6,6 +6,8 @@
 #include <QProcess>
 #include <QtTest>
 
+namespace tst_same_bits {
+
 namespace {
 
 /// Hash of the last state. `features`: for GLIBC_TUNABLES; empty: what the processor has.
@@ -58,5 +60,8 @@ class TestSameBits : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSameBits)
+PITCHBOARD_TEST(TestSameBits)
+
+}  // namespace tst_same_bits
+
 #include "tst_same_bits.moc"

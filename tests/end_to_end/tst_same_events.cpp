@@ -14,6 +14,8 @@
 #include "../support/event_lists.h"
 #include "../ui/live_rig.h"
 
+namespace tst_same_events {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -131,5 +133,8 @@ class TestSameEvents : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSameEvents)
+PITCHBOARD_TEST(TestSameEvents)
+
+}  // namespace tst_same_events
+
 #include "tst_same_events.moc"

@@ -11,6 +11,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_separate_match {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -262,5 +264,8 @@ class TestSeparateMatch : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSeparateMatch)
+PITCHBOARD_TEST(TestSeparateMatch)
+
+}  // namespace tst_separate_match
+
 #include "tst_separate_match.moc"

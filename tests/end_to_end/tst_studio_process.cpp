@@ -10,6 +10,8 @@
 
 #include "studio_program.h"
 
+namespace tst_studio_process {
+
 using studio_program::Studio;
 
 class TestStudioProcess : public QObject {
@@ -137,5 +139,8 @@ class TestStudioProcess : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestStudioProcess)
+PITCHBOARD_TEST(TestStudioProcess)
+
+}  // namespace tst_studio_process
+
 #include "tst_studio_process.moc"

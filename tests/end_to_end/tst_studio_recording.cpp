@@ -9,6 +9,8 @@
 #include "../support/test_socket.h"
 #include "studio_program.h"
 
+namespace tst_studio_recording {
+
 using namespace pitchboard;
 using studio_program::Studio;
 
@@ -245,5 +247,8 @@ class TestStudioRecording : public QObject {
 #endif
 };
 
-QTEST_GUILESS_MAIN(TestStudioRecording)
+PITCHBOARD_TEST(TestStudioRecording)
+
+}  // namespace tst_studio_recording
+
 #include "tst_studio_recording.moc"

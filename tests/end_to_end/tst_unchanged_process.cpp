@@ -15,6 +15,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_unchanged_process {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -323,5 +325,8 @@ class TestUnchangedProcess : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestUnchangedProcess)
+PITCHBOARD_TEST(TestUnchangedProcess)
+
+}  // namespace tst_unchanged_process
+
 #include "tst_unchanged_process.moc"

@@ -9,6 +9,8 @@
 
 #include "session_rig.h"
 
+namespace tst_mcap_readers {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -187,5 +189,8 @@ class TestMcapReaders : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMcapReaders)
+PITCHBOARD_TEST(TestMcapReaders)
+
+}  // namespace tst_mcap_readers
+
 #include "tst_mcap_readers.moc"

@@ -19,6 +19,8 @@
 #include <robotlink/session/recorded_frame.h>
 #include <telemetry/series/series_store.h>
 
+namespace tst_attached_robots {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -275,5 +277,8 @@ class TestAttachedRobots : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestAttachedRobots)
+PITCHBOARD_TEST(TestAttachedRobots)
+
+}  // namespace tst_attached_robots
+
 #include "tst_attached_robots.moc"

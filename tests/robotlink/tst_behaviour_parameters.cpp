@@ -16,6 +16,8 @@
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/match/simulated_match.h>
 
+namespace tst_behaviour_parameters {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -290,5 +292,8 @@ void TestBehaviourParameters::theDocumentHasTheTable() {
            table().split('\n'));
 }
 
-QTEST_GUILESS_MAIN(TestBehaviourParameters)
+PITCHBOARD_TEST(TestBehaviourParameters)
+
+}  // namespace tst_behaviour_parameters
+
 #include "tst_behaviour_parameters.moc"

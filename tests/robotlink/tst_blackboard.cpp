@@ -6,6 +6,8 @@
 #include <robotlink/blackboard/blackboard.h>
 #include <robotlink/blackboard/robot_variables.h>
 
+namespace tst_blackboard {
+
 using namespace pitchboard::link;
 
 class TestBlackboard : public QObject {
@@ -65,5 +67,8 @@ class TestBlackboard : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestBlackboard)
+PITCHBOARD_TEST(TestBlackboard)
+
+}  // namespace tst_blackboard
+
 #include "tst_blackboard.moc"

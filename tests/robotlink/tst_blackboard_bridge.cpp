@@ -4,6 +4,8 @@
 
 #include <robotlink/match/blackboard_bridge.h>
 
+namespace tst_blackboard_bridge {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using Words = std::array<std::uint32_t, Blackboard::words>;
@@ -122,5 +124,8 @@ class TestBlackboardBridge : public QObject {
   void publishedMapLacksNothing() { QVERIFY(RobotVariables().missing.empty()); }
 };
 
-QTEST_GUILESS_MAIN(TestBlackboardBridge)
+PITCHBOARD_TEST(TestBlackboardBridge)
+
+}  // namespace tst_blackboard_bridge
+
 #include "tst_blackboard_bridge.moc"

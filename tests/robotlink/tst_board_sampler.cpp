@@ -14,6 +14,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_board_sampler {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using telemetry::SeriesStore;
@@ -158,5 +160,8 @@ class TestBoardSampler : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestBoardSampler)
+PITCHBOARD_TEST(TestBoardSampler)
+
+}  // namespace tst_board_sampler
+
 #include "tst_board_sampler.moc"

@@ -13,6 +13,8 @@
 
 #include "../support/program_run.h"
 
+namespace tst_capi {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -298,5 +300,8 @@ class TestCapi : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCapi)
+PITCHBOARD_TEST(TestCapi)
+
+}  // namespace tst_capi
+
 #include "tst_capi.moc"

@@ -7,6 +7,8 @@
 
 #include "../support/test_socket.h"
 
+namespace tst_communication {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -227,5 +229,8 @@ class TestCommunication : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestCommunication)
+PITCHBOARD_TEST(TestCommunication)
+
+}  // namespace tst_communication
+
 #include "tst_communication.moc"

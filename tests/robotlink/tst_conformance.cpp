@@ -5,6 +5,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+namespace tst_conformance {
+
 using namespace pitchboard;
 
 class TestConformance : public QObject {
@@ -111,5 +113,8 @@ class TestConformance : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestConformance)
+PITCHBOARD_TEST(TestConformance)
+
+}  // namespace tst_conformance
+
 #include "tst_conformance.moc"

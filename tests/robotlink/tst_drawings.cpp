@@ -22,6 +22,8 @@
 #include "frame_difference.h"
 #include "live_ports.h"
 
+namespace tst_drawings {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using telemetry::DrawingBook;
@@ -273,5 +275,8 @@ class TestDrawings : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestDrawings)
+PITCHBOARD_TEST(TestDrawings)
+
+}  // namespace tst_drawings
+
 #include "tst_drawings.moc"

@@ -16,6 +16,8 @@
 
 #include "experiment_rig.h"
 
+namespace tst_experiment {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace experiment_rig;
@@ -274,5 +276,8 @@ void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {
   }
 }
 
-QTEST_GUILESS_MAIN(TestExperiment)
+PITCHBOARD_TEST(TestExperiment)
+
+}  // namespace tst_experiment
+
 #include "tst_experiment.moc"

@@ -9,6 +9,8 @@
 
 #include "experiment_rig.h"
 
+namespace tst_experiment_file {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace experiment_rig;
@@ -148,5 +150,8 @@ void TestExperimentFile::drawnSettingsAreInTheirRange() {
   QVERIFY(most <= 4.0 && most > 3.9);
 }
 
-QTEST_GUILESS_MAIN(TestExperimentFile)
+PITCHBOARD_TEST(TestExperimentFile)
+
+}  // namespace tst_experiment_file
+
 #include "tst_experiment_file.moc"

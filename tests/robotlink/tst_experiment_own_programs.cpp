@@ -18,6 +18,8 @@
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
 
+namespace tst_experiment_own_programs {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -214,5 +216,8 @@ void TestExperimentOwnPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWer
   }
 }
 
-QTEST_GUILESS_MAIN(TestExperimentOwnPrograms)
+PITCHBOARD_TEST(TestExperimentOwnPrograms)
+
+}  // namespace tst_experiment_own_programs
+
 #include "tst_experiment_own_programs.moc"

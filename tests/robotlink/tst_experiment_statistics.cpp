@@ -11,6 +11,8 @@
 
 #include "checks.h"
 
+namespace tst_experiment_statistics {
+
 using namespace pitchboard::link;
 
 namespace {
@@ -165,5 +167,8 @@ void TestExperimentStatistics::checksRefuseWhatTheyDoNotKnow() {
   }
 }
 
-QTEST_GUILESS_MAIN(TestExperimentStatistics)
+PITCHBOARD_TEST(TestExperimentStatistics)
+
+}  // namespace tst_experiment_statistics
+
 #include "tst_experiment_statistics.moc"

@@ -13,6 +13,8 @@
 
 #include "../support/measured_match.h"
 
+namespace tst_going_on {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -245,5 +247,8 @@ class TestGoingOn : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestGoingOn)
+PITCHBOARD_TEST(TestGoingOn)
+
+}  // namespace tst_going_on
+
 #include "tst_going_on.moc"

@@ -4,6 +4,8 @@
 
 #include "live_events.h"
 
+namespace tst_live_events {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using Kind = MatchEventKind;
@@ -287,5 +289,8 @@ class TestLiveEvents : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveEvents)
+PITCHBOARD_TEST(TestLiveEvents)
+
+}  // namespace tst_live_events
+
 #include "tst_live_events.moc"

@@ -11,6 +11,8 @@
 #include "../support/referee_game.h"
 #include "live_frame.h"
 
+namespace tst_live_frame {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -389,5 +391,8 @@ class TestLiveFrame : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveFrame)
+PITCHBOARD_TEST(TestLiveFrame)
+
+}  // namespace tst_live_frame
+
 #include "tst_live_frame.moc"

@@ -18,6 +18,8 @@
 #include "frame_difference.h"
 #include "live_ports.h"
 
+namespace tst_live_replay {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using telemetry::SessionStream;
@@ -306,5 +308,8 @@ class TestLiveReplay : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveReplay)
+PITCHBOARD_TEST(TestLiveReplay)
+
+}  // namespace tst_live_replay
+
 #include "tst_live_replay.moc"

@@ -8,6 +8,8 @@
 #include <telemetry/series/derived_curve.h>
 #include <telemetry/series/series_store.h>
 
+namespace tst_live_rows {
+
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
 
@@ -245,5 +247,8 @@ class TestLiveRows : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveRows)
+PITCHBOARD_TEST(TestLiveRows)
+
+}  // namespace tst_live_rows
+
 #include "tst_live_rows.moc"

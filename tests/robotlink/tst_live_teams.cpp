@@ -10,6 +10,8 @@
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
+namespace tst_live_teams {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace pitchboard::telemetry;
@@ -280,5 +282,8 @@ class TestLiveTeams : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveTeams)
+PITCHBOARD_TEST(TestLiveTeams)
+
+}  // namespace tst_live_teams
+
 #include "tst_live_teams.moc"

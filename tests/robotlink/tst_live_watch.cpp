@@ -13,6 +13,8 @@
 #include "../support/recorded_packets.h"
 #include "live_ports.h"
 
+namespace tst_live_watch {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -364,5 +366,8 @@ class TestLiveWatch : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveWatch)
+PITCHBOARD_TEST(TestLiveWatch)
+
+}  // namespace tst_live_watch
+
 #include "tst_live_watch.moc"

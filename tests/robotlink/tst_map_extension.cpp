@@ -13,6 +13,8 @@
 
 #include "planning/target.h"
 
+namespace tst_map_extension {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -309,5 +311,8 @@ class TestMapExtension : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMapExtension)
+PITCHBOARD_TEST(TestMapExtension)
+
+}  // namespace tst_map_extension
+
 #include "tst_map_extension.moc"

@@ -9,6 +9,8 @@
 #include <robotlink/session/session_events.h>
 #include <telemetry/session/session_writer.h>
 
+namespace tst_match_events {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using Kind = MatchEventKind;
@@ -277,5 +279,8 @@ class TestMatchEvents : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMatchEvents)
+PITCHBOARD_TEST(TestMatchEvents)
+
+}  // namespace tst_match_events
+
 #include "tst_match_events.moc"

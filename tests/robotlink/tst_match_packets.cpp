@@ -13,6 +13,8 @@
 
 #include "../support/test_socket.h"
 
+namespace tst_match_packets {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -182,5 +184,8 @@ class TestMatchPackets : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMatchPackets)
+PITCHBOARD_TEST(TestMatchPackets)
+
+}  // namespace tst_match_packets
+
 #include "tst_match_packets.moc"

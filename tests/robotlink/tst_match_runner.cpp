@@ -6,6 +6,8 @@
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/pacer.h>
 
+namespace tst_match_runner {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -228,5 +230,8 @@ class TestMatchRunner : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMatchRunner)
+PITCHBOARD_TEST(TestMatchRunner)
+
+}  // namespace tst_match_runner
+
 #include "tst_match_runner.moc"

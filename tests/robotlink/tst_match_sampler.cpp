@@ -20,6 +20,8 @@
 #include <robotlink/session/match_sampler.h>
 #include <telemetry/series/series_store.h>
 
+namespace tst_match_sampler {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using telemetry::ColumnKind;
@@ -330,5 +332,8 @@ class TestMatchSampler : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMatchSampler)
+PITCHBOARD_TEST(TestMatchSampler)
+
+}  // namespace tst_match_sampler
+
 #include "tst_match_sampler.moc"

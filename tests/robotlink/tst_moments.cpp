@@ -11,6 +11,8 @@
 #include <robotlink/session/moment_scenario.h>
 #include <robotlink/session/recorded_frame.h>
 
+namespace tst_moments {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -373,5 +375,8 @@ class TestMoments : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMoments)
+PITCHBOARD_TEST(TestMoments)
+
+}  // namespace tst_moments
+
 #include "tst_moments.moc"

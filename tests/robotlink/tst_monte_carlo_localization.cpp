@@ -12,6 +12,8 @@
 #include <base/angles.h>
 #include <base/random.h>
 
+namespace tst_monte_carlo_localization {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -367,5 +369,8 @@ class TestMonteCarloLocalization : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMonteCarloLocalization)
+PITCHBOARD_TEST(TestMonteCarloLocalization)
+
+}  // namespace tst_monte_carlo_localization
+
 #include "tst_monte_carlo_localization.moc"

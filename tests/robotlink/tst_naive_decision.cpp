@@ -4,6 +4,8 @@
 #include <QtTest>
 #include <limits>
 
+namespace tst_naive_decision {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -164,5 +166,8 @@ class TestNaiveDecision : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestNaiveDecision)
+PITCHBOARD_TEST(TestNaiveDecision)
+
+}  // namespace tst_naive_decision
+
 #include "tst_naive_decision.moc"

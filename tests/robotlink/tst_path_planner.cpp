@@ -9,6 +9,8 @@
 
 #include <base/random.h>
 
+namespace tst_path_planner {
+
 using namespace pitchboard;
 using link::Obstacle;
 using link::Path;
@@ -139,5 +141,8 @@ class TestPathPlanner : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestPathPlanner)
+PITCHBOARD_TEST(TestPathPlanner)
+
+}  // namespace tst_path_planner
+
 #include "tst_path_planner.moc"

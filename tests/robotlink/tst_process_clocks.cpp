@@ -4,6 +4,8 @@
 
 #include <robotlink/processes/process_manager.h>
 
+namespace tst_process_clocks {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -152,5 +154,8 @@ class TestProcessClocks : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestProcessClocks)
+PITCHBOARD_TEST(TestProcessClocks)
+
+}  // namespace tst_process_clocks
+
 #include "tst_process_clocks.moc"

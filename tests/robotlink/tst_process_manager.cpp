@@ -11,6 +11,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_process_manager {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -326,5 +328,8 @@ class TestProcessManager : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestProcessManager)
+PITCHBOARD_TEST(TestProcessManager)
+
+}  // namespace tst_process_manager
+
 #include "tst_process_manager.moc"

@@ -9,6 +9,8 @@
 #include <QtTest>
 #include <csignal>
 
+namespace tst_process_supervisor {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -266,5 +268,8 @@ class TestProcessSupervisor : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestProcessSupervisor)
+PITCHBOARD_TEST(TestProcessSupervisor)
+
+}  // namespace tst_process_supervisor
+
 #include "tst_process_supervisor.moc"

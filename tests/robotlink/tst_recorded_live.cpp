@@ -9,6 +9,8 @@
 #include <robotlink/session/moment_scenario.h>
 #include <robotlink/session/recorded_frame.h>
 
+namespace tst_recorded_live {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -124,5 +126,8 @@ class TestRecordedLive : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRecordedLive)
+PITCHBOARD_TEST(TestRecordedLive)
+
+}  // namespace tst_recorded_live
+
 #include "tst_recorded_live.moc"

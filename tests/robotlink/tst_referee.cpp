@@ -8,6 +8,8 @@
 
 #include "../support/referee_game.h"
 
+namespace tst_referee {
+
 using namespace pitchboard;
 using sim::CallKind;
 using sim::PlayState;
@@ -354,5 +356,8 @@ class TestReferee : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestReferee)
+PITCHBOARD_TEST(TestReferee)
+
+}  // namespace tst_referee
+
 #include "tst_referee.moc"

@@ -8,6 +8,8 @@
 
 #include "../support/referee_game.h"
 
+namespace tst_referee_switches {
+
 using namespace pitchboard;
 using sim::CallKind;
 using sim::PenaltyKind;
@@ -378,5 +380,8 @@ class TestRefereeSwitches : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRefereeSwitches)
+PITCHBOARD_TEST(TestRefereeSwitches)
+
+}  // namespace tst_referee_switches
+
 #include "tst_referee_switches.moc"

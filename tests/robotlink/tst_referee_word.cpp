@@ -6,6 +6,8 @@
 
 #include "../support/recorded_packets.h"
 
+namespace tst_referee_word {
+
 using namespace pitchboard;
 
 namespace {
@@ -82,5 +84,8 @@ class TestRefereeWord : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRefereeWord)
+PITCHBOARD_TEST(TestRefereeWord)
+
+}  // namespace tst_referee_word
+
 #include "tst_referee_word.moc"

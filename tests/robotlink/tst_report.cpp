@@ -8,6 +8,8 @@
 #include <robotlink/report/report.h>
 #include <robotlink/session/match_sampler.h>
 
+namespace tst_report {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -225,5 +227,8 @@ class TestReport : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestReport)
+PITCHBOARD_TEST(TestReport)
+
+}  // namespace tst_report
+
 #include "tst_report.moc"

@@ -8,6 +8,8 @@
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/models/robot_models.h>
 
+namespace tst_robot_models {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -169,5 +171,8 @@ class TestRobotModels : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRobotModels)
+PITCHBOARD_TEST(TestRobotModels)
+
+}  // namespace tst_robot_models
+
 #include "tst_robot_models.moc"

@@ -9,6 +9,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_robot_thoughts {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -253,5 +255,8 @@ class TestRobotThoughts : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRobotThoughts)
+PITCHBOARD_TEST(TestRobotThoughts)
+
+}  // namespace tst_robot_thoughts
+
 #include "tst_robot_thoughts.moc"

@@ -7,6 +7,8 @@
 
 #include "../support/measured_match.h"
 
+namespace tst_robots_play {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -296,5 +298,8 @@ class TestRobotsPlay : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRobotsPlay)
+PITCHBOARD_TEST(TestRobotsPlay)
+
+}  // namespace tst_robots_play
+
 #include "tst_robots_play.moc"

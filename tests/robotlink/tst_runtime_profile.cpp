@@ -12,6 +12,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_runtime_profile {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -381,5 +383,8 @@ class TestRuntimeProfile : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRuntimeProfile)
+PITCHBOARD_TEST(TestRuntimeProfile)
+
+}  // namespace tst_runtime_profile
+
 #include "tst_runtime_profile.moc"

@@ -8,6 +8,8 @@
 #include <resources/resources.h>
 #include <robotlink/scenario/scenario.h>
 
+namespace tst_scenario {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -275,5 +277,8 @@ class TestScenario : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestScenario)
+PITCHBOARD_TEST(TestScenario)
+
+}  // namespace tst_scenario
+
 #include "tst_scenario.moc"

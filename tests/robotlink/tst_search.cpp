@@ -5,6 +5,8 @@
 
 #include "../support/measured_match.h"
 
+namespace tst_search {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -120,5 +122,8 @@ class TestSearch : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSearch)
+PITCHBOARD_TEST(TestSearch)
+
+}  // namespace tst_search
+
 #include "tst_search.moc"

@@ -9,6 +9,8 @@
 #include <robotlink/session/state_codec.h>
 #include <simcore/world/state_values.h>
 
+namespace tst_state_archive {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 using namespace std::chrono_literals;
@@ -337,5 +339,8 @@ class TestStateArchive : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestStateArchive)
+PITCHBOARD_TEST(TestStateArchive)
+
+}  // namespace tst_state_archive
+
 #include "tst_state_archive.moc"

@@ -7,6 +7,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_system_v {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -193,5 +195,8 @@ class TestSystemV : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSystemV)
+PITCHBOARD_TEST(TestSystemV)
+
+}  // namespace tst_system_v
+
 #include "tst_system_v.moc"

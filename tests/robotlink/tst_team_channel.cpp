@@ -6,6 +6,8 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/cognition/team_channel.h>
 
+namespace tst_team_channel {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -158,5 +160,8 @@ class TestTeamChannel : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestTeamChannel)
+PITCHBOARD_TEST(TestTeamChannel)
+
+}  // namespace tst_team_channel
+
 #include "tst_team_channel.moc"

@@ -5,6 +5,8 @@
 
 #include <robotlink/blackboard/variable_catalog.h>
 
+namespace tst_variable_catalog {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -208,5 +210,8 @@ class TestVariableCatalog : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestVariableCatalog)
+PITCHBOARD_TEST(TestVariableCatalog)
+
+}  // namespace tst_variable_catalog
+
 #include "tst_variable_catalog.moc"

@@ -14,6 +14,8 @@
 #include "../support/test_socket.h"
 #include "../support/whole_match.h"
 
+namespace tst_whole_match {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -198,5 +200,8 @@ class TestWholeMatch : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestWholeMatch)
+PITCHBOARD_TEST(TestWholeMatch)
+
+}  // namespace tst_whole_match
+
 #include "tst_whole_match.moc"

@@ -9,6 +9,8 @@
 
 #include "../support/program_run.h"
 
+namespace tst_world_lines {
+
 using namespace pitchboard;
 using namespace pitchboard::link;
 
@@ -194,5 +196,8 @@ class TestWorldLines : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestWorldLines)
+PITCHBOARD_TEST(TestWorldLines)
+
+}  // namespace tst_world_lines
+
 #include "tst_world_lines.moc"

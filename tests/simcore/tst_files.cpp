@@ -10,6 +10,8 @@
 #include <base/read_file.h>
 #include <base/system_reason.h>
 
+namespace tst_files {
+
 using namespace pitchboard;
 
 class TestFiles : public QObject {
@@ -139,5 +141,8 @@ class TestFiles : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestFiles)
+PITCHBOARD_TEST(TestFiles)
+
+}  // namespace tst_files
+
 #include "tst_files.moc"

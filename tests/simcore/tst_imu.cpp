@@ -3,6 +3,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_imu {
+
 using namespace rig;
 
 class TestImu : public QObject {
@@ -136,5 +138,8 @@ class TestImu : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestImu)
+PITCHBOARD_TEST(TestImu)
+
+}  // namespace tst_imu
+
 #include "tst_imu.moc"

@@ -3,6 +3,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_noise {
+
 using namespace rig;
 
 class TestNoise : public QObject {
@@ -133,5 +135,8 @@ class TestNoise : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestNoise)
+PITCHBOARD_TEST(TestNoise)
+
+}  // namespace tst_noise
+
 #include "tst_noise.moc"

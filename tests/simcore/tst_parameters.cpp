@@ -11,6 +11,8 @@
 #include <simcore/world/parameters.h>
 #include <simcore/world/state_values.h>
 
+namespace tst_parameters {
+
 using namespace pitchboard;
 
 namespace {
@@ -157,5 +159,8 @@ class TestParameters : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestParameters)
+PITCHBOARD_TEST(TestParameters)
+
+}  // namespace tst_parameters
+
 #include "tst_parameters.moc"

@@ -7,6 +7,8 @@
 #include <simcore/world/action.h>
 #include <simcore/world/published_frame.h>
 
+namespace tst_published_frame {
+
 using namespace pitchboard;
 using namespace pitchboard::sim;
 namespace frame = pitchboard::sim::published_frame;
@@ -97,5 +99,8 @@ class TestPublishedFrame : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestPublishedFrame)
+PITCHBOARD_TEST(TestPublishedFrame)
+
+}  // namespace tst_published_frame
+
 #include "tst_published_frame.moc"

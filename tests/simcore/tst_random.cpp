@@ -8,6 +8,8 @@
 
 #include "draw_loops.h"
 
+namespace tst_random {
+
 using namespace pitchboard;
 
 class TestRandom : public QObject {
@@ -138,5 +140,8 @@ class TestRandom : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRandom)
+PITCHBOARD_TEST(TestRandom)
+
+}  // namespace tst_random
+
 #include "tst_random.moc"

@@ -8,6 +8,8 @@
 #include <simcore/rules/referee.h>
 #include <simcore/world/referee_parameters.h>
 
+namespace tst_referee_parameters {
+
 using namespace pitchboard;
 
 namespace {
@@ -98,5 +100,8 @@ class TestRefereeParameters : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRefereeParameters)
+PITCHBOARD_TEST(TestRefereeParameters)
+
+}  // namespace tst_referee_parameters
+
 #include "tst_referee_parameters.moc"

@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+namespace tst_repeatable_math {
+
 using namespace pitchboard;
 
 namespace {
@@ -105,5 +107,8 @@ class TestRepeatableMath : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRepeatableMath)
+PITCHBOARD_TEST(TestRepeatableMath)
+
+}  // namespace tst_repeatable_math
+
 #include "tst_repeatable_math.moc"

@@ -3,6 +3,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_rigid_body_actions {
+
 using namespace rig;
 
 class TestRigidBodyActions : public QObject {
@@ -226,5 +228,8 @@ class TestRigidBodyActions : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRigidBodyActions)
+PITCHBOARD_TEST(TestRigidBodyActions)
+
+}  // namespace tst_rigid_body_actions
+
 #include "tst_rigid_body_actions.moc"

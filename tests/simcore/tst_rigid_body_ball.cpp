@@ -3,6 +3,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_rigid_body_ball {
+
 using namespace rig;
 
 class TestRigidBodyBall : public QObject {
@@ -242,5 +244,8 @@ class TestRigidBodyBall : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRigidBodyBall)
+PITCHBOARD_TEST(TestRigidBodyBall)
+
+}  // namespace tst_rigid_body_ball
+
 #include "tst_rigid_body_ball.moc"

@@ -5,6 +5,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_rigid_body_collisions {
+
 using namespace rig;
 
 namespace {
@@ -180,5 +182,8 @@ class TestRigidBodyCollisions : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRigidBodyCollisions)
+PITCHBOARD_TEST(TestRigidBodyCollisions)
+
+}  // namespace tst_rigid_body_collisions
+
 #include "tst_rigid_body_collisions.moc"

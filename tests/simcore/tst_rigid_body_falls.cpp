@@ -3,6 +3,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_rigid_body_falls {
+
 using namespace rig;
 
 namespace {
@@ -147,5 +149,8 @@ class TestRigidBodyFalls : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRigidBodyFalls)
+PITCHBOARD_TEST(TestRigidBodyFalls)
+
+}  // namespace tst_rigid_body_falls
+
 #include "tst_rigid_body_falls.moc"

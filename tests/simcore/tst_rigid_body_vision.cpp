@@ -3,6 +3,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_rigid_body_vision {
+
 using namespace rig;
 
 class TestRigidBodyVision : public QObject {
@@ -297,5 +299,8 @@ class TestRigidBodyVision : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRigidBodyVision)
+PITCHBOARD_TEST(TestRigidBodyVision)
+
+}  // namespace tst_rigid_body_vision
+
 #include "tst_rigid_body_vision.moc"

@@ -4,6 +4,8 @@
 
 #include "rigid_body_rig.h"
 
+namespace tst_robot_model {
+
 using namespace rig;
 
 namespace {
@@ -249,5 +251,8 @@ class TestRobotModel : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRobotModel)
+PITCHBOARD_TEST(TestRobotModel)
+
+}  // namespace tst_robot_model
+
 #include "tst_robot_model.moc"

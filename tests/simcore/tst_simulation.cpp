@@ -6,6 +6,8 @@
 #include <base/angles.h>
 #include <simcore/simulation/simulation.h>
 
+namespace tst_simulation {
+
 using namespace pitchboard;
 using namespace pitchboard::sim;
 
@@ -306,5 +308,8 @@ class TestSimulation : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSimulation)
+PITCHBOARD_TEST(TestSimulation)
+
+}  // namespace tst_simulation
+
 #include "tst_simulation.moc"

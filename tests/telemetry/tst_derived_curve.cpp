@@ -8,6 +8,8 @@
 
 #include <telemetry/series/derived_curve.h>
 
+namespace tst_derived_curve {
+
 using namespace pitchboard::telemetry;
 using Curve = std::vector<Sample>;
 
@@ -129,5 +131,8 @@ class TestDerivedCurve : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestDerivedCurve)
+PITCHBOARD_TEST(TestDerivedCurve)
+
+}  // namespace tst_derived_curve
+
 #include "tst_derived_curve.moc"

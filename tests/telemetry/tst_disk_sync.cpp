@@ -5,6 +5,8 @@
 
 #include "disk_sync.h"
 
+namespace tst_disk_sync {
+
 using namespace pitchboard;
 using pitchboard::telemetry::DiskSync;
 
@@ -62,5 +64,8 @@ class TestDiskSync : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestDiskSync)
+PITCHBOARD_TEST(TestDiskSync)
+
+}  // namespace tst_disk_sync
+
 #include "tst_disk_sync.moc"

@@ -6,6 +6,8 @@
 #include <telemetry/wire/drawing_book.h>
 #include <telemetry/wire/text_protocol.h>
 
+namespace tst_drawing_text {
+
 using namespace pitchboard;
 using telemetry::DrawingBook;
 using telemetry::DrawingFrame;
@@ -199,5 +201,8 @@ class TestDrawingText : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestDrawingText)
+PITCHBOARD_TEST(TestDrawingText)
+
+}  // namespace tst_drawing_text
+
 #include "tst_drawing_text.moc"

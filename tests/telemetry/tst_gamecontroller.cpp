@@ -11,6 +11,8 @@
 
 #include "../support/recorded_packets.h"
 
+namespace tst_gamecontroller {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -270,5 +272,8 @@ class TestGameController : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestGameController)
+PITCHBOARD_TEST(TestGameController)
+
+}  // namespace tst_gamecontroller
+
 #include "tst_gamecontroller.moc"

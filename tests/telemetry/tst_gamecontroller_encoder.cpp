@@ -7,6 +7,8 @@
 
 #include "../support/recorded_packets.h"
 
+namespace tst_gamecontroller_encoder {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -94,5 +96,8 @@ class TestGameControllerEncoder : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestGameControllerEncoder)
+PITCHBOARD_TEST(TestGameControllerEncoder)
+
+}  // namespace tst_gamecontroller_encoder
+
 #include "tst_gamecontroller_encoder.moc"

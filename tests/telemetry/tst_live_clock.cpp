@@ -5,6 +5,8 @@
 
 #include <telemetry/wire/live_clock.h>
 
+namespace tst_live_clock {
+
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
 
@@ -64,5 +66,8 @@ class TestLiveClock : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestLiveClock)
+PITCHBOARD_TEST(TestLiveClock)
+
+}  // namespace tst_live_clock
+
 #include "tst_live_clock.moc"

@@ -12,6 +12,8 @@
 
 #include "session_rig.h"
 
+namespace tst_mcap {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -307,5 +309,8 @@ class TestMcap : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMcap)
+PITCHBOARD_TEST(TestMcap)
+
+}  // namespace tst_mcap
+
 #include "tst_mcap.moc"

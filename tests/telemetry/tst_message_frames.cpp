@@ -5,6 +5,8 @@
 
 #include <telemetry/wire/text_decoder.h>
 
+namespace tst_message_frames {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -287,5 +289,8 @@ class TestMessageFrames : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestMessageFrames)
+PITCHBOARD_TEST(TestMessageFrames)
+
+}  // namespace tst_message_frames
+
 #include "tst_message_frames.moc"

@@ -5,6 +5,8 @@
 #include <telemetry/wire/profile.h>
 #include <telemetry/wire/text_decoder.h>
 
+namespace tst_profile {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -141,5 +143,8 @@ class TestProfile : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestProfile)
+PITCHBOARD_TEST(TestProfile)
+
+}  // namespace tst_profile
+
 #include "tst_profile.moc"

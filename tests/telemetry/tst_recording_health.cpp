@@ -7,6 +7,8 @@
 
 #include "write_rate.h"
 
+namespace tst_recording_health {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 
@@ -104,5 +106,8 @@ class TestRecordingHealth : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRecordingHealth)
+PITCHBOARD_TEST(TestRecordingHealth)
+
+}  // namespace tst_recording_health
+
 #include "tst_recording_health.moc"

@@ -3,6 +3,8 @@
 
 #include <QtTest>
 
+namespace tst_referee_tracker {
+
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
 
@@ -93,5 +95,8 @@ class TestRefereeTracker : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestRefereeTracker)
+PITCHBOARD_TEST(TestRefereeTracker)
+
+}  // namespace tst_referee_tracker
+
 #include "tst_referee_tracker.moc"

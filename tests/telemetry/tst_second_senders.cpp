@@ -8,6 +8,8 @@
 
 #include "monitor_rig.h"
 
+namespace tst_second_senders {
+
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
 using Verdict = TeamMonitor::Verdict;
@@ -152,5 +154,8 @@ class TestSecondSenders : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSecondSenders)
+PITCHBOARD_TEST(TestSecondSenders)
+
+}  // namespace tst_second_senders
+
 #include "tst_second_senders.moc"

@@ -5,6 +5,8 @@
 
 #include <telemetry/wire/sequence_stats.h>
 
+namespace tst_sequence_stats {
+
 using pitchboard::telemetry::SequenceStats;
 using Step = SequenceStats::Step;
 
@@ -105,5 +107,8 @@ class TestSequenceStats : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSequenceStats)
+PITCHBOARD_TEST(TestSequenceStats)
+
+}  // namespace tst_sequence_stats
+
 #include "tst_sequence_stats.moc"

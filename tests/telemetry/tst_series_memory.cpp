@@ -11,6 +11,8 @@
 
 #include "series_rows.h"
 
+namespace tst_series_memory {
+
 using namespace pitchboard::telemetry;
 
 class TestSeriesMemory : public QObject {
@@ -126,5 +128,8 @@ class TestSeriesMemory : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSeriesMemory)
+PITCHBOARD_TEST(TestSeriesMemory)
+
+}  // namespace tst_series_memory
+
 #include "tst_series_memory.moc"

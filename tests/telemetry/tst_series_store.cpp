@@ -8,6 +8,8 @@
 
 #include "series_rows.h"
 
+namespace tst_series_store {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -250,5 +252,8 @@ class TestSeriesStore : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSeriesStore)
+PITCHBOARD_TEST(TestSeriesStore)
+
+}  // namespace tst_series_store
+
 #include "tst_series_store.moc"

@@ -9,6 +9,8 @@
 
 #include "session_rig.h"
 
+namespace tst_session {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -309,5 +311,8 @@ SessionDatagram TestSession::datagramOf(std::string_view json) {
   return found ? *found : SessionDatagram{};
 }
 
-QTEST_GUILESS_MAIN(TestSession)
+PITCHBOARD_TEST(TestSession)
+
+}  // namespace tst_session
+
 #include "tst_session.moc"

@@ -9,6 +9,8 @@
 #include "../support/small_disk.h"
 #include "session_rig.h"
 
+namespace tst_session_disk {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -127,5 +129,8 @@ class TestSessionDisk : public QObject, private NewSessions {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSessionDisk)
+PITCHBOARD_TEST(TestSessionDisk)
+
+}  // namespace tst_session_disk
+
 #include "tst_session_disk.moc"

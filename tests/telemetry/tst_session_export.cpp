@@ -13,6 +13,8 @@
 
 #include "session_rig.h"
 
+namespace tst_session_export {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -274,5 +276,8 @@ class TestSessionExport : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSessionExport)
+PITCHBOARD_TEST(TestSessionExport)
+
+}  // namespace tst_session_export
+
 #include "tst_session_export.moc"

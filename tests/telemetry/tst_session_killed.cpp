@@ -17,10 +17,10 @@
 #include <telemetry/session/session_reader.h>
 #include <telemetry/session/session_repair.h>
 
+namespace tst_session_killed {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
-
-extern char** environ;
 
 namespace {
 
@@ -134,5 +134,8 @@ class TestSessionKilled : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSessionKilled)
+PITCHBOARD_TEST(TestSessionKilled)
+
+}  // namespace tst_session_killed
+
 #include "tst_session_killed.moc"

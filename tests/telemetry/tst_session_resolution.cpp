@@ -12,6 +12,8 @@
 #include "session_format.h"
 #include "session_rig.h"
 
+namespace tst_session_resolution {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -125,5 +127,8 @@ class TestSessionResolution : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSessionResolution)
+PITCHBOARD_TEST(TestSessionResolution)
+
+}  // namespace tst_session_resolution
+
 #include "tst_session_resolution.moc"

@@ -11,6 +11,8 @@
 #include "session_rig.h"
 #include "session_summary.h"
 
+namespace tst_session_summary {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -209,5 +211,8 @@ class TestSessionSummary : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSessionSummary)
+PITCHBOARD_TEST(TestSessionSummary)
+
+}  // namespace tst_session_summary
+
 #include "tst_session_summary.moc"

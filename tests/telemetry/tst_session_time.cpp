@@ -5,6 +5,8 @@
 #include <base/time_text.h>
 #include <telemetry/session/session_time.h>
 
+namespace tst_session_time {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 
@@ -148,5 +150,8 @@ class TestSessionTime : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestSessionTime)
+PITCHBOARD_TEST(TestSessionTime)
+
+}  // namespace tst_session_time
+
 #include "tst_session_time.moc"

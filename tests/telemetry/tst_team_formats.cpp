@@ -14,6 +14,8 @@
 
 #include <telemetry/wire/team_monitor.h>
 
+namespace tst_team_formats {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -212,5 +214,8 @@ class TestTeamFormats : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestTeamFormats)
+PITCHBOARD_TEST(TestTeamFormats)
+
+}  // namespace tst_team_formats
+
 #include "tst_team_formats.moc"

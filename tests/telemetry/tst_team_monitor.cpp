@@ -9,6 +9,8 @@
 
 #include "monitor_rig.h"
 
+namespace tst_team_monitor {
+
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
 using Verdict = TeamMonitor::Verdict;
@@ -283,5 +285,8 @@ class TestTeamMonitor : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestTeamMonitor)
+PITCHBOARD_TEST(TestTeamMonitor)
+
+}  // namespace tst_team_monitor
+
 #include "tst_team_monitor.moc"

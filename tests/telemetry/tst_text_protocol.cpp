@@ -9,6 +9,8 @@
 #include <limits>
 #include <random>
 
+namespace tst_text_protocol {
+
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -168,5 +170,8 @@ class TestTextProtocol : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestTextProtocol)
+PITCHBOARD_TEST(TestTextProtocol)
+
+}  // namespace tst_text_protocol
+
 #include "tst_text_protocol.moc"

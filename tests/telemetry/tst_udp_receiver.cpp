@@ -12,6 +12,8 @@
 
 #include "../support/test_socket.h"
 
+namespace tst_udp_receiver {
+
 using namespace pitchboard::telemetry;
 using namespace std::chrono_literals;
 
@@ -220,5 +222,8 @@ class TestUdpReceiver : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestUdpReceiver)
+PITCHBOARD_TEST(TestUdpReceiver)
+
+}  // namespace tst_udp_receiver
+
 #include "tst_udp_receiver.moc"

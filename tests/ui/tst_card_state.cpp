@@ -7,6 +7,8 @@
 #include <ui/robots/card_state.h>
 #include <ui/robots/robot_card.h>
 
+namespace tst_card_state {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -199,5 +201,8 @@ class TestCardState : public QObject {
   }
 };
 
-QTEST_MAIN(TestCardState)
+PITCHBOARD_GUI_TEST(TestCardState)
+
+}  // namespace tst_card_state
+
 #include "tst_card_state.moc"

@@ -10,6 +10,8 @@
 
 #include "event_marks.h"
 
+namespace tst_event_list {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -284,5 +286,8 @@ class TestEventList : public QObject {
   }
 };
 
-QTEST_MAIN(TestEventList)
+PITCHBOARD_GUI_TEST(TestEventList)
+
+}  // namespace tst_event_list
+
 #include "tst_event_list.moc"

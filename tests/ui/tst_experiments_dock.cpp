@@ -10,6 +10,8 @@
 #include <ui/experiments/experiments_dock.h>
 #include <ui/sources/replay_controller.h>
 
+namespace tst_experiments_dock {
+
 using namespace pitchboard::ui;
 
 namespace {
@@ -122,5 +124,8 @@ void TestExperimentsDock::cancelKeepsWhatIsThere() {
   QVERIFY(runs > 0 && runs < 200000);
 }
 
-QTEST_MAIN(TestExperimentsDock)
+PITCHBOARD_GUI_TEST(TestExperimentsDock)
+
+}  // namespace tst_experiments_dock
+
 #include "tst_experiments_dock.moc"

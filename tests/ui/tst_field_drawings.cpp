@@ -19,6 +19,8 @@
 #include "hover_text.h"
 #include "made_frames.h"
 
+namespace tst_field_drawings {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace made_frames;
@@ -133,5 +135,8 @@ class TestFieldDrawings : public QObject {
   }
 };
 
-QTEST_MAIN(TestFieldDrawings)
+PITCHBOARD_GUI_TEST(TestFieldDrawings)
+
+}  // namespace tst_field_drawings
+
 #include "tst_field_drawings.moc"

@@ -11,6 +11,8 @@
 #include "field_pointer.h"
 #include "overlay_items.h"
 
+namespace tst_field_keys {
+
 using namespace pitchboard::ui;
 
 namespace {
@@ -189,5 +191,8 @@ class TestFieldKeys : public QObject {
   }
 };
 
-QTEST_MAIN(TestFieldKeys)
+PITCHBOARD_GUI_TEST(TestFieldKeys)
+
+}  // namespace tst_field_keys
+
 #include "tst_field_keys.moc"

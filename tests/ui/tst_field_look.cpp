@@ -27,6 +27,8 @@
 #include "name_labels.h"
 #include "robot_item.h"
 
+namespace tst_field_look {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace made_frames;
@@ -391,5 +393,8 @@ class TestFieldLook : public QObject {
   }
 };
 
-QTEST_MAIN(TestFieldLook)
+PITCHBOARD_GUI_TEST(TestFieldLook)
+
+}  // namespace tst_field_look
+
 #include "tst_field_look.moc"

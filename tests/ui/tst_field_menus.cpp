@@ -17,6 +17,8 @@
 
 #include "field_rig.h"
 
+namespace tst_field_menus {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -234,5 +236,8 @@ class TestFieldMenus : public QObject, protected field_rig::FieldRig {
   }
 };
 
-QTEST_MAIN(TestFieldMenus)
+PITCHBOARD_GUI_TEST(TestFieldMenus)
+
+}  // namespace tst_field_menus
+
 #include "tst_field_menus.moc"

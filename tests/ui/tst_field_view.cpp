@@ -21,6 +21,8 @@
 #include "../support/segment_keys.h"
 #include "field_rig.h"
 
+namespace tst_field_view {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -362,5 +364,8 @@ class TestFieldView : public QObject, protected field_rig::FieldRig {
   }
 };
 
-QTEST_MAIN(TestFieldView)
+PITCHBOARD_GUI_TEST(TestFieldView)
+
+}  // namespace tst_field_view
+
 #include "tst_field_view.moc"

@@ -15,6 +15,8 @@
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 
+namespace tst_hand_over {
+
 using namespace pitchboard::ui;
 
 class TestHandOver : public QObject {
@@ -159,5 +161,8 @@ class TestHandOver : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(TestHandOver)
+PITCHBOARD_TEST(TestHandOver)
+
+}  // namespace tst_hand_over
+
 #include "tst_hand_over.moc"

@@ -23,6 +23,8 @@
 #include "plot_pane.h"
 #include "scoreboard.h"
 
+namespace tst_live {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_rig::Robot;
@@ -311,5 +313,8 @@ class TestLive : public QObject {
   }
 };
 
-QTEST_MAIN(TestLive)
+PITCHBOARD_GUI_TEST(TestLive)
+
+}  // namespace tst_live
+
 #include "tst_live.moc"

@@ -20,6 +20,8 @@
 #include "live_studio.h"
 #include "scoreboard.h"
 
+namespace tst_live_cards {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_rig::Robot;
@@ -145,5 +147,8 @@ class TestLiveCards : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveCards)
+PITCHBOARD_GUI_TEST(TestLiveCards)
+
+}  // namespace tst_live_cards
+
 #include "tst_live_cards.moc"

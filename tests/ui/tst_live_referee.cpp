@@ -22,6 +22,8 @@
 #include "plot_pane.h"
 #include "scoreboard.h"
 
+namespace tst_live_referee {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_rig::Robot;
@@ -135,5 +137,8 @@ class TestLiveReferee : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveReferee)
+PITCHBOARD_GUI_TEST(TestLiveReferee)
+
+}  // namespace tst_live_referee
+
 #include "tst_live_referee.moc"

@@ -29,6 +29,8 @@
 #include "profile_editor.h"
 #include "teams_page.h"
 
+namespace tst_live_settings {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_settings_rig::Dialog;
@@ -259,5 +261,8 @@ class TestLiveSettings : public QObject {
   }
 };
 
-QTEST_MAIN(TestLiveSettings)
+PITCHBOARD_GUI_TEST(TestLiveSettings)
+
+}  // namespace tst_live_settings
+
 #include "tst_live_settings.moc"

@@ -21,6 +21,8 @@
 #include "log_model.h"
 #include "processes_model.h"
 
+namespace tst_log_and_processes {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using Mode = QAbstractItemModelTester::FailureReportingMode;
@@ -257,5 +259,8 @@ class TestLogAndProcesses : public QObject {
   }
 };
 
-QTEST_MAIN(TestLogAndProcesses)
+PITCHBOARD_GUI_TEST(TestLogAndProcesses)
+
+}  // namespace tst_log_and_processes
+
 #include "tst_log_and_processes.moc"

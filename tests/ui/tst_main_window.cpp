@@ -21,6 +21,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_main_window {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -275,5 +277,8 @@ class TestMainWindow : public QObject {
   }
 };
 
-QTEST_MAIN(TestMainWindow)
+PITCHBOARD_GUI_TEST(TestMainWindow)
+
+}  // namespace tst_main_window
+
 #include "tst_main_window.moc"

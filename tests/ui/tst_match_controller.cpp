@@ -13,6 +13,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_match_controller {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -308,5 +310,8 @@ class TestMatchController : public QObject {
   }
 };
 
-QTEST_MAIN(TestMatchController)
+PITCHBOARD_GUI_TEST(TestMatchController)
+
+}  // namespace tst_match_controller
+
 #include "tst_match_controller.moc"

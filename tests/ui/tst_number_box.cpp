@@ -5,6 +5,8 @@
 
 #include <ui/base/number_box.h>
 
+namespace tst_number_box {
+
 using namespace pitchboard::ui;
 
 class TestNumberBox : public QObject {
@@ -77,5 +79,8 @@ class TestNumberBox : public QObject {
   }
 };
 
-QTEST_MAIN(TestNumberBox)
+PITCHBOARD_GUI_TEST(TestNumberBox)
+
+}  // namespace tst_number_box
+
 #include "tst_number_box.moc"

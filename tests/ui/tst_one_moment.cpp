@@ -14,6 +14,8 @@
 #include "plot_source.h"
 #include "time_ruler.h"
 
+namespace tst_one_moment {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -236,5 +238,8 @@ class TestOneMoment : public QObject {
   }
 };
 
-QTEST_MAIN(TestOneMoment)
+PITCHBOARD_GUI_TEST(TestOneMoment)
+
+}  // namespace tst_one_moment
+
 #include "tst_one_moment.moc"

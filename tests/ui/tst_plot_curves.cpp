@@ -20,6 +20,8 @@
 #include "plot_presets.h"
 #include "plot_source.h"
 
+namespace tst_plot_curves {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -333,5 +335,8 @@ class TestPlotCurves : public QObject {
   }
 };
 
-QTEST_MAIN(TestPlotCurves)
+PITCHBOARD_GUI_TEST(TestPlotCurves)
+
+}  // namespace tst_plot_curves
+
 #include "tst_plot_curves.moc"

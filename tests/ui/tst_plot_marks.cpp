@@ -19,6 +19,8 @@
 #include "time_ruler.h"
 #include "xy_pane.h"
 
+namespace tst_plot_marks {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace plot_rig;
@@ -117,5 +119,8 @@ class TestPlotMarks : public QObject {
   }
 };
 
-QTEST_MAIN(TestPlotMarks)
+PITCHBOARD_GUI_TEST(TestPlotMarks)
+
+}  // namespace tst_plot_marks
+
 #include "tst_plot_marks.moc"

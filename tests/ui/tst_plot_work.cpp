@@ -30,6 +30,8 @@
 #include "value_chart.h"
 #include "xy_pane.h"
 
+namespace tst_plot_work {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace plot_rig;
@@ -378,5 +380,8 @@ class TestPlotWork : public QObject {
   }
 };
 
-QTEST_MAIN(TestPlotWork)
+PITCHBOARD_GUI_TEST(TestPlotWork)
+
+}  // namespace tst_plot_work
+
 #include "tst_plot_work.moc"

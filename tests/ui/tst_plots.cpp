@@ -19,6 +19,8 @@
 #include "time_ruler.h"
 #include "xy_pane.h"
 
+namespace tst_plots {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace plot_rig;
@@ -337,5 +339,8 @@ class TestPlots : public QObject {
   }
 };
 
-QTEST_MAIN(TestPlots)
+PITCHBOARD_GUI_TEST(TestPlots)
+
+}  // namespace tst_plots
+
 #include "tst_plots.moc"

@@ -25,6 +25,8 @@
 #include "../support/segment_keys.h"
 #include "processes_model.h"
 
+namespace tst_processes_dock {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using State = link::ProcessState;
@@ -342,5 +344,8 @@ class TestProcessesDock : public QObject {
   }
 };
 
-QTEST_MAIN(TestProcessesDock)
+PITCHBOARD_GUI_TEST(TestProcessesDock)
+
+}  // namespace tst_processes_dock
+
 #include "tst_processes_dock.moc"

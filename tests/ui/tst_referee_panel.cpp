@@ -11,6 +11,8 @@
 #include "log_model.h"
 #include "referee_model.h"
 
+namespace tst_referee_panel {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -115,5 +117,8 @@ class TestRefereePanel : public QObject {
   }
 };
 
-QTEST_MAIN(TestRefereePanel)
+PITCHBOARD_GUI_TEST(TestRefereePanel)
+
+}  // namespace tst_referee_panel
+
 #include "tst_referee_panel.moc"

@@ -19,6 +19,8 @@
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 
+namespace tst_refereeing_dock {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -388,5 +390,8 @@ class TestRefereeingDock : public QObject {
   }
 };
 
-QTEST_MAIN(TestRefereeingDock)
+PITCHBOARD_GUI_TEST(TestRefereeingDock)
+
+}  // namespace tst_refereeing_dock
+
 #include "tst_refereeing_dock.moc"

@@ -20,6 +20,8 @@
 #include <ui/sources/match_edits.h>
 #include <ui/window/main_window.h>
 
+namespace tst_robots_menu {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -224,5 +226,8 @@ class TestRobotsMenu : public QObject {
   }
 };
 
-QTEST_MAIN(TestRobotsMenu)
+PITCHBOARD_GUI_TEST(TestRobotsMenu)
+
+}  // namespace tst_robots_menu
+
 #include "tst_robots_menu.moc"

@@ -18,6 +18,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_runtime_menu {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -150,5 +152,8 @@ class TestRuntimeMenu : public QObject {
   }
 };
 
-QTEST_MAIN(TestRuntimeMenu)
+PITCHBOARD_GUI_TEST(TestRuntimeMenu)
+
+}  // namespace tst_runtime_menu
+
 #include "tst_runtime_menu.moc"

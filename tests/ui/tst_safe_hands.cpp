@@ -26,6 +26,8 @@
 #include "field_keys.h"
 #include "window_rig.h"
 
+namespace tst_safe_hands {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using window_rig::Studio;
@@ -308,5 +310,8 @@ class TestSafeHands : public QObject {
   }
 };
 
-QTEST_MAIN(TestSafeHands)
+PITCHBOARD_GUI_TEST(TestSafeHands)
+
+}  // namespace tst_safe_hands
+
 #include "tst_safe_hands.moc"

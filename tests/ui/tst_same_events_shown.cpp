@@ -13,6 +13,8 @@
 #include "log_model.h"
 #include "session_rig.h"
 
+namespace tst_same_events_shown {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using link::MatchEvent;
@@ -140,5 +142,8 @@ class TestSameEventsShown : public QObject {
   }
 };
 
-QTEST_MAIN(TestSameEventsShown)
+PITCHBOARD_GUI_TEST(TestSameEventsShown)
+
+}  // namespace tst_same_events_shown
+
 #include "tst_same_events_shown.moc"

@@ -21,6 +21,8 @@
 #include "live_rig.h"
 #include "session_rig.h"
 
+namespace tst_session_attached {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::Studio;
@@ -277,5 +279,8 @@ class TestSessionAttached : public QObject {
   }
 };
 
-QTEST_MAIN(TestSessionAttached)
+PITCHBOARD_GUI_TEST(TestSessionAttached)
+
+}  // namespace tst_session_attached
+
 #include "tst_session_attached.moc"

@@ -15,6 +15,8 @@
 #include "timeline_strip.h"
 #include "xy_pane.h"
 
+namespace tst_session_compare {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::Studio;
@@ -225,5 +227,8 @@ class TestSessionCompare : public QObject {
   }
 };
 
-QTEST_MAIN(TestSessionCompare)
+PITCHBOARD_GUI_TEST(TestSessionCompare)
+
+}  // namespace tst_session_compare
+
 #include "tst_session_compare.moc"

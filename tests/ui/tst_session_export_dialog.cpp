@@ -30,6 +30,8 @@
 #include "plot_presets.h"
 #include "profile_editor.h"
 
+namespace tst_session_export_dialog {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace session_rig;
@@ -396,5 +398,8 @@ class TestSessionExportDialog : public QObject {
   }
 };
 
-QTEST_MAIN(TestSessionExportDialog)
+PITCHBOARD_GUI_TEST(TestSessionExportDialog)
+
+}  // namespace tst_session_export_dialog
+
 #include "tst_session_export_dialog.moc"

@@ -10,6 +10,8 @@
 #include "../support/small_disk.h"
 #include "export_rig.h"
 
+namespace tst_session_export_full {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace session_rig;
@@ -98,5 +100,8 @@ class TestSessionExportFull : public QObject {
   }
 };
 
-QTEST_MAIN(TestSessionExportFull)
+PITCHBOARD_GUI_TEST(TestSessionExportFull)
+
+}  // namespace tst_session_export_full
+
 #include "tst_session_export_full.moc"

@@ -26,6 +26,8 @@
 #include "live_rig.h"
 #include "session_rig.h"
 
+namespace tst_session_files {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::closeNotice;
@@ -202,5 +204,8 @@ class TestSessionFiles : public QObject {
   }
 };
 
-QTEST_MAIN(TestSessionFiles)
+PITCHBOARD_GUI_TEST(TestSessionFiles)
+
+}  // namespace tst_session_files
+
 #include "tst_session_files.moc"

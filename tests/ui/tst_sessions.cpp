@@ -24,6 +24,8 @@
 #include "live_rig.h"
 #include "session_rig.h"
 
+namespace tst_sessions {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::closeNotice;
@@ -229,5 +231,8 @@ class TestSessions : public QObject {
   }
 };
 
-QTEST_MAIN(TestSessions)
+PITCHBOARD_GUI_TEST(TestSessions)
+
+}  // namespace tst_sessions
+
 #include "tst_sessions.moc"

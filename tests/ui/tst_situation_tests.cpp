@@ -24,6 +24,8 @@
 #include "live_rig.h"
 #include "session_rig.h"
 
+namespace tst_situation_tests {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::Studio;
@@ -252,5 +254,8 @@ void TestSituationTests::theDialogSaysWhatCannotBe() {
       qPrintable(problem->text()));
 }
 
-QTEST_MAIN(TestSituationTests)
+PITCHBOARD_GUI_TEST(TestSituationTests)
+
+}  // namespace tst_situation_tests
+
 #include "tst_situation_tests.moc"

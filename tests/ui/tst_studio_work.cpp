@@ -28,6 +28,8 @@
 
 #include "../support/segment_keys.h"
 
+namespace tst_studio_work {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -289,5 +291,8 @@ class TestStudioWork : public QObject {
   }
 };
 
-QTEST_MAIN(TestStudioWork)
+PITCHBOARD_GUI_TEST(TestStudioWork)
+
+}  // namespace tst_studio_work
+
 #include "tst_studio_work.moc"

@@ -27,6 +27,8 @@
 #include "profile_editor.h"
 #include "teams_page.h"
 
+namespace tst_team_settings {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using live_settings_rig::Dialog;
@@ -225,5 +227,8 @@ class TestTeamSettings : public QObject {
   }
 };
 
-QTEST_MAIN(TestTeamSettings)
+PITCHBOARD_GUI_TEST(TestTeamSettings)
+
+}  // namespace tst_team_settings
+
 #include "tst_team_settings.moc"

@@ -6,6 +6,8 @@
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 
+namespace tst_theme {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -183,5 +185,8 @@ class TestTheme : public QObject {
   }
 };
 
-QTEST_MAIN(TestTheme)
+PITCHBOARD_GUI_TEST(TestTheme)
+
+}  // namespace tst_theme
+
 #include "tst_theme.moc"

@@ -16,6 +16,8 @@
 #include "looking_back_sign.h"
 #include "timeline_strip.h"
 
+namespace tst_timeline {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -333,5 +335,8 @@ class TestTimeline : public QObject {
   }
 };
 
-QTEST_MAIN(TestTimeline)
+PITCHBOARD_GUI_TEST(TestTimeline)
+
+}  // namespace tst_timeline
+
 #include "tst_timeline.moc"

@@ -9,6 +9,8 @@
 
 #include "variables_bench.h"
 
+namespace tst_variables_dock {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace pitchboard::ui::test;
@@ -391,5 +393,8 @@ class TestVariablesDock : public QObject {
   }
 };
 
-QTEST_MAIN(TestVariablesDock)
+PITCHBOARD_GUI_TEST(TestVariablesDock)
+
+}  // namespace tst_variables_dock
+
 #include "tst_variables_dock.moc"

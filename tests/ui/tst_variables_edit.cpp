@@ -9,6 +9,8 @@
 #include "catalog_choice.h"
 #include "variables_bench.h"
 
+namespace tst_variables_edit {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace pitchboard::ui::test;
@@ -273,5 +275,8 @@ class TestVariablesEdit : public QObject {
   }
 };
 
-QTEST_MAIN(TestVariablesEdit)
+PITCHBOARD_GUI_TEST(TestVariablesEdit)
+
+}  // namespace tst_variables_edit
+
 #include "tst_variables_edit.moc"

@@ -8,6 +8,8 @@
 
 #include "video_writer.h"
 
+namespace tst_video_writer {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -220,5 +222,8 @@ class TestVideoWriter : public QObject {
   }
 };
 
-QTEST_MAIN(TestVideoWriter)
+PITCHBOARD_GUI_TEST(TestVideoWriter)
+
+}  // namespace tst_video_writer
+
 #include "tst_video_writer.moc"

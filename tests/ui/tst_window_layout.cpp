@@ -29,6 +29,8 @@
 #include "scoreboard.h"
 #include "window_rig.h"
 
+namespace tst_window_layout {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using window_rig::Studio;
@@ -237,5 +239,8 @@ class TestWindowLayout : public QObject {
   }
 };
 
-QTEST_MAIN(TestWindowLayout)
+PITCHBOARD_GUI_TEST(TestWindowLayout)
+
+}  // namespace tst_window_layout
+
 #include "tst_window_layout.moc"

@@ -28,6 +28,8 @@
 #include "scoreboard.h"
 #include "variables_model.h"
 
+namespace tst_window_match {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -302,5 +304,8 @@ class TestWindowMatch : public QObject {
   }
 };
 
-QTEST_MAIN(TestWindowMatch)
+PITCHBOARD_GUI_TEST(TestWindowMatch)
+
+}  // namespace tst_window_match
+
 #include "tst_window_match.moc"

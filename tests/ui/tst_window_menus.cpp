@@ -21,6 +21,8 @@
 #include <ui/sources/timeline.h>
 #include <ui/window/main_window.h>
 
+namespace tst_window_menus {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 
@@ -193,5 +195,8 @@ class TestWindowMenus : public QObject {
   }
 };
 
-QTEST_MAIN(TestWindowMenus)
+PITCHBOARD_GUI_TEST(TestWindowMenus)
+
+}  // namespace tst_window_menus
+
 #include "tst_window_menus.moc"

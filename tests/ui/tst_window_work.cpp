@@ -33,6 +33,8 @@
 #include "scoreboard.h"
 #include "window_rig.h"
 
+namespace tst_window_work {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using window_rig::Studio;
@@ -319,5 +321,8 @@ class TestWindowWork : public QObject {
   }
 };
 
-QTEST_MAIN(TestWindowWork)
+PITCHBOARD_GUI_TEST(TestWindowWork)
+
+}  // namespace tst_window_work
+
 #include "tst_window_work.moc"

@@ -16,6 +16,8 @@
 #include "value_chart.h"
 #include "xy_pane.h"
 
+namespace tst_xy_plots {
+
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace plot_rig;
@@ -132,5 +134,8 @@ class TestXyPlots : public QObject {
   }
 };
 
-QTEST_MAIN(TestXyPlots)
+PITCHBOARD_GUI_TEST(TestXyPlots)
+
+}  // namespace tst_xy_plots
+
 #include "tst_xy_plots.moc"
