@@ -13,7 +13,7 @@
 #include <base/system_reason.h>
 #include <robotlink/processes/own_program.h>
 
-#include "../preload/time_page.h"
+#include "time_page.h"
 
 namespace pitchboard::link {
 

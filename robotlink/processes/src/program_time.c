@@ -1,14 +1,14 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+// SPDX-License-Identifier: GPL-3.0-or-later
 /* Loaded into a team's program by LD_PRELOAD: makes its clocks and waits follow the match.
  *
- * Reading a clock adds what the page says. A wait becomes a wait for as long as it takes at the present
- * rate. When the page changes, a thread of this library, the keeper, sets the kernel's timers again
- * and interrupts the waits, which go on with what is left at the new rate: threads by a signal, condition
- * variables by a broadcast. Calls that neither of them interrupts wait in slices. The keeper is started with
- * the first wait and sleeps otherwise.
+ * Reading a clock adds what the page says. A wait becomes a wait for as long as it takes at the
+ * present rate. When the page changes, a thread of this library, the keeper, sets the kernel's
+ * timers again and interrupts the waits, which go on with what is left at the new rate: threads by
+ * a signal, condition variables by a broadcast. Calls that neither of them interrupts wait in
+ * slices. The keeper is started with the first wait and sleeps otherwise.
  *
- * At a rate of 1 a call is made with the time that it was given. Without a page every call goes straight
- * through. Thread-safe.
+ * At a rate of 1 a call is made with the time that it was given. Without a page every call goes
+ * straight through. Thread-safe.
  *
  * The functions have the names, types and errors of their manual pages, sections 2 and 3. */
 
@@ -48,14 +48,16 @@
 
 typedef int64_t nanoseconds;
 static const nanoseconds second = 1000000000;
-static const nanoseconds slice = 20000000;         /* of a wait that cannot be interrupted */
-static const nanoseconds longest_wait = 1000000000; /* of one that can, if the program blocks our signal */
+static const nanoseconds slice = 20000000; /* of a wait that cannot be interrupted */
+static const nanoseconds longest_wait =
+    1000000000; /* of one that can, if the program blocks our signal */
 static const nanoseconds forever = INT64_MAX;
 
-/* ---- The C library's own functions -------------------------------------------------------------- */
+/* ---- The C library's own functions --------------------------------------------------------------
+ */
 
-/* REAL(name) is the C library's function of this name. It is looked up once; looking it up twice at the same
- * time does no harm. */
+/* REAL(name) is the C library's function of this name. It is looked up once; looking it up twice at
+ * the same time does no harm. */
 static void* find(void* _Atomic* place, const char* name) {
   void* function = atomic_load_explicit(place, memory_order_acquire);
   if (function == NULL) {
@@ -65,13 +67,14 @@ static void* find(void* _Atomic* place, const char* name) {
   }
   return function;
 }
-#define REAL(name)                                                  \
-  (__extension__({                                                  \
-    static void* _Atomic place;                                     \
-    (__typeof__(&name))(uintptr_t)find(&place, #name);              \
+#define REAL(name)                                     \
+  (__extension__({                                     \
+    static void* _Atomic place;                        \
+    (__typeof__(&name))(uintptr_t)find(&place, #name); \
   }))
 
-/* ---- The match's time --------------------------------------------------------------------------- */
+/* ---- The match's time ---------------------------------------------------------------------------
+ */
 
 static const struct pitchboard_time_page* _Atomic page;
 
@@ -107,7 +110,9 @@ __attribute__((constructor)) static void open_page(void) {
   REAL(close)(fd);
 }
 
-static bool follows(void) { return atomic_load_explicit(&page, memory_order_relaxed) != NULL; }
+static bool follows(void) {
+  return atomic_load_explicit(&page, memory_order_relaxed) != NULL;
+}
 
 static nanoseconds from_timespec(const struct timespec* t) {
   if (t->tv_sec >= INT64_MAX / second - 1) return forever;
@@ -167,14 +172,19 @@ static bool is_shifted(clockid_t clock) {
     case CLOCK_MONOTONIC_COARSE:
     case CLOCK_MONOTONIC_RAW:
     case CLOCK_BOOTTIME:
-    case CLOCK_BOOTTIME_ALARM: return true;
-    default: return false;
+    case CLOCK_BOOTTIME_ALARM:
+      return true;
+    default:
+      return false;
   }
 }
 
-static nanoseconds match_time(clockid_t clock) { return real_time(clock) + shift(); }
+static nanoseconds match_time(clockid_t clock) {
+  return real_time(clock) + shift();
+}
 
-/* ---- Waits -------------------------------------------------------------------------------------- */
+/* ---- Waits --------------------------------------------------------------------------------------
+ */
 
 static uint32_t page_sequence(void) {
   const struct pitchboard_time_page* p = atomic_load_explicit(&page, memory_order_relaxed);
@@ -241,11 +251,12 @@ static nanoseconds next_part(struct wait* w) {
   const nanoseconds left = left_of(w), most = w->waiter != NULL ? longest_wait : slice;
   const double speed = rate();
   if (left == 0) return w->real = 0;
-  if (speed <= 0.0 || left == forever || (double)left / speed >= (double)most) return w->real = most;
+  if (speed <= 0.0 || left == forever || (double)left / speed >= (double)most)
+    return w->real = most;
   return w->real = speed == 1.0 ? left : (nanoseconds)((double)left / speed) + 1;
 }
-/* After a part of the wait: whether there is another one. A process that was stopped in a pause has some calls
- * interrupted when it goes on. */
+/* After a part of the wait: whether there is another one. A process that was stopped in a pause has
+ * some calls interrupted when it goes on. */
 static bool goes_on(const struct wait* w, bool timed_out, bool interrupted) {
   return timed_out ? w->real > 0 : interrupted && (page_sequence() != w->sequence || rate() <= 0.0);
 }
@@ -256,7 +267,8 @@ static struct timespec from_now(clockid_t clock, nanoseconds duration) {
   return to_timespec(real_time(clock) + duration);
 }
 
-/* ---- Clocks ------------------------------------------------------------------------------------- */
+/* ---- Clocks -------------------------------------------------------------------------------------
+ */
 
 EXPORT int clock_gettime(clockid_t clock, struct timespec* t) {
   const int result = REAL(clock_gettime)(clock, t);
@@ -289,9 +301,11 @@ EXPORT int timespec_get(struct timespec* t, int base) {
   return result;
 }
 
-/* ---- Sleeping ----------------------------------------------------------------------------------- */
+/* ---- Sleeping -----------------------------------------------------------------------------------
+ */
 
-EXPORT int clock_nanosleep(clockid_t clock, int flags, const struct timespec* t, struct timespec* left) {
+EXPORT int clock_nanosleep(clockid_t clock, int flags, const struct timespec* t,
+                           struct timespec* left) {
   if (!follows() || !is_shifted(clock) || t == NULL || !is_valid(t)) {
     return REAL(clock_nanosleep)(clock, flags, t, left);
   }
@@ -333,7 +347,8 @@ EXPORT int thrd_sleep(const struct timespec* t, struct timespec* left) {
   return error == 0 ? 0 : error == EINTR ? -1 : -2;
 }
 
-/* ---- Waiting for file descriptors --------------------------------------------------------------- */
+/* ---- Waiting for file descriptors ---------------------------------------------------------------
+ */
 
 static int poll_for(struct pollfd* fds, nfds_t count, nanoseconds duration, const sigset_t* mask) {
   struct wait w = wait_for(duration);
@@ -364,13 +379,14 @@ EXPORT int ppoll(struct pollfd* fds, nfds_t count, const struct timespec* t, con
 
 /* What _FORTIFY_SOURCE makes of the two. */
 int __poll_chk(struct pollfd* fds, nfds_t count, int milliseconds, size_t size);
-int __ppoll_chk(struct pollfd* fds, nfds_t count, const struct timespec* t, const sigset_t* mask, size_t size);
+int __ppoll_chk(struct pollfd* fds, nfds_t count, const struct timespec* t, const sigset_t* mask,
+                size_t size);
 EXPORT int __poll_chk(struct pollfd* fds, nfds_t count, int milliseconds, size_t size) {
   if (size / sizeof *fds < count) abort();
   return poll(fds, count, milliseconds);
 }
-EXPORT int __ppoll_chk(struct pollfd* fds, nfds_t count, const struct timespec* t, const sigset_t* mask,
-                       size_t size) {
+EXPORT int __ppoll_chk(struct pollfd* fds, nfds_t count, const struct timespec* t,
+                       const sigset_t* mask, size_t size) {
   if (size / sizeof *fds < count) abort();
   return ppoll(fds, count, t, mask);
 }
@@ -432,7 +448,8 @@ static int epoll_for(int epoll, struct epoll_event* events, int most, nanosecond
 
 EXPORT int epoll_pwait(int epoll, struct epoll_event* events, int most, int milliseconds,
                        const sigset_t* mask) {
-  if (!follows() || milliseconds <= 0) return REAL(epoll_pwait)(epoll, events, most, milliseconds, mask);
+  if (!follows() || milliseconds <= 0)
+    return REAL(epoll_pwait)(epoll, events, most, milliseconds, mask);
   return epoll_for(epoll, events, most, from_milliseconds(milliseconds), mask);
 }
 EXPORT int epoll_wait(int epoll, struct epoll_event* events, int most, int milliseconds) {
@@ -447,9 +464,11 @@ EXPORT int epoll_pwait2(int epoll, struct epoll_event* events, int most, const s
   return epoll_for(epoll, events, most, from_timespec(t), mask);
 }
 
-/* ---- Semaphores and locks ----------------------------------------------------------------------- */
+/* ---- Semaphores and locks -----------------------------------------------------------------------
+ */
 
-EXPORT int sem_clockwait(sem_t* restrict semaphore, clockid_t clock, const struct timespec* restrict at) {
+EXPORT int sem_clockwait(sem_t* restrict semaphore, clockid_t clock,
+                         const struct timespec* restrict at) {
   if (!follows() || at == NULL || !is_valid(at) || !is_shifted(clock)) {
     return REAL(sem_clockwait)(semaphore, clock, at);
   }
@@ -485,20 +504,24 @@ LOCK_UNTIL(pthread_mutex_clocklock, pthread_mutex_t)
 LOCK_UNTIL(pthread_rwlock_clockrdlock, pthread_rwlock_t)
 LOCK_UNTIL(pthread_rwlock_clockwrlock, pthread_rwlock_t)
 
-EXPORT int pthread_mutex_timedlock(pthread_mutex_t* restrict mutex, const struct timespec* restrict at) {
+EXPORT int pthread_mutex_timedlock(pthread_mutex_t* restrict mutex,
+                                   const struct timespec* restrict at) {
   if (!follows()) return REAL(pthread_mutex_timedlock)(mutex, at);
   return pthread_mutex_clocklock(mutex, CLOCK_REALTIME, at);
 }
-EXPORT int pthread_rwlock_timedrdlock(pthread_rwlock_t* restrict lock, const struct timespec* restrict at) {
+EXPORT int pthread_rwlock_timedrdlock(pthread_rwlock_t* restrict lock,
+                                      const struct timespec* restrict at) {
   if (!follows()) return REAL(pthread_rwlock_timedrdlock)(lock, at);
   return pthread_rwlock_clockrdlock(lock, CLOCK_REALTIME, at);
 }
-EXPORT int pthread_rwlock_timedwrlock(pthread_rwlock_t* restrict lock, const struct timespec* restrict at) {
+EXPORT int pthread_rwlock_timedwrlock(pthread_rwlock_t* restrict lock,
+                                      const struct timespec* restrict at) {
   if (!follows()) return REAL(pthread_rwlock_timedwrlock)(lock, at);
   return pthread_rwlock_clockwrlock(lock, CLOCK_REALTIME, at);
 }
 
-EXPORT int pthread_clockjoin_np(pthread_t thread, void** value, clockid_t clock, const struct timespec* at) {
+EXPORT int pthread_clockjoin_np(pthread_t thread, void** value, clockid_t clock,
+                                const struct timespec* at) {
   if (!follows() || at == NULL || !is_valid(at) || !is_shifted(clock)) {
     return REAL(pthread_clockjoin_np)(thread, value, clock, at);
   }
@@ -521,11 +544,12 @@ EXPORT int mtx_timedlock(mtx_t* restrict mutex, const struct timespec* restrict 
   return error == 0 ? thrd_success : error == ETIMEDOUT ? thrd_timedout : thrd_error;
 }
 
-/* ---- Condition variables ------------------------------------------------------------------------ */
+/* ---- Condition variables ------------------------------------------------------------------------
+ */
 
-/* When a wait is interrupted nobody waits for a moment, and a signal given then would be lost. So signals are
- * counted, per condition variable (several may share a counter: a wait may always end early), and an
- * interrupted wait goes on in slices. */
+/* When a wait is interrupted nobody waits for a moment, and a signal given then would be lost. So
+ * signals are counted, per condition variable (several may share a counter: a wait may always end
+ * early), and an interrupted wait goes on in slices. */
 enum { counters = 4096 };
 static _Atomic uint32_t signals[counters];
 
@@ -590,13 +614,15 @@ EXPORT int pthread_cond_timedwait(pthread_cond_t* restrict cond, pthread_mutex_t
   const bool monotonic = (cond->__data.__wrefs & cond_monotonic) != 0;
   return pthread_cond_clockwait(cond, mutex, monotonic ? CLOCK_MONOTONIC : CLOCK_REALTIME, at);
 }
-EXPORT int cnd_timedwait(cnd_t* restrict cond, mtx_t* restrict mutex, const struct timespec* restrict at) {
+EXPORT int cnd_timedwait(cnd_t* restrict cond, mtx_t* restrict mutex,
+                         const struct timespec* restrict at) {
   if (!follows()) return REAL(cnd_timedwait)(cond, mutex, at);
   const int error = pthread_cond_timedwait((pthread_cond_t*)cond, (pthread_mutex_t*)mutex, at);
   return error == 0 ? thrd_success : error == ETIMEDOUT ? thrd_timedout : thrd_error;
 }
 
-/* ---- Signals, message queues, System V semaphores ------------------------------------------------ */
+/* ---- Signals, message queues, System V semaphores
+ * ------------------------------------------------ */
 
 EXPORT int sigtimedwait(const sigset_t* restrict set, siginfo_t* restrict info,
                         const struct timespec* restrict t) {
@@ -627,8 +653,8 @@ EXPORT int semtimedop(int id, struct sembuf* operations, size_t count, const str
   return result;
 }
 
-EXPORT ssize_t mq_timedreceive(mqd_t queue, char* restrict message, size_t length, unsigned* restrict priority,
-                               const struct timespec* restrict at) {
+EXPORT ssize_t mq_timedreceive(mqd_t queue, char* restrict message, size_t length,
+                               unsigned* restrict priority, const struct timespec* restrict at) {
   if (!follows() || at == NULL || !is_valid(at)) {
     return REAL(mq_timedreceive)(queue, message, length, priority, at);
   }
@@ -656,18 +682,20 @@ EXPORT int mq_timedsend(mqd_t queue, const char* message, size_t length, unsigne
   return result;
 }
 
-/* ---- System calls made by hand: futexes of C++'s atomics, semaphores, futures --------------------- */
+/* ---- System calls made by hand: futexes of C++'s atomics, semaphores, futures
+ * --------------------- */
 
-static long real_futex(long address, long operation, long value, const struct timespec* t, long address2,
-                       long value3) {
+static long real_futex(long address, long operation, long value, const struct timespec* t,
+                       long address2, long value3) {
   return REAL(syscall)(SYS_futex, address, operation, value, (long)(uintptr_t)t, address2, value3);
 }
 
 static long futex(long address, long operation, long value, const struct timespec* t, long address2,
                   long value3) {
   const int command = (int)operation & FUTEX_CMD_MASK;
-  const clockid_t clock =
-      command == FUTEX_LOCK_PI || (operation & FUTEX_CLOCK_REALTIME) != 0 ? CLOCK_REALTIME : CLOCK_MONOTONIC;
+  const clockid_t clock = command == FUTEX_LOCK_PI || (operation & FUTEX_CLOCK_REALTIME) != 0
+                              ? CLOCK_REALTIME
+                              : CLOCK_MONOTONIC;
   const bool relative = command == FUTEX_WAIT;
   struct wait w = wait_for(relative ? from_timespec(t) : until(clock, t));
   long result;
@@ -706,7 +734,8 @@ EXPORT long syscall(long number, ...) {
   return REAL(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }
 
-/* ---- Timers of the kernel ----------------------------------------------------------------------- */
+/* ---- Timers of the kernel -----------------------------------------------------------------------
+ */
 
 /* An armed timer, in the program's time. */
 struct timer {
@@ -749,9 +778,12 @@ static int set_kernel_timer(struct timer* t) {
                                 to_timeval(from_timespec(&real.it_value) + 999)};
       return REAL(setitimer)(ITIMER_REAL, &value, NULL);
     }
-    case Posix: return REAL(timer_settime)(t->posix, 0, &real, NULL);
-    case Descriptor: return REAL(timerfd_settime)(t->fd, 0, &real, NULL);
-    default: return 0;
+    case Posix:
+      return REAL(timer_settime)(t->posix, 0, &real, NULL);
+    case Descriptor:
+      return REAL(timerfd_settime)(t->fd, 0, &real, NULL);
+    default:
+      return 0;
   }
 }
 
@@ -786,7 +818,9 @@ static struct timer* find_timer(int kind, timer_t posix, int fd) {
   for (int i = 0; i < most_timers; ++i) {
     struct timer* t = &timers[i];
     if ((int)t->kind != kind) continue;
-    if (kind == Interval || (kind == Posix && t->posix == posix) || (kind == Descriptor && t->fd == fd)) return t;
+    if (kind == Interval || (kind == Posix && t->posix == posix) ||
+        (kind == Descriptor && t->fd == fd))
+      return t;
   }
   return NULL;
 }
@@ -808,7 +842,8 @@ static int arm(struct timer* t, clockid_t clock, bool absolute, const struct iti
   t->clock = clock;
   t->armed = value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0;
   t->interval = from_timespec(&value->it_interval);
-  const nanoseconds duration = absolute ? until(clock, &value->it_value) : from_timespec(&value->it_value);
+  const nanoseconds duration =
+      absolute ? until(clock, &value->it_value) : from_timespec(&value->it_value);
   t->deadline = sliced_wait(duration).deadline;
   if (t->armed) (void)start_keeper();
   return set_kernel_timer(t);
@@ -816,18 +851,21 @@ static int arm(struct timer* t, clockid_t clock, bool absolute, const struct iti
 
 EXPORT int setitimer(__itimer_which_t which, const struct itimerval* restrict value,
                      struct itimerval* restrict old) {
-  if (!follows() || which != ITIMER_REAL || value == NULL) return REAL(setitimer)(which, value, old);
+  if (!follows() || which != ITIMER_REAL || value == NULL)
+    return REAL(setitimer)(which, value, old);
   pthread_mutex_lock(&timers_lock);
   struct timer* t = find_timer(Interval, NULL, 0);
   if (old != NULL) {
-    const struct itimerspec left = t != NULL ? remaining_of(t) : (struct itimerspec){{0, 0}, {0, 0}};
+    const struct itimerspec left =
+        t != NULL ? remaining_of(t) : (struct itimerspec){{0, 0}, {0, 0}};
     *old = (struct itimerval){to_timeval(from_timespec(&left.it_interval)),
                               to_timeval(from_timespec(&left.it_value))};
   }
   t = make_timer(Interval, NULL, 0);
   const struct itimerspec set = {to_timespec(from_timeval(&value->it_interval)),
                                  to_timespec(from_timeval(&value->it_value))};
-  const int result = t != NULL ? arm(t, CLOCK_MONOTONIC, false, &set) : REAL(setitimer)(which, value, NULL);
+  const int result =
+      t != NULL ? arm(t, CLOCK_MONOTONIC, false, &set) : REAL(setitimer)(which, value, NULL);
   pthread_mutex_unlock(&timers_lock);
   return result;
 }
@@ -900,7 +938,8 @@ EXPORT int timerfd_create(clockid_t clock, int flags) {
   pthread_mutex_unlock(&timers_lock);
   return fd;
 }
-EXPORT int timerfd_settime(int fd, int flags, const struct itimerspec* value, struct itimerspec* old) {
+EXPORT int timerfd_settime(int fd, int flags, const struct itimerspec* value,
+                           struct itimerspec* old) {
   pthread_mutex_lock(&timers_lock);
   struct timer* t = follows() && value != NULL ? find_timer(Descriptor, NULL, fd) : NULL;
   if (t != NULL && old != NULL) *old = remaining_of(t);
@@ -918,12 +957,17 @@ EXPORT int timerfd_gettime(int fd, struct itimerspec* value) {
   return result;
 }
 
-/* ---- The keeper --------------------------------------------------------------------------------- */
+/* ---- The keeper ---------------------------------------------------------------------------------
+ */
 
 static _Atomic int keeper_state; /* 0: none yet; 1: runs */
 
-static int wake_signal(void) { return SIGRTMAX - 5; }
-static void ignore(int signal) { (void)signal; }
+static int wake_signal(void) {
+  return SIGRTMAX - 5;
+}
+static void ignore(int signal) {
+  (void)signal;
+}
 
 /* Interrupts those that wait by an older page. True when there is none. */
 static bool wake_waiters(uint32_t sequence) {
@@ -958,7 +1002,8 @@ static void* keep(void* unused) {
       }
       seen = now;
     }
-    if (page_sequence() == now) real_futex((long)(uintptr_t)&p->sequence, FUTEX_WAIT, (long)now, NULL, 0, 0);
+    if (page_sequence() == now)
+      real_futex((long)(uintptr_t)&p->sequence, FUTEX_WAIT, (long)now, NULL, 0, 0);
   }
   return unused;
 }
@@ -982,7 +1027,8 @@ static bool start_keeper(void) {
   static bool registered;
   if (!registered) pthread_atfork(NULL, NULL, after_fork);
   registered = true;
-  /* A signal that the program uses itself stays its own; waits are looked after once a second then. */
+  /* A signal that the program uses itself stays its own; waits are looked after once a second then.
+   */
   struct sigaction action;
   if (sigaction(wake_signal(), NULL, &action) == 0 && action.sa_handler == SIG_DFL) {
     memset(&action, 0, sizeof action);
@@ -1001,15 +1047,19 @@ static bool start_keeper(void) {
   return started;
 }
 
-/* ---- Timeouts of sockets ------------------------------------------------------------------------ */
+/* ---- Timeouts of sockets ------------------------------------------------------------------------
+ */
 
-/* SO_RCVTIMEO and SO_SNDTIMEO, kept here instead of in the kernel: a wait is a poll before the call. */
+/* SO_RCVTIMEO and SO_SNDTIMEO, kept here instead of in the kernel: a wait is a poll before the
+ * call. */
 enum { most_sockets = 1024 };
 static _Atomic nanoseconds receive_timeout[most_sockets], send_timeout[most_sockets];
 
 static _Atomic nanoseconds* timeout_of(int fd, int option) {
   if (fd < 0 || fd >= most_sockets) return NULL;
-  return option == SO_RCVTIMEO ? &receive_timeout[fd] : option == SO_SNDTIMEO ? &send_timeout[fd] : NULL;
+  return option == SO_RCVTIMEO   ? &receive_timeout[fd]
+         : option == SO_SNDTIMEO ? &send_timeout[fd]
+                                 : NULL;
 }
 
 EXPORT int setsockopt(int fd, int level, int option, const void* value, socklen_t length) {
@@ -1027,7 +1077,8 @@ EXPORT int setsockopt(int fd, int level, int option, const void* value, socklen_
   if (result == 0) atomic_store(timeout, from_timeval(wanted));
   return result;
 }
-EXPORT int getsockopt(int fd, int level, int option, void* restrict value, socklen_t* restrict length) {
+EXPORT int getsockopt(int fd, int level, int option, void* restrict value,
+                      socklen_t* restrict length) {
   const _Atomic nanoseconds* timeout = level == SOL_SOCKET ? timeout_of(fd, option) : NULL;
   const int result = REAL(getsockopt)(fd, level, option, value, length);
   if (result == 0 && follows() && timeout != NULL && *length >= sizeof(struct timeval)) {
@@ -1039,7 +1090,8 @@ EXPORT int getsockopt(int fd, int level, int option, void* restrict value, sockl
 /* False when the time is over; errno is set then. Not for calls that do not block. */
 static bool may_go_on(int fd, int option, short events) {
   const _Atomic nanoseconds* timeout = timeout_of(fd, option);
-  const nanoseconds limit = timeout != NULL ? atomic_load_explicit(timeout, memory_order_relaxed) : 0;
+  const nanoseconds limit =
+      timeout != NULL ? atomic_load_explicit(timeout, memory_order_relaxed) : 0;
   if (limit == 0 || !follows()) return true;
   const int flags = fcntl(fd, F_GETFL);
   if (flags >= 0 && (flags & O_NONBLOCK) != 0) return true;
@@ -1050,34 +1102,39 @@ static bool may_go_on(int fd, int option, short events) {
 }
 
 #define AFTER_WAIT(type, name, parameters, arguments, fd, option, events, blocks) \
-  EXPORT type name parameters {                                                  \
-    if ((blocks) && !may_go_on(fd, option, events)) return -1;                   \
-    return REAL(name) arguments;                                                 \
+  EXPORT type name parameters {                                                   \
+    if ((blocks) && !may_go_on(fd, option, events)) return -1;                    \
+    return REAL(name) arguments;                                                  \
   }
-AFTER_WAIT(ssize_t, recv, (int fd, void* data, size_t size, int flags), (fd, data, size, flags), fd, SO_RCVTIMEO,
-           POLLIN, (flags & MSG_DONTWAIT) == 0)
+AFTER_WAIT(ssize_t, recv, (int fd, void* data, size_t size, int flags), (fd, data, size, flags), fd,
+           SO_RCVTIMEO, POLLIN, (flags & MSG_DONTWAIT) == 0)
 AFTER_WAIT(ssize_t, recvfrom,
            (int fd, void* restrict data, size_t size, int flags, struct sockaddr* restrict from,
             socklen_t* restrict length),
-           (fd, data, size, flags, from, length), fd, SO_RCVTIMEO, POLLIN, (flags & MSG_DONTWAIT) == 0)
-AFTER_WAIT(ssize_t, recvmsg, (int fd, struct msghdr* message, int flags), (fd, message, flags), fd, SO_RCVTIMEO,
-           POLLIN, (flags & MSG_DONTWAIT) == 0)
-AFTER_WAIT(ssize_t, read, (int fd, void* data, size_t size), (fd, data, size), fd, SO_RCVTIMEO, POLLIN, true)
-AFTER_WAIT(ssize_t, readv, (int fd, const struct iovec* parts, int count), (fd, parts, count), fd, SO_RCVTIMEO,
+           (fd, data, size, flags, from, length), fd, SO_RCVTIMEO, POLLIN,
+           (flags & MSG_DONTWAIT) == 0)
+AFTER_WAIT(ssize_t, recvmsg, (int fd, struct msghdr* message, int flags), (fd, message, flags), fd,
+           SO_RCVTIMEO, POLLIN, (flags & MSG_DONTWAIT) == 0)
+AFTER_WAIT(ssize_t, read, (int fd, void* data, size_t size), (fd, data, size), fd, SO_RCVTIMEO,
            POLLIN, true)
-AFTER_WAIT(int, accept, (int fd, struct sockaddr* restrict from, socklen_t* restrict length), (fd, from, length),
-           fd, SO_RCVTIMEO, POLLIN, true)
-AFTER_WAIT(int, accept4, (int fd, struct sockaddr* restrict from, socklen_t* restrict length, int flags),
+AFTER_WAIT(ssize_t, readv, (int fd, const struct iovec* parts, int count), (fd, parts, count), fd,
+           SO_RCVTIMEO, POLLIN, true)
+AFTER_WAIT(int, accept, (int fd, struct sockaddr* restrict from, socklen_t* restrict length),
+           (fd, from, length), fd, SO_RCVTIMEO, POLLIN, true)
+AFTER_WAIT(int, accept4,
+           (int fd, struct sockaddr* restrict from, socklen_t* restrict length, int flags),
            (fd, from, length, flags), fd, SO_RCVTIMEO, POLLIN, true)
-AFTER_WAIT(ssize_t, send, (int fd, const void* data, size_t size, int flags), (fd, data, size, flags), fd,
-           SO_SNDTIMEO, POLLOUT, (flags & MSG_DONTWAIT) == 0)
+AFTER_WAIT(ssize_t, send, (int fd, const void* data, size_t size, int flags),
+           (fd, data, size, flags), fd, SO_SNDTIMEO, POLLOUT, (flags & MSG_DONTWAIT) == 0)
 AFTER_WAIT(ssize_t, sendto,
-           (int fd, const void* data, size_t size, int flags, const struct sockaddr* to, socklen_t length),
-           (fd, data, size, flags, to, length), fd, SO_SNDTIMEO, POLLOUT, (flags & MSG_DONTWAIT) == 0)
-AFTER_WAIT(ssize_t, sendmsg, (int fd, const struct msghdr* message, int flags), (fd, message, flags), fd,
-           SO_SNDTIMEO, POLLOUT, (flags & MSG_DONTWAIT) == 0)
-AFTER_WAIT(ssize_t, write, (int fd, const void* data, size_t size), (fd, data, size), fd, SO_SNDTIMEO, POLLOUT,
-           true)
+           (int fd, const void* data, size_t size, int flags, const struct sockaddr* to,
+            socklen_t length),
+           (fd, data, size, flags, to, length), fd, SO_SNDTIMEO, POLLOUT,
+           (flags & MSG_DONTWAIT) == 0)
+AFTER_WAIT(ssize_t, sendmsg, (int fd, const struct msghdr* message, int flags),
+           (fd, message, flags), fd, SO_SNDTIMEO, POLLOUT, (flags & MSG_DONTWAIT) == 0)
+AFTER_WAIT(ssize_t, write, (int fd, const void* data, size_t size), (fd, data, size), fd,
+           SO_SNDTIMEO, POLLOUT, true)
 
 /* The number may mean another file now. */
 EXPORT int close(int fd) {
