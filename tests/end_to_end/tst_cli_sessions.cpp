@@ -215,7 +215,8 @@ class TestCliSessions : public QObject {
     QCOMPARE(look.exitCode, 1);
     QVERIFY2(look.out.contains("pitchboard-cli repair"), look.out.constData());
     const Run run = cli({"repair", broken, whole});
-    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY2(run.exitCode == 1, run.err.constData());  // its end is missing
+    QVERIFY2(run.err.contains("broke off") && run.err.contains("lost, "), run.err.constData());
     QCOMPARE(contents(broken).size(), bytes.size() * 7 / 10);
     QCOMPARE(cli({"inspect", whole}).exitCode, 0);
     const Values kept = valuesOf(whole, always);
@@ -239,10 +240,18 @@ class TestCliSessions : public QObject {
     QVERIFY2(look.out.contains(" lost, between "), look.out.constData());
     QVERIFY2(look.out.contains("pitchboard-cli repair"), look.out.constData());
     const Run run = cli({"repair", damaged, whole});
-    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY2(run.exitCode == 1, run.err.constData());
     QVERIFY2(run.out.contains(" were saved; ") && run.out.contains(" lost."), run.out.constData());
     QVERIFY2(run.err.contains(" lost, between "), run.err.constData());
     QCOMPARE(cli({"inspect", whole}).exitCode, 0);
+    // Only the summary is damaged: nothing is missing.
+    bytes = contents(m_session);
+    bytes[bytes.size() - 40] = static_cast<char>(bytes[bytes.size() - 40] ^ 1);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size());
+    file.close();
+    const Run all = cli({"repair", damaged, newPath(".mcap")});
+    QVERIFY2(all.exitCode == 0 && all.err.contains("summary"), all.err.constData());
+    QVERIFY2(all.out.endsWith(" were saved.\n"), all.out.constData());
     // Itself is no target, whatever is to be written.
     for (const QString format : {"csv-wide", "mcap", "report"}) {
       const Run self = cli({"export", m_session, "--to", format, "-o", m_session});
