@@ -311,10 +311,14 @@ class McapScan {
     }
   }
 
+  /// Damage that several searches went through is one part, as long as nothing tells more of it.
   void lose(McapLoss loss) {
+    const auto unknown = [](const McapLoss& one) {
+      return !one.messages && one.start == 0 && one.end == 0;
+    };
     auto& losses = m_reader.losses;
     if (!losses.empty() && losses.back().offset + losses.back().bytes == loss.offset &&
-        losses.back().reason == loss.reason && !losses.back().messages && !loss.messages) {
+        losses.back().reason == loss.reason && unknown(losses.back()) && unknown(loss)) {
       losses.back().bytes += loss.bytes;
     } else {
       losses.push_back(std::move(loss));
