@@ -210,8 +210,9 @@ class TestCliSessions : public QObject {
     const QByteArray bytes = contents(m_session);
     const auto session = SessionReader::open(m_session.toStdString());
     const auto& chunks = session->file().chunks();
-    const auto& cut = chunks[chunks.size() / 2];
-    const auto size = static_cast<qsizetype>(cut.offset + cut.length / 2);
+    const auto cut = std::find_if(chunks.begin() + static_cast<std::ptrdiff_t>(chunks.size() / 2),
+                                  chunks.end(), [](const auto& one) { return one.end != 0; });
+    const auto size = static_cast<qsizetype>(cut->offset + cut->length / 2);
     QFile file(broken);
     QVERIFY(file.open(QIODevice::WriteOnly) && file.write(bytes.left(size)) == size);
     file.close();
@@ -223,9 +224,11 @@ class TestCliSessions : public QObject {
     QVERIFY2(run.err.contains("broke off") && run.err.contains("lost, "), run.err.constData());
     QCOMPARE(contents(broken).size(), size);
     QCOMPARE(cli({"inspect", whole}).exitCode, 0);
-    const Values kept = valuesOf(whole, always);
-    QVERIFY(kept.size() > 1000);
-    compare(kept, valuesOf(m_session, {-1, std::get<0>(kept.rbegin()->first)}));
+    // The last tick may lie in two chunks.
+    const Values all = valuesOf(whole, always);
+    QVERIFY(all.size() > 1000);
+    const double last = std::get<0>(all.rbegin()->first) - 0.01;
+    compare(valuesOf(whole, {-1, last}), valuesOf(m_session, {-1, last}));
     QCOMPARE(cli({"repair", broken, whole}).exitCode, 2);
   }
 

@@ -276,7 +276,7 @@ class McapScan {
     }
     loss.atLeast = loss.messages.has_value();
     if (!loss.messages) m_reader.lookAtHead(found, loss);
-    if (!found && !loss.messages) {
+    if (!found && !loss.atLeast) {
       loss.reason = "The recording broke off here.";
       m_done = true;
     }
