@@ -25,9 +25,9 @@ int run(const Options& options) {
                                       [&](double part) { return progress(part); });
   }
   if (!report) return reportError(report.error());
-  for (const std::string& sentence : report->lost) std::fprintf(stderr, "%s\n", sentence.c_str());
+  for (const std::string& note : report->notes) std::fprintf(stderr, "%s\n", note.c_str());
   std::printf("%s: %s\n", options.to.c_str(), report->summary().c_str());
-  return 0;
+  return report->complete ? 0 : 1;
 }
 
 }  // namespace
@@ -36,10 +36,11 @@ void addRepairCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();
   CLI::App* command = parent.add_subcommand(
       "repair",
-      "Make a whole session of one that broke off or is damaged. The old file stays as it is.\n"
+      "Recover a truncated or damaged recording into a new file. The old file is not changed.\n"
+      "Exits with 1 if something is missing: stderr says what, with offset and time.\n"
       "Example: pitchboard-cli repair match.mcap match-repaired.mcap");
-  command->add_option("in", options->from, "The broken session")->required()->type_name("IN");
-  command->add_option("out", options->to, "The new one; it must not exist")
+  command->add_option("in", options->from, "The damaged session")->required()->type_name("IN");
+  command->add_option("out", options->to, "The new file; it must not exist")
       ->required()
       ->type_name("OUT");
   command->add_flag("--progress", options->progress,

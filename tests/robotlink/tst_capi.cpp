@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Worlds for learning programs: as C++, through the C interface, and by a program in C.
+#include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QtTest>
@@ -166,6 +167,35 @@ class TestCapi : public QObject {
     QCOMPARE(pb_read(worlds, PB_GAME, game.data(), game.size()), PB_OK);
     QCOMPARE(game[0], 150.0);
     QCOMPARE(pb_destroy(worlds), PB_OK);
+  }
+
+  void everyColumnKeepsItsPlaceAndItsName() {
+    QFile file(QStringLiteral(PITCHBOARD_TEST_DATA "/world_columns.txt"));
+    QVERIFY(file.open(QIODevice::ReadOnly | QIODevice::Text));
+    const QByteArrayList arrays{"percepts", "robots", "game", "commands"};
+    std::vector<QByteArrayList> recorded(4);
+    for (const QByteArray& line : file.readAll().split('\n')) {
+      if (line.isEmpty() || line.startsWith('#')) continue;
+      const QByteArrayList parts = line.split(' ');
+      QCOMPARE(parts.size(), 3);
+      const qsizetype array = arrays.indexOf(parts[0]);
+      QVERIFY2(array >= 0, line.constData());
+      auto& names = recorded[static_cast<std::size_t>(array)];
+      QCOMPARE(parts[1].toInt(), static_cast<int>(names.size()));
+      names.append(parts[2]);
+    }
+    for (int array = 0; array < 4; ++array) {
+      QByteArrayList names;
+      for (std::size_t i = 0; i < pb_column_count(array); ++i) {
+        const QByteArray name = pb_column_name(array, i), words = pb_column_words(array, i);
+        QVERIFY2(!name.isEmpty() && !words.isEmpty(),
+                 qPrintable(QStringLiteral("%1 %2").arg(array).arg(i)));
+        QVERIFY2(!names.contains(name), name.constData());
+        names.append(name);
+      }
+      QCOMPARE(names, recorded[static_cast<std::size_t>(array)]);
+    }
+    QCOMPARE(pb_api_version(), 1);
   }
 
   void aNewBeginningIsLikeANewMatch() {

@@ -31,7 +31,10 @@ class TestExperimentStatistics : public QObject {
   void welchOfThePaper();
   void welchAgainstTables_data();
   void welchAgainstTables();
-  void rateThatNeverVaries();
+  void fisherAgainstOthers_data();
+  void fisherAgainstOthers();
+  void withoutSpreadThereIsNoTest();
+  void ratesAndCountsHaveTheirIntervals();
   void bootstrapIsThatOfTheMean();
   void pairsAndHistograms();
   void checksReadStatistics();
@@ -96,17 +99,94 @@ void TestExperimentStatistics::welchAgainstTables() {
   QVERIFY(!welchTest({1.0, 1.0, 1}, {2.0, 1.0, 5}));
 }
 
-void TestExperimentStatistics::rateThatNeverVaries() {
-  // Clopper and Pearson for 0 of 10 and 10 of 10: 1 - 0.025^(1/10) = 0.30850.
-  const auto none = intervalOfMean(std::vector<double>(10, 0.0));
-  const auto all = intervalOfMean(std::vector<double>(10, 1.0));
-  QCOMPARE(none->low, 0.0);
-  QVERIFY(near(none->high, 0.30850, 1e-5));
-  QVERIFY(near(all->low, 0.69150, 1e-5));
-  QCOMPARE(all->high, 1.0);
-  const auto flat = intervalOfMean(std::vector<double>(5, 2.5));
-  QCOMPARE(flat->low, 2.5);
+void TestExperimentStatistics::fisherAgainstOthers_data() {
+  QTest::addColumn<int>("successesA");
+  QTest::addColumn<int>("a");
+  QTest::addColumn<int>("successesB");
+  QTest::addColumn<int>("b");
+  QTest::addColumn<double>("p");
+  // Examples of R (fisher.test: the lady tasting tea) and scipy (fisher_exact).
+  QTest::newRow("R, tea") << 3 << 4 << 1 << 4 << 0.4857142857142857;
+  QTest::newRow("scipy, whales and sharks") << 8 << 10 << 1 << 6 << 0.03496503496503497;
+  // Worked out with whole numbers: the sum of C(r, k) C(N - r, n - k) over all k for which it is at
+  // most that of the table, by C(N, n).
+  QTest::newRow("a rate of nearly 1 and one of 1") << 973 << 1000 << 30 << 30 << 1.0;
+  QTest::newRow("a rate of nearly 1 and a half") << 973 << 1000 << 5 << 10 << 5.225194520022058e-06;
+  QTest::newRow("of the published scenario") << 312 << 1000 << 16 << 30 << 0.015640964475888607;
+  QTest::newRow("large and large") << 144 << 1000 << 106 << 1000 << 0.012243492045150978;
+  QTest::newRow("rare") << 1 << 200 << 9 << 200 << 0.01996583455543191;
+  QTest::newRow("none and all") << 0 << 10 << 10 << 10 << 1.082508822446903e-05;
+  QTest::newRow("none and none") << 0 << 10 << 0 << 10 << 1.0;
+  QTest::newRow("all and all") << 10 << 10 << 10 << 10 << 1.0;
+  QTest::newRow("as probable on the other side") << 7 << 12 << 5 << 12 << 0.6842726529090777;
+  QTest::newRow("samples of two sizes") << 2 << 17 << 10 << 20 << 0.017304846559574035;
+}
+
+void TestExperimentStatistics::fisherAgainstOthers() {
+  QFETCH(int, successesA);
+  QFETCH(int, a);
+  QFETCH(int, successesB);
+  QFETCH(int, b);
+  QFETCH(double, p);
+  const auto n = [](int value) { return static_cast<std::size_t>(value); };
+  QVERIFY(near(fisherTest(n(successesA), n(a), n(successesB), n(b)), p, 1e-9 * p));
+  QVERIFY(near(fisherTest(n(successesB), n(b), n(successesA), n(a)), p, 1e-9 * p));
+  QVERIFY(near(fisherTest(n(a - successesA), n(a), n(b - successesB), n(b)), p, 1e-9 * p));
+  // Rates are compared by it, and by nothing else.
+  const auto rate = [](int successes, int of) {
+    const double share = double(successes) / of;
+    return SampleMoments{share, std::sqrt(share * (1 - share)), static_cast<std::size_t>(of)};
+  };
+  const Comparison both = compared(rate(successesA, a), rate(successesB, b), true);
+  QVERIFY(both.test == Comparison::Test::Fisher && !both.welch);
+  QVERIFY(near(both.p, p, 1e-9 * p));
+  QCOMPARE(both.testText(), std::string("Fisher"));
+}
+
+void TestExperimentStatistics::withoutSpreadThereIsNoTest() {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const SampleMoments varies{2.0, 0.5, 200}, still{1.0, 0.0, 200}, rounded{0.3, 1e-17, 200};
+  const SampleMoments notGiven{1.0, nan, 30};
+  for (const SampleMoments& other : {still, rounded, notGiven}) {
+    QVERIFY(!welchTest(varies, other) && !welchTest(other, varies) && !welchTest(other, other));
+    const Comparison one = compared(varies, other, false);
+    QVERIFY(one.test == Comparison::Test::None && !one.welch && !one.difference95);
+    QCOMPARE(one.p, 1.0);
+    QCOMPARE(one.difference, varies.mean - other.mean);
+  }
+  QCOMPARE(compared(varies, still, false).testText(),
+           std::string("one side has no spread, so no test"));
+  QCOMPARE(compared(still, still, false).testText(),
+           std::string("neither side has spread, so no test"));
+  QCOMPARE(compared(varies, notGiven, false).testText(),
+           std::string("no spread given, so no test"));
+  QCOMPARE(compared(varies, {1.0, 0.5, 1}, true).testText(),
+           std::string("too few values for a test"));
+  QCOMPARE(compared(varies, {1.9, 0.5, 200}, false).testText(), std::string("Welch"));
+  // A hundred deviations apart: the runs repeat one another.
+  const Comparison repeated = compared({2.0, 0.01, 200}, {1.0, 0.01, 200}, false);
+  QVERIFY(repeated.welch && repeated.testText().starts_with("Welch; the runs hardly vary"));
+}
+
+void TestExperimentStatistics::ratesAndCountsHaveTheirIntervals() {
+  // Clopper and Pearson for 0 of 10 and 10 of 10: 1 - 0.025^(1/10) = 0.30850; for 8 of 10 any
+  // table: 0.4439 to 0.9748.
+  const auto of = [](double rate) { return *intervalOfRate({rate, 0.0, 10}); };
+  QCOMPARE(of(0.0).low, 0.0);
+  QVERIFY(near(of(0.0).high, 0.30850, 1e-5));
+  QVERIFY(near(of(1.0).low, 0.69150, 1e-5));
+  QCOMPARE(of(1.0).high, 1.0);
+  QVERIFY(near(of(0.8).low, 0.4439, 5e-5) && near(of(0.8).high, 0.9748, 5e-5));
+  const std::vector<double> ones(200, 1.0);
+  QVERIFY(near(summaryOf(ones, true).mean95->low, 0.98172, 1e-5));
+  // One goal in each of 200 matches is no rate.
+  QVERIFY(*summaryOf(ones).mean95 == (Interval{1.0, 1.0}));
+  QCOMPARE(intervalOfMean(std::vector<double>(5, 2.5))->low, 2.5);
   QVERIFY(!intervalOfMean(std::vector<double>{1.0}));
+  // Newcombe (1998), table II: 56 of 70 and 48 of 80, method 10.
+  const Comparison both = compared({0.8, 0.4, 70}, {0.6, 0.5, 80}, true);
+  QVERIFY(near(both.difference95->low, 0.0524, 5e-5) &&
+          near(both.difference95->high, 0.3339, 5e-5));
 }
 
 void TestExperimentStatistics::bootstrapIsThatOfTheMean() {

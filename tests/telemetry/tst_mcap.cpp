@@ -194,7 +194,7 @@ class TestMcap : public QObject {
       const auto report = repairSession(broken, repaired);
       QVERIFY2(report, report ? "" : report.error().text().c_str());
       QVERIFY2(rowsOf(*SessionReader::open(repaired), everything) == rest, qPrintable(where));
-      QVERIFY(!report->lost.empty());
+      QVERIFY(!report->notes.empty());
       const std::uint64_t lost = whole->statistics().messages - report->messages;
       if (!brokenOff || !lengthToo) {
         QCOMPARE(report->lostMessages, lost);
@@ -204,8 +204,8 @@ class TestMcap : public QObject {
       }
       if (report->lostMessages > 0) {
         QVERIFY(report->summary().find("; " + std::to_string(lost)) != std::string::npos);
-        QVERIFY2(report->lost.back().find(" lost, between ") != std::string::npos,
-                 report->lost.back().c_str());
+        QVERIFY2(report->notes.back().find(" lost, between ") != std::string::npos,
+                 report->notes.back().c_str());
       }
     }
   }

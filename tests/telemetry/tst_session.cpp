@@ -285,7 +285,7 @@ class TestSession : public QObject, private NewSessions {
     });
     QVERIFY2(report, report ? "" : report.error().text().c_str());
     QVERIFY(std::is_sorted(parts.begin(), parts.end()) && parts.size() > 5);
-    QCOMPARE(report->lost.size(), 1U);
+    QCOMPARE(report->notes.size(), 1U);
     const auto reader = SessionReader::open(repaired);
     QVERIFY(reader->complete() && reader->notes().empty());
     QCOMPARE(reader->attachment("a.txt").value(), std::string("hello"));

@@ -88,7 +88,7 @@ PB_API const char* pb_version(void);
  *  stands until the thread's next call. */
 PB_API const char* pb_last_error(void);
 
-/** Columns of an array; 0 for an unknown one. New columns are added at the end. */
+/** Columns of an array; 0 for an unknown one. New columns are added at the end of their array. */
 PB_API size_t pb_column_count(int32_t array);
 /** Null where there is none. */
 PB_API const char* pb_column_name(int32_t array, size_t column);

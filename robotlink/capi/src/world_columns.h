@@ -2,8 +2,10 @@
 #pragma once
 
 // The rows that can be read of a world: each number stands here once, with its name, its words and
-// where it comes from. A visitor gets (name, words, value) in the order of the columns. Units are
-// those of the values: percepts as on the blackboard, the truth in metres, seconds and radians.
+// where it comes from. A visitor gets (name, words, value) in the order of the columns. Programs
+// know columns by their place: a new one is added at the end of its function, and to
+// tests/data/world_columns.txt. Units are those of the values: percepts as on the blackboard, the
+// truth in metres, seconds and radians. Any thread.
 
 #include <array>
 #include <cstddef>
@@ -49,18 +51,19 @@ struct SeenNames {
   std::string_view distance, angle;
 };
 inline constexpr std::array<SeenNames, sim::Percepts::maxSeenRobots> seenNames{{
-    {"robot_01_distance_cm", "robot_01_angle_deg"},
-    {"robot_02_distance_cm", "robot_02_angle_deg"},
-    {"robot_03_distance_cm", "robot_03_angle_deg"},
-    {"robot_04_distance_cm", "robot_04_angle_deg"},
-    {"robot_05_distance_cm", "robot_05_angle_deg"},
-    {"robot_06_distance_cm", "robot_06_angle_deg"},
-    {"robot_07_distance_cm", "robot_07_angle_deg"},
-    {"robot_08_distance_cm", "robot_08_angle_deg"},
-    {"robot_09_distance_cm", "robot_09_angle_deg"},
-    {"robot_10_distance_cm", "robot_10_angle_deg"},
-    {"robot_11_distance_cm", "robot_11_angle_deg"},
+    {"robot_01_distance_cm", "robot_01_angle_deg"}, {"robot_02_distance_cm", "robot_02_angle_deg"},
+    {"robot_03_distance_cm", "robot_03_angle_deg"}, {"robot_04_distance_cm", "robot_04_angle_deg"},
+    {"robot_05_distance_cm", "robot_05_angle_deg"}, {"robot_06_distance_cm", "robot_06_angle_deg"},
+    {"robot_07_distance_cm", "robot_07_angle_deg"}, {"robot_08_distance_cm", "robot_08_angle_deg"},
+    {"robot_09_distance_cm", "robot_09_angle_deg"}, {"robot_10_distance_cm", "robot_10_angle_deg"},
+    {"robot_11_distance_cm", "robot_11_angle_deg"}, {"robot_12_distance_cm", "robot_12_angle_deg"},
+    {"robot_13_distance_cm", "robot_13_angle_deg"}, {"robot_14_distance_cm", "robot_14_angle_deg"},
+    {"robot_15_distance_cm", "robot_15_angle_deg"}, {"robot_16_distance_cm", "robot_16_angle_deg"},
+    {"robot_17_distance_cm", "robot_17_angle_deg"}, {"robot_18_distance_cm", "robot_18_angle_deg"},
+    {"robot_19_distance_cm", "robot_19_angle_deg"}, {"robot_20_distance_cm", "robot_20_angle_deg"},
+    {"robot_21_distance_cm", "robot_21_angle_deg"}, {"robot_22_distance_cm", "robot_22_angle_deg"},
 }};
+static_assert(!seenNames.back().distance.empty(), "every robot that can be seen has its names");
 
 template <class Visit>
 void visitPercepts(const sim::Percepts& p, Visit&& visit) {

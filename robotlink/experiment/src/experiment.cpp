@@ -174,7 +174,11 @@ void checkWhole(const Experiment& e, const JsonObject& root) {
     const auto metric = std::find(names.begin(), names.end(), figure.metric);
     if (metric == names.end()) {
       root.fail("compare", unknownName("metric", figure.metric, names));
-    } else if (!figure.deviation && !metrics[std::size_t(metric - names.begin())].rate) {
+    } else if (metrics[std::size_t(metric - names.begin())].rate) {
+      if (figure.mean < 0.0 || figure.mean > 1.0) {
+        root.fail("compare", figure.name + ": the mean of a rate must be 0 to 1");
+      }
+    } else if (!figure.deviation) {
       root.fail("compare", figure.name + " needs \"sd\", its standard deviation");
     }
     for (const std::string& condition : figure.conditions) {

@@ -49,6 +49,29 @@ Json welchJson(const std::optional<WelchTest>& test) {
           {"hedges_g", test->hedgesG}};
 }
 
+const char* testName(Comparison::Test test) {
+  switch (test) {
+    case Comparison::Test::Welch:
+      return "welch";
+    case Comparison::Test::Fisher:
+      return "fisher";
+    case Comparison::Test::None:
+      break;
+  }
+  return nullptr;
+}
+
+/// Behind the members of `out`.
+void addComparison(Json& out, const Comparison& one) {
+  const char* const test = testName(one.test);
+  out["difference"] = known(one.difference);
+  out["difference_95"] = intervalJson(one.difference95);
+  out["test"] = test ? Json(test) : Json(nullptr);
+  out["p"] = test ? Json(one.p) : Json(nullptr);
+  out["note"] = one.note;
+  out["welch"] = welchJson(one.welch);
+}
+
 }  // namespace
 
 std::string csvHead(const std::vector<MetricInfo>& metrics) {
@@ -89,27 +112,28 @@ std::string summaryJson(const Experiment& experiment, const ExperimentSummary& s
   }
   Json differences = Json::array();
   for (const ConditionDifference& one : summary.differences) {
-    if (!one.welch && !one.paired.mean95) continue;
-    differences.push_back({{"metric", summary.metrics[one.metric].name},
-                           {"of", summary.conditions[one.second].name},
-                           {"minus", summary.conditions[one.first].name},
-                           {"welch", welchJson(one.welch)},
-                           {"paired_mean", known(one.paired.mean)},
-                           {"paired_mean_95", intervalJson(one.paired.mean95)},
-                           {"pairs", one.paired.pairs}});
+    Json entry{{"metric", summary.metrics[one.metric].name},
+               {"of", summary.conditions[one.second].name},
+               {"minus", summary.conditions[one.first].name}};
+    addComparison(entry, one.comparison);
+    entry["paired_mean"] = known(one.paired.mean);
+    entry["paired_mean_95"] = intervalJson(one.paired.mean95);
+    entry["pairs"] = one.paired.pairs;
+    differences.push_back(std::move(entry));
   }
   Json comparisons = Json::array();
   for (const GivenComparison& one : summary.comparisons) {
-    comparisons.push_back({{"metric", summary.metrics[one.metric].name},
-                           {"of", summary.conditions[one.condition].name},
-                           {"minus", experiment.given[one.figure].name},
-                           {"mean", known(one.ours.mean)},
-                           {"sd", one.ours.deviation},
-                           {"n", one.ours.count},
-                           {"given_mean", one.theirs.mean},
-                           {"given_sd", one.theirs.deviation},
-                           {"given_n", one.theirs.count},
-                           {"welch", welchJson(one.welch)}});
+    Json entry{{"metric", summary.metrics[one.metric].name},
+               {"of", summary.conditions[one.condition].name},
+               {"minus", experiment.given[one.figure].name},
+               {"mean", known(one.ours.mean)},
+               {"sd", known(one.ours.deviation)},
+               {"n", one.ours.count},
+               {"given_mean", one.theirs.mean},
+               {"given_sd", known(one.theirs.deviation)},
+               {"given_n", one.theirs.count}};
+    addComparison(entry, one.comparison);
+    comparisons.push_back(std::move(entry));
   }
   Json assertions = Json::array();
   for (const CheckedAssertion& one : summary.assertions) {

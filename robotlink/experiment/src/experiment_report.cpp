@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include <robotlink/report/field_svg.h>
 #include <robotlink/report/report_page.h>
@@ -61,8 +62,8 @@ Table endsTable(const ExperimentSummary& s) {
 
 Table metricsTable(const ExperimentSummary& s, const std::vector<std::size_t>& metrics) {
   Table table{"Measured",
-              "Mean with its 95 % interval (bootstrap; of a rate that was the same in every run "
-              "the exact interval), standard deviation, quantiles.",
+              "Mean with its 95 % interval (of rates Clopper and Pearson's, of others the "
+              "bootstrap's), standard deviation, quantiles.",
               {"Metric", "Condition", "n", "Mean", "95 % of the mean", "SD", "Median", "25 %",
                "75 %", "95 %"},
               {},
@@ -81,28 +82,42 @@ Table metricsTable(const ExperimentSummary& s, const std::vector<std::size_t>& m
   return table;
 }
 
+/// Difference, 95 %, test, p, t, df, g.
+std::vector<std::string> comparisonCells(const MetricInfo& metric, const Comparison& one) {
+  std::vector<std::string> cells(7, "–");
+  cells[0] = valueText(metric, one.difference);
+  if (one.difference95) cells[1] = intervalText(metric, *one.difference95);
+  cells[2] = one.testText();
+  if (one.test != Comparison::Test::None) cells[3] = probabilityText(one.p);
+  if (one.welch) {
+    cells[4] = fixed(one.welch->t, 2);
+    cells[5] = fixed(one.welch->freedom, 1);
+    cells[6] = fixed(one.welch->hedgesG, 2);
+  }
+  return cells;
+}
+
+constexpr const char* testsNote =
+    "Two-sided: Fisher's exact test for rates, Welch's t-test for means; g is Hedges' effect size. "
+    "Without spread there is no test.";
+
 Table differencesTable(const Experiment& e, const ExperimentSummary& s,
                        const std::vector<std::size_t>& metrics) {
   Table table{"Differences between conditions",
-              "Each condition minus the first. Welch's t-test (two-tailed); g is Hedges' effect "
-              "size. The last column uses that run i has the same seed in both.",
-              {"Metric", "Condition", "Difference", "95 %", "t", "df", "p", "g"},
+              "Each condition minus the first. " + std::string(testsNote),
+              {"Metric", "Condition", "Difference", "95 %", "Test", "p", "t", "df", "g"},
               {},
               2};
-  if (e.commonSeeds) table.head.push_back("Mean of pairs, 95 %");
+  if (e.commonSeeds) {
+    table.note += " The last column uses that run i has the same seed in both.";
+    table.head.push_back("Mean of pairs, 95 %");
+  }
   for (const ConditionDifference& one : s.differences) {
     if (std::find(metrics.begin(), metrics.end(), one.metric) == metrics.end()) continue;
-    if (!one.welch) continue;
     const MetricInfo& metric = s.metrics[one.metric];
     std::vector<std::string> row{
-        titleOf(metric),
-        s.conditions[one.second].name + " − " + s.conditions[one.first].name,
-        valueText(metric, one.welch->difference),
-        intervalText(metric, one.welch->difference95),
-        fixed(one.welch->t, 2),
-        fixed(one.welch->freedom, 1),
-        probabilityText(one.welch->p),
-        fixed(one.welch->hedgesG, 2)};
+        titleOf(metric), s.conditions[one.second].name + " − " + s.conditions[one.first].name};
+    std::ranges::move(comparisonCells(metric, one.comparison), std::back_inserter(row));
     if (e.commonSeeds) {
       row.push_back(valueText(metric, one.paired.mean) + ' ' +
                     intervalText(metric, one.paired.mean95));
@@ -114,10 +129,9 @@ Table differencesTable(const Experiment& e, const ExperimentSummary& s,
 
 Table comparisonsTable(const Experiment& e, const ExperimentSummary& s) {
   Table table{"Beside given figures",
-              "This experiment minus the given figure; Welch's t-test with the critical values of "
-              "5 %.",
-              {"Metric", "Condition", "Given by", "Ours", "Given", "Difference, 95 %", "t", "df",
-               "t one-tailed", "t two-tailed", "p", "g"},
+              "This experiment minus the given figure. " + std::string(testsNote),
+              {"Metric", "Condition", "Given by", "Ours", "Given", "Difference", "95 %", "Test",
+               "p", "t", "df", "g", "Critical t, one-tailed", "two-tailed"},
               {},
               3};
   for (const GivenComparison& one : s.comparisons) {
@@ -129,15 +143,10 @@ Table comparisonsTable(const Experiment& e, const ExperimentSummary& s) {
     };
     std::vector<std::string> row{titleOf(metric), s.conditions[one.condition].name,
                                  e.given[one.figure].name, sample(one.ours), sample(one.theirs)};
-    if (one.welch) {
-      row.insert(row.end(), {valueText(metric, one.welch->difference) + ' ' +
-                                 intervalText(metric, one.welch->difference95),
-                             fixed(one.welch->t, 2), fixed(one.welch->freedom, 1),
-                             fixed(one.welch->criticalOne, 2), fixed(one.welch->criticalTwo, 2),
-                             probabilityText(one.welch->p), fixed(one.welch->hedgesG, 2)});
-    } else {
-      row.insert(row.end(), 7, "–");
-    }
+    std::ranges::move(comparisonCells(metric, one.comparison), std::back_inserter(row));
+    const auto& welch = one.comparison.welch;
+    row.push_back(welch ? fixed(welch->criticalOne, 2) : "–");
+    row.push_back(welch ? fixed(welch->criticalTwo, 2) : "–");
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -19,15 +19,6 @@ std::size_t metricIndex(const std::vector<MetricInfo>& metrics, const std::strin
   return static_cast<std::size_t>(found - metrics.begin());
 }
 
-SampleMoments momentsOf(const GivenFigure& figure) {
-  SampleMoments out{figure.mean, figure.deviation.value_or(0.0), figure.count};
-  if (!figure.deviation) {
-    const double n = static_cast<double>(figure.count);
-    out.deviation = std::sqrt(std::max(0.0, figure.mean * (1.0 - figure.mean)) * n / (n - 1.0));
-  }
-  return out;
-}
-
 CheckedAssertion checked(const Assertion& assertion, const ResultTable& table,
                          std::size_t condition, const std::string& name) {
   CheckedAssertion out{name, assertion.text, false, {}};
@@ -91,8 +82,8 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
   for (std::size_t c = 0; c < experiment.conditions.size(); ++c) {
     const ResultTable::OfCondition& rows = table.conditions[c];
     ConditionSummary condition{experiment.conditions[c].name, rows.count(), rows.ends, {}};
-    for (const std::vector<double>& column : rows.columns) {
-      condition.metrics.push_back(summaryOf(column));
+    for (std::size_t m = 0; m < out.metrics.size(); ++m) {
+      condition.metrics.push_back(summaryOf(rows.columns[m], out.metrics[m].rate));
     }
     out.conditions.push_back(std::move(condition));
   }
@@ -100,7 +91,8 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
     for (std::size_t m = 0; m < out.metrics.size(); ++m) {
       const Summary &first = out.conditions[0].metrics[m], &second = out.conditions[c].metrics[m];
       if (first.moments.count == 0 || second.moments.count == 0) continue;
-      ConditionDifference difference{0, c, m, welchTest(second.moments, first.moments), {}};
+      ConditionDifference difference{
+          0, c, m, compared(second.moments, first.moments, out.metrics[m].rate), {}};
       if (experiment.commonSeeds) {
         difference.paired =
             pairedDifference(table.conditions[c].columns[m], table.conditions[0].columns[m]);
@@ -117,8 +109,9 @@ ExperimentSummary summarize(const Experiment& experiment, const ResultTable& tab
           std::find(only.begin(), only.end(), out.conditions[c].name) == only.end())
         continue;
       const SampleMoments ours = out.conditions[c].metrics[metric].moments;
-      const SampleMoments theirs = momentsOf(figure);
-      out.comparisons.push_back({c, metric, f, ours, theirs, welchTest(ours, theirs)});
+      const SampleMoments theirs{figure.mean, figure.deviation.value_or(nan), figure.count};
+      out.comparisons.push_back(
+          {c, metric, f, ours, theirs, compared(ours, theirs, out.metrics[metric].rate)});
     }
   }
   for (const Assertion& assertion : experiment.assertions) {

@@ -2,7 +2,9 @@
 #include <robotlink/experiment/statistics.h>
 
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/hypergeometric.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdint>
@@ -18,6 +20,10 @@ constexpr std::size_t resamples = 2000;
 // More values than this: draws are what takes the time, and fewer resamples say the same.
 constexpr std::size_t mostDraws = 4'000'000;
 constexpr std::size_t leastResamples = 200;
+/// A smaller part of the mean is what is left of rounding, not spread.
+constexpr double leastSpread = 1e-9;
+/// In pooled deviations: from here on, what differs is rather how little the runs vary.
+constexpr double suspiciousEffect = 10.0;
 
 std::vector<double> finite(std::span<const double> values) {
   std::vector<double> out;
@@ -32,15 +38,29 @@ std::size_t below(std::uint32_t bits, std::size_t limit) {
   return static_cast<std::size_t>((std::uint64_t{bits} * limit) >> 32U);
 }
 
-/// Of a rate that was the same in all n cases.
-Interval exactRate(bool all, std::size_t n) {
-  const double count = static_cast<double>(n);
-  if (all) {
-    const boost::math::beta_distribution<> lower(count, 1.0);
-    return {boost::math::quantile(lower, tail), 1.0};
-  }
-  const boost::math::beta_distribution<> upper(1.0, count);
-  return {0.0, boost::math::quantile(upper, 1.0 - tail)};
+std::size_t successesOf(const SampleMoments& rate) {
+  const double n = static_cast<double>(rate.count);
+  return static_cast<std::size_t>(std::clamp(std::round(rate.mean * n), 0.0, n));
+}
+
+bool hasSpread(const SampleMoments& sample) {
+  return sample.deviation > leastSpread * std::abs(sample.mean);
+}
+
+/// Wilson's score interval.
+Interval scoreInterval(const SampleMoments& rate) {
+  static const double z = boost::math::quantile(boost::math::normal(), 1.0 - tail);
+  const double n = static_cast<double>(rate.count), p = rate.mean;
+  const double middle = p + z * z / (2.0 * n);
+  const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+  return {(middle - half) / (1.0 + z * z / n), (middle + half) / (1.0 + z * z / n)};
+}
+
+Interval differenceOfRates(const SampleMoments& a, const SampleMoments& b) {
+  const Interval ofA = scoreInterval(a), ofB = scoreInterval(b);
+  const double difference = a.mean - b.mean;
+  return {difference - std::hypot(a.mean - ofA.low, ofB.high - b.mean),
+          difference + std::hypot(ofA.high - a.mean, b.mean - ofB.low)};
 }
 
 }  // namespace
@@ -73,10 +93,7 @@ std::optional<Interval> intervalOfMean(std::span<const double> all) {
   const std::vector<double> values = finite(all);
   if (values.size() < 2) return {};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (*least == *most) {
-    if (*least == 0.0 || *least == 1.0) return exactRate(*least == 1.0, values.size());
-    return Interval{*least, *least};
-  }
+  if (*least == *most) return Interval{*least, *least};
   const std::size_t count = std::clamp(mostDraws / values.size(), leastResamples, resamples);
   std::mt19937 random(20180611);
   std::vector<double> means(count);
@@ -91,7 +108,16 @@ std::optional<Interval> intervalOfMean(std::span<const double> all) {
   return Interval{quantile(means, tail), quantile(means, 1.0 - tail)};
 }
 
-Summary summaryOf(std::span<const double> all) {
+std::optional<Interval> intervalOfRate(const SampleMoments& rate) {
+  if (rate.count < 2) return {};
+  using Binomial = boost::math::binomial_distribution<>;
+  const double n = static_cast<double>(rate.count);
+  const double successes = static_cast<double>(successesOf(rate));
+  return Interval{Binomial::find_lower_bound_on_p(n, successes, tail),
+                  Binomial::find_upper_bound_on_p(n, successes, tail)};
+}
+
+Summary summaryOf(std::span<const double> all, bool rate) {
   Summary out;
   out.moments = momentsOf(all);
   std::vector<double> values = finite(all);
@@ -102,15 +128,15 @@ Summary summaryOf(std::span<const double> all) {
   out.upperQuartile = quantile(values, 0.75);
   out.p95 = quantile(values, 0.95);
   out.most = quantile(values, 1.0);
-  out.mean95 = intervalOfMean(all);
+  out.mean95 = rate ? intervalOfRate(out.moments) : intervalOfMean(all);
   return out;
 }
 
 std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& b) {
-  if (a.count < 2 || b.count < 2) return {};
+  if (a.count < 2 || b.count < 2 || !hasSpread(a) || !hasSpread(b)) return {};
   const double na = static_cast<double>(a.count), nb = static_cast<double>(b.count);
   const double va = a.deviation * a.deviation / na, vb = b.deviation * b.deviation / nb;
-  if (!(va + vb > 0.0) || !std::isfinite(va + vb)) return {};
+  if (!std::isfinite(va + vb)) return {};
   WelchTest out;
   out.difference = a.mean - b.mean;
   const double error = std::sqrt(va + vb);
@@ -130,6 +156,70 @@ std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& 
   const double small = 1.0 - 3.0 / (4.0 * (na + nb) - 9.0);
   out.hedgesG = pooled > 0.0 ? small * out.difference / pooled : 0.0;
   return out;
+}
+
+double fisherTest(std::size_t successesA, std::size_t a, std::size_t successesB, std::size_t b) {
+  const auto whole = [](std::size_t value) { return static_cast<unsigned>(value); };
+  const std::size_t successes = successesA + successesB, all = a + b;
+  const std::size_t least = successes + a > all ? successes + a - all : 0;
+  const std::size_t most = std::min(successes, a);
+  if (least == most) return 1.0;
+  const boost::math::hypergeometric_distribution<> tables(whole(successes), whole(a), whole(all));
+  // Equal probabilities may differ by rounding: R and scipy allow for that, too.
+  const double limit = boost::math::pdf(tables, whole(successesA)) * (1.0 + 1e-7);
+  const auto rare = [&](std::size_t x) { return boost::math::pdf(tables, whole(x)) <= limit; };
+  // Probabilities rise to the mode and fall behind it.
+  std::size_t mode = (successes + 1) * (a + 1) / (all + 2);
+  mode = std::clamp(mode, least, most);
+  if (rare(mode)) return 1.0;
+  const auto firstOf = [](std::size_t from, std::size_t to, const auto& holds) {
+    while (from < to) {
+      const std::size_t middle = from + (to - from) / 2;
+      if (holds(middle)) {
+        to = middle;
+      } else {
+        from = middle + 1;
+      }
+    }
+    return from;
+  };
+  const std::size_t low = firstOf(least, mode, [&](std::size_t x) { return !rare(x); });
+  const std::size_t high = firstOf(mode + 1, most + 1, rare);
+  double p = 0.0;
+  if (low > least) p += boost::math::cdf(tables, whole(low - 1));
+  if (high <= most) p += boost::math::cdf(boost::math::complement(tables, whole(high - 1)));
+  return std::min(1.0, p);
+}
+
+Comparison compared(const SampleMoments& a, const SampleMoments& b, bool rate) {
+  Comparison out;
+  out.difference = a.mean - b.mean;
+  if (a.count < 2 || b.count < 2) {
+    out.note = "too few values for a test";
+  } else if (rate) {
+    out.test = Comparison::Test::Fisher;
+    out.p = fisherTest(successesOf(a), a.count, successesOf(b), b.count);
+    out.difference95 = differenceOfRates(a, b);
+  } else if (std::isnan(a.deviation) || std::isnan(b.deviation)) {
+    out.note = "no spread given, so no test";
+  } else if (out.welch = welchTest(a, b); out.welch) {
+    out.test = Comparison::Test::Welch;
+    out.p = out.welch->p;
+    out.difference95 = out.welch->difference95;
+    if (std::abs(out.welch->hedgesG) > suspiciousEffect) {
+      out.note = "the runs hardly vary: add noise or other starts";
+    }
+  } else {
+    out.note = hasSpread(a) || hasSpread(b) ? "one side has no spread, so no test"
+                                            : "neither side has spread, so no test";
+  }
+  return out;
+}
+
+std::string Comparison::testText() const {
+  if (test == Test::Fisher) return "Fisher";
+  if (test == Test::None) return note;
+  return note[0] == '\0' ? "Welch" : std::string("Welch; ") + note;
 }
 
 PairedDifference pairedDifference(std::span<const double> a, std::span<const double> b) {

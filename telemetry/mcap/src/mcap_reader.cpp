@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mcap_bytes.h"
+#include "mcap_form.h"
 #include "mcap_reader_impl.h"
 
 namespace pitchboard::telemetry {
@@ -37,8 +38,11 @@ const std::vector<std::string>& McapReader::problems() const {
 const std::vector<McapLoss>& McapReader::losses() const {
   return m_impl->losses;
 }
-McapLoss McapReader::lossOf(const McapChunkInfo& chunk) const {
-  return m_impl->lossOf(chunk);
+McapLoss McapReader::lossOf(const McapChunkInfo& chunk, std::string reason) const {
+  return m_impl->lossOf(chunk, std::move(reason));
+}
+bool McapReader::ended() const {
+  return m_impl->indexed || m_impl->ended;
 }
 std::uint64_t McapReader::fileBytes() const {
   return m_impl->source.size();
@@ -114,48 +118,41 @@ Result<void> McapReader::Impl::readHeader() {
                                 source.name()});
   }
   dataBegin = magic.size();
-  RecordReader head(source.look(dataBegin, recordHead));
-  const auto op = head.number<std::uint8_t>();
-  const auto length = head.number<std::uint64_t>();
-  if (!head.ok() || op != static_cast<std::uint8_t>(McapOp::Header) || length > longestHead) {
-    problem(dataBegin, "the header is missing.");
-    return {};
-  }
-  RecordReader in(source.look(dataBegin + recordHead, static_cast<std::size_t>(length)));
+  const RecordHead head = headIn(source.look(dataBegin, recordHead));
+  const std::string content(source.look(dataBegin + recordHead, longestHead));
+  RecordReader in(content);
   profile = in.text();
   library = in.text();
-  if (in.ok()) {
+  if (head.op == McapOp::Header && in.ok() && in.offset() == head.length) {
+    dataBegin += recordHead + head.length;
+    return {};
+  }
+  // One of opcode, length and content may be damaged; then the others tell where it ends.
+  problem(dataBegin, "the header is damaged.");
+  for (const std::uint64_t length : {head.length, std::uint64_t{in.offset()}}) {
+    if (length > longestHead || !mayEnd(source, dataBegin + recordHead + length, McapOp::Header)) {
+      continue;
+    }
     dataBegin += recordHead + length;
-  } else {
-    problem(dataBegin, "the header is cut.");
+    break;
   }
   return {};
 }
 
 bool McapReader::Impl::readSummary() {
-  constexpr std::size_t tail = recordHead + footerLength + mcapMagic.size();
-  if (source.size() < dataBegin + tail) return false;
-  const std::uint64_t footerAt = source.size() - tail;
-  const std::string end(source.look(footerAt, tail));
-  RecordReader in(end);
-  const auto op = in.number<std::uint8_t>();
-  const auto length = in.number<std::uint64_t>();
-  const auto start = in.number<std::uint64_t>();
-  in.number<std::uint64_t>();
-  const auto crc = in.number<std::uint32_t>();
-  if (!in.ok() || op != static_cast<std::uint8_t>(McapOp::Footer) || length != footerLength ||
-      in.bytes(mcapMagic.size()) != std::string_view(mcapMagic.data(), mcapMagic.size())) {
-    return false;  // a recording that broke off; the walk through the file tells the rest
-  }
-  if (start == 0) return false;
-  if (start < dataBegin || start > footerAt || footerAt - start > longestSummary) {
+  const auto footer = footerOf(source);
+  // Without: a recording that broke off; the walk through the file tells the rest.
+  if (!footer || footer->summary == 0) return false;
+  const std::uint64_t footerAt = footer->offset, start = footer->summary;
+  if (footerAt < dataBegin || start < dataBegin || start > footerAt ||
+      footerAt - start > longestSummary) {
     problem(footerAt, "the footer points outside the file; the summary is not used.");
     return false;
   }
   std::string summary;
   const std::size_t covered = static_cast<std::size_t>(footerAt - start) + recordHead + 16;
   if (!source.read(start, covered, summary)) return false;
-  if (crc != 0 && extendedCrc(0, summary) != crc) {
+  if (footer->crc != 0 && extendedCrc(0, summary) != footer->crc) {
     problem(start, "the checksum of the summary is wrong; it is not used.");
     return false;
   }
@@ -236,7 +233,7 @@ Result<void> McapReader::Impl::unpack(std::string_view bytes, std::uint64_t size
     return failure(ErrorCode::ParseError, std::move(sentence));
   };
   // What a chunk says of its size is believed only as far as its packed bytes make it likely.
-  if (size <= bytes.size() * 64 + (1U << 20)) {
+  if (size <= believedSize(bytes.size())) {
     body.resize(static_cast<std::size_t>(size));
     const std::size_t got =
         ZSTD_decompressDCtx(unpacker, body.data(), body.size(), bytes.data(), bytes.size());

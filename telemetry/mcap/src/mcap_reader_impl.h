@@ -2,7 +2,7 @@
 #pragma once
 
 // What McapReader knows of a file, filled by the summary (mcap_reader.cpp) or by walking through
-// the file (mcap_scan.cpp).
+// the file (mcap_scan.cpp, mcap_loss.cpp).
 
 #include <zstd.h>
 
@@ -18,6 +18,7 @@ struct McapReader::Impl {
   McapReaderOptions options;
   ZSTD_DCtx* unpacker = ZSTD_createDCtx();
   bool indexed = false;
+  bool ended = false;  ///< the end of the data was found
   std::vector<std::string> problems;
   std::size_t moreProblems = 0;
   std::vector<McapLoss> losses;
@@ -44,7 +45,16 @@ struct McapReader::Impl {
   /// False: options.progress said stop.
   bool scan();
   Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
-  McapLoss lossOf(const McapChunkInfo& chunk) const;
+  McapLoss lossOf(const McapChunkInfo& chunk, std::string reason) const;
+  /// Adds what the message indexes from `at` on say of a part that is lost; where they end.
+  std::uint64_t addIndexes(std::uint64_t at, McapLoss& loss) const;
+  /// Takes its times from the head of the chunk that is cut or damaged, where they can be read.
+  /// `found`: a record follows behind the loss.
+  void lookAtHead(bool found, McapLoss& loss) const;
+  /// Losses without times lie between what was found before and behind them.
+  void boundLosses();
+  /// What unpack() gets ready for at once, whatever the chunk says of its size.
+  static std::uint64_t believedSize(std::uint64_t packed) { return packed * 64 + (1U << 20); }
   Result<void> unpack(std::string_view bytes, std::uint64_t size, std::string& body) const;
 
  private:

@@ -17,15 +17,18 @@ std::string secondsText(std::uint64_t logTime, WallTime start) {
 }  // namespace
 
 std::string lossText(const McapLoss& loss, WallTime start) {
-  // Also a part of definitions, which stand elsewhere in the file once more, has no times.
-  if (loss.messages.value_or(0) == 0 && loss.end == 0) return "No message is known to be lost.";
-  std::string text = loss.messages ? std::to_string(*loss.messages) : "An unknown number of";
-  text += loss.messages && *loss.messages == 1 ? " message is lost" : " messages are lost";
-  if (loss.start == 0) {
-    return text + (loss.end == 0 ? "." : ", all before " + secondsText(loss.end, start) + ".");
-  }
-  return text + ", between " + secondsText(loss.start, start) + " and " +
-         secondsText(loss.end, start) + ".";
+  std::string text = "At byte " + std::to_string(loss.offset) + " (" + std::to_string(loss.bytes) +
+                     (loss.bytes == 1 ? " byte): " : " bytes): ") + loss.reason;
+  // A part of definitions, which stand elsewhere in the file once more, has no messages.
+  if (loss.messages == 0U) return text + " No message is known to be lost.";
+  text += loss.atLeast ? " At least " : " ";
+  text += loss.messages ? std::to_string(*loss.messages) : "An unknown number of";
+  text += loss.messages == 1U ? " message is lost" : " messages are lost";
+  const std::string from = secondsText(loss.start, start), to = secondsText(loss.end, start);
+  if (loss.start != 0 && loss.end != 0) return text + ", between " + from + " and " + to + '.';
+  if (loss.start != 0) return text + ", after " + from + '.';
+  if (loss.end != 0) return text + ", before " + to + '.';
+  return text + '.';
 }
 
 }  // namespace pitchboard::telemetry

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What is lost with a damaged part of a session, for people: seconds of the session and messages.
+// What is lost with a damaged part of a session, in a sentence: where it stands in the file, why,
+// how many messages, and in which seconds of the session. Any thread.
 
 #include <string>
 

@@ -211,7 +211,7 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
   }
   kept.front().chunk = chunk;
   if (auto read = file.readChunk(file.chunks()[chunk], kept.front().body); !read) {
-    note(read.error().text() + ' ' + lossText(file.lossOf(file.chunks()[chunk]), info.start));
+    note(lossText(file.lossOf(file.chunks()[chunk], read.error().message), info.start));
     damaged.insert(chunk);
     kept.pop_front();
     return {};

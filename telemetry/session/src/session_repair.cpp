@@ -10,6 +10,7 @@
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>
 
+#include "session_format.h"
 #include "session_loss.h"
 
 namespace pitchboard::telemetry {
@@ -55,7 +56,9 @@ class Repair {
     const auto session = SessionReader::open(m_from, options);
     if (!session) return tl::unexpected(session.error());
     const McapReader& broken = session->file();
-    m_report.lost = broken.problems();
+    m_report.notes = broken.problems();
+    m_report.brokeOff = !broken.ended();
+    m_report.complete = !m_report.brokeOff;
     for (const McapLoss& loss : broken.losses()) note(loss, *session);
     if (broken.chunks().empty() && broken.metadata().empty() && broken.attachments().empty()) {
       return failure(ErrorCode::ParseError,
@@ -77,10 +80,15 @@ class Repair {
 
  private:
   void note(const McapLoss& loss, const SessionReader& session) {
-    m_report.lost.push_back("At byte " + std::to_string(loss.offset) + ": " +
-                            lossText(loss, session.info().start));
+    m_report.notes.push_back(lossText(loss, session.info().start));
     m_report.lostMessages += loss.messages.value_or(0);
-    m_report.lostMore = m_report.lostMore || (!loss.messages && loss.end != 0);
+    m_report.lostMore = m_report.lostMore || !loss.messages || loss.atLeast;
+    m_report.complete = m_report.complete && loss.messages == 0U;
+  }
+  /// Something other than messages.
+  void missing(std::string sentence) {
+    m_report.notes.push_back(std::move(sentence));
+    m_report.complete = false;
   }
 
   Result<void> fill(const SessionReader& session, McapWriter& out) {
@@ -88,15 +96,20 @@ class Repair {
     for (const McapMetadataInfo& entry : broken.metadata()) {
       const auto values = broken.readMetadata(entry);
       if (!values) {
-        m_report.lost.push_back(values.error().text());
-      } else if (auto written = out.metadata(entry.name, *values); !written) {
-        return written;
+        missing(values.error().text());
+        continue;
       }
+      if (int format = 0;
+          entry.name == session::metadataName && !session::infoFromMetadata(*values, format)) {
+        missing("At byte " + std::to_string(entry.offset) +
+                ": the description of the session is damaged.");
+      }
+      if (auto written = out.metadata(entry.name, *values); !written) return written;
     }
     for (const McapAttachmentInfo& entry : broken.attachments()) {
       const auto data = broken.readAttachment(entry);
       if (!data) {
-        m_report.lost.push_back(data.error().text());
+        missing(data.error().text());
       } else if (auto written = out.attach(entry.logTime, entry.createTime, entry.name,
                                            entry.mediaType, *data);
                  !written) {
@@ -114,8 +127,7 @@ class Repair {
         return stopped(m_from);
       }
       if (auto read = broken.readChunk(broken.chunks()[i], body); !read) {
-        m_report.lost.push_back(read.error().text());
-        note(broken.lossOf(broken.chunks()[i]), session);
+        note(broken.lossOf(broken.chunks()[i], read.error().message), session);
         continue;
       }
       McapCursor cursor(body);
@@ -132,8 +144,9 @@ class Repair {
       chunk.clear();
     }
     if (strangers > 0) {
-      m_report.lost.push_back(std::to_string(strangers) +
-                              " messages belong to channels whose description is lost.");
+      missing(std::to_string(strangers) +
+              (strangers == 1 ? " message belongs to a channel" : " messages belong to channels") +
+              " whose description is lost.");
       m_report.lostMessages += strangers;
     }
     return out.writeChunk(chunk);
@@ -192,6 +205,10 @@ std::string RepairReport::summary() const {
     if (lostMore) text += ", and others that cannot be counted";
   } else if (lostMore) {
     text += "; others are lost that cannot be counted";
+  } else if (brokeOff) {
+    text += "; the recording broke off, so its end may be missing";
+  } else if (!complete) {
+    text += "; a part that is no message is missing";
   }
   return text + ".";
 }

@@ -79,24 +79,15 @@ void ResultsModel::fill() {
       }
       break;
     case Kind::Differences:
-      m_heads = {"Metric", "Of", "Minus", "Difference", "95 %", "t", "p", "Hedges' g"};
+      m_heads = {"Metric", "Of", "Minus", "Difference", "95 %", "Test", "p", "t", "Hedges' g"};
       for (const link::ConditionDifference& one : s.differences) {
-        const bool tells = std::find(telling.begin(), telling.end(), one.metric) != telling.end();
-        if (!tells || !one.welch) continue;
-        const bool rate = s.metrics[one.metric].rate;
-        m_rows.append({title(s.metrics[one.metric]), qs(s.conditions[one.second].name),
-                       qs(s.conditions[one.first].name), text(one.welch->difference, rate),
-                       text(one.welch->difference95, rate), statistic(one.welch->t),
-                       probability(one.welch->p), statistic(one.welch->hedgesG)});
+        if (std::find(telling.begin(), telling.end(), one.metric) == telling.end()) continue;
+        addComparison(s.metrics[one.metric], s.conditions[one.second].name,
+                      s.conditions[one.first].name, one.comparison);
       }
       for (const link::GivenComparison& one : s.comparisons) {
-        if (!one.welch) continue;
-        const bool rate = s.metrics[one.metric].rate;
-        m_rows.append({title(s.metrics[one.metric]), qs(s.conditions[one.condition].name),
-                       qs(m_played->experiment.given[one.figure].name),
-                       text(one.welch->difference, rate), text(one.welch->difference95, rate),
-                       statistic(one.welch->t), probability(one.welch->p),
-                       statistic(one.welch->hedgesG)});
+        addComparison(s.metrics[one.metric], s.conditions[one.condition].name,
+                      m_played->experiment.given[one.figure].name, one.comparison);
       }
       break;
     case Kind::Assertions:
@@ -117,6 +108,16 @@ void ResultsModel::fill() {
       }
       break;
   }
+}
+
+void ResultsModel::addComparison(const link::MetricInfo& metric, const std::string& of,
+                                 const std::string& minus, const link::Comparison& one) {
+  const bool tested = one.test != link::Comparison::Test::None;
+  m_rows.append({title(metric), qs(of), qs(minus), text(one.difference, metric.rate),
+                 text(one.difference95, metric.rate), qs(one.testText()),
+                 tested ? probability(one.p) : nothing,
+                 one.welch ? statistic(one.welch->t) : nothing,
+                 one.welch ? statistic(one.welch->hedgesG) : nothing});
 }
 
 std::size_t ResultsModel::runNumber(int row) const {

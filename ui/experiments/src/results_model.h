@@ -29,6 +29,9 @@ class ResultsModel : public QAbstractTableModel {
 
  private:
   void fill();
+  /// A row of Kind::Differences.
+  void addComparison(const link::MetricInfo& metric, const std::string& of,
+                     const std::string& minus, const link::Comparison& one);
   QVariant runCell(int row, int column, bool sorting) const;
 
   Kind m_kind;

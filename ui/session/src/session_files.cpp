@@ -123,8 +123,10 @@ void SessionFiles::repair(const QString& path) {
       }
       QString text =
           QStringLiteral("Repaired into %1: %2").arg(to, QString::fromStdString(report->summary()));
-      if (!report->lost.empty()) {
-        text += QLatin1Char(' ') + QString::fromStdString(report->lost.front());
+      if (!report->notes.empty()) {
+        QStringList notes;
+        for (const std::string& note : report->notes) notes << QString::fromStdString(note);
+        text += QLatin1Char(' ') + shortened(notes);
       }
       m_notices->show(text);
       open(to);

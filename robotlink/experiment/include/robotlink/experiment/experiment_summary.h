@@ -47,14 +47,14 @@ struct ConditionSummary {
 /// Of two conditions and one metric.
 struct ConditionDifference {
   std::size_t first = 0, second = 0, metric = 0;  ///< second - first
-  std::optional<WelchTest> welch;
+  Comparison comparison;
   PairedDifference paired;  ///< with common random numbers
 };
 
 struct GivenComparison {
   std::size_t condition = 0, metric = 0, figure = 0;
-  SampleMoments ours, theirs;
-  std::optional<WelchTest> welch;  ///< ours - theirs
+  SampleMoments ours, theirs;  ///< a deviation that was not given is NaN
+  Comparison comparison;       ///< ours - theirs
 };
 
 struct CheckedAssertion {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The statistics of experiments: summaries with 95 % intervals, Welch's t-test, effect sizes.
+// The statistics of experiments: summaries with 95 % intervals, and the comparison of two samples:
+// Welch's t-test and an effect size for means, Fisher's exact test for rates.
 // Distributions are Boost.Math's. Values that are not finite are left out. Pure functions; the
 // bootstrap draws from a generator of its own, so that the same values give the same bits.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pitchboard::link {
@@ -29,18 +32,21 @@ SampleMoments momentsOf(std::span<const double> values);
 /// Of `sorted` values, linear between neighbours (numpy's default, R's type 7); NaN without any.
 double quantile(std::span<const double> sorted, double share);
 
-/// 95 % of the mean: percentile bootstrap. Where all values are equal it says nothing, and for
-/// values that are all 0 or all 1 the exact interval of a rate (Clopper and Pearson, 1934) is given
-/// instead. Nothing for fewer than two values.
+/// 95 % of the mean: percentile bootstrap; where all values are equal, that value. Nothing for
+/// fewer than two values.
 std::optional<Interval> intervalOfMean(std::span<const double> values);
+
+/// 95 % of a rate, whose values are 0 or 1: the exact interval of Clopper and Pearson (1934).
+/// Nothing for fewer than two values.
+std::optional<Interval> intervalOfRate(const SampleMoments& rate);
 
 struct Summary {
   SampleMoments moments;
   double least = 0.0, lowerQuartile = 0.0, median = 0.0, upperQuartile = 0.0, p95 = 0.0, most = 0.0;
   std::optional<Interval> mean95;
 };
-/// Everything is NaN, and the count 0, without a value.
-Summary summaryOf(std::span<const double> values);
+/// Everything is NaN, and the count 0, without a value. `rate`: the values are 0 or 1.
+Summary summaryOf(std::span<const double> values, bool rate = false);
 
 /// Welch, The generalization of Student's problem (1947): means of two samples whose variances may
 /// differ. The difference is a - b.
@@ -53,8 +59,28 @@ struct WelchTest {
   double criticalTwo = 0.0;  ///< two-tailed
   double hedgesG = 0.0;      ///< difference in pooled deviations, corrected for small samples
 };
-/// Nothing where a sample has fewer than two values or neither varies.
+/// Nothing where a sample has fewer than two values or no spread.
 std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& b);
+
+/// Fisher's exact test that two rates are equal, two-sided: the sum of the probabilities of all
+/// tables with the same margins that are at most as probable as this one (as fisher.test of R and
+/// fisher_exact of scipy).
+double fisherTest(std::size_t successesA, std::size_t a, std::size_t successesB, std::size_t b);
+
+/// What two samples say of each other.
+struct Comparison {
+  enum class Test : std::uint8_t { None, Welch, Fisher };
+  double difference = 0.0;               ///< of the means, a - b
+  std::optional<Interval> difference95;  ///< of rates: Newcombe's hybrid score (1998, method 10)
+  Test test = Test::None;
+  double p = 1.0;                  ///< two-sided; 1 without a test
+  std::optional<WelchTest> welch;  ///< of means
+  const char* note = "";           ///< why there is no test, or what to beware of
+  /// For tables: "Welch", "Fisher", and the note.
+  std::string testText() const;
+};
+/// `rate`: the values are 0 or 1. A deviation that is NaN was not given.
+Comparison compared(const SampleMoments& a, const SampleMoments& b, bool rate);
 
 /// The mean of the differences of pairs (the same seed in two conditions), with its interval.
 struct PairedDifference {

@@ -41,10 +41,12 @@ class McapReader {
   bool indexed() const;
   /// What is wrong and where, in sentences; at most 100.
   const std::vector<std::string>& problems() const;
-  /// The parts that were left out when the file was walked through.
+  /// The parts that were left out when the file was walked through; not among problems().
   const std::vector<McapLoss>& losses() const;
-  /// What is lost with one of chunks() that readChunk() finds damaged.
-  McapLoss lossOf(const McapChunkInfo& chunk) const;
+  /// What is lost with one of chunks() that readChunk() finds damaged; `reason`: what that said.
+  McapLoss lossOf(const McapChunkInfo& chunk, std::string reason) const;
+  /// The file holds the end of its data. False: the recording broke off, or the end is damaged.
+  bool ended() const;
   std::uint64_t fileBytes() const;
   const std::string& name() const;  ///< path of the file
 

@@ -76,9 +76,12 @@ struct McapChunkInfo {
 
 /// A part of a file that cannot be read.
 struct McapLoss {
-  std::uint64_t offset = 0;
-  std::uint64_t start = 0, end = 0;       ///< log times between which it lies; both 0: not known
-  std::optional<std::uint64_t> messages;  ///< in it, as far as the file says so elsewhere
+  std::uint64_t offset = 0, bytes = 0;
+  /// Log times between which it lies, start <= end. Start 0: from the beginning; end 0: to the end.
+  std::uint64_t start = 0, end = 0;
+  std::optional<std::uint64_t> messages{};  ///< in it, as far as the file says so elsewhere
+  bool atLeast = false;                     ///< there may have been more
+  std::string reason{};                     ///< why, in a sentence
 };
 
 struct McapAttachmentInfo {

@@ -19,7 +19,9 @@ struct RepairReport {
   double seconds = 0.0;            ///< from the first message to the last
   std::uint64_t lostMessages = 0;  ///< as far as the broken file says how many there were
   bool lostMore = false;           ///< and others, of which nobody knows how many
-  std::vector<std::string> lost;   ///< what could not be read, where and of when, in sentences
+  bool brokeOff = false;           ///< the broken file has no end, so what came last may be missing
+  bool complete = false;           ///< nothing is missing: all that was recorded is in the new file
+  std::vector<std::string> notes;  ///< what was wrong and what is missing, with offset and time
   /// One line for the screen: what is in the new file and what is not.
   std::string summary() const;
 };
