@@ -12,6 +12,8 @@
 
 #include "session_rig.h"
 
+namespace tst_mcap_damage {
+
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
 using namespace pitchboard::telemetry::rig;
@@ -357,5 +359,8 @@ void TestMcapDamage::looseMessages() {
   }
 }
 
-QTEST_GUILESS_MAIN(TestMcapDamage)
+PITCHBOARD_TEST(TestMcapDamage)
+
+}  // namespace tst_mcap_damage
+
 #include "tst_mcap_damage.moc"

@@ -280,7 +280,7 @@ EXPORT int clock_gettime(clockid_t clock, struct timespec* t) {
 
 EXPORT int gettimeofday(struct timeval* restrict t, void* restrict zone) {
   const int result = REAL(gettimeofday)(t, zone);
-  if (result == 0 && t != NULL && follows()) {
+  if (result == 0 && follows()) {
     const nanoseconds by = shift();
     if (by != 0) *t = to_timeval(from_timeval(t) + by);
   }
@@ -469,7 +469,7 @@ EXPORT int epoll_pwait2(int epoll, struct epoll_event* events, int most, const s
 
 EXPORT int sem_clockwait(sem_t* restrict semaphore, clockid_t clock,
                          const struct timespec* restrict at) {
-  if (!follows() || at == NULL || !is_valid(at) || !is_shifted(clock)) {
+  if (!follows() || !is_valid(at) || !is_shifted(clock)) {
     return REAL(sem_clockwait)(semaphore, clock, at);
   }
   struct wait w = wait_for(until(clock, at));
@@ -482,7 +482,7 @@ EXPORT int sem_clockwait(sem_t* restrict semaphore, clockid_t clock,
   return result;
 }
 EXPORT int sem_timedwait(sem_t* restrict semaphore, const struct timespec* restrict at) {
-  if (!follows() || at == NULL || !is_valid(at)) return REAL(sem_timedwait)(semaphore, at);
+  if (!follows() || !is_valid(at)) return REAL(sem_timedwait)(semaphore, at);
   return sem_clockwait(semaphore, CLOCK_REALTIME, at);
 }
 
@@ -584,7 +584,7 @@ static void register_cond(struct waiter* waiter, pthread_cond_t* cond) {
 
 EXPORT int pthread_cond_clockwait(pthread_cond_t* restrict cond, pthread_mutex_t* restrict mutex,
                                   clockid_t clock, const struct timespec* restrict at) {
-  if (!follows() || at == NULL || !is_valid(at) || !is_shifted(clock)) {
+  if (!follows() || !is_valid(at) || !is_shifted(clock)) {
     return REAL(pthread_cond_clockwait)(cond, mutex, clock, at);
   }
   struct wait w = wait_for(until(clock, at));
@@ -655,7 +655,7 @@ EXPORT int semtimedop(int id, struct sembuf* operations, size_t count, const str
 
 EXPORT ssize_t mq_timedreceive(mqd_t queue, char* restrict message, size_t length,
                                unsigned* restrict priority, const struct timespec* restrict at) {
-  if (!follows() || at == NULL || !is_valid(at)) {
+  if (!follows() || !is_valid(at)) {
     return REAL(mq_timedreceive)(queue, message, length, priority, at);
   }
   struct wait w = wait_for(until(CLOCK_REALTIME, at));
@@ -669,7 +669,7 @@ EXPORT ssize_t mq_timedreceive(mqd_t queue, char* restrict message, size_t lengt
 }
 EXPORT int mq_timedsend(mqd_t queue, const char* message, size_t length, unsigned priority,
                         const struct timespec* at) {
-  if (!follows() || at == NULL || !is_valid(at)) {
+  if (!follows() || !is_valid(at)) {
     return REAL(mq_timedsend)(queue, message, length, priority, at);
   }
   struct wait w = wait_for(until(CLOCK_REALTIME, at));
@@ -738,8 +738,9 @@ EXPORT long syscall(long number, ...) {
  */
 
 /* An armed timer, in the program's time. */
+enum timer_kind { NoTimer, Interval, Posix, Descriptor };
 struct timer {
-  enum { NoTimer, Interval, Posix, Descriptor } kind;
+  enum timer_kind kind;
   union {
     timer_t posix;
     int fd;
@@ -814,17 +815,17 @@ static void set_all_timers(void) {
   pthread_mutex_unlock(&timers_lock);
 }
 
-static struct timer* find_timer(int kind, timer_t posix, int fd) {
+static struct timer* find_timer(enum timer_kind kind, timer_t posix, int fd) {
   for (int i = 0; i < most_timers; ++i) {
     struct timer* t = &timers[i];
-    if ((int)t->kind != kind) continue;
+    if (t->kind != kind) continue;
     if (kind == Interval || (kind == Posix && t->posix == posix) ||
         (kind == Descriptor && t->fd == fd))
       return t;
   }
   return NULL;
 }
-static struct timer* make_timer(int kind, timer_t posix, int fd) {
+static struct timer* make_timer(enum timer_kind kind, timer_t posix, int fd) {
   struct timer* t = find_timer(kind, posix, fd);
   for (int i = 0; t == NULL && i < most_timers; ++i) {
     if (timers[i].kind == NoTimer) t = &timers[i];
