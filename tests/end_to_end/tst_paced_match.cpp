@@ -30,11 +30,14 @@ enum class Size {
   Large   ///< two against two
 };
 
-/// The default scenario in short halves.
+/// The default scenario in short halves, with the published robot and surface: what is wanted of
+/// beliefs holds for this very match.
 Scenario wholeMatch(const char* noise, Size size) {
   Scenario scenario = loadScenario("match").value();
   scenario.settings.noise = noisePreset(noise).value();
   scenario.settings.seed = 11;
+  scenario.settings.field.surface = {};
+  for (ScenarioRobot& robot : scenario.robots) robot.model = {};
   sim::RefereeRules& rules = *scenario.settings.referee;
   const bool small = size == Size::Small;
   rules.halfTime = small ? 15 : 40;

@@ -199,6 +199,21 @@ class TestGoingOn : public QObject {
     QVERIFY(at->bytes < 30'000 * at->robots.size());
   }
 
+  // A ball rolls on a surface that "rigid_body" of version 0.8 described; 0.8 went on to this hash.
+  void sessionsOfVersion08GoOnAsTheyDid() {
+    const auto session = telemetry::SessionReader::open(PITCHBOARD_SOURCE_DIR
+                                                        "/tests/data/sessions/rolling_0.8.mcap");
+    QVERIFY2(session, session ? "" : session.error().text().c_str());
+    const auto moment = momentFromSession(*session, 0.2, VariableCatalog::published());
+    QVERIFY2(moment, moment ? "" : moment.error().text().c_str());
+    QVERIFY(moment->state.settings.field.surface == (sim::Surface{0.2, 0.97}));
+    auto match = SimulatedMatch::create(loadScenario("empty").value(), {}).value();
+    const auto put = match.reenter(*moment);
+    QVERIFY2(put, put ? "" : put.error().text().c_str());
+    while (match.simulation().state().tick < 312) match.tick();
+    QCOMPARE(match.simulation().hash(), std::uint64_t{0x5ac57837bce433e4});
+  }
+
   // A robot begins where it believed to be, as sure as it was.
   void beliefsAreTakenFromTheBlackboardsWhereNothingElseIsKept_data() {
     QTest::addColumn<bool>("session");

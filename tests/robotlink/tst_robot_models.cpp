@@ -72,6 +72,53 @@ class TestRobotModels : public QObject {
     QVERIFY(played.way > 1.0);
   }
 
+  void aKickRollsAsFarAsItsSourceSays_data() {
+    QTest::addColumn<QString>("model");
+    QTest::addColumn<QString>("field");
+    QTest::addColumn<int>("action");
+    QTest::addColumn<double>("least");
+    QTest::addColumn<double>("most");
+    // The sources are in resources/robots; DARwIn-OP's speeds are chosen.
+    QTest::newRow("kid-size, strong") << "kid-size"
+                                      << "kid-2020" << 4 << 6.0 << 7.0;
+    QTest::newRow("kid-size, weak") << "kid-size"
+                                    << "kid-2020" << 21 << 1.5 << 1.7;
+    QTest::newRow("kid-size, pass") << "kid-size"
+                                    << "kid-2020" << 12 << 1.9 << 2.1;
+    QTest::newRow("adult-size, strong") << "adult-size"
+                                        << "adult-2020" << 4 << 5.3 << 5.5;
+    QTest::newRow("adult-size, pass") << "adult-size"
+                                      << "adult-2020" << 12 << 1.3 << 1.5;
+    QTest::newRow("darwin-op, strong") << "darwin-op"
+                                       << "kid-2016" << 4 << 2.3 << 2.5;
+    QTest::newRow("kid-size, published field") << "kid-size"
+                                               << "published" << 4 << 0.6 << 0.64;
+  }
+  void aKickRollsAsFarAsItsSourceSays() {
+    QFETCH(QString, model);
+    QFETCH(QString, field);
+    QFETCH(int, action);
+    QFETCH(double, least);
+    QFETCH(double, most);
+    Scenario scenario = loadScenario("one-robot").value();
+    scenario.settings.field = sim::fieldByName(field.toStdString()).value();
+    scenario.settings.noise = {};
+    scenario.robots[0].behaviour = noBehaviour;
+    scenario.robots[0].model = loadRobotModel(model.toStdString()).value();
+    scenario.robots[0].pose = {{-4.0, 0.0}, 0.0};
+    const double side = action == 12 ? 1.0 : -1.0;
+    const double y = side * scenario.robots[0].model.footSide;  // squarely
+    scenario.ball = {-4.0 + scenario.robots[0].model.kickReach - 0.05, y};
+    auto match = SimulatedMatch::create(scenario, {}).value();
+    match.blackboard(RobotId{1})->write(match.variables().decisionActionA, action);
+    for (int i = 0; i < 15 * 60; ++i) match.tick();
+    const sim::Snapshot now = match.simulation().snapshot();
+    QCOMPARE(now.robots[0].statistics.kicks, 1U);
+    QVERIFY(std::hypot(now.ballVelocity.x, now.ballVelocity.y) < 1e-9);
+    const double way = std::hypot(now.ball.x - scenario.ball.x, now.ball.y - scenario.ball.y);
+    QVERIFY2(way >= least && way <= most, qPrintable(QString::number(way)));
+  }
+
   void thePublishedForceOnlyPushes() {
     const Played played = naiveAt40({});
     qInfo("published: %u kicks, %.2f m", played.kicks, played.way);
@@ -120,6 +167,44 @@ class TestRobotModels : public QObject {
     QCOMPARE(scenario->robots[0].model.getUpFront, 7.0);
     QCOMPARE(scenario->robots[0].model.getUpBack, 7.0);
     QCOMPARE(scenario->settings.rigidBody.ballMass, 0.3);
+  }
+
+  void filesOfVersion08KeepTheirSurface_data() {
+    QTest::addColumn<QString>("body");
+    QTest::addColumn<double>("deceleration");
+    QTest::addColumn<double>("kept");
+    QTest::newRow("both") << R"("ball_friction": 1, "ball_deceleration": 0.35)" << 0.35 << 1.0;
+    QTest::newRow("share") << R"("ball_friction": 0.9)" << 0.0 << 0.9;
+    QTest::newRow("deceleration") << R"("ball_deceleration": 0.2)" << 0.2 << 0.95;
+    QTest::newRow("neither") << R"("falls": true)" << 0.3 << 1.0;
+  }
+  void filesOfVersion08KeepTheirSurface() {
+    QFETCH(QString, body);
+    QFETCH(double, deceleration);
+    QFETCH(double, kept);
+    const QString text =
+        QStringLiteral(R"({"version": 1, "field": "kid-2020", "rigid_body": {%1}})").arg(body);
+    const auto scenario = scenarioFromJson(text.toStdString(), "s");
+    QVERIFY2(scenario, scenario ? "" : scenario.error().text().c_str());
+    QCOMPARE(scenario->settings.field.surface.deceleration, deceleration);
+    QCOMPARE(scenario->settings.field.surface.keptPerFrame, kept);
+    const std::string written = scenarioToJson(*scenario);
+    QVERIFY(written.find("ball_friction") == std::string::npos);
+    QVERIFY(scenarioFromJson(written, "s").value() == *scenario);
+    const auto wrong =
+        scenarioFromJson(R"({"version": 1, "rigid_body": {"ball_friction": 1.5}})", "s");
+    QVERIFY(wrong.error().text().find("s:1: rigid_body.ball_friction: ") == 0);
+  }
+
+  void aFieldHasASurface() {
+    const auto scenario = scenarioFromJson(
+        R"({"version": 1, "field": {"base": "kid-2020", "rolling_deceleration": 0.5}})", "s");
+    QVERIFY2(scenario, scenario ? "" : scenario.error().text().c_str());
+    QVERIFY(scenario->settings.field.surface == (sim::Surface{0.5, 1.0}));
+    QVERIFY(scenarioFromJson(scenarioToJson(*scenario), "s").value() == *scenario);
+    const auto wrong =
+        scenarioFromJson(R"({"version": 1, "field": {"rolling_speed_kept": 2}})", "s");
+    QVERIFY(wrong.error().text().find("rolling_speed_kept") != std::string::npos);
   }
 
   void theBallIsThatOfTheLeague() {

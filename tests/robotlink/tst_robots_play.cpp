@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include <robotlink/models/robot_models.h>
+
 #include "../support/measured_match.h"
 
 namespace tst_robots_play {
@@ -148,6 +150,36 @@ class TestRobotsPlay : public QObject {
     qInfo("first goal after %.0f s", m.firstGoal);
     QVERIFY((right ? m.left : m.right) > 0);
     QCOMPARE(right ? m.right : m.left, 0);  // never into its own goal
+  }
+
+  // Pressed, it kicks forward without turning to the goal; a strong kick would cross the touch
+  // line.
+  void aPressedStrikerKeepsTheBallOnTheField_data() {
+    QTest::addColumn<double>("heading");
+    for (const double heading : {20.0, 30.0, 40.0}) QTest::addRow("%g degrees", heading) << heading;
+  }
+  void aPressedStrikerKeepsTheBallOnTheField() {
+    QFETCH(double, heading);
+    Scenario scenario = soccerMatch("none", 1).value();
+    scenario.settings.field = sim::fieldByName("kid-2020").value();
+    scenario.robots.resize(2);
+    for (ScenarioRobot& robot : scenario.robots) robot.model = loadRobotModel("kid-size").value();
+    scenario.robots[0].pose = {{0.0, 1.5}, radiansFromDegrees(heading)};
+    scenario.robots[0].behaviour = "striker";
+    scenario.robots[1].identity = {RobotId{2}, TeamColor::Red, 1, true};
+    scenario.robots[1].pose = {{0.8, 1.6}, std::numbers::pi};
+    scenario.robots[1].behaviour = noBehaviour;
+    scenario.ball = {0.3, 1.72};
+    auto match = make(scenario).value();
+    int out = 0;
+    for (int i = 0; i < 40 * 60 && match.simulation().state().score == sim::Score{}; ++i) {
+      match.tick();
+      for (const sim::Event& event : match.simulation().events()) {
+        out += event.kind == sim::EventKind::BallOut;
+      }
+    }
+    QCOMPARE(out, 0);
+    QCOMPARE(match.simulation().state().score.left, 1);
   }
 
   void keeperClearsAndNeverScoresAnOwnGoal() {

@@ -70,8 +70,12 @@ class TestParameters : public QObject {
     sim::state_values::noise(noise, ofNoise);
     QVERIFY(same(noise, sim::noiseParameters, ofNoise));
     const sim::RigidBodySettings body;
-    Numbers ofBody;
-    sim::state_values::rigidBody(body, ofBody);
+    const sim::Surface surface;
+    Numbers ofBody, ofSurface;
+    sim::state_values::surface(surface, ofSurface);
+    QVERIFY(same(surface, sim::surfaceParameters, ofSurface));
+    sim::state_values::rigidBody(body, surface, ofBody);
+    for (const double* number : ofSurface.found) ofBody.found.erase(number);
     QVERIFY(same(body, sim::rigidBodyParameters, ofBody));
     const sim::RobotModel model;
     Numbers ofModel, ofItsNoise;
@@ -142,6 +146,7 @@ class TestParameters : public QObject {
       right.replace(begin, end - begin, mark + table);
     };
     put("fieldParameters", tableOf(sim::fieldParameters));
+    put("surfaceParameters", tableOf(sim::surfaceParameters));
     put("noiseParameters", tableOf(sim::noiseParameters));
     put("rigidBodyParameters", tableOf(sim::rigidBodyParameters));
     put("robotModelParameters", tableOf(sim::robotModelParameters));

@@ -45,6 +45,36 @@ class TestRigidBodyBall : public QObject {
     }
   }
 
+  void realFieldsHaveGrass() {
+    for (const FieldSpec& field : builtInFields()) {
+      const bool published = field.name == "published";
+      QVERIFY2(field.surface == (published ? Surface{0.0, 0.95} : Surface{0.30, 1.0}),
+               field.name.c_str());
+    }
+  }
+
+  void rollsTheDistanceThatTheSurfaceTells_data() {
+    QTest::addColumn<double>("deceleration");
+    QTest::addColumn<double>("kept");
+    QTest::newRow("published") << 0.0 << 0.95;
+    QTest::newRow("grass") << 0.3 << 1.0;
+    QTest::newRow("both") << 0.3 << 0.98;
+    QTest::newRow("sticks") << 0.0 << 0.0;
+  }
+  void rollsTheDistanceThatTheSurfaceTells() {
+    QFETCH(double, deceleration);
+    QFETCH(double, kept);
+    SimulationSettings settings = atRate(1000);
+    settings.field.surface = {deceleration, kept};
+    Rig r(settings);
+    r.placeBall(-4, 0, 1.8, 0);
+    r.run(12.0);
+    const double told = rollingDistance(settings.field.surface, 1.8);
+    QVERIFY2(std::abs(r.ball().position.x + 4 - told) < 0.01,
+             qPrintable(QString("%1 for %2").arg(r.ball().position.x + 4).arg(told)));
+    QCOMPARE(rollingDistance(settings.field.surface, 0.0), 0.0);
+  }
+
   void frictionLimits_data() {
     QTest::addColumn<double>("friction");
     QTest::addColumn<double>("way");
@@ -55,7 +85,7 @@ class TestRigidBodyBall : public QObject {
     QFETCH(double, friction);
     QFETCH(double, way);
     SimulationSettings settings;
-    settings.rigidBody.ballFriction = friction;
+    settings.field.surface.keptPerFrame = friction;
     Rig r(settings);
     r.placeBall(0, 0, 1, 0);
     r.run(1.0);
@@ -75,7 +105,7 @@ class TestRigidBodyBall : public QObject {
     QFETCH(double, rate);
     QFETCH(QString, off);
     SimulationSettings settings = atRate(rate);
-    settings.rigidBody.ballFriction = 1.0;  // so that speeds before and after compare
+    settings.field.surface.keptPerFrame = 1.0;  // so that speeds before and after compare
     settings.afterGoal = AfterGoal::StopClock;
     Rig r(settings);
     r.simulation.setClockRunning(false);

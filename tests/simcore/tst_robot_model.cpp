@@ -37,7 +37,7 @@ Rig with(const RobotModel& model, const SimulationSettings& settings = {}) {
 /// Speed of a ball that lay still and was kicked at once.
 double kicked(const RobotModel& model, int action, double x, double y) {
   SimulationSettings settings;
-  settings.rigidBody.ballFriction = 1.0;
+  settings.field.surface.keptPerFrame = 1.0;
   Rig r = with(model, settings);
   r.placeBall(x, y);
   r.commands[0].actionA = action;
@@ -208,8 +208,7 @@ class TestRobotModel : public QObject {
   void grassTakesTheSameSpeedEverySecond() {
     QFETCH(double, rate);
     SimulationSettings settings = atRate(rate);
-    settings.rigidBody.ballFriction = 1.0;
-    settings.rigidBody.ballDeceleration = 0.5;
+    settings.field.surface = {.deceleration = 0.5, .keptPerFrame = 1.0};
     Rig r(settings);
     r.placeBall(-2, 0, 1.5, 0);
     r.run(1.0);
@@ -226,12 +225,13 @@ class TestRobotModel : public QObject {
     QVERIFY(ignoredSettings(settings, {}).empty());
     settings.noise.imuWhite = settings.noise.missedDetection = settings.noise.visionDelay = 0.1;
     settings.tickRate = 120;
-    settings.rigidBody.ballFriction = 0.5;
+    settings.rigidBody.postRestitution = 0.5;
+    settings.field.surface.deceleration = 0.3;
     const RobotModel model = footed();
     const auto sentences = ignoredSettings(settings, {&model, 1});
-    QCOMPARE(sentences.size(), std::size_t{6});
-    for (const char* word :
-         {"imu_white", "missed_detection", "vision_delay", "tick_rate", "rigid_body", "model"}) {
+    QCOMPARE(sentences.size(), std::size_t{7});
+    for (const char* word : {"imu_white", "missed_detection", "vision_delay", "tick_rate",
+                             "rigid_body", "rolling_deceleration", "model"}) {
       QVERIFY2(std::any_of(sentences.begin(), sentences.end(),
                            [&](const auto& s) { return s.find(word) != std::string::npos; }),
                word);

@@ -301,7 +301,7 @@ ProcessOptions SimulatedMatch::inlineOptions(const Seat& seat) {
   options.robot = seat.id;
   options.behaviour = seat.behaviour;
   options.parameters = seat.parameters;
-  options.field = m_scenario.settings.field;
+  options.field = sim::playedField(m_scenario.settings);
   options.model = *robotModel(seat.id);
   options.seed = m_scenario.settings.seed;
   if (m_options.tellSides) options.facesLeft = identityOf(seat.id).imuStartsAt180;
@@ -334,7 +334,7 @@ std::vector<std::string> SimulatedMatch::commandOf(const Seat& seat,
       "--seed",
       std::to_string(m_scenario.settings.seed),
       "--field",
-      sim::fieldToText(m_scenario.settings.field),
+      sim::fieldToText(sim::playedField(m_scenario.settings)),
       "--robot-model",
       robotModelToText(*robotModel(seat.id))};
   if (m_options.tellSides) {

@@ -33,22 +33,6 @@ const std::vector<std::string_view>& builtInNames() {
   return all;
 }
 
-/// What version 0.2 called a number of a robot, in "rigid_body".
-struct EarlierKey {
-  std::string_view key;
-  std::string_view now;
-};
-constexpr std::array<EarlierKey, 10> earlierKeys{{{"max_acceleration", "max_acceleration"},
-                                                  {"max_yaw_acceleration", "max_yaw_acceleration"},
-                                                  {"robot_mass", "mass"},
-                                                  {"fall_impulse", "fall_impulse"},
-                                                  {"get_up_time", "get_up_front"},
-                                                  {"get_up_time", "get_up_back"},
-                                                  {"head_speed", "head_speed"},
-                                                  {"field_of_view", "field_of_view"},
-                                                  {"pan_limit", "pan_limit"},
-                                                  {"vision_range", "vision_range"}}};
-
 std::string resourcePath(std::string_view name) {
   return "scenarios/" + std::string(name) + ".json";
 }
@@ -150,20 +134,32 @@ class Reader {
     if (!node) return;
     std::vector<std::string_view> keys =
         sim::withKeys({sim::fallsSwitch.key}, sim::rigidBodyParameters);
-    // Until version 0.2 numbers of the robot stood here, too: those of every robot.
     for (const EarlierKey& earlier : earlierKeys) keys.push_back(earlier.key);
     const JsonObject object(m_report, *node, "rigid_body", keys);
     body.falls = object.boolean(sim::fallsSwitch.key, body.falls);
     sim::readNumbers(object, sim::rigidBodyParameters, body);
+    if (readEarlier(object, sim::robotModelParameters, m_usualModel)) {
+      m_usualModel.name = "custom";
+    }
+    // Until version 0.8 every field had the published surface, and these keys changed it.
+    sim::Surface surface;
+    if (readEarlier(object, sim::surfaceParameters, surface)) {
+      m_scenario.settings.field.surface = surface;
+    }
+  }
+
+  /// Whether the object has any of these keys.
+  static bool readEarlier(const JsonObject& object, const auto& parameters, auto& values) {
+    bool any = false;
     for (const EarlierKey& earlier : earlierKeys) {
-      for (const auto& parameter : sim::robotModelParameters) {
-        const bool same = parameter.key == earlier.now;
-        if (!same || !object.find(earlier.key)) continue;
-        m_usualModel.*parameter.member =
+      for (const auto& parameter : parameters) {
+        if (parameter.key != earlier.now || !object.find(earlier.key)) continue;
+        values.*parameter.member =
             parameter.stored(object.number(earlier.key, 0.0, sim::rangeOf(parameter)));
-        m_usualModel.name = "custom";
+        any = true;
       }
     }
+    return any;
   }
 
   void readBall() {

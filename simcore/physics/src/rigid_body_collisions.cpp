@@ -36,14 +36,14 @@ double afterContact(double gait, double change, double grip) {
 
 }  // namespace
 
-void Collisions::updateRolling(double friction, double dt) {
-  if (m_rolling.friction == friction && m_rolling.dt == dt) return;
-  m_rolling = {friction, dt, 1.0, 1.0};
-  if (friction >= 1.0) return;
+void Collisions::updateRolling(double share, double dt) {
+  if (m_rolling.share == share && m_rolling.dt == dt) return;
+  m_rolling = {share, dt, 1.0, 1.0};
+  if (share >= 1.0) return;
   // The published ball slows, then moves: v·f/60 + v·f²/60 + ... = v·f/(60·(1 − f)). Scaled to this
   // whole way, exponential decay gives the same place at every tick rate, and at 60 Hz each tick's.
-  m_rolling.kept = repeatable::pow(friction, dt * published_frame::framesPerSecond);
-  const double way = friction / ((1.0 - friction) * published_frame::framesPerSecond);
+  m_rolling.kept = repeatable::pow(share, dt * published_frame::framesPerSecond);
+  const double way = share / ((1.0 - share) * published_frame::framesPerSecond);
   m_rolling.mean = way * (1.0 - m_rolling.kept) / dt;
 }
 
@@ -197,13 +197,14 @@ void Collisions::advance(Tick& tick) {
     m_bodies.reserve(robots + 1);
     m_pairs.reserve(mostPairs(robots));
   }
-  updateRolling(settings.rigidBody.ballFriction, tick.dt);
+  const Surface& surface = settings.field.surface;
+  updateRolling(surface.keptPerFrame, tick.dt);
 
   RigidBall& ball = tick.state.ball;
   const double ballSpeed = length(ball.velocity.x, ball.velocity.y);
   const double speed = std::min(ballSpeed, fastestBall);
   // Grass takes its share evenly over the tick, or over the part in which the ball still rolls.
-  const double loss = settings.rigidBody.ballDeceleration * tick.dt;
+  const double loss = surface.deceleration * tick.dt;
   const double rolls = loss > speed ? speed / loss : 1.0;
   const double mean =
       speed > 0.0 ? (speed - 0.5 * loss * rolls) * rolls * m_rolling.mean / ballSpeed : 0.0;
@@ -238,7 +239,7 @@ void Collisions::advance(Tick& tick) {
     ball.position.x += m_ballVelocity.x * tick.dt;
     ball.position.y += m_ballVelocity.y * tick.dt;
   }
-  // The mean speed says the speed at the end; a ball without any way (friction 0) stands still.
+  // The mean speed says the speed at the end; a ball that keeps nothing stands still.
   const double end = mean > 0.0 ? left / mean : 0.0;
   ball.velocity = {m_ballVelocity.x * end, m_ballVelocity.y * end};
 }

@@ -21,15 +21,16 @@ class Collisions {
   void advance(Tick& tick);
 
  private:
-  /// How a ball slows down within a tick: Eq. (4) of the paper, f per 1/60 s whatever the rate.
+  /// How a ball slows down within a tick by the share of Surface::keptPerFrame (Eq. (4) of the
+  /// paper), whatever the rate.
   struct Rolling {
-    double friction = -1.0;
+    double share = -1.0;
     double dt = 0.0;
     double kept = 1.0;  ///< share of its speed that the ball has left after the tick
     double mean = 1.0;  ///< mean speed over the tick, as a share of the speed before it
   };
 
-  void updateRolling(double friction, double dt);
+  void updateRolling(double share, double dt);
   void findNeighbours(const Tick& tick);
   std::size_t addBody(const Tick& tick, std::size_t body);
   void separate(const Tick& tick);

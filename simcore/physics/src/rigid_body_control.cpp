@@ -13,10 +13,6 @@ namespace {
 
 constexpr int getUpFromFront = 15;
 constexpr int getUpFromBack = 16;
-constexpr int kickRight = 4;
-constexpr int weakKickRight = 21;
-constexpr int weakKickLeft = 22;
-constexpr double strongestKick = 10.0;  // cm per frame
 
 double approach(double value, double target, double most) {
   return value < target ? std::min(value + most, target) : std::max(value - most, target);
@@ -28,53 +24,15 @@ void select(RigidRobot& robot, int code, int b, bool inMotion) {
   robot.inMotion = inMotion;
 }
 
-/// The ball as a kicking robot has it before its feet.
-struct BallAtFeet {
-  double distance = 0.0;  // m
-  double bearing = 0.0;   // rad, left positive
-};
-
-/// Speed of the ball by the published law, m/s; 0 when the kick does not reach it.
-double publishedKick(const Tick& tick, std::size_t index, const KickRule& rule,
-                     const BallAtFeet& ball) {
-  const double bearing = degreesFromRadians(ball.bearing);
-  if (bearing <= -rule.rightLimit || bearing >= rule.leftLimit) return 0.0;
-  const double reach_cm = published_frame::cmFromMetres(robotRadius(tick.world, index));
-  const double gap = (reach_cm - published_frame::cmFromMetres(ball.distance)) / rule.strength;
-  const double force =
-      std::min(strongestKick, rule.strength * repeatable::exp(-gap * gap)) * rule.share;
-  return force < leastKickForce ? 0.0 : published_frame::mpsFromCmPerFrame(force);
-}
-
-/// The same by the foot's law: full speed in front of the foot, less beside it.
-double footKick(const RobotModel& model, const Action& action, const BallAtFeet& ball) {
-  if (ball.distance > model.kickReach) return 0.0;
-  const double y = ball.distance * repeatable::sin(ball.bearing);
-  const bool pass = action.kick.direction != 0.0;
-  const bool weak = action.code == weakKickRight || action.code == weakKickLeft;
-  const bool right = action.code == kickRight || action.code == weakKickRight;
-  // The foot's own side is positive; a pass takes the foot that is nearer.
-  const double side = pass ? (y < 0.0 ? -1.0 : 1.0) : (right ? -1.0 : 1.0);
-  const double bearing = side * ball.bearing;
-  if (bearing > model.kickOuter || bearing < -(pass ? model.kickOuter : model.kickInner)) {
-    return 0.0;
-  }
-  const double beside = (side * y - model.footSide) / model.footWidth;
-  const double most = pass ? model.passSpeed : weak ? model.weakKickSpeed : model.kickSpeed;
-  return most * repeatable::exp(-0.5 * beside * beside);
-}
-
 void kick(Tick& tick, std::size_t index, const Action& action) {
   const RigidRobot& robot = tick.state.robots[index];
-  const RobotModel& model = tick.model(index);
   RigidBall& ball = tick.state.ball;
   const double dx = ball.position.x - robot.pose.position.x;
   const double dy = ball.position.y - robot.pose.position.y;
   const BallAtFeet before{repeatable::hypot(dx, dy),
                           wrapped(repeatable::atan2(dy, dx) - robot.pose.yaw)};
-  const double hit = model.kickLaw == KickLaw::Foot
-                         ? footKick(model, action, before)
-                         : publishedKick(tick, index, action.kick, before);
+  const double hit =
+      kickSpeed(tick.model(index), robotRadius(tick.world, index), action.code, before);
   if (hit <= 0.0) return;
 
   const NoiseParameters& noise = tick.noise(index);

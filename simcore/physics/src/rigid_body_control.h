@@ -14,10 +14,6 @@ namespace pitchboard::sim::rigid {
 /// IMU_ACCEL_Z has to fall first), s.
 inline constexpr double lyingTime = 0.5;
 
-/// A kick that would give the ball less than this does not reach it, cm per published frame. The
-/// published law has no end, so that a kick at the far side of the field would stop a rolling ball.
-inline constexpr double leastKickForce = 0.05;
-
 /// Draws the noise of all robots' motion in this tick, before the first stepControl().
 void drawMotion(Tick& tick);
 

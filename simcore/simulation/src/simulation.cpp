@@ -47,6 +47,8 @@ std::vector<std::string> ignoredSettings(const SimulationSettings& settings,
   usual.ballMass = settings.field.ballMass;
   add(!(settings.rigidBody == usual),
       "The published physics has constants of its own (rigid_body).");
+  add(!(playedField(settings).surface == settings.field.surface),
+      "The published physics has a surface of its own (rolling_deceleration, rolling_speed_kept).");
   add(std::any_of(models.begin(), models.end(),
                   [](const RobotModel& model) { return !(model == RobotModel{}); }),
       "The published physics knows one kind of robot (model).");

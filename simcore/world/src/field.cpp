@@ -3,6 +3,9 @@
 
 #include <array>
 
+#include <base/repeatable_math.h>
+#include <simcore/world/published_frame.h>
+
 #include "parameter_check.h"
 
 namespace pitchboard::sim {
@@ -15,6 +18,10 @@ struct Ball {
   double mass;    // kg
 };
 constexpr Ball fifa1{0.07, 0.205}, fifa3{0.095, 0.31}, fifa5{0.11, 0.43};
+
+// A ball loses 0.30 m/s² on artificial grass: bhuman/BHumanCodeRelease, Config. Nothing was found
+// for other lengths of the grass or larger balls.
+constexpr Surface grass{.deceleration = 0.30, .keptPerFrame = 1.0};
 
 // Sizes of the years' rules, from the table in docs/SCENARIOS.md; the published simulator's own
 // drawing comes first. Robots have a radius of about 0.22 of the height of their class (0.5 to 0.6
@@ -42,6 +49,7 @@ const std::array<FieldSpec, 8>& fields() {
       f.ballRadius = ball.radius;
       f.ballMass = ball.mass;
       f.robotRadius = robotRadius;
+      f.surface = grass;
       return f;
     };
     return std::array<FieldSpec, 8>{
@@ -59,6 +67,17 @@ const std::array<FieldSpec, 8>& fields() {
 }
 
 }  // namespace
+
+double rollingDistance(const Surface& surface, double speed) {
+  // dv/dt = -a - r v. The rate r is such that the share alone gives the published sum
+  // v·f/60 + v·f²/60 + ...
+  const double a = surface.deceleration, f = surface.keptPerFrame;
+  if (speed <= 0.0 || f <= 0.0) return 0.0;
+  const double r = (1.0 - f) * published_frame::framesPerSecond / f;
+  if (r <= 0.0) return 0.5 * speed * speed / a;
+  if (a <= 0.0) return speed / r;
+  return (speed - a / r * repeatable::log(1.0 + r * speed / a)) / r;
+}
 
 std::span<const FieldSpec> builtInFields() {
   return fields();
@@ -80,6 +99,9 @@ Result<void> validate(const FieldSpec& f) {
                    "field \"" + f.name + "\"");
   };
   if (const auto bad = firstBad<FieldSpec>(f, fieldParameters); !bad.key.empty()) {
+    return refuse(bad.key + ' ' + bad.text);
+  }
+  if (const auto bad = firstBad<Surface>(f.surface, surfaceParameters); !bad.key.empty()) {
     return refuse(bad.key + ' ' + bad.text);
   }
   if (f.goalWidth > f.width) return refuse("the goal is wider than the field");

@@ -26,14 +26,22 @@ std::string jsonText(std::string_view text) {
   return out + '"';
 }
 
-/// Members that `base` has otherwise.
-std::vector<std::string> differences(const FieldSpec& field, const FieldSpec& base) {
-  std::vector<std::string> out;
-  for (const auto& parameter : fieldParameters) {
-    const double value = field.*parameter.member;
+/// Adds the members that `base` has otherwise.
+template <class Values, std::size_t N>
+void addDifferences(std::vector<std::string>& out,
+                    const std::array<Parameter<Values>, N>& parameters, const Values& values,
+                    const Values& base) {
+  for (const auto& parameter : parameters) {
+    const double value = values.*parameter.member;
     if (value == base.*parameter.member) continue;
     out.push_back(jsonText(parameter.key) + ":" + shortest(parameter.written(value)));
   }
+}
+
+std::vector<std::string> differences(const FieldSpec& field, const FieldSpec& base) {
+  std::vector<std::string> out;
+  addDifferences(out, fieldParameters, field, base);
+  addDifferences(out, surfaceParameters, field.surface, base.surface);
   return out;
 }
 
@@ -47,12 +55,14 @@ std::vector<std::string_view> fieldNames() {
 
 FieldSpec readField(JsonReport& report, const JsonNode& node, const std::string& path) {
   FieldSpec field;
-  const JsonObject object(report, node, path, withKeys({"name", "base"}, fieldParameters));
+  const JsonObject object(report, node, path,
+                          withKeys(withKeys({"name", "base"}, fieldParameters), surfaceParameters));
   if (const auto base = object.choice("base", fieldNames(), "field")) {
     field = builtInFields()[*base];
   }
   field.name = object.text("name", "custom", longestName);
   readNumbers(object, fieldParameters, field);
+  readNumbers(object, surfaceParameters, field.surface);
   if (const auto valid = validate(field); !valid)
     report.fail(node.line, path, valid.error().message);
   return field;

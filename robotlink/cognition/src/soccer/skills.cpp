@@ -21,6 +21,26 @@ std::array<Point, 5> searchPlaces(const sim::FieldSpec& field) {
   return {{{0, 0}, {x, y}, {x, -y}, {-x, -y}, {-x, y}}};
 }
 
+/// How far the ball rolls that this kick hits, m.
+double kickRange(const WorldModel& world, const Act& kick, const sim::BallAtFeet& ball) {
+  const sim::FieldSpec& field = world.field();
+  return sim::rollingDistance(field.surface,
+                              sim::kickSpeed(world.body(), field.robotRadius, kick.action, ball));
+}
+
+/// Whether a ball that rolls so far along the robot's heading stays on the field or goes into the
+/// opponents' goal.
+bool staysIn(const WorldModel& world, const Point& ball, double range) {
+  const sim::FieldSpec& field = world.field();
+  const auto [s, c] = repeatable::sinCos(world.pose().yaw);
+  const double toLine = field.halfLength() - ball.x;
+  const bool shot = c > 0.0 && toLine < range * c;
+  const double way = shot ? toLine / c : range;
+  const double y = std::abs(ball.y + way * s);
+  if (shot) return y < field.goalWidth / 2 - field.goalPostRadius - field.ballRadius;
+  return y < field.halfWidth() && ball.x + way * c > -field.halfLength();
+}
+
 /// m/s
 double forwardSpeed(const WorldModel& world) {
   return std::max(0.01,
@@ -116,7 +136,9 @@ Move Attack::step(const WorldModel& world, const Point& aim) {
 
 /// How far from the aim is good enough.
 double Attack::tolerance(const WorldModel& world, const Point& ball, double goalDistance) const {
-  constexpr double far = 3.0;  // m
+  // From where a kick does not reach the goal.
+  const double far =
+      std::max(3.0, kickRange(world, acts::kickRight, {kicksFrom(world), 0.0}));  // m
   const double opening = repeatable::atan2(0.35 * world.field().goalWidth, goalDistance);
   double enough = goalDistance > far ? m_numbers->aimFar : opening;
   enough = std::min(std::max(enough, m_numbers->aimLeast), m_numbers->aimMost);
@@ -152,9 +174,23 @@ Act Attack::atBall(const WorldModel& world, double error, double tolerance) {
   }
   const bool ownWay = std::abs(world.localized() ? world.pose().yaw : world.imuYaw()) > 1.7;
   if (d < kicksFrom(world) && world.ballAge() < 0.3 && !ownWay) {
-    return bearing <= 0.0 ? acts::kickRight : acts::kickLeft;
+    return kick(world);
   }
   return d > world.touch() + m_numbers->slowWithin ? acts::forward : acts::forwardSlow;
+}
+
+/// With the foot on the ball's side; weakly where a strong kick would send the ball off the field.
+Act Attack::kick(const WorldModel& world) {
+  constexpr double alwaysStrong = 3.0;  // m: a ball that rolls no farther is kicked with all force
+  const sim::BallAtFeet ball{world.ballDistance(), world.ballBearing()};
+  const bool right = ball.bearing <= 0.0;
+  const Act strong = right ? acts::kickRight : acts::kickLeft;
+  const double range = kickRange(world, strong, ball);
+  if (range <= alwaysStrong || !world.localized() ||
+      staysIn(world, world.toField(world.ballInFront()), range)) {
+    return strong;
+  }
+  return right ? acts::weakKickRight : acts::weakKickLeft;
 }
 
 Point aimFrom(const WorldModel& world, const Point& ball) {

@@ -45,7 +45,7 @@ class Search {
 
 /// Brings the ball towards a point: approaches a place behind it, turns round it until the robot
 /// looks where the ball is to go, walks up to it (which dribbles it) and kicks with the foot on the
-/// ball's side. Never kicks towards its own goal.
+/// ball's side, so strongly as the surface and the lines allow. Never kicks towards its own goal.
 class Attack {
  public:
   explicit Attack(const BehaviourParameters& numbers)
@@ -56,6 +56,7 @@ class Attack {
   double tolerance(const WorldModel& world, const Point& ball, double goalDistance) const;
   double kicksFrom(const WorldModel& world) const;
   Act atBall(const WorldModel& world, double error, double tolerance);
+  static Act kick(const WorldModel& world);
   std::shared_ptr<const BehaviourParameters> m_numbers;  // of its copies, too
   bool m_engaged = false;
   bool m_aligned = false;

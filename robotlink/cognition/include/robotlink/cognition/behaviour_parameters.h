@@ -84,7 +84,7 @@ inline constexpr auto behaviourParameters = std::to_array<BehaviourParameter>({
     {{"aim_most", &BehaviourParameters::aimMost, sim::units::degrees, 0, 180,
       "Aim, most", "Off the aim that is too much, however near the goal is"}, behaviour_sets::players},
     {{"aim_far", &BehaviourParameters::aimFar, sim::units::degrees, 0, 180,
-      "Aim, far", "Off the aim that is good enough more than 3 m from the goal"}, behaviour_sets::players},
+      "Aim, far", "Off the aim that is good enough farther from the goal than 3 m and than its kick rolls"}, behaviour_sets::players},
     {{"aim_pressed", &BehaviourParameters::aimPressed, sim::units::degrees, 0, 180,
       "Aim, pressed", "Off the aim that is good enough while an opponent is at the ball"}, behaviour_sets::players},
     {{"pressed_within", &BehaviourParameters::pressedWithin, sim::units::metres, 0, 10,

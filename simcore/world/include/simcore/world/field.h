@@ -12,6 +12,18 @@
 
 namespace pitchboard::sim {
 
+/// How a ball rolls. The published simulator's surface takes a share of its speed; real ones take
+/// the same speed every second.
+struct Surface {
+  double deceleration = 0.0;   ///< m/s²
+  double keptPerFrame = 0.95;  ///< share of its speed that the ball keeps in 1/60 s; 1 = all of it
+  bool operator==(const Surface&) const = default;
+};
+
+/// How far a ball of this speed (m/s) rolls until it stands still, m; infinite when nothing slows
+/// it down.
+double rollingDistance(const Surface& surface, double speed);
+
 /// All lengths in metres. The field is symmetric about both axes; the origin is its centre.
 struct FieldSpec {
   std::string name = "published";
@@ -32,6 +44,7 @@ struct FieldSpec {
   double ballRadius = 0.09;
   double ballMass = 0.2;      ///< kg, unless the match says another
   double robotRadius = 0.13;  ///< of robots whose model names none
+  Surface surface;
 
   double halfLength() const { return length / 2; }
   double halfWidth() const { return width / 2; }

@@ -102,10 +102,6 @@ inline constexpr auto noiseParameters = std::to_array<Parameter<NoiseParameters>
 inline constexpr auto rigidBodyParameters = std::to_array<Parameter<RigidBodySettings>>({
     {"ball_mass", &RigidBodySettings::ballMass, units::kilograms, 0.01, 5,
      "Ball mass", "The default is the field's", {" kg", 1, 0.01, 2, 2}},
-    {"ball_friction", &RigidBodySettings::ballFriction, units::plain, 0, 1,
-     "Ball keeps", "Share of its speed kept in 1/60 s", {" %", 100, 0, 100, 1}},
-    {"ball_deceleration", &RigidBodySettings::ballDeceleration, units::metresPerSecondSquared, 0, 100,
-     "Ball slows by", "Besides; on grass about 0.35, with a ball that keeps all", {" m/s²", 1, 0, 3, 2}},
     {"post_restitution", &RigidBodySettings::postRestitution, units::plain, 0, 1,
      "Bounce off posts", "Also off walls and nets", {" %", 100, 0, 100, 0}},
     {"robot_restitution", &RigidBodySettings::robotRestitution, units::plain, 0, 1,
@@ -212,6 +208,13 @@ inline constexpr auto fieldParameters = std::to_array<Parameter<FieldSpec>>({
      "Ball mass", "Unless `rigid_body` says another"},
     {"robot_radius", &FieldSpec::robotRadius, units::metres, 0.02, 1,
      "Robot radius", "Of robots whose model names none"},
+});
+
+inline constexpr auto surfaceParameters = std::to_array<Parameter<Surface>>({
+    {"rolling_deceleration", &Surface::deceleration, units::metresPerSecondSquared, 0, 100,
+     "Rolling deceleration", "A rolling ball loses this speed every second"},
+    {"rolling_speed_kept", &Surface::keptPerFrame, units::plain, 0, 1,
+     "Rolling speed kept", "Share of its speed that a rolling ball keeps in 1/60 s; 1 on all fields but `published`"},
 });
 
 inline constexpr Parameter<SimulationSettings> tickRateParameter{

@@ -12,11 +12,9 @@
 namespace pitchboard::sim {
 
 /// Constants of ball and contacts that a scenario may change. Those of a robot are in its
-/// RobotModel.
+/// RobotModel; how the ball rolls is in the Surface of the field.
 struct RigidBodySettings {
   double ballMass = 0.2;          ///< kg
-  double ballFriction = 0.95;     ///< share of its speed that the ball keeps in 1/60 s
-  double ballDeceleration = 0.0;  ///< m/s² that it loses besides: rolling on grass
   double postRestitution = 0.6;   ///< 0..1, ball against post, wall and net
   double robotRestitution = 0.3;  ///< 0..1, ball against robot
   bool falls = false;             ///< robots can fall when hit hard

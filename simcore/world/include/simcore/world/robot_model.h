@@ -80,6 +80,16 @@ struct GaitSpeed {
 /// `action` as in CONTROL_ACTION, `b` as in DECISION_ACTION_B. An unknown action: no motion.
 GaitSpeed gaitSpeed(const RobotModel& model, int action, int b);
 
+/// Where a ball lies, as seen from the robot.
+struct BallAtFeet {
+  double distance = 0.0;  ///< m, between the centres
+  double bearing = 0.0;   ///< rad, left positive
+};
+
+/// Speed that a kick gives the ball, m/s, without noise. 0 if the kick does not reach it or
+/// `action` is no kick. `radius` is that of this robot, m.
+double kickSpeed(const RobotModel& model, double radius, int action, const BallAtFeet& ball);
+
 /// Refuses a number that is not finite or out of its range: InvalidArgument, with the key as the
 /// context ("robot_model.mass").
 Result<void> validate(const RobotModel& model);

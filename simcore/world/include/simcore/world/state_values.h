@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The one list of the values of a WorldState, in order of declaration: the hash, the saved form and
+// The one list of the values of a WorldState, in order of declaration (but for the surface of the
+// field): the hash, the saved form and
 // whatever else must not forget a value go through it. World is WorldState or const WorldState.
 //
 // A visitor has value(v) for std::string, double, bool, int, std::uint32_t, std::uint64_t and every
@@ -38,10 +39,18 @@ void noise(Noise& n, Visitor& v) {
       n.missedDetection, n.visionDelay, n.imuWhite, n.imuDrift, n.ofModel);
 }
 
-template <class Body, class Visitor>
-void rigidBody(Body& s, Visitor& v) {
-  all(v, s.ballMass, s.ballFriction, s.ballDeceleration, s.postRestitution, s.robotRestitution,
-      s.falls);
+template <class Surface, class Visitor>
+void surface(Surface& s, Visitor& v) {
+  all(v, s.keptPerFrame, s.deceleration);
+}
+
+/// The field's surface stands where 0.8 had it, so that its saved states are read as they were
+/// meant and matches on the published field keep their hashes.
+template <class Body, class Surface, class Visitor>
+void rigidBody(Body& s, Surface& ofField, Visitor& v) {
+  all(v, s.ballMass);
+  surface(ofField, v);
+  all(v, s.postRestitution, s.robotRestitution, s.falls);
 }
 
 template <class Model, class Visitor>
@@ -97,7 +106,7 @@ void visitValues(World& world, Visitor& v) {
   state_values::all(v, s.physics, s.tickRate, s.seed, s.afterGoal);
   state_values::field(s.field, v);
   state_values::noise(s.noise, v);
-  state_values::rigidBody(s.rigidBody, v);
+  state_values::rigidBody(s.rigidBody, s.field.surface, v);
   state_values::all(v, world.tick, world.score.left, world.score.right, world.clockRunning,
                     world.clockTicks);
   v.count(world.robots);

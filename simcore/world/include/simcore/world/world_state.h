@@ -40,6 +40,13 @@ struct SimulationSettings {
   bool operator==(const SimulationSettings&) const = default;
 };
 
+/// The field with the surface that the ball really rolls on: the published physics has its own.
+inline FieldSpec playedField(const SimulationSettings& settings) {
+  FieldSpec field = settings.field;
+  if (settings.physics == "published") field.surface = {};
+  return field;
+}
+
 struct RobotIdentity {
   RobotId id;
   TeamColor team = TeamColor::Blue;
