@@ -33,10 +33,11 @@ add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
 # gcc 12 warns wrongly about "text" + std::to_string(n), with -Wrestrict (gcc bug 105329) and, when
 # <string> is precompiled, with -Warray-bounds and -Wstringop-*, too. ASan does look there.
+# clang's -Wshadow also means names of other files that are compiled together with this one.
 function(pitchboard_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>
-                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror>)
+                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror;$<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>>)
 endfunction()
 
 # Everything without Qt can go into a shared library (robotlink/capi), and is as quick as if it could not:
