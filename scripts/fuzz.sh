@@ -115,7 +115,7 @@ fuzz() {
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   rate=$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")
   local found="no finding"
-  [ $code -eq 0 ] || found="FINDING $(sed -n 's/.*Test unit written to //p' "$log"), see $log"
+  [ $code -eq 0 ] || found="FAILED, see $log$(sed -n 's/.*Test unit written to /; input: /p' "$log")"
   printf '%-10s %9s inputs %7s/s  %s\n' "$target" "${runs:-0}" "${rate:-0}" "$found"
   [ $code -eq 0 ]
 }
@@ -124,6 +124,6 @@ mkdir -p "$build/findings" "$build/logs" "${targets[@]/#/$build/corpus/}"
 export -f fuzz
 export build seeds seconds
 printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; fuzz {}' || {
-  echo "error: an input broke something" >&2
+  echo "error: a fuzz target failed" >&2
   exit 1
 }
