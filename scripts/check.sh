@@ -20,6 +20,7 @@ Checks, in this order (default: all of them):
   asan       all tests with address, leak and undefined-behaviour sanitizers
   threads    the tests in which threads work at the same time, with the thread sanitizer
   no-pch     everything builds without precompiled headers
+  clang      everything builds with clang, too
 Every check runs whatever the others say; the last line counts them, and the exit code is 1 when one
 failed. Missing packages (scripts/packages-*.txt) are installed.
 Examples:
@@ -36,7 +37,7 @@ while [ $# -gt 0 ]; do
     -h | --help) usage; exit 0 ;;
     --full) full=yes ;;
     --base) base=${2:?error: --base needs a commit}; shift ;;
-    format | docs | includes | tidy | tidy-all | headers | core-only | asan | threads | no-pch)
+    format | docs | includes | tidy | tidy-all | headers | core-only | asan | threads | no-pch | clang)
       checks+=("$1") ;;
     *) echo "error: no check \"$1\"" >&2; usage >&2; exit 2 ;;
   esac
@@ -44,9 +45,9 @@ while [ $# -gt 0 ]; do
 done
 if [ ${#checks[@]} -eq 0 ]; then
   checks=(format docs includes tidy headers core-only)
-  [ $full = no ] || checks+=(asan threads no-pch)
+  [ $full = no ] || checks+=(asan threads no-pch clang)
 elif [ $full = yes ]; then
-  checks+=(asan threads no-pch)
+  checks+=(asan threads no-pch clang)
 fi
 
 unset DISPLAY WAYLAND_DISPLAY
@@ -110,6 +111,12 @@ threads() { scripts/sanitizers.sh tsan; }
 no-pch() {
   quietly cmake --preset no-pch
   quietly cmake --build --preset no-pch
+}
+
+clang() {
+  install_packages scripts/packages-clang.txt
+  quietly cmake --preset clang
+  quietly cmake --build --preset clang
 }
 
 install_packages scripts/packages-run.txt scripts/packages-test.txt scripts/packages-check.txt

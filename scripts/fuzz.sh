@@ -1,23 +1,37 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs the fuzz targets (tests/fuzz/fuzz_NAME.cpp) for a bounded time: scripts/fuzz.sh [SECONDS each] [NAME ...]
-# New inputs stay in build/fuzz/corpus; an input that breaks something ends the run with an error and
-# stands in build/fuzz/findings. Turn it into a test.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$(readlink -f "$0")")/.."
+. scripts/common.sh
+
+usage() {
+  cat <<'END'
+Usage: scripts/fuzz.sh [SECONDS] [NAME...]
+Builds the fuzz targets (tests/fuzz/fuzz_NAME.cpp) with clang and sanitizers, and runs all of them, or
+those that are named, for SECONDS each (default: 60), two at a time. One line for each says how many
+inputs it tried, how many a second, and whether one broke something; the exit code is 1 when one did.
+Such an input stands in build/fuzz/findings, what was said about it in build/fuzz/logs: turn it into a
+test. New inputs stay in build/fuzz/corpus. Missing packages are installed.
+Example: scripts/fuzz.sh 300 session moments
+END
+}
+
+case ${1:-} in -h | --help) usage; exit 0 ;; esac
 seconds=${1:-60}
-[[ $seconds =~ ^[0-9]+$ ]] || { echo "error: SECONDS must be a whole number" >&2; exit 2; }
+[[ $seconds =~ ^[0-9]+$ ]] || { echo "error: SECONDS must be a whole number" >&2; usage >&2; exit 2; }
 shift || true
-targets=("$@")
 all=(tests/fuzz/fuzz_*.cpp)
 all=("${all[@]##*/fuzz_}")
 all=("${all[@]%.cpp}")
-[ ${#targets[@]} -gt 0 ] || targets=("${all[@]}")
+targets=("${@:-${all[@]}}")
+for target in "${targets[@]}"; do
+  [ -e "tests/fuzz/fuzz_$target.cpp" ] || { echo "error: no target \"$target\"; there are: ${all[*]}" >&2; exit 2; }
+done
 
-cmake --preset fuzz >/dev/null
+install_packages scripts/packages-run.txt scripts/packages-clang.txt
+build fuzz "${targets[@]/#/fuzz_}"
+
 build=build/fuzz
-ninja -C "$build" -j2 "${targets[@]/#/fuzz_}"
-
 seeds=$build/seeds
 rm -rf "$seeds"
 mkdir -p "${all[@]/#/$seeds/}" "$build/findings"
@@ -53,7 +67,8 @@ printf 'PBD1 3 12\nlayer a/b robot 0.5\ncolour #11223344\nwidth 3\narrow 0 0 1.5
   > "$seeds/drawings/shapes.txt"
 printf '1 450 300 90 12 83 -4 1 1 1 1 1 8 1.57 148 OUT\nPBD1 1\nlayer b belief 2\npolygon 0 0 1 0 1 1\n' \
   > "$seeds/drawings/message.txt"
-grep '^→ ' docs/LEARNING.md | sed 's/^→ //' > "$seeds/lines/conversation.txt"
+grep '^→ ' docs/LEARNING.md | sed 's/^→ //; s/"scenario": "one-robot", //; s/"ticks": [0-9]*/"ticks": 2/' \
+  > "$seeds/lines/conversation.txt"
 number=0
 while IFS=$'\t' read -r _ _ datagram; do
   printf '%s' "$datagram" > "$seeds/text/$((number += 1)).txt"
@@ -85,14 +100,30 @@ referee = pathlib.Path("tests/data/gamecontroller/v12hl640_PLAYING_1-0.bin").rea
                                          + record(1, referee) + record(0, message))
 PYTHON
 
-for target in "${targets[@]}"; do
-  mkdir -p "$build/corpus/$target"
-  length=2000
-  [[ $target = profile || $target = experiment || $target = scenario ]] && length=8000
-  [ "$target" = session ] && length=16000
-  [[ $target = books || $target = moments || $target = catalog ]] && length=16000
+# fuzz NAME: one line about it; fails when an input broke something. (Entropic schedules would take more
+# time than what is tested.)
+fuzz() {
+  local target=$1 length=2000 log=$build/logs/$1.log code=0 runs rate
+  case $target in
+    profile | experiment | scenario) length=8000 ;;
+    session | books | moments | catalog) length=16000 ;;
+  esac
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
-    "$build/bin/fuzz_$target" -max_total_time="$seconds" -max_len=$length -timeout=5 -rss_limit_mb=1024 \
-    -artifact_prefix="$build/findings/$target-" -dict=tests/fuzz/$target.dict \
-    -print_final_stats=1 "$build/corpus/$target" "$seeds/$target" 2>&1 | tail -n 12
-done
+    "$build/bin/fuzz_$target" -max_total_time="$seconds" -entropic=0 -max_len=$length -timeout=25 -rss_limit_mb=1024 \
+    -artifact_prefix="$build/findings/$target-" -dict="tests/fuzz/$target.dict" \
+    -print_final_stats=1 "$build/corpus/$target" "$seeds/$target" >"$log" 2>&1 || code=$?
+  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+  rate=$(sed -n 's/^stat::average_exec_per_sec: *//p' "$log")
+  local found="no finding"
+  [ $code -eq 0 ] || found="FAILED, see $log$(sed -n 's/.*Test unit written to /; input: /p' "$log")"
+  printf '%-10s %9s inputs %7s/s  %s\n' "$target" "${runs:-0}" "${rate:-0}" "$found"
+  [ $code -eq 0 ]
+}
+
+mkdir -p "$build/findings" "$build/logs" "${targets[@]/#/$build/corpus/}"
+export -f fuzz
+export build seeds seconds
+printf '%s\n' "${targets[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; fuzz {}' || {
+  echo "error: a fuzz target failed" >&2
+  exit 1
+}

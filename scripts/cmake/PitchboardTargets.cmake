@@ -33,10 +33,12 @@ add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 
 # gcc 12 warns wrongly about "text" + std::to_string(n), with -Wrestrict (gcc bug 105329) and, when
 # <string> is precompiled, with -Warray-bounds and -Wstringop-*, too. ASan does look there.
+# clang's -Wshadow also means names of other files that are compiled together with this one; its -Wall also
+# means functions that only share their name with a virtual one of Qt, as EventList::event(row).
 function(pitchboard_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>
-                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror>)
+                         $<$<BOOL:${PITCHBOARD_WERROR}>:-Werror;$<$<CXX_COMPILER_ID:Clang>:-Wno-shadow;-Wno-overloaded-virtual>>)
 endfunction()
 
 # Everything without Qt can go into a shared library (robotlink/capi), and is as quick as if it could not:

@@ -28,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   }
   if (const auto choice = link::runtimeChoiceFromText(text)) {
     const auto again = link::runtimeChoiceFromText(link::runtimeChoiceToText(*choice));
-    if (!again) std::abort();
+    if (!again || !(*again == *choice)) std::abort();
   }
   return 0;
 }

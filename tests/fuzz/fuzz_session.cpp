@@ -35,6 +35,7 @@ void lookAt(const std::string& bytes, bool walk) {
     return true;
   });
   for (const auto& attachment : session->attachments()) (void)session->attachment(attachment.name);
+  if (walk) return;
   std::size_t written = 0;
   for (const auto format : {ExportFormat::CsvWide, ExportFormat::JsonLines}) {
     (void)exportText(*session, format, {}, [&](std::string_view text) {

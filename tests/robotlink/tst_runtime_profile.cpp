@@ -157,6 +157,11 @@ class TestRuntimeProfile : public QObject {
 
   void wrongChoices() {
     QVERIFY(!runtimeChoiceFromText("published-tree:folder"));
+    // Its values would belong to nothing, and its text would be another choice.
+    for (const char* text : {":folder=/home/a:b", ":", "program=", "program=,folder=/home/robot"}) {
+      const auto nobody = runtimeChoiceFromText(text);
+      QVERIFY2(!nobody && nobody.error().message.find("neither") != std::string::npos, text);
+    }
     const auto unknown = loadRuntime(choice("owm"));
     QVERIFY2(!unknown && unknown.error().text().find("did you mean \"own\"") != std::string::npos,
              "owm");

@@ -249,6 +249,27 @@ class TestSession : public QObject, private NewSessions {
     QCOMPARE(reader->range()->begin, 1.0);
   }
 
+  void messagesOfAChannelThatNobodyDeclared() {
+    const std::string whole = newPath(), path = newPath();
+    auto writer = SessionWriter::create(whole, sessionInfo(), smallChunks());
+    (void)record(**writer, 20);
+    QVERIFY((*writer)->finish());
+    const auto known = McapReader::open(whole);
+    {
+      auto file = McapWriter::create(path);
+      McapChunk chunk;
+      for (const auto& [id, schema] : known->schemas()) chunk.add(schema);
+      for (const auto& [id, channel] : known->channels()) chunk.add(channel);
+      chunk.add(McapMessage{60'000, 0, 6'000'000'000, 6'000'000'000, "abc"});
+      QVERIFY(file->writeChunk(chunk) && file->finish());
+    }
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader && !reader->groups().empty());
+    std::vector<SessionRow> rows;
+    reader->rowsAt(1e9, rows);
+    QVERIFY(std::ranges::none_of(rows, &SessionRow::present));
+  }
+
   void notOurs() {
     const auto text = SessionReader::openBytes("this is no container at all");
     QVERIFY(!text && text.error().code == ErrorCode::ParseError);

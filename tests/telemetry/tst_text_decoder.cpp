@@ -251,6 +251,11 @@ class TestTextDecoder : public QObject {
     QCOMPARE(tally.sample(TextError::Binary).size(), ErrorTally::sampleBytes + 3);
     QCOMPARE(tally.sample(TextError::TooLong), std::string());
     QCOMPARE(printable("a\x01\xc3z"), std::string("a\\x01\\xc3z"));
+    // The first byte of a longer character as the last one of all: nothing behind it is looked at
+    // (the address sanitizer says so).
+    const std::vector<char> cut{'a', '\xc2'};
+    QCOMPARE(printable({cut.data(), cut.size()}), std::string("a\\xc2"));
+    QCOMPARE(printable("\xc2\x85 \xc2\xa0"), std::string("\\xc2\\x85 \xc2\xa0"));
   }
 };
 

@@ -294,6 +294,12 @@ Result<RuntimeChoice> runtimeChoiceFromText(std::string_view text) {
     if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);
   }
+  if (!text.empty() && !choice.isChosen()) {
+    return failure(ErrorCode::ParseError,
+                   "\"" + std::string(text) +
+                       "\" names neither a runtime profile nor a program; write for example "
+                       "published-tree:folder=/home/robot");
+  }
   return choice;
 }
 

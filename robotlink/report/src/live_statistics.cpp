@@ -97,7 +97,7 @@ class Walk {
     Robot& robot = entry->second;
     const RobotHealth& health = *seen.health;
     RobotSummary& out = robot.out;
-    if (isNew) out.link.emplace();
+    if (isNew) out.link = RobotSummary::Link{};  // clang 14 refuses emplace() here
     // Colours may come late, with the referee.
     out.name = seen.identity.name();
     out.team = seen.identity.team;

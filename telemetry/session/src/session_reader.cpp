@@ -81,7 +81,7 @@ void SessionReader::Impl::findStart() {
     McapCursor cursor(body(i));
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message) continue;
-      const Use use = useOfChannel[cursor.message().channel];
+      const Use use = useOf(cursor.message().channel);
       SessionRow row;
       if (use.group == Impl::noGroup || !readRow(use, cursor.message().data, row)) continue;
       const WallTime moment{Duration(fits(cursor.message().publishTime))};
@@ -136,8 +136,9 @@ void SessionReader::Impl::addGroup(GroupInfo group, std::uint64_t rows, std::uin
 }
 
 void SessionReader::Impl::takeChannels() {
-  useOfChannel.assign(std::size_t{1} << 16, Use{});
-  for (const auto& [id, channel] : file.channels()) {
+  const auto& channels = file.channels();
+  useOfChannel.resize(channels.empty() ? 0 : std::size_t{channels.rbegin()->first} + 1);
+  for (const auto& [id, channel] : channels) {
     const auto counted = file.statistics().perChannel.find(id);
     const std::uint64_t count = counted == file.statistics().perChannel.end() ? 0 : counted->second;
     if (const auto found = channel.metadata.find(session::groupKey);

@@ -30,7 +30,7 @@ struct SessionReader::Impl {
     std::size_t layout = 0;
     SessionStream stream = SessionStream::Events;
   };
-  std::vector<Use> useOfChannel;  ///< by channel id
+  std::vector<Use> useOfChannel;  ///< by channel id, up to the highest that the file declares
   std::map<GroupId, std::vector<std::uint16_t>> summaryChannels;
   std::array<std::vector<std::uint16_t>, sessionStreamCount> channelsOfStream;
   /// Chunks by their start, and the latest end among the first n.
@@ -49,6 +49,10 @@ struct SessionReader::Impl {
 
   explicit Impl(McapReader f) : file(std::move(f)) {}
 
+  /// A damaged file holds messages of channels that it does not declare.
+  Use useOf(std::uint16_t channel) const {
+    return channel < useOfChannel.size() ? useOfChannel[channel] : Use{};
+  }
   /// False: the message is no row of its channel.
   bool readRow(Use use, std::string_view data, SessionRow& row) const;
   void addGroup(GroupInfo group, std::uint64_t rows, std::uint16_t channel);

@@ -43,7 +43,7 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
     std::vector<McapMessage> last(impl.groups.size());
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message || cursor.message().logTime > until) continue;
-      const int group = impl.useOfChannel[cursor.message().channel].group;
+      const int group = impl.useOf(cursor.message().channel).group;
       if (group == Impl::noGroup) continue;
       const auto g = static_cast<std::size_t>(group);
       if (cursor.message().logTime < best[g] ||
@@ -55,7 +55,7 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
       last[g] = cursor.message();
     }
     for (std::size_t g = 0; g < impl.groups.size(); ++g) {
-      if (found[g].empty() || !impl.readRow(impl.useOfChannel[last[g].channel], found[g], out[g])) {
+      if (found[g].empty() || !impl.readRow(impl.useOf(last[g].channel), found[g], out[g])) {
         continue;
       }
       out[g].time = Impl::time(out[g].time, last[g]);
@@ -89,7 +89,7 @@ bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
           !std::binary_search(wanted.begin(), wanted.end(), message.channel)) {
         continue;
       }
-      const Use use = useOfChannel[message.channel];
+      const Use use = useOf(message.channel);
       item.message = &message;
       item.isRow = use.group != noGroup;
       if (item.isRow) {

@@ -89,9 +89,9 @@ std::string printable(std::string_view bytes, std::size_t limit) {
     const auto byte = static_cast<unsigned char>(bytes[i]);
     const std::size_t length = sequenceLength(bytes.substr(i));
     // U+0080 to U+009F are control characters, too.
-    const bool control = length == 1
-                             ? byte < 0x20 || byte == 0x7f
-                             : byte == 0xc2 && static_cast<unsigned char>(bytes[i + 1]) < 0xa0;
+    const bool control = length == 1 ? byte < 0x20 || byte == 0x7f
+                                     : length == 2 && byte == 0xc2 &&
+                                           static_cast<unsigned char>(bytes[i + 1]) < 0xa0;
     if (length > 0 && !control) {
       out += bytes.substr(i, length);
       i += length;

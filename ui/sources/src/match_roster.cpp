@@ -121,7 +121,9 @@ void MatchRoster::setModels(const std::vector<std::pair<RobotId, sim::RobotModel
     known->second.model = model;
     m_match->post(
         {QStringLiteral("%1 stays the robot it was").arg(robotName(known->second.identity)),
-         [id, model](link::SimulatedMatch& match) { return match.setRobotModel(id, model); }});
+         [id = id, model = model](link::SimulatedMatch& match) {
+           return match.setRobotModel(id, model);
+         }});
   }
   if (m_modelsChanged) m_modelsChanged();
 }
