@@ -246,7 +246,7 @@ class TestPacedMatch : public QObject {
     QFETCH(QString, noise);
     const Witness& wanted = inOneGo(Size::Large, noise);
     Played match(wholeMatch(qPrintable(noise), Size::Large), optionsFor(Cognition::Inline));
-    for (const std::uint64_t seconds : {40, 60, 80, 100}) {
+    for (const std::uint64_t seconds : {40U, 60U, 80U, 100U}) {
       match.playTo(seconds * tickRate + 7);
       match.goBack(15 * tickRate);
     }
@@ -264,7 +264,7 @@ class TestPacedMatch : public QObject {
     const Witness& oneGo = inOneGo(Size::Small, "realistic");
     Played match(wholeMatch("realistic", Size::Small), optionsFor(Cognition::External));
     std::vector<double> played, wanted;
-    for (const std::uint64_t seconds : {35, 50, 65}) {
+    for (const std::uint64_t seconds : {35U, 50U, 65U}) {
       match.playTo(seconds * tickRate);
       const std::uint64_t from = match.goBack(12 * tickRate), until = from + 8 * tickRate;
       match.playTo(until);

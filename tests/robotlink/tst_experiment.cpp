@@ -117,7 +117,7 @@ void TestExperiment::folderDoesNotShowHowItWasFilled() {
     QVERIFY(playInto(*resumed, e, {7, 6, 4, 3, 1}, 3).has_value());
     QVERIFY(resumed->complete());
   }
-  for (const std::size_t shard : {1, 2, 3}) {
+  for (const std::size_t shard : {1U, 2U, 3U}) {
     auto part = ExperimentFolder::begin(in("part") + std::to_string(shard), e, false);
     QVERIFY(playInto(*part, e, numbers(shard, 8, 3), 2).has_value());
   }
@@ -223,7 +223,7 @@ void TestExperiment::separateProcessesEndInTheSameState() {
       });
   QVERIFY2(played.has_value(), played ? "" : played.error().text().c_str());
   auto player = RunPlayer::create(inside, {});
-  for (const std::size_t number : {5, 6}) QCOMPARE(hashes[number], player->play(number)->hash);
+  for (const std::size_t number : {5U, 6U}) QCOMPARE(hashes[number], player->play(number)->hash);
 }
 
 void TestExperiment::aSituationKeepsWhatTheRefereeHadSaid() {

@@ -131,7 +131,7 @@ void TestExperimentOwnPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
     QVERIFY2(says(file, "at most 8 times as fast as real time"), file);
   }
   // Only the runs without a kick were wanted, and they were recorded while they were played.
-  for (const std::size_t number : {1, 2, 3, 4}) {
+  for (const std::size_t number : {1U, 2U, 3U, 4U}) {
     QCOMPARE(std::filesystem::exists(sessionPath(out, number)), number > 2);
   }
 }

@@ -138,7 +138,7 @@ class TestGoingOn : public QObject {
     Played match(scenarioOf(static_cast<std::uint64_t>(seed)));
     match.playTo(45 * second);
     // Where something was kept, and at ticks between; farther back each time, and once again.
-    for (const std::uint64_t tick : {2640, 2641, 1799, 1200, 613, 1, 0, 613}) {
+    for (const std::uint64_t tick : {2640U, 2641U, 1799U, 1200U, 613U, 1U, 0U, 613U}) {
       match.goBackTo(tick);
       QCOMPARE(match.match().simulation().state().tick, tick);
       if (tick > 0) QCOMPARE(match.match().simulation().hash(), match.witness->seen.at(tick).hash);
@@ -166,7 +166,7 @@ class TestGoingOn : public QObject {
     come.behaviour = "supporter";
     match.change([&](SimulatedMatch& it) { return it.addRobot(come); });
     match.playTo(36 * second);
-    for (const std::uint64_t seconds : {35, 26, 21, 17, 15, 11}) {
+    for (const std::uint64_t seconds : {35U, 26U, 21U, 17U, 15U, 11U}) {
       const std::uint64_t tick = seconds * second + 5;
       match.goBackTo(tick);
       QCOMPARE(match.match().behaviour(RobotId{2}),
@@ -227,7 +227,7 @@ class TestGoingOn : public QObject {
     ArchiveOptions nothing;
     nothing.robotsBudget = 0;
     double before = 0.0, after = 0.0;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
       Played match(scenarioOf(seed), nothing);
       const std::string file = path + std::to_string(seed);
       if (session) {

@@ -128,7 +128,7 @@ class TestMoments : public QObject {
     RecordedFrames frames;
     const double oneTick = 1.0 / 60;
     // Not 500: a robot that was taken away then has a row of that very time.
-    for (const std::uint64_t tick : {0, 1, 300, 499, 501, 900, 1200}) {
+    for (const std::uint64_t tick : {0U, 1U, 300U, 499U, 501U, 900U, 1200U}) {
       const MatchFrame frame = frames.frameAt(m_match->store, static_cast<double>(tick) * oneTick);
       compareFrame(frame, m_match->witness->seen.at(tick));
       if (tick < 60) continue;
@@ -144,7 +144,7 @@ class TestMoments : public QObject {
     QVERIFY(backdrop.field == m_match->scenario.settings.field);
     QVERIFY(backdrop.noise == m_match->scenario.settings.noise);
     RecordedFrames frames(backdrop);
-    for (const std::uint64_t tick : {0, 1, 300, 499, 501, 900, 1200, 7}) {
+    for (const std::uint64_t tick : {0U, 1U, 300U, 499U, 501U, 900U, 1200U, 7U}) {
       const MatchFrame frame = frames.frameAt(session, static_cast<double>(tick) / 60);
       compareFrame(frame, m_match->witness->seen.at(tick));
       QVERIFY(frame.noise == m_match->scenario.settings.noise);
@@ -222,7 +222,7 @@ class TestMoments : public QObject {
     const auto session = telemetry::SessionReader::open(path).value();
     QCOMPARE(session.events().size(), std::size_t{1});
     RecordedFrames frames(backdropOf(session));
-    for (const std::uint64_t tick : {901, 1000, 1200}) {
+    for (const std::uint64_t tick : {901U, 1000U, 1200U}) {
       const double seconds = static_cast<double>(tick) / 60;
       compareFrame(frames.frameAt(session, seconds), m_match->witness->seen.at(tick));
       const auto moment = momentFromSession(session, seconds, VariableCatalog::published());

@@ -279,7 +279,7 @@ class TestStateArchive : public QObject {
     runner->runTo(400);
     QVERIFY(runner->waitUntilStill(60s));
     QCOMPARE(archive->range()->last, std::uint64_t{400});
-    for (const std::uint64_t tick : {0, 249, 250, 251, 399, 400}) {
+    for (const std::uint64_t tick : {0U, 249U, 250U, 251U, 399U, 400U}) {
       QCOMPARE(sim::stateHash(archive->reenter(tick).value()), log->hashes.at(tick));
     }
   }
