@@ -119,7 +119,7 @@ class TestPlotWork : public QObject {
     const PlotSource* source = &first;
     const auto find = [&source](const QString&) { return ColumnView{source->store->view(0), 1}; };
     const auto finish = [&](quint64 generation) {
-      series.update(find, generation);
+      series.update(find, generation, {0.0, 15.0});
       return !series.isWorking();
     };
     const auto values = [&series] {

@@ -191,6 +191,11 @@ void SeriesStore::setPages(std::shared_ptr<SeriesPages> pages) {
   m_impl->revision.fetch_add(1);
 }
 
+std::uint64_t SeriesStore::pagesRevision() const {
+  const std::shared_lock lock(m_impl->listMutex);
+  return m_impl->pages ? m_impl->pages->revision() : 0;
+}
+
 std::size_t SeriesStore::memoryBytes() const {
   {
     const std::shared_lock lock(m_impl->listMutex);

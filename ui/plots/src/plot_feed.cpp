@@ -72,6 +72,8 @@ void PlotFeed::refresh() {
     lookAgain();
   }
   findKeepers();
+  m_rowsRead =
+      (m_store ? m_store->pagesRevision() : 0) + (m_compared ? m_compared->pagesRevision() : 0);
   m_views.clear();
   for (auto& [name, curve] : m_named) curve.updated = false;
   m_time->setData(m_store ? m_store->range() : std::nullopt);
@@ -134,10 +136,12 @@ ColumnView PlotFeed::named(const QString& name) {
   if (!curve.rows) return find(curve.spec.inputs.value(0));
   if (!curve.updated) {
     curve.updated = curve.inWork = true;
-    curve.rows->update([this](const QString& input) { return find(input); }, m_generation);
+    curve.rows->update([this](const QString& input) { return find(input); }, m_generation,
+                       m_time->range());
     curve.inWork = false;
   }
-  return curve.rows->view();
+  // What is computed from these rows waits for those of the stretch that is shown.
+  return curve.rows->isMoving() ? ColumnView{} : curve.rows->view();
 }
 
 QStringList PlotFeed::groupsWith(const QStringList& columns) const {

@@ -308,9 +308,12 @@ void PlotsDock::hideEvent(QHideEvent*) {
 void PlotsDock::takeRows() {
   const auto known = m_context.time->data();
   const bool pending = currentPage() != nullptr && currentPage()->isWorking();
-  if (known == m_drawnData && m_drawnGeneration == m_feed->generation() && !pending) return;
+  const bool same = known == m_drawnData && m_drawnGeneration == m_feed->generation() &&
+                    m_drawnRows == m_feed->rowsRead();
+  if (same && !pending) return;
   m_drawnData = known;
   m_drawnGeneration = m_feed->generation();
+  m_drawnRows = m_feed->rowsRead();
   drawNow();
 }
 

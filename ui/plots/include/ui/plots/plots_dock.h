@@ -111,6 +111,7 @@ class PlotsDock : public QWidget {
   QTimer m_draw, m_saveSoon;
   bool m_restoring = false;
   quint64 m_drawnGeneration = 0;
+  quint64 m_drawnRows = 0;
   std::optional<telemetry::TimeRange> m_drawnData;
 };
 
