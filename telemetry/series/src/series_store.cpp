@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <shared_mutex>
 
 #include <telemetry/series/series_pages.h>
@@ -136,6 +138,13 @@ void SeriesStore::append(GroupId id, const RowView& row) {
 void SeriesStore::clear() {
   const std::lock_guard lock(m_impl->structure);
   for (const auto& group : m_impl->groups) group->clear();
+  m_impl->account();
+}
+
+void SeriesStore::rewind(double time) {
+  const std::lock_guard lock(m_impl->structure);
+  const double next = std::nextafter(time, std::numeric_limits<double>::infinity());
+  for (const auto& group : m_impl->groups) group->truncate(next);
   m_impl->account();
 }
 

@@ -32,6 +32,7 @@ PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
   m_timer->setInterval(refreshMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
+  connect(source, &FrameSource::rewound, time, &LinkedTime::rewind);
 }
 
 PlotFeed::~PlotFeed() = default;

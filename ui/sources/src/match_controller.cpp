@@ -209,6 +209,12 @@ void MatchController::poll() {
   if (const auto lines = m_runner->takeLog(); !lines.empty()) emit logReceived(lines);
 }
 
+void MatchController::settle() {
+  if (!m_runner) return;
+  m_runner->execute([](link::SimulatedMatch&) {});
+  poll();
+}
+
 void MatchController::setPace(link::RobotsPace pace) {
   m_options.pace = pace;
   post([pace](link::SimulatedMatch& match) { match.setPace(pace); });

@@ -104,6 +104,8 @@ class SeriesStore : public RowSink {
   void append(GroupId group, const RowView& row) override;
   /// Forgets every row; the groups stay.
   void clear();
+  /// Forgets the rows of all groups that are later than this: their source goes on from there.
+  void rewind(double time);
 
   // Any thread.
   /// Grows whenever groups came (lists are then to be read anew).

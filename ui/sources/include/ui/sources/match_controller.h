@@ -107,6 +107,9 @@ class MatchController : public FrameSource {
 
   /// The present moment as a scenario, for saving. Waits for the tick in progress.
   link::Scenario currentMoment();
+  /// Waits for the tick in progress and passes on its frame, events and log lines: a match that is
+  /// paused then has nothing more to tell.
+  void settle();
   /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
   std::uint64_t stateHash();
 
