@@ -40,8 +40,8 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
-  connect(m_edits, &MatchEdits::failed, this, &MatchController::errorOccurred);
-  connect(m_memory, &MatchMemory::failed, this, &MatchController::errorOccurred);
+  connect(m_edits, &MatchEdits::failed, this, &MatchController::refuse);
+  connect(m_memory, &MatchMemory::failed, this, &MatchController::refuse);
 }
 
 // Runners' commands and the worker post back to this object: they must be gone while it is whole.
@@ -242,6 +242,11 @@ void MatchController::tellWhoWillNotFollow() {
           .arg(names.join(QStringLiteral(", "))));
 }
 
+void MatchController::refuse(const QString& sentence) {
+  m_refused = true;
+  emit errorOccurred(sentence, Trouble::Refused);
+}
+
 void MatchController::setPaused(bool paused) {
   if (!m_runner && !m_opening) return;
   if (paused) tellWhoWillNotFollow();
@@ -295,7 +300,7 @@ void MatchController::post(MatchOrder order) {
   post([this, order = std::move(order),
         generation = m_generation.load()](link::SimulatedMatch& match) {
     const Result<void> done = order.carryOut(match);
-    if (done && !order.onSuccess) return;
+    if (done && !order.onSuccess && !m_refused) return;
     const QString sentence = done ? QString()
                                   : order.whatFailed + QStringLiteral(": ") +
                                         QString::fromStdString(done.error().text());
@@ -303,11 +308,12 @@ void MatchController::post(MatchOrder order) {
         [this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess, generation] {
           if (generation != m_generation) return;
           if (sentence.isEmpty()) {
-            onSuccess();
+            if (m_refused.exchange(false)) emit obeyed();
+            if (onSuccess) onSuccess();
             return;
           }
           if (onFailure) onFailure();
-          emit errorOccurred(sentence);
+          refuse(sentence);
         });
   });
 }

@@ -70,6 +70,7 @@ class PlotsDock : public QWidget {
   const PlotsContext& context() const { return m_context; }
   /// Says what went wrong, above the plots.
   void showNotice(const QString& sentence);
+  void settleNotice();  ///< what it said is over
 
   /// Every variable of the source that is shown, `GROUP/COLUMN`.
   QStringList variables() const;

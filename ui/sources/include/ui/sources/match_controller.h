@@ -36,6 +36,11 @@ struct MatchOrder {
   std::function<void()> onSuccess = {};
 };
 
+enum class Trouble {
+  Refused,  ///< something was asked for and not done; over with the next thing that is done
+  Lasting   ///< the match plays otherwise than asked for, or not at all
+};
+
 class MatchController : public FrameSource {
   Q_OBJECT
  public:
@@ -118,7 +123,8 @@ class MatchController : public FrameSource {
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
   void opened();            ///< it is there, or failed
   void transportChanged();  ///< paused, speed, or whether there is a match
-  void errorOccurred(const QString& sentence);
+  void errorOccurred(const QString& sentence, pitchboard::ui::Trouble trouble = Trouble::Lasting);
+  void obeyed();  ///< an order was carried out, the first one after a refusal
 
  private:
   struct Opening;  ///< what the worker made
@@ -127,6 +133,7 @@ class MatchController : public FrameSource {
   /// Forgets the match; the worker ends it.
   std::shared_ptr<link::MatchRunner> retire();
   void take(Opening& opening);
+  void refuse(const QString& sentence);
   /// Says once in a match which robots do not stop or hurry with it.
   void tellWhoWillNotFollow();
 
@@ -144,7 +151,8 @@ class MatchController : public FrameSource {
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()
   UiQueue m_toUi;
-  Workers m_worker;  // one thread: matches end and start in order
+  Workers m_worker;                     // one thread: matches end and start in order
+  std::atomic<bool> m_refused = false;  // by the last order
   QTimer* m_timer;
   MatchEdits* m_edits;
   MatchMemory* m_memory;
