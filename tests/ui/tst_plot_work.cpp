@@ -145,6 +145,21 @@ class TestPlotWork : public QObject {
     }
   }
 
+  void aNarrowLegendKeepsItsValue() {
+    const auto picture = [](const char* value) {
+      LegendBar bar;
+      bar.resize(160, 16);
+      bar.setLeft(0, 0);
+      LegendEntry entry;
+      entry.text = QStringLiteral("B1 VISION_BALL_DIST_FILTERED [cm]");
+      entry.value = QString::fromLatin1(value);
+      entry.color = Qt::red;
+      bar.setEntries({entry});
+      return bar.grab().toImage();
+    };
+    QVERIFY(picture("123.45") != picture("123.46"));
+  }
+
   void everythingIsUndone() {
     Bench b;
     QUndoStack* undo = b.dock->undoStack();
