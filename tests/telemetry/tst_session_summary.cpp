@@ -35,11 +35,13 @@ class Pages : public SeriesPages {
   std::shared_ptr<const GroupSummary> summary(GroupId group, bool) override {
     return std::make_shared<const GroupSummary>(m_session.summary(group));
   }
-  std::optional<Stretch> held(GroupId group) override {
+  std::optional<Stretch> held(GroupId group, std::optional<TimeRange> range) override {
     if (!m_rows) return std::nullopt;
+    if (range && (range->begin < m_held.begin || range->end > m_held.end)) return std::nullopt;
     return Stretch{m_held, m_rows->view(group)};
   }
   void want(TimeRange range) override { wanted = range; }
+  std::uint64_t revision() override { return 1; }
   TimeRange range() override { return m_range; }
   std::size_t bytes() override { return 0; }
 
@@ -159,7 +161,7 @@ class TestSessionSummary : public QObject {
     // A moment: nothing is made up, it is asked for.
     pages->wanted.reset();
     QVERIFY(!store.view(id->group)->at(id->column, 400.0));
-    QVERIFY(pages->wanted && pages->wanted->begin < 400.0 && pages->wanted->end > 400.0);
+    QVERIFY(pages->wanted && pages->wanted->begin <= 400.0 && pages->wanted->end >= 400.0);
     pages->load({390.0, 420.0});
     const auto view = store.view(id->group);
     QCOMPARE(view->at(id->column, 400.0)->time, 400.0);

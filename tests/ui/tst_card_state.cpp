@@ -186,6 +186,25 @@ class TestCardState : public QObject {
     look(tagged, false, true);
   }
 
+  /// However narrow the card: words are cut, not how long it has been.
+  void theTimeInATagIsSeen() {
+    CardState state = CardTracker().update(frameOf(1), 0)[0];
+    state.tagKind = TagKind::Error;
+    const auto picture = [&state](const char* tag, int width) {
+      state.tag = QString::fromUtf8(tag);
+      RobotCard card;
+      card.setState(state);
+      card.resize(width, card.sizeHint().height());
+      return card.grab().toImage();
+    };
+    const int usual = RobotCard().sizeHint().width();
+    QVERIFY(picture("communication silent 4 min 20 s", usual) !=
+            picture("communication silent 4 min 50 s", usual));
+    // Where there is no room for all of it, the minutes stay.
+    QVERIFY(picture("communication silent 4 min 20 s", usual * 3 / 4) !=
+            picture("communication silent 5 min 20 s", usual * 3 / 4));
+  }
+
   void clicksSelectAndCollapse() {
     RobotCard card;
     card.setState(CardTracker().update(frameOf(1), 0)[0]);

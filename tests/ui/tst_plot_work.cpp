@@ -121,7 +121,7 @@ class TestPlotWork : public QObject {
     const PlotSource* source = &first;
     const auto find = [&source](const QString&) { return ColumnView{source->store->view(0), 1}; };
     const auto finish = [&](quint64 generation) {
-      series.update(find, generation);
+      series.update(find, generation, {0.0, 15.0});
       return !series.isWorking();
     };
     const auto values = [&series] {
@@ -145,6 +145,21 @@ class TestPlotWork : public QObject {
       QCOMPARE(sample.value,
                2 * (sample.time < changed ? elsewhere : PlotSource::distanceAt(sample.time)));
     }
+  }
+
+  void aNarrowLegendKeepsItsValue() {
+    const auto picture = [](const char* value) {
+      LegendBar bar;
+      bar.resize(160, 16);
+      bar.setLeft(0, 0);
+      LegendEntry entry;
+      entry.text = QStringLiteral("B1 VISION_BALL_DIST_FILTERED [cm]");
+      entry.value = QString::fromLatin1(value);
+      entry.color = Qt::red;
+      bar.setEntries({entry});
+      return bar.grab().toImage();
+    };
+    QVERIFY(picture("123.45") != picture("123.46"));
   }
 
   void everythingIsUndone() {

@@ -4,6 +4,7 @@
 #include <QGraphicsView>
 #include <QMenu>
 
+#include <telemetry/session/session_writer.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/compared_session.h>
@@ -11,6 +12,7 @@
 #include "chart_pane.h"
 #include "compared_item.h"
 #include "lane_pane.h"
+#include "legend_bar.h"
 #include "session_rig.h"
 #include "timeline_strip.h"
 #include "xy_pane.h"
@@ -20,6 +22,62 @@ namespace tst_session_compare {
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using session_rig::Studio;
+
+namespace {
+
+constexpr double longSeconds = 1200.0, rowsPerSecond = 50.0;
+
+/// Different from row to row, so that a straight line is seen.
+double distanceIn(int row) {
+  return 100.0 + 7.0 * ((row * 37) % 11) + 30.0 * std::sin(row / 40.0);
+}
+
+/// 20 min of two robots: 4 MB of rows.
+QString longSession(const QTemporaryDir& folder) {
+  using namespace pitchboard::telemetry;
+  const QString path = folder.filePath(QStringLiteral("long.mcap"));
+  SessionInfo info;
+  info.program = "pitchboard";
+  info.source = "simulation";
+  info.title = "long";
+  SessionWriterOptions options;
+  options.waitWhenFull = true;
+  auto writer = SessionWriter::create(path.toStdString(), info, options);
+  if (!writer) return {};
+  std::vector<GroupId> groups;
+  for (int number : {1, 2}) {
+    groups.push_back((*writer)->addGroup(
+        {"B" + std::to_string(number),
+         {{"ACTION", ColumnType::Int32, "", "", ColumnKind::Enumeration, {{0, "stop"}, {1, "go"}}},
+          {"DIST", ColumnType::Float64, "cm", "", ColumnKind::Number, {}},
+          {"X", ColumnType::Float64, "m", "", ColumnKind::Number, {}},
+          {"Y", ColumnType::Float64, "m", "", ColumnKind::Number, {}}},
+         {{"robot", std::to_string(number)}, {"team", "blue"}}}));
+  }
+  for (int row = 0; row < static_cast<int>(longSeconds * rowsPerSecond); ++row) {
+    const std::uint32_t words[] = {static_cast<std::uint32_t>(row / 150 % 2)};
+    const double values[] = {distanceIn(row), std::sin(row / 60.0), std::cos(row / 60.0)};
+    for (const GroupId group : groups) {
+      (*writer)->append(group, {row / rowsPerSecond, words, values});
+    }
+  }
+  return (*writer)->finish() ? path : QString();
+}
+
+/// Every kind of plot beside each other.
+PlotLayout everyKind() {
+  PaneSpec chart, lane, xy;
+  chart.curves << variableCurve("B1/DIST") << variableCurve("B2/X");
+  chart.curves[1].kind = CurveKind::Derivative;
+  lane.kind = PaneKind::Lane;
+  lane.curves << variableCurve("B1/ACTION");
+  xy.kind = PaneKind::Xy;
+  xy.curves << variableCurve("B1/X");
+  xy.curves[0].inputs << "B1/Y";
+  return {{PageSpec{"one", {chart, lane, xy}}}, 0};
+}
+
+}  // namespace
 
 class TestSessionCompare : public QObject {
   Q_OBJECT
@@ -204,6 +262,66 @@ class TestSessionCompare : public QObject {
              !charts->comparedTraces()[0].any;
     };
     QTRY_VERIFY(gone());
+  }
+
+  /// Whatever the memory holds: nothing but a click on the timeline is needed to see the rows.
+  void aSessionLargerThanMemoryLooksLikeOneThatFits_data() {
+    QTest::addColumn<bool>("compared");
+    QTest::newRow("alone") << false;
+    QTest::newRow("beside itself") << true;
+  }
+  void aSessionLargerThanMemoryLooksLikeOneThatFits() {
+    QFETCH(bool, compared);
+    QTemporaryDir folder;
+    const QString path = longSession(folder);
+    QVERIFY(!path.isEmpty());
+    const auto open = [&](Studio& s, int megabytes) {
+      s.window.setMemoryBudget(megabytes);
+      s.window.findChild<PlotsDock*>()->setLayoutSpec(everyKind());
+      s.window.openSession(path);
+      if (!QTest::qWaitFor([&s] { return s.window.replay()->isOpen(); })) return false;
+      if (compared) s.window.compared()->open(path);
+      const auto ready = [&] {
+        return s.window.replay()->loaded() == 1.0 && (!compared || s.window.compared()->isOn());
+      };
+      if (!QTest::qWaitFor(ready)) return false;
+      if (compared) s.window.compared()->setOffset(-3.37);
+      return true;
+    };
+    const auto picture = [](Studio& s) {
+      return s.window.findChild<PlotsDock*>()->grab().toImage();
+    };
+
+    Studio fits(0), pages(0);
+    QVERIFY(open(fits, 1024) && open(pages, 1));
+    auto* strip = pages.window.findChild<TimelineStrip*>();
+    const auto* pane = pages.window.findChild<ChartPane*>();
+    QVERIFY(strip && pane);
+    const auto* legend = pane->findChild<LegendBar*>();
+    // At the beginning, too, where nobody has clicked yet.
+    for (const double time : {0.0, 300.0, 1100.0, 310.0, 700.0}) {
+      if (time > 0.0) {
+        const QPoint at(qRound(strip->axis().pixel(time)), strip->bandRect().center().y());
+        QTest::mouseClick(strip, Qt::LeftButton, {}, at);
+      }
+      const double shown = pages.window.timeline()->shownTime();
+      QVERIFY2(std::abs(shown - time) < 5.0, qPrintable(QString::number(shown)));
+      fits.window.timeline()->seek(shown);
+      QTRY_VERIFY2(picture(pages) == picture(fits), qPrintable(QString::number(time)));
+      // Not only the same, but the rows of the file.
+      const auto row = static_cast<int>(std::floor(shown * rowsPerSecond + 1e-6));
+      QCOMPARE(legend->entries().value(0).value, valueText(distanceIn(row)));
+      QVERIFY(pane->traces()[0].exact);
+      for (const telemetry::Sample& sample : pane->traces()[0].samples) {
+        QCOMPARE(sample.value, distanceIn(qRound(sample.time * rowsPerSecond)));
+      }
+    }
+    // A range that is longer than what fits is an envelope: never lines between single rows.
+    pages.window.findChild<PlotsDock*>()->time()->setRange({0.0, longSeconds});
+    QTRY_VERIFY(!pane->traces()[0].exact && pane->traces()[0].columns.size() > 100);
+    // Moments are read all the same.
+    pages.window.timeline()->seek(456.0);
+    QTRY_COMPARE(legend->entries().value(0).value, valueText(distanceIn(456 * 50)));
   }
 
   void itIsMovedByHand() {

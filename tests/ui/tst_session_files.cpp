@@ -104,6 +104,28 @@ class TestSessionFiles : public QObject {
     QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
   }
 
+  /// It neither stays nor comes back when what lies over it is closed.
+  void theNoticeOfABrokenFileLeavesWithTheFile() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString good = s.recorded(300);
+    QVERIFY(!good.isEmpty());
+    const QString broken = s.folder.filePath(QStringLiteral("broken.mcap"));
+    QVERIFY(QFile::copy(good, broken));
+    QFile file(broken);
+    QVERIFY(file.resize(file.size() * 2 / 3));
+    while (!s.notice().isEmpty()) closeNotice(s.window);
+    QSignalSpy opened(s.window.replay(), &ReplayController::opened);
+    s.window.openSession(broken);
+    QTRY_COMPARE(opened.size(), 1);
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("broke off")), qPrintable(s.notice()));
+    s.window.openSession(s.folder.filePath(QStringLiteral("none.mcap")));
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("none.mcap")), qPrintable(s.notice()));
+    s.window.openSession(good);
+    QTRY_COMPARE(opened.size(), 2);
+    QTRY_VERIFY2(s.notice().isEmpty(), qPrintable(s.notice()));
+  }
+
   void damageInsideIsANotice() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);

@@ -2,18 +2,24 @@
 // Recording, looking back and replay in the window: real files of a real match.
 
 #include <QLabel>
+#include <QPlainTextEdit>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QtTest>
 
+#include <robotlink/session/state_archive.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
+#include <ui/plots/plots_dock.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/event_list.h>
+#include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
+#include <ui/sources/match_edits.h>
+#include <ui/sources/match_memory.h>
 #include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/session_recording.h>
@@ -21,8 +27,11 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "chart_pane.h"
 #include "live_rig.h"
+#include "log_model.h"
 #include "session_rig.h"
+#include "timeline_strip.h"
 
 namespace tst_sessions {
 
@@ -90,6 +99,86 @@ class TestSessions : public QObject {
     s.action("continueFromHere")->trigger();
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(300));
     QCOMPARE(s.controller.stateHash(), then);
+  }
+
+  /// What came after that moment has not happened, wherever it was remembered.
+  void theFutureLeavesWithTheMomentGoneOnFrom() {
+    Studio s(0);
+    s.controller.open(link::loadScenario("match").value(), true);
+    constexpr std::uint64_t end = 960;
+    s.controller.runTo(900);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(900), 30'000);
+    // Its rows go on to the end; at the moment there is no such robot.
+    s.controller.edits()->addRobot(TeamColor::Red, {{0.5, 2.0}, {}});
+    s.controller.runTo(end);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(end), 30'000);
+    Timeline* timeline = s.window.timeline();
+    auto* plots = s.window.findChild<PlotsDock*>();
+    auto* log = s.window.findChild<LogModel*>();
+    auto* refereeLog = s.window.findChild<QPlainTextEdit*>(QStringLiteral("refereeLog"));
+    QVERIFY(plots && log && refereeLog);
+    const auto newestLine = [log] {
+      double newest = -1.0;
+      for (int row = 0; row < log->rowCount(); ++row) {
+        newest = std::max(newest, log->index(row, 0).data(LogModel::timeRole).toDouble());
+      }
+      return newest;
+    };
+    plots->plotVariables({QStringLiteral("B1/TRUE_X")});
+    plots->time()->setRange({12.0, 16.0});
+    plots->time()->showMarks(true);
+    timeline->setSelection(telemetry::TimeRange{11.0, 15.0});
+    timeline->addBookmark(QStringLiteral("in the future"));
+    QTRY_VERIFY2(newestLine() > 9.0, qPrintable(QString::number(newestLine())));
+    QTRY_VERIFY2(refereeLog->toPlainText().contains(QStringLiteral("READY")),
+                 qPrintable(refereeLog->toPlainText()));
+
+    auto* strip = s.window.findChild<TimelineStrip*>();
+    QTest::mouseClick(strip, Qt::LeftButton, {},
+                      {qRound(strip->axis().pixel(5.0)), strip->bandRect().center().y()});
+    QTRY_VERIFY(timeline->isLookingBack());
+    const double moment = timeline->shownTime();
+    QVERIFY(std::abs(moment - 5.0) < 0.5);
+    QSignalSpy rewound(&s.controller, &FrameSource::rewound);
+    s.action("continueFromHere")->trigger();
+    QTRY_COMPARE(rewound.size(), 1);
+    QVERIFY2(s.notice().isEmpty(), qPrintable(s.notice()));
+    constexpr double half = 0.5 / 60;
+    const auto tick = static_cast<std::uint64_t>(std::llround(moment * 60));
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, tick);
+    const auto rows = s.controller.series();
+    for (telemetry::GroupId id = 0; id < rows->groups(); ++id) {
+      const auto range = rows->view(id)->range();
+      QVERIFY2(!range || range->end < moment + half, rows->view(id)->info().name.c_str());
+    }
+    QCOMPARE(s.controller.memory()->archive()->range()->last, tick);
+    for (const link::MatchEvent& event : timeline->events()->events()) {
+      QVERIFY(event.time < moment + half);
+    }
+    QVERIFY2(newestLine() < moment + half, qPrintable(QString::number(newestLine())));
+    QVERIFY2(!refereeLog->toPlainText().contains(QStringLiteral("READY")),
+             qPrintable(refereeLog->toPlainText()));
+    QVERIFY(!timeline->isLookingBack() && !timeline->selection());
+    QVERIFY(!plots->time()->hasMarks());
+    const auto* memory = s.window.findChild<QLabel*>(QStringLiteral("statusRecording"));
+    QTRY_VERIFY2(memory->text().contains(QStringLiteral("00:05")) ||
+                     memory->text().contains(QStringLiteral("00:04")),
+                 qPrintable(memory->text()));
+
+    // The match that goes on is plotted and remembered.
+    s.controller.runTo(tick + 180);
+    QTRY_COMPARE_WITH_TIMEOUT(s.controller.frame()->snapshot.tick, tick + 180, 30'000);
+    const double now = static_cast<double>(tick + 180) / 60;
+    QTRY_VERIFY(plots->time()->data() && std::abs(plots->time()->data()->end - now) < half);
+    QVERIFY(plots->time()->range().begin <= now && plots->time()->range().end >= now);
+    const auto* chart = plots->findChild<ChartPane*>();
+    const auto plotted = [&] {
+      const auto& traces = chart->traces();
+      return !traces.empty() && traces.back().exact && !traces.back().samples.empty() &&
+             std::abs(traces.back().samples.back().time - now) < half;
+    };
+    QTRY_VERIFY(plotted());
+    QVERIFY2(memory->text().contains(QStringLiteral("00:0")), qPrintable(memory->text()));
   }
 
   void aSimulationBeginsFromThePast() {

@@ -2,6 +2,7 @@
 #include <QtTest>
 #include <cmath>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/quick_painting.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -52,6 +53,51 @@ QRect ink(const QImage& image) {
 class TestTheme : public QObject {
   Q_OBJECT
  private slots:
+  void aNumberIsNeverCut_data() {
+    QTest::addColumn<QString>("text");
+    for (const char* text : {"TIMEOUT 4 min 20 s", "D silent 4 min 20 s", "−1200.00 mm",
+                             "penalised 45 s", "Memory holds the last 13:29 (128 MB)",
+                             "goal B4 12.5 m/s", "3 of 12 sensors", "×0.12", "waiting for words"}) {
+      QTest::newRow(text) << QString::fromUtf8(text);
+    }
+  }
+  void aNumberIsNeverCut() {
+    QFETCH(QString, text);
+    const QFontMetricsF metrics(themeFont(TypeRole::Body));
+    const QString dots = QStringLiteral("…");
+    const QStringList words = text.split(QLatin1Char(' '));
+    for (double width = 0.0; width <= metrics.horizontalAdvance(text) + 1; width += 1.0) {
+      const QString shown = elidedWords(metrics, text, width);
+      const QByteArray told = (QString::number(width) + QLatin1Char(' ') + shown).toUtf8();
+      QVERIFY2(shown == dots || metrics.horizontalAdvance(shown) <= width || shown.isEmpty(),
+               told.constData());
+      for (const QString& word : shown.split(QLatin1Char(' '))) {
+        const bool digits =
+            std::any_of(word.begin(), word.end(), [](QChar c) { return c.isDigit(); });
+        QVERIFY2(!digits || words.contains(word), told.constData());
+      }
+    }
+    QCOMPARE(elidedWords(metrics, text, metrics.horizontalAdvance(text) + 1), text);
+  }
+
+  void wordsMakeRoomForNumbers() {
+    const QFontMetricsF metrics(themeFont(TypeRole::Body));
+    const double room = metrics.horizontalAdvance(QStringLiteral("TIM… 4 min 20 s"));
+    const QString shown = elidedWords(metrics, QStringLiteral("TIMEOUT 4 min 20 s"), room);
+    QVERIFY2(shown.endsWith(QStringLiteral("… 4 min 20 s")), qPrintable(shown));
+    // The painter cuts in the same way.
+    const auto painted = [room](const QString& text) {
+      QImage image(200, 30, QImage::Format_ARGB32_Premultiplied);
+      image.fill(Qt::white);
+      QPainter painter(&image);
+      painter.setFont(themeFont(TypeRole::Body));
+      drawWords(painter, QRectF(0, 0, room, 30), Qt::AlignLeft, text, Qt::ElideRight);
+      return image;
+    };
+    QVERIFY(painted(QStringLiteral("TIMEOUT 4 min 20 s")) !=
+            painted(QStringLiteral("TIMEOUT 4 min 50 s")));
+  }
+
   void switches() {
     setTheme(*qApp, ThemeChoice::Dark);
     QVERIFY(isDarkTheme());

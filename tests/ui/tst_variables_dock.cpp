@@ -38,6 +38,25 @@ class TestVariablesDock : public QObject {
     QVERIFY(cell() != words);  // now they fit, and the curve has its place
   }
 
+  void valuesAreWholeHoweverLong() {
+    Bench bench;
+    auto store = std::make_shared<telemetry::SeriesStore>();
+    const auto b1 = store->addGroup(robotGroup("B1", 1));
+    append(*store, b1, 0.0, 0, 0, -1234567.0F, -120000.125);
+    append(*store, b1, 1.0, 0, 0, -1234567.0F, -120000.125);
+    bench.hand.take(store, SourceKind::Simulate);
+    bench.dock->resize(300, 500);
+    for (const char* name : {"B1/VISION_BALL_DIST", "B1/TRUE_X"}) {
+      bench.choose(QString::fromLatin1(name));
+      const QString path = QString::fromLatin1(name);
+      QTRY_VERIFY(bench.text(path, VariablesModel::Value).contains(QStringLiteral("12")));
+      const QString text = bench.text(path, VariablesModel::Value);
+      QTRY_VERIFY2(bench.view->columnWidth(VariablesModel::Value) >
+                       bench.view->fontMetrics().horizontalAdvance(text) + 4,
+                   qPrintable(text));
+    }
+  }
+
   void modelAndFilterKeepTheRulesOfModels() {
     auto store = twoRobots();
     VariablesModel model;

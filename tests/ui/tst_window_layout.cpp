@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSlider>
+#include <QTextEdit>
 #include <QToolBar>
 #include <QToolButton>
 #include <QTreeView>
@@ -217,8 +218,8 @@ class TestWindowLayout : public QObject {
     Studio s;
     s.play();
     auto* notices = s.window.notices();
-    notices->show(QStringLiteral("One line."));
-    const auto* label = notices->findChild<QLabel*>(QStringLiteral("noticeText"));
+    notices->show({QStringLiteral("test")}, QStringLiteral("One line."));
+    const auto* label = notices->findChild<QTextEdit*>(QStringLiteral("noticeText"));
     QTRY_VERIFY(notices->isVisible() && label->width() > 200);
     QVERIFY2(notices->height() < 3 * label->fontMetrics().height(),
              qPrintable(QString::number(notices->height())));

@@ -9,8 +9,10 @@
 #include <QLayout>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QStatusBar>
 #include <QTableView>
+#include <QTextEdit>
 #include <QToolButton>
 #include <QUndoStack>
 #include <QtTest>
@@ -178,14 +180,66 @@ class TestWindowWork : public QObject {
     QVERIFY(s.window.menuBar()->isVisible() && s.window.statusBar()->isVisible());
   }
 
+  void buttonsOfANoticeKeepTheirSize_data() {
+    QTest::addColumn<QString>("text");
+    QString words, path = QStringLiteral("/home/team/");
+    for (int i = 0; i < 30; ++i) {
+      words += QStringLiteral("The recording broke off. ");
+      path += QStringLiteral("a-long-name-without-a-space_");
+    }
+    QTest::newRow("short") << QStringLiteral("The recording broke off.");
+    QTest::newRow("many words") << words;
+    QTest::newRow("one long word") << path + QStringLiteral(" broke off.");
+  }
+  void buttonsOfANoticeKeepTheirSize() {
+    QFETCH(QString, text);
+    Studio s({960, 600});
+    s.play();
+    NoticeBar* bar = s.window.notices();
+    bar->show({QStringLiteral("a")}, text,
+              {{QStringLiteral("Repair into a new file"), {}}, {QStringLiteral("Not now"), {}}});
+    QTRY_COMPARE(bar->findChildren<QPushButton*>().size(), 2);
+    const auto* words = bar->findChild<QTextEdit*>(QStringLiteral("noticeText"));
+    QTRY_VERIFY(words->height() > 0 && bar->layout()->geometry() == bar->contentsRect());
+    for (const auto* button : bar->findChildren<QPushButton*>()) {
+      QVERIFY2(button->width() >= button->sizeHint().width(), qPrintable(button->text()));
+      QVERIFY2(button->height() >= button->sizeHint().height(), qPrintable(button->text()));
+      QVERIFY(bar->rect().contains(button->geometry()));
+    }
+    QVERIFY(bar->rect().contains(words->geometry()));
+    QVERIFY(bar->parentWidget()->rect().contains(bar->geometry()));
+    QVERIFY(words->document()->size().height() <= words->height() + 1.0);
+    QVERIFY(words->document()->size().width() <= words->width() + 1.0);
+  }
+
+  void aRefusalLeavesWithTheNextOrder() {
+    Studio s;
+    s.play();
+    const auto order = [&s](bool good) {
+      s.controller.post(MatchOrder{
+          QStringLiteral("The goal was not counted"), [good](link::SimulatedMatch&) {
+            return good ? Result<void>() : failure(ErrorCode::InvalidArgument, "not in play");
+          }});
+    };
+    const auto notice = [&s] { return s.window.notices()->text(); };
+    order(false);
+    QTRY_VERIFY2(notice().contains("not in play"), qPrintable(notice()));
+    order(true);
+    QTRY_VERIFY2(notice().isEmpty(), qPrintable(notice()));
+    order(false);
+    QTRY_VERIFY(notice().contains("not in play"));
+    s.controller.restart();
+    QVERIFY2(notice().isEmpty(), qPrintable(notice()));
+  }
+
   void noticesNewestFirstAndTheFieldStays() {
     Studio s;
     s.play();
     NoticeBar* bar = s.window.notices();
     const QWidget* field = s.window.centralWidget()->layout()->itemAt(0)->widget();
     const QRect before = field->geometry();
-    bar->show(QStringLiteral("old"), {}, {QStringLiteral("a")});
-    bar->show(QStringLiteral("new"), {}, {QStringLiteral("b")});
+    bar->show({QStringLiteral("a")}, QStringLiteral("old"));
+    bar->show({QStringLiteral("b")}, QStringLiteral("new"));
     QCOMPARE(bar->text(), QStringLiteral("new"));
     QVERIFY(bar->isVisible());
     QCOMPARE(field->geometry(), before);
@@ -194,10 +248,10 @@ class TestWindowWork : public QObject {
     bar->settle(QStringLiteral("a"));
     QVERIFY(!bar->isVisible());
     const QString ground = theme().warningGround.name();
-    bar->show(QStringLiteral("saved"), {}, {QStringLiteral("c"), NoticeTone::Success});
+    bar->show({QStringLiteral("c"), NoticeTone::Success}, QStringLiteral("saved"));
     QVERIFY(!bar->styleSheet().contains(ground));
     QCOMPARE(bar->grab().toImage().pixelColor(bar->width() / 2, 3), theme().workingGround);
-    bar->show(QStringLiteral("bad"));
+    bar->show({QStringLiteral("d")}, QStringLiteral("bad"));
     QVERIFY(bar->styleSheet().contains(ground));
     QCOMPARE(bar->grab().toImage().pixelColor(bar->width() / 2, 3), theme().warningGround);
     // A scenario that cannot be opened is forgotten when one could.

@@ -12,9 +12,6 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// Around a moment, s: what comes next is mostly near.
-constexpr double nearby = 5.0;
-
 double valueOf(const std::vector<float>& values, std::size_t bucket) {
   if (values.empty()) return nothing;
   return static_cast<double>(values.size() == 1 ? values.front() : values[bucket]);
@@ -25,22 +22,19 @@ class PagedView final : public GroupView {
   PagedView(std::shared_ptr<const GroupView> empty, GroupId group,
             std::shared_ptr<SeriesPages> pages)
       : m_empty(std::move(empty)), m_group(group), m_pages(std::move(pages)) {
-    if (auto held = m_pages->held(group)) {
-      m_held = held->range;
-      m_rows = std::move(held->rows);
-    }
+    m_recent = m_pages->held(group, std::nullopt);
   }
 
   const GroupInfo& info() const override { return m_empty->info(); }
   std::optional<TimeRange> range() const override {
     if (const auto summary = m_pages->summary(m_group, false)) return summary->range();
-    return m_rows ? m_rows->range() : std::nullopt;
+    return m_recent ? m_recent->rows->range() : std::nullopt;
   }
   std::size_t rows() const override {
     const auto summary = m_pages->summary(m_group, true);
     return summary ? static_cast<std::size_t>(summary->rows()) : 0;
   }
-  double rate() const override { return m_rows ? m_rows->rate() : 0.0; }
+  double rate() const override { return m_recent ? m_recent->rows->rate() : 0.0; }
 
   std::optional<Sample> latest(std::uint32_t column) const override {
     const auto summary = m_pages->summary(m_group, false);
@@ -50,18 +44,30 @@ class PagedView final : public GroupView {
     return Sample{part.end.back(), valueOf(part.columns[column].last, part.buckets() - 1)};
   }
   std::optional<Sample> at(std::uint32_t column, double time) const override {
-    return holds({time, time}) ? m_rows->at(column, time) : std::nullopt;
+    const auto held = read({time, time});
+    return held ? held->rows->at(column, time) : std::nullopt;
   }
   bool rowAt(double time, double& rowTime, std::vector<std::uint32_t>& words,
              std::vector<double>& values) const override {
-    return holds({time, time}) && m_rows->rowAt(time, rowTime, words, values);
+    const auto held = read({time, time});
+    return held && held->rows->rowAt(time, rowTime, words, values);
   }
   std::optional<double> lastChange(std::uint32_t column) const override {
-    return m_rows ? m_rows->lastChange(column) : std::nullopt;
+    if (!m_recent) return std::nullopt;
+    const auto rows = m_recent->rows->range();
+    const auto last = m_recent->rows->lastChange(column);
+    if (!rows || !last) return std::nullopt;
+    // A value that is the same through the stretch may have changed at any time before it.
+    const bool known = *last > rows->begin || rows->begin <= m_pages->range().begin;
+    return known ? last : std::nullopt;
+  }
+  bool hasEveryRow(TimeRange range) const override {
+    const TimeRange looked = within(range);
+    return looked.begin > looked.end || read(range).has_value();
   }
 
   void buckets(std::uint32_t column, TimeRange range, std::span<SeriesBucket> out) const override {
-    if (holds(range)) return m_rows->buckets(column, range, out);
+    if (const auto held = read(range)) return held->rows->buckets(column, range, out);
     std::fill(out.begin(), out.end(), SeriesBucket{nothing, nothing, nothing, nothing, 0});
     const double width = (range.end - range.begin) / static_cast<double>(out.size());
     if (!(width > 0.0)) return;
@@ -89,7 +95,15 @@ class PagedView final : public GroupView {
 
   bool samples(std::uint32_t column, TimeRange range, std::vector<Sample>& out,
                std::size_t most) const override {
-    if (holds(range)) return m_rows->samples(column, range, out, most);
+    const bool some = most != SIZE_MAX;
+    if (const auto held = some ? find(range) : read(range)) {
+      return held->rows->samples(column, range, out, most);
+    }
+    // The first few of a range lie mostly in the stretch around its beginning.
+    if (const auto held = some ? read({range.begin, range.begin}) : std::nullopt) {
+      held->rows->samples(column, {range.begin, std::min(range.end, held->range.end)}, out, most);
+      return false;
+    }
     out.clear();
     each(column, range,
          [&](const SummaryPart& part, const SummaryPart::Column& values, std::size_t bucket) {
@@ -101,7 +115,7 @@ class PagedView final : public GroupView {
   }
 
   SeriesStatistics statistics(std::uint32_t column, TimeRange range) const override {
-    if (holds(range)) return m_rows->statistics(column, range);
+    if (const auto held = find(range)) return held->rows->statistics(column, range);
     std::vector<Sample> some;
     (void)samples(column, range, some, SIZE_MAX);
     SeriesStatistics out = statisticsOf(some, range);
@@ -117,14 +131,30 @@ class PagedView final : public GroupView {
   }
 
  private:
-  /// Every row of the range is in memory; else they are asked for.
-  bool holds(TimeRange range) const {
+  using Stretch = SeriesPages::Stretch;
+
+  /// The part of the range that has rows. After the last row there is nothing but that row.
+  TimeRange within(TimeRange range) const {
     const TimeRange all = m_pages->range();
-    const TimeRange looked{std::max(range.begin, all.begin), std::min(range.end, all.end)};
-    if (looked.begin > looked.end) return false;
-    if (m_held && m_rows && m_held->begin <= looked.begin && looked.end <= m_held->end) return true;
-    m_pages->want({looked.begin - nearby, looked.end + nearby});
-    return false;
+    const double end = std::min(range.end, all.end);
+    return {std::clamp(range.begin, all.begin, std::max(all.begin, end)), end};
+  }
+  /// A stretch with every row of the range.
+  std::optional<Stretch> find(TimeRange range) const {
+    const TimeRange looked = within(range);
+    if (looked.begin > looked.end) return std::nullopt;
+    const auto holds = [&looked](const Stretch& held) {
+      return held.range.begin <= looked.begin && looked.end <= held.range.end;
+    };
+    return m_recent && holds(*m_recent) ? m_recent : m_pages->held(m_group, looked);
+  }
+  /// The same; what is not in memory is asked for.
+  std::optional<Stretch> read(TimeRange range) const {
+    auto held = find(range);
+    if (const TimeRange looked = within(range); !held && looked.begin <= looked.end) {
+      m_pages->want(looked);
+    }
+    return held;
   }
   /// Buckets that reach into the range, in order.
   template <class Visit>
@@ -144,8 +174,7 @@ class PagedView final : public GroupView {
   std::shared_ptr<const GroupView> m_empty;
   const GroupId m_group;
   const std::shared_ptr<SeriesPages> m_pages;
-  std::optional<TimeRange> m_held;
-  std::shared_ptr<const GroupView> m_rows;
+  std::optional<Stretch> m_recent;
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <shared_mutex>
 
 #include <telemetry/series/series_pages.h>
@@ -139,6 +141,13 @@ void SeriesStore::clear() {
   m_impl->account();
 }
 
+void SeriesStore::rewind(double time) {
+  const std::lock_guard lock(m_impl->structure);
+  const double next = std::nextafter(time, std::numeric_limits<double>::infinity());
+  for (const auto& group : m_impl->groups) group->truncate(next);
+  m_impl->account();
+}
+
 std::uint64_t SeriesStore::groupsRevision() const {
   return m_impl->revision.load();
 }
@@ -189,6 +198,11 @@ void SeriesStore::setPages(std::shared_ptr<SeriesPages> pages) {
   const std::lock_guard lock(m_impl->listMutex);
   m_impl->pages = std::move(pages);
   m_impl->revision.fetch_add(1);
+}
+
+std::uint64_t SeriesStore::pagesRevision() const {
+  const std::shared_lock lock(m_impl->listMutex);
+  return m_impl->pages ? m_impl->pages->revision() : 0;
 }
 
 std::size_t SeriesStore::memoryBytes() const {

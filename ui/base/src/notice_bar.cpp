@@ -5,9 +5,13 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QResizeEvent>
+#include <QTextDocument>
+#include <QTextEdit>
 #include <QTimer>
 #include <QToolButton>
 #include <algorithm>
+#include <cmath>
 
 #include <ui/base/theme.h>
 
@@ -17,22 +21,58 @@ constexpr std::size_t maxNotices = 20;
 constexpr int successMilliseconds = 8000;
 }  // namespace
 
+/// A label that also breaks inside of a word: a path can be longer than the strip is wide.
+class NoticeBar::Text : public QTextEdit {
+ public:
+  explicit Text(QWidget* parent) : QTextEdit(parent) {
+    setObjectName(QStringLiteral("noticeText"));
+    setReadOnly(true);
+    setTextInteractionFlags(Qt::TextSelectableByMouse);
+    setFocusPolicy(Qt::NoFocus);
+    setFrameShape(NoFrame);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    viewport()->setAutoFillBackground(false);
+    setWordWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+    document()->setDocumentMargin(0);
+    QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    policy.setHeightForWidth(true);
+    setSizePolicy(policy);
+  }
+  QSize sizeHint() const override {
+    const int wide = fontMetrics().horizontalAdvance(toPlainText());
+    return {wide, fontMetrics().lineSpacing()};
+  }
+  QSize minimumSizeHint() const override { return {scaled(this, 60), fontMetrics().lineSpacing()}; }
+  bool hasHeightForWidth() const override { return true; }
+  int heightForWidth(int width) const override {
+    QTextDocument laidOut;
+    laidOut.setDefaultFont(font());
+    laidOut.setDocumentMargin(0);
+    laidOut.setDefaultTextOption(document()->defaultTextOption());
+    laidOut.setPlainText(toPlainText());
+    laidOut.setTextWidth(width);
+    return static_cast<int>(std::ceil(laidOut.size().height()));
+  }
+};
+
 NoticeBar::NoticeBar(QWidget* parent)
-    : QFrame(parent), m_text(new QLabel(this)), m_more(new QLabel(this)) {
+    : QFrame(parent),
+      m_text(new Text(this)),
+      m_more(new QLabel(this)),
+      m_row(new QHBoxLayout(this)),
+      m_side(new QHBoxLayout),
+      m_buttons(new QHBoxLayout) {
   setObjectName(QStringLiteral("noticeBar"));
-  m_text->setObjectName(QStringLiteral("noticeText"));
-  m_text->setWordWrap(true);
-  m_text->setTextFormat(Qt::PlainText);
-  m_text->setTextInteractionFlags(Qt::TextSelectableByMouse);
   m_more->setFont(themeFont(TypeRole::Secondary));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(scaled(this, 12), scaled(this, 6), scaled(this, 8), scaled(this, 6));
-  row->setSpacing(scaled(this, 8));
-  row->addWidget(m_text, 1);
-  row->addWidget(m_more);
-  m_buttons = new QHBoxLayout;
+  m_row->setContentsMargins(scaled(this, 12), scaled(this, 6), scaled(this, 8), scaled(this, 6));
+  m_row->setSpacing(scaled(this, 8));
+  m_side->setSpacing(scaled(this, 8));
   m_buttons->setSpacing(scaled(this, 4));
-  row->addLayout(m_buttons);
+  m_row->addWidget(m_text, 1);
+  m_row->addLayout(m_side);
+  m_side->addStretch(1);
+  m_side->addWidget(m_more);
+  m_side->addLayout(m_buttons);
   m_leaving = new QTimer(this);
   m_leaving->setSingleShot(true);
   m_leaving->setInterval(successMilliseconds);
@@ -49,6 +89,16 @@ void NoticeBar::floatOver(QWidget* host) {
   place();
 }
 
+bool NoticeBar::event(QEvent* event) {
+  const bool done = QFrame::event(event);
+  // A button's wish is known only when its style is.
+  if (event->type() == QEvent::LayoutRequest) {
+    arrange(width());
+    place();
+  }
+  return done;
+}
+
 bool NoticeBar::eventFilter(QObject* watched, QEvent* event) {
   if (m_floats && watched == parent() && event->type() == QEvent::Resize) place();
   return QFrame::eventFilter(watched, event);
@@ -58,24 +108,40 @@ void NoticeBar::place() {
   const QWidget* host = parentWidget();
   if (!m_floats || host == nullptr) return;
   const int wide = host->width();
+  arrange(wide);
   // The hint alone is that of a label as high as it is wide.
   const int lines = heightForWidth(wide);
-  const int high = lines > 0 ? lines : sizeHint().height();
+  const int high = std::min(lines > 0 ? lines : sizeHint().height(), host->height());
   setGeometry(0, host->height() - high, wide, high);
   raise();
 }
 
-void NoticeBar::show(const QString& sentence, std::vector<NoticeButton> buttons,
-                     const NoticeTopic& topic) {
+// Text that is squeezed beside its buttons would become a column of words.
+void NoticeBar::arrange(int width) {
+  const int room = width - m_row->contentsMargins().left() - m_row->contentsMargins().right();
+  m_buttons->setDirection(QBoxLayout::LeftToRight);
+  const int wide = m_side->sizeHint().width();
+  const int least = scaled(this, 320);
+  const int text = std::min(m_text->sizeHint().width(), least);
+  const bool below = text + m_row->spacing() + wide > room;
+  m_row->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+  if (wide > room) m_buttons->setDirection(QBoxLayout::TopToBottom);
+}
+
+void NoticeBar::resizeEvent(QResizeEvent* event) {
+  arrange(event->size().width());
+  QFrame::resizeEvent(event);
+}
+
+void NoticeBar::show(const NoticeTopic& topic, const QString& sentence,
+                     std::vector<NoticeButton> buttons) {
   for (const Notice& notice : m_notices) {
     if (notice.sentence == sentence) return;
   }
-  if (!topic.name.isEmpty()) {
-    std::erase_if(m_notices, [&](const Notice& old) { return old.topic.name == topic.name; });
-  }
+  std::erase_if(m_notices, [&](const Notice& old) { return old.topic.name == topic.name; });
   // A flood of errors must not keep a person busy closing them.
   if (m_notices.size() >= maxNotices) m_notices.pop_back();
-  m_notices.insert(m_notices.begin(), {sentence, std::move(buttons), topic});
+  m_notices.insert(m_notices.begin(), {topic, sentence, std::move(buttons)});
   present();
 }
 
@@ -86,7 +152,7 @@ void NoticeBar::settle(const QString& topic) {
 }
 
 QString NoticeBar::text() const {
-  return m_notices.empty() ? QString() : m_text->text();
+  return m_notices.empty() ? QString() : m_notices.front().sentence;
 }
 
 void NoticeBar::dismiss() {
@@ -108,12 +174,14 @@ void NoticeBar::present() {
     m_leaving->start();
   else
     m_leaving->stop();
-  m_text->setText(notice.sentence);
+  m_text->setPlainText(notice.sentence);
+  m_text->updateGeometry();
   m_more->setText(m_notices.size() > 1 ? QStringLiteral("%1 more").arg(m_notices.size() - 1)
                                        : QString());
   m_more->setVisible(m_notices.size() > 1);
   setStyleSheet(QStringLiteral("#noticeBar { background: %1; border-bottom: 1px solid %2; }"
-                               "#noticeBar QLabel { color: %2; }")
+                               "#noticeBar QLabel { color: %2; }"
+                               "#noticeBar QTextEdit { color: %2; background: transparent; }")
                     .arg(success ? theme().workingGround.name() : theme().warningGround.name(),
                          success ? theme().workingText.name() : theme().warningText.name()));
   for (const NoticeButton& wanted : notice.buttons) {
@@ -123,6 +191,8 @@ void NoticeBar::present() {
       if (action) action();
     });
     m_buttons->addWidget(button);
+    // A layout takes no room for what it will show by itself later.
+    button->show();
   }
   if (notice.buttons.empty()) {
     auto* close = new QToolButton(this);
@@ -132,7 +202,9 @@ void NoticeBar::present() {
     close->setAutoRaise(true);
     connect(close, &QToolButton::clicked, this, &NoticeBar::dismiss);
     m_buttons->addWidget(close);
+    close->show();
   }
+  arrange(width());
   place();
 }
 

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/elided_words.h>
+
 namespace pitchboard::ui {
 namespace {
 
@@ -54,7 +56,9 @@ const Shaped& shaped(const WordsKey& key, const QFont& font) {
   const QFontMetricsF metrics(font);
   QString words = key.words;
   if (key.room >= 0) {
-    words = metrics.elidedText(words, static_cast<Qt::TextElideMode>(key.elide), key.room);
+    words = key.elide == Qt::ElideRight
+                ? elidedWords(metrics, words, key.room)
+                : metrics.elidedText(words, static_cast<Qt::TextElideMode>(key.elide), key.room);
   }
   made->text.setTextFormat(Qt::PlainText);
   made->text.setText(words);

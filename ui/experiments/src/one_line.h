@@ -7,6 +7,8 @@
 #include <QLabel>
 #include <QPainter>
 
+#include <ui/base/elided_words.h>
+
 namespace pitchboard::ui {
 
 class OneLine : public QLabel {
@@ -19,7 +21,7 @@ class OneLine : public QLabel {
     const QRect room = contentsRect();
     painter.setPen(palette().color(QPalette::WindowText));
     painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+                     elidedWords(QFontMetricsF(font()), text(), room.width()));
   }
 };
 

@@ -137,6 +137,10 @@ class LogDock : public QWidget {
               [this, source](const std::vector<link::MatchEvent>& events) {
                 appendEvents(events, source->clock(), source->kind());
               });
+      connect(source, &FrameSource::rewound, this, [this, source](double time) {
+        m_model->rewind(source->kind(), time);
+        showStartLines();
+      });
     }
     m_model->setTimesOfDay(shown->timesOfDay());
     connect(shown, &SourceSwitch::timesOfDayChanged, m_model, &LogModel::setTimesOfDay);
@@ -189,11 +193,15 @@ class LogDock : public QWidget {
     if (shown.isValid()) m_table->scrollTo(shown);
   }
 
+  void showStartLines() {
+    m_start->setText(QStringLiteral("Start-up lines: %1").arg(m_model->startLines()));
+    m_start->setVisible(m_model->startLines() > 0);
+  }
+
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
               std::optional<SourceKind> of = {}) {
     m_model->append(lines, clock, of);
-    m_start->setText(QStringLiteral("Start-up lines: %1").arg(m_model->startLines()));
-    m_start->setVisible(m_model->startLines() > 0);
+    showStartLines();
     if (!isPast() && m_follow->isChecked()) m_table->scrollToBottom();
   }
 

@@ -80,6 +80,17 @@ void LogModel::clear() {
   endResetModel();
 }
 
+void LogModel::rewind(SourceKind of, double time) {
+  for (int row = rowCount() - 1; row >= 0; --row) {
+    const auto line = m_lines.begin() + row;
+    if (line->of != of || line->time <= time) continue;
+    beginRemoveRows({}, row, row);
+    if (isStartLine(*line)) --m_startLines;
+    m_lines.erase(line);
+    endRemoveRows();
+  }
+}
+
 int LogModel::rowCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : static_cast<int>(m_lines.size());
 }

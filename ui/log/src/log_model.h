@@ -37,6 +37,8 @@ class LogModel : public QAbstractTableModel {
   /// Times as time of day, where the lines' source has one.
   void setTimesOfDay(bool on);
   void clear();
+  /// Removes this source's lines that are later than `time` (s): the source goes on from there.
+  void rewind(SourceKind of, double time);
   /// Lines that were removed to make room.
   quint64 dropped() const { return m_dropped; }
   /// Lines of processes that are starting (LogLevel::Debug).

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <ui/sources/linked_time.h>
+
 #include "derived_series.h"
 
 namespace pitchboard::ui {
@@ -31,7 +33,8 @@ void Curve::update(PlotFeed& feed) {
   m_note.clear();
   m_faulty = false;
   if (m_derived) {
-    m_derived->update([&feed](const QString& name) { return feed.find(name); }, feed.generation());
+    m_derived->update([&feed](const QString& name) { return feed.find(name); }, feed.generation(),
+                      feed.time()->range());
     m_view = m_derived->view();
     m_note = m_derived->note();
     m_faulty = m_derived->isFaulty();
@@ -57,8 +60,10 @@ ColumnView Curve::compared(PlotFeed& feed) {
     return {};
   }
   if (!m_comparedDerived) m_comparedDerived = std::make_unique<DerivedSeries>(m_spec);
-  m_comparedDerived->update([&feed](const QString& name) { return feed.compared(name); },
-                            feed.comparedGeneration());
+  const telemetry::TimeRange shown = feed.time()->range();
+  m_comparedDerived->update(
+      [&feed](const QString& name) { return feed.compared(name); }, feed.comparedGeneration(),
+      {shown.begin - feed.comparedOffset(), shown.end - feed.comparedOffset()});
   return m_comparedDerived->view();
 }
 

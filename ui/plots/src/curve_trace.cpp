@@ -44,7 +44,7 @@ void takeSamples(CurveTrace& trace, const ColumnView& view, TimeRange range) {
   trace.samples.insert(trace.samples.end(), inside.begin(), inside.end());
   std::vector<Sample> after;
   const double next = std::nextafter(range.end, std::numeric_limits<double>::infinity());
-  view.group->samples(view.column, {next, std::numeric_limits<double>::max()}, after, 1);
+  view.group->samples(view.column, {next, range.end + longestBridge}, after, 1);
   if (!after.empty()) trace.samples.push_back(after.front());
   for (const Sample& sample : inside) note(trace, sample.value);
   if (!trace.any) {
@@ -66,7 +66,8 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns) {
   view.group->buckets(view.column, {begin, begin + static_cast<double>(count) * width}, buckets);
   std::size_t samples = 0;
   for (const SeriesBucket& bucket : buckets) samples += bucket.samples;
-  if (samples <= count) {
+  // While rows are being read there is an envelope, which must not look like a curve.
+  if (samples <= count && view.group->hasEveryRow(range)) {
     takeSamples(trace, view, range);
     return trace;
   }

@@ -100,6 +100,7 @@ struct DerivedSeries::Work {
   std::vector<Sample> tail;  ///< of the first input: the last ones that were used
   quint64 generation = 0;
   bool behind = false;
+  std::optional<telemetry::TimeRange> stretch;  ///< rows are computed for this range only
 
   void run(const std::vector<ColumnView>& views, double until);
   bool isRewritten(const ColumnView& view) const;
@@ -165,6 +166,7 @@ DerivedSeries::DerivedSeries(const CurveSpec& spec) : m_work(std::make_shared<Wo
 
 DerivedSeries::~DerivedSeries() {
   m_work->cancelled = true;
+  if (m_next) m_next->cancelled = true;
 }
 
 bool DerivedSeries::isFaulty() const {
@@ -172,10 +174,69 @@ bool DerivedSeries::isFaulty() const {
 }
 
 bool DerivedSeries::isWorking() const {
-  return !isFaulty() && (m_work->running || m_work->behind);
+  return !isFaulty() && (m_work->running || m_work->behind || m_next);
 }
 
-void DerivedSeries::update(const Lookup& find, quint64 generation) {
+std::shared_ptr<DerivedSeries::Work> DerivedSeries::fresh(quint64 generation) const {
+  auto work = std::make_shared<Work>();
+  work->spec = m_work->spec;
+  work->inputs = m_work->inputs;
+  work->generation = generation;
+  return work;
+}
+
+/// Of a session that is larger than memory a curve is computed for what is shown. True: there are,
+/// or will be, rows for all of it.
+bool DerivedSeries::takeStretch(const std::vector<ColumnView>& views, telemetry::TimeRange shown) {
+  if (m_next && !m_next->running) {
+    m_work = std::move(m_next);
+    m_next.reset();
+    m_work->behind = false;
+  }
+  // A derivative needs the row before, an average the rows of its window.
+  const double lead = m_work->spec.kind == CurveKind::MovingAverage
+                          ? std::max(m_work->spec.parameter, longestWait)
+                          : longestWait;
+  const double span = shown.end - shown.begin;
+  const auto has = [&](double more) {
+    const telemetry::TimeRange range{shown.begin - lead - more, shown.end + more};
+    return std::ranges::all_of(
+        views, [&range](const ColumnView& view) { return view.group->hasEveryRow(range); });
+  };
+  const auto& known = m_work->stretch;
+  if (m_next || (known && known->begin <= shown.begin && shown.end <= known->end)) return true;
+  // A little more than is shown, so that little has to be done when time goes on.
+  const bool wide = has(span / 2);
+  if (!wide && !has(0.0)) return false;
+  const double more = wide ? span / 2 : 0.0;
+  m_next = fresh(m_work->generation);
+  m_next->stretch = {shown.begin - more, shown.end + more};
+  m_next->done = shown.begin - more - lead;
+  return true;
+}
+
+void DerivedSeries::start(std::vector<ColumnView> views, double until) {
+  const auto& work = m_next ? m_next : m_work;
+  if (work->running) return;
+  if (!work->step) {
+    const std::string unit = views[0].info().unit;
+    work->step = makeStep(work->spec, unit);
+    telemetry::GroupInfo info;
+    info.name = "derived";
+    telemetry::ColumnInfo column;
+    column.name = "value";
+    column.unit = unitOf(work->spec, unit);
+    info.columns.push_back(column);
+    work->group = work->store.addGroup(info);
+  }
+  work->running = true;
+  sharedWorkers().start([work, views = std::move(views), until] {
+    work->run(views, until);
+    work->running = false;
+  });
+}
+
+void DerivedSeries::update(const Lookup& find, quint64 generation, telemetry::TimeRange shown) {
   m_note = m_work->fault;
   if (isFaulty()) return;
   std::vector<ColumnView> views;
@@ -192,40 +253,36 @@ void DerivedSeries::update(const Lookup& find, quint64 generation) {
     return range ? range->end : -infinity;
   };
   const bool stale = m_work->generation != generation;
-  const bool wentBack = !m_work->running && missing.isEmpty() &&
+  const bool wentBack = !m_work->running && !m_work->stretch && missing.isEmpty() &&
                         (newest(0) < m_work->done || m_work->isRewritten(views[0]));
   if (stale || wentBack) {
     // Another source, or one that was put back: nothing computed so far holds.
     m_work->cancelled = true;
-    auto fresh = std::make_shared<Work>();
-    fresh->spec = m_work->spec;
-    fresh->inputs = m_work->inputs;
-    fresh->generation = generation;
-    m_work = fresh;
+    if (m_next) m_next->cancelled = true;
+    m_next.reset();
+    m_work = fresh(generation);
   }
-  if (!missing.isEmpty() || m_work->running) return;
-  if (!m_work->step) {
-    const std::string unit = views[0].info().unit;
-    m_work->step = makeStep(m_work->spec, unit);
-    telemetry::GroupInfo info;
-    info.name = "derived";
-    telemetry::ColumnInfo column;
-    column.name = "value";
-    column.unit = unitOf(m_work->spec, unit);
-    info.columns.push_back(column);
-    m_work->group = m_work->store.addGroup(info);
+  if (!missing.isEmpty() || views.empty()) return;
+  constexpr telemetry::TimeRange everything{-infinity, infinity};
+  const bool paged = std::ranges::any_of(
+      views, [&](const ColumnView& view) { return !view.group->hasEveryRow(everything); });
+  if (paged) {
+    if (m_work->spec.kind == CurveKind::Integral) {
+      m_note = QStringLiteral("the session does not fit into memory: cannot integrate");
+    } else if (!takeStretch(views, shown)) {
+      m_note = QStringLiteral("zoom in: the session does not fit into memory");
+    } else if (m_next) {
+      start(std::move(views), m_next->stretch->end);
+    }
+    return;
   }
+  if (m_work->running) return;
   double until = newest(0);
   const double longAgo = until - longestWait;
   for (std::size_t i = 1; i < views.size(); ++i) until = std::min(until, newest(i));
   until = std::max(until, longAgo);
   m_work->behind = until > m_work->done;
-  if (!m_work->behind) return;
-  m_work->running = true;
-  sharedWorkers().start([work = m_work, views = std::move(views), until] {
-    work->run(views, until);
-    work->running = false;
-  });
+  if (m_work->behind) start(std::move(views), until);
 }
 
 ColumnView DerivedSeries::view() const {

@@ -24,8 +24,8 @@ class DerivedSeries {
   /// Gives the rows of a variable, or nothing.
   using Lookup = std::function<ColumnView(const QString&)>;
   /// Starts work on what is new; never waits for it. With another generation nothing that was found
-  /// before holds.
-  void update(const Lookup& find, quint64 generation);
+  /// before holds. `shown`: where rows are wanted, in case the inputs are larger than memory.
+  void update(const Lookup& find, quint64 generation, telemetry::TimeRange shown);
   /// What is ready; nothing while an input is missing or the description is wrong.
   ColumnView view() const;
   /// A sentence for the legend when there is nothing to see.
@@ -34,10 +34,17 @@ class DerivedSeries {
   bool isFaulty() const;
   /// Rows are still being computed.
   bool isWorking() const;
+  /// Another stretch of a session that is larger than memory is being computed.
+  bool isMoving() const { return m_next != nullptr; }
 
  private:
   struct Work;
+  std::shared_ptr<Work> fresh(quint64 generation) const;
+  bool takeStretch(const std::vector<ColumnView>& views, telemetry::TimeRange shown);
+  void start(std::vector<ColumnView> views, double until);
+
   std::shared_ptr<Work> m_work;
+  std::shared_ptr<Work> m_next;  // of another stretch; takes the place of m_work once it is done
   QString m_note;
 };
 

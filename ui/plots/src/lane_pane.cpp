@@ -50,6 +50,7 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
   double held = before ? before->value : nan;
   double heldSince = before ? range.begin : known->begin;
   double last = before ? before->time : known->begin;
+  const bool exact = view.group->hasEveryRow(range);
   std::vector<telemetry::Sample> inside;
   for (std::size_t i = 0; i < buckets.size(); ++i) {
     const telemetry::SeriesBucket& bucket = buckets[i];
@@ -67,7 +68,7 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
     // Where the change stands exactly is only worth a look when the column has few samples.
     inside.clear();
     constexpr std::size_t few = 64;
-    if (view.group->samples(view.column, {begin, begin + width}, inside, few) && !steady) {
+    if (exact && view.group->samples(view.column, {begin, begin + width}, inside, few) && !steady) {
       std::size_t changes = 0;
       for (const telemetry::Sample& sample : inside) {
         if (sample.time >= begin + width) break;

@@ -5,6 +5,7 @@
 #include <QHelpEvent>
 #include <QPainter>
 #include <QToolTip>
+#include <algorithm>
 #include <cmath>
 
 #include <ui/base/quick_painting.h>
@@ -95,10 +96,15 @@ void LegendBar::paintEvent(QPaintEvent*) {
     painter.setPen(entry.faulty  ? colors.errorText
                    : entry.muted ? colors.disabledText
                                  : colors.text);
-    drawWords(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.text, Qt::ElideRight);
+    // Where there is no room for both, the name is cut and not the value.
+    const int gap = scaled(this, 6);
+    const int value = entry.value.isEmpty() ? 0 : textWidth(font, entry.value) + gap;
+    const int name = std::clamp(rect.width() - value, 0, textWidth(font, entry.text));
+    drawWords(painter, QRect(rect.topLeft(), QSize(name, rect.height())),
+              Qt::AlignLeft | Qt::AlignVCenter, entry.text, Qt::ElideRight);
     if (entry.value.isEmpty()) continue;
     painter.setPen(colors.secondaryText);
-    rect.setLeft(rect.left() + textWidth(font, entry.text) + scaled(this, 6));
+    rect.setLeft(rect.left() + name + gap);
     drawWords(painter, rect, Qt::AlignLeft | Qt::AlignVCenter, entry.value);
   }
 }

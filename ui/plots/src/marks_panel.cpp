@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
@@ -26,7 +27,7 @@ constexpr int nameWidth = 188, numberWidth = 54, wordWidth = 84;  // px of the m
 constexpr int widestWord = 124;
 constexpr int wordColumns[] = {MarksModel::AtA, MarksModel::AtB};
 
-// Words of a code begin with what matters; robot and unit stand at the end of a name.
+// Robot and unit stand at the end of a name.
 class MarksDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
@@ -34,7 +35,11 @@ class MarksDelegate : public QStyledItemDelegate {
  protected:
   void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
     QStyledItemDelegate::initStyleOption(option, index);
-    option->textElideMode = index.column() == MarksModel::Name ? Qt::ElideMiddle : Qt::ElideRight;
+    option->textElideMode = Qt::ElideMiddle;
+    if (index.column() == MarksModel::Name || !option->rect.isValid()) return;
+    constexpr int margin = 4;
+    option->text =
+        elidedWords(QFontMetricsF(option->font), option->text, option->rect.width() - 2 * margin);
   }
 };
 }  // namespace
@@ -125,17 +130,20 @@ void MarksPanel::forgetWords() {
   }
 }
 
-// Words are wider than numbers. Columns do not become narrower again while a mark is dragged.
+// Numbers have all the room that they need, words of a code less. Columns do not become narrower
+// again while a mark is dragged.
 void MarksPanel::fitWords() {
   QStyleOptionViewItem option;
   option.initFrom(m_table);
   option.widget = m_table;
-  for (const int column : wordColumns) {
+  for (int column = MarksModel::AtA; column < MarksModel::columns; ++column) {
     int wanted = m_table->columnWidth(column);
     for (int row = 0; row < m_model->rowCount(); ++row) {
-      const int wide =
-          m_table->itemDelegate()->sizeHint(option, m_model->index(row, column)).width();
-      wanted = std::max(wanted, std::min(wide, scaled(this, widestWord)));
+      const QModelIndex cell = m_model->index(row, column);
+      const int wide = m_table->itemDelegate()->sizeHint(option, cell).width();
+      const QString text = cell.data().toString();
+      const bool isWord = !text.isEmpty() && text.front().isLetter();
+      wanted = std::max(wanted, isWord ? std::min(wide, scaled(this, widestWord)) : wide);
     }
     if (wanted != m_table->columnWidth(column)) m_table->setColumnWidth(column, wanted);
   }

@@ -161,6 +161,13 @@ void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeR
 
 Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange range,
                          const QString& path) {
+  for (const PlotPane* pane : panes) {
+    for (const Curve& curve : pane->curves()) {
+      if (curve.isWaiting() || curve.view().group->hasEveryRow(range)) continue;
+      return failure(ErrorCode::Unsupported,
+                     "This range is not in memory. Zoom in and try again, or use File > Export.");
+    }
+  }
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly)) return cannotWrite(file);
   writeCsv(file, panes, range);

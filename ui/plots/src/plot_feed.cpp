@@ -32,6 +32,7 @@ PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
   m_timer->setInterval(refreshMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &PlotFeed::refresh);
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
+  connect(source, &FrameSource::rewound, time, &LinkedTime::rewind);
 }
 
 PlotFeed::~PlotFeed() = default;
@@ -72,6 +73,8 @@ void PlotFeed::refresh() {
     lookAgain();
   }
   findKeepers();
+  m_rowsRead =
+      (m_store ? m_store->pagesRevision() : 0) + (m_compared ? m_compared->pagesRevision() : 0);
   m_views.clear();
   for (auto& [name, curve] : m_named) curve.updated = false;
   m_time->setData(m_store ? m_store->range() : std::nullopt);
@@ -134,10 +137,12 @@ ColumnView PlotFeed::named(const QString& name) {
   if (!curve.rows) return find(curve.spec.inputs.value(0));
   if (!curve.updated) {
     curve.updated = curve.inWork = true;
-    curve.rows->update([this](const QString& input) { return find(input); }, m_generation);
+    curve.rows->update([this](const QString& input) { return find(input); }, m_generation,
+                       m_time->range());
     curve.inWork = false;
   }
-  return curve.rows->view();
+  // What is computed from these rows waits for those of the stretch that is shown.
+  return curve.rows->isMoving() ? ColumnView{} : curve.rows->view();
 }
 
 QStringList PlotFeed::groupsWith(const QStringList& columns) const {

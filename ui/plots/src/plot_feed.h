@@ -71,6 +71,9 @@ class PlotFeed : public QObject {
   /// The same variable there, at the times of there; nothing when it has none.
   ColumnView compared(const QString& name) const;
   bool hasCompared() const { return m_compared != nullptr; }
+  /// Grows whenever rows of a session that is larger than memory have been read: the same range now
+  /// looks different.
+  quint64 rowsRead() const { return m_rowsRead; }
   /// Grows when another session is compared; 0: none ever was.
   quint64 comparedGeneration() const { return m_comparedGeneration; }
   double comparedOffset() const { return m_comparedOffset; }
@@ -98,6 +101,7 @@ class PlotFeed : public QObject {
   quint64 m_storeRevision = 0;
   quint64 m_generation = 1;
   quint64 m_looks = 1;
+  quint64 m_rowsRead = 0;
   QStringList m_keepers;
   bool m_missed = false;  // somebody waits for a variable that is not there
   std::optional<QDateTime> m_clock;

@@ -33,9 +33,10 @@ void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QS
   QString path = QFileDialog::getSaveFileName(dock, title, name, filter);
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QLatin1Char('.') + QFileInfo(name).suffix();
-  if (const auto written = write(path); !written) {
+  if (const auto written = write(path))
+    dock->settleNotice();
+  else
     dock->showNotice(QString::fromStdString(written.error().text()));
-  }
 }
 
 void addExports(QMenu* menu, PlotsDock* dock) {
@@ -67,10 +68,12 @@ void addExports(QMenu* menu, PlotsDock* dock) {
 }
 
 void openLayout(PlotsDock* dock, const Result<PlotLayout>& layout) {
-  if (layout)
-    dock->setLayoutSpec(*layout);
-  else
+  if (!layout) {
     dock->showNotice(QString::fromStdString(layout.error().text()));
+    return;
+  }
+  dock->settleNotice();
+  dock->setLayoutSpec(*layout);
 }
 
 void addPresets(QMenu* menu, PlotsDock* dock) {

@@ -36,6 +36,7 @@ namespace {
 
 constexpr int drawMilliseconds = 16;
 constexpr int saveMilliseconds = 1000;
+const QString noticeTopic = QStringLiteral("plots");
 const QString layoutKey = QStringLiteral("plots/layout");
 const QString windowKey = QStringLiteral("plots/window");
 
@@ -121,7 +122,7 @@ void PlotsDock::restore() {
       layout = *read;
     } else {
       layout = {};
-      showNotice(QStringLiteral("The plots of the last time cannot be shown, they begin empty: %1")
+      showNotice(QStringLiteral("Could not restore your plots: %1")
                      .arg(QString::fromStdString(read.error().text())));
     }
   }
@@ -279,7 +280,11 @@ void PlotsDock::save() {
 }
 
 void PlotsDock::showNotice(const QString& sentence) {
-  m_notices->show(sentence);
+  m_notices->show({noticeTopic}, sentence);
+}
+
+void PlotsDock::settleNotice() {
+  m_notices->settle(noticeTopic);
 }
 
 QStringList PlotsDock::variables() const {
@@ -308,9 +313,12 @@ void PlotsDock::hideEvent(QHideEvent*) {
 void PlotsDock::takeRows() {
   const auto known = m_context.time->data();
   const bool pending = currentPage() != nullptr && currentPage()->isWorking();
-  if (known == m_drawnData && m_drawnGeneration == m_feed->generation() && !pending) return;
+  const bool same = known == m_drawnData && m_drawnGeneration == m_feed->generation() &&
+                    m_drawnRows == m_feed->rowsRead();
+  if (same && !pending) return;
   m_drawnData = known;
   m_drawnGeneration = m_feed->generation();
+  m_drawnRows = m_feed->rowsRead();
   drawNow();
 }
 

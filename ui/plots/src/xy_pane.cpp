@@ -82,7 +82,7 @@ std::optional<std::vector<QList<QPointF>>> stretchesOf(const std::vector<QPointF
 std::vector<QPointF> xyPoints(const ColumnView& x, const ColumnView& y, telemetry::TimeRange range,
                               std::size_t most) {
   std::vector<QPointF> points;
-  if (!x || !y) return points;
+  if (!x || !y || !x.group->hasEveryRow(range) || !y.group->hasEveryRow(range)) return points;
   const auto add = [&](double time, double value) {
     const auto other = y.group->at(y.column, time);
     points.emplace_back(value, other ? other->value : std::nan(""));

@@ -32,19 +32,20 @@ void showOrphanNotice(NoticeBar* notices, MatchController* controller) {
                 "values. Removing them restarts the match.")
                 .arg(keys.size())
                 .arg(names.join(QStringLiteral(", ")));
-  notices->show(sentence, {{QStringLiteral("Remove"),
-                            [controller, keys] {
-                              controller->restartAfter([keys] {
-                                for (const int key : keys) {
-                                  const auto segment = link::SystemVSegments::info(key);
-                                  // Somebody else may have come to use it meanwhile.
-                                  if (segment && segment->attached == 0) {
-                                    (void)link::SystemVSegments::remove(key);
-                                  }
-                                }
-                              });
-                            }},
-                           {QStringLiteral("Keep"), {}}});
+  notices->show({QStringLiteral("orphans")}, sentence,
+                {{QStringLiteral("Remove"),
+                  [controller, keys] {
+                    controller->restartAfter([keys] {
+                      for (const int key : keys) {
+                        const auto segment = link::SystemVSegments::info(key);
+                        // Somebody else may have come to use it meanwhile.
+                        if (segment && segment->attached == 0) {
+                          (void)link::SystemVSegments::remove(key);
+                        }
+                      }
+                    });
+                  }},
+                 {QStringLiteral("Keep"), {}}});
 }
 
 }  // namespace pitchboard::ui

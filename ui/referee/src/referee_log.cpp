@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referee_log.h"
 
+#include <QScrollBar>
+
 #include <robotlink/frame/match_event.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
@@ -39,15 +41,27 @@ RefereeLog::RefereeLog(MatchController* match, QWidget* parent) : QPlainTextEdit
   setReadOnly(true);
   setMaximumBlockCount(mostLines);
   setMinimumHeight(scaled(this, 90));
-  connect(match, &MatchController::scenarioChanged, this, [this] { clear(); });
+  connect(match, &MatchController::scenarioChanged, this, [this] {
+    m_lines.clear();
+    clear();
+  });
   connect(match, &MatchController::eventsReceived, this,
           [this](const std::vector<link::MatchEvent>& events) {
             for (const link::MatchEvent& event : events) {
               if (!isOfReferee(event.kind)) continue;
-              appendPlainText(clockText(event.time) + QStringLiteral("  ") +
-                              QString::fromStdString(sentenceOf(event)));
+              m_lines.push_back({event.time, clockText(event.time) + QStringLiteral("  ") +
+                                                 QString::fromStdString(sentenceOf(event))});
+              if (m_lines.size() > mostLines) m_lines.pop_front();
+              appendPlainText(m_lines.back().text);
             }
           });
+  connect(match, &MatchController::rewound, this, [this](double time) {
+    if (std::erase_if(m_lines, [time](const Line& line) { return line.time > time; }) == 0) return;
+    QStringList texts;
+    for (const Line& line : m_lines) texts << line.text;
+    setPlainText(texts.join(QLatin1Char('\n')));
+    verticalScrollBar()->setValue(verticalScrollBar()->maximum());
+  });
 }
 
 }  // namespace pitchboard::ui

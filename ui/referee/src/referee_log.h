@@ -5,6 +5,7 @@
 // thread only; the match must outlive it.
 
 #include <QPlainTextEdit>
+#include <deque>
 
 namespace pitchboard::ui {
 
@@ -13,6 +14,13 @@ class MatchController;
 class RefereeLog : public QPlainTextEdit {
  public:
   RefereeLog(MatchController* match, QWidget* parent);
+
+ private:
+  struct Line {
+    double time;  // s of the match
+    QString text;
+  };
+  std::deque<Line> m_lines;
 };
 
 }  // namespace pitchboard::ui

@@ -29,6 +29,19 @@ QString droppedSession(const QMimeData* data) {
   return {};
 }
 
+// Topics of notices.
+const QString openTopic = QStringLiteral("session"), repairTopic = QStringLiteral("repair"),
+              repairedTopic = QStringLiteral("repaired"),
+              contentTopic = QStringLiteral("session content"),
+              simulateTopic = QStringLiteral("simulate from here");
+
+QString brokenText(const QString& path) {
+  return QStringLiteral(
+             "%1 broke off or is damaged. What can be read is shown; a repaired copy can be made "
+             "beside it.")
+      .arg(QFileInfo(path).fileName());
+}
+
 QString repairedName(const QString& path) {
   const QFileInfo file(path);
   const QString base = file.dir().filePath(file.completeBaseName() + QStringLiteral(" repaired"));
@@ -51,24 +64,29 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
       m_window(window) {
   window->setAcceptDrops(true);
   window->installEventFilter(this);
+  // What is told of one file goes with it.
+  connect(replay, &ReplayController::restarted, this, [this] {
+    for (const QString& topic : {openTopic, repairTopic, contentTopic}) m_notices->settle(topic);
+  });
   connect(replay, &ReplayController::failed, this,
-          [this](const QString& sentence) { m_notices->show(sentence); });
+          [this](const QString& sentence) { m_notices->show({openTopic}, sentence); });
   connect(replay, &ReplayController::opened, this, [this] {
     m_source->choose(m_replay);
     showTitle();
-    if (!m_replay->isBroken()) return;
-    offerRepair(
-        QStringLiteral("%1 broke off or is damaged. What can be read is shown; a repaired copy can "
-                       "be made beside it.")
-            .arg(QFileInfo(m_replay->path()).fileName()));
+    if (m_replay->isBroken()) offerRepair(brokenText(m_replay->path()));
   });
   connect(source, &SourceSwitch::restarted, this, &SessionFiles::showTitle);
   connect(replay, &ReplayController::damageFound, this, [this](const QStringList& sentences) {
     offerRepair(QStringLiteral("%1 is damaged inside; the rest is shown. %2")
                     .arg(QFileInfo(m_replay->path()).fileName(), shortened(sentences)));
   });
-  connect(replay, &ReplayController::noted, this,
-          [this](const QStringList& sentences) { m_notices->show(shortened(sentences)); });
+  connect(replay, &ReplayController::noted, this, [this](const QStringList& sentences) {
+    // The offer must not wait behind the reason for it.
+    if (m_replay->isBroken())
+      offerRepair(brokenText(m_replay->path()) + QLatin1Char(' ') + shortened(sentences));
+    else
+      m_notices->show({contentTopic}, shortened(sentences));
+  });
 }
 
 SessionFiles::~SessionFiles() {
@@ -91,12 +109,14 @@ QString SessionFiles::shortened(const QStringList& sentences) {
 }
 
 void SessionFiles::offerRepair(const QString& sentence) {
-  m_notices->show(sentence, {{QStringLiteral("Repair into a new file"),
-                              [this, path = m_replay->path()] { repair(path); }},
-                             {QStringLiteral("Not now"), {}}});
+  m_notices->show({repairTopic}, sentence,
+                  {{QStringLiteral("Repair into a new file"),
+                    [this, path = m_replay->path()] { repair(path); }},
+                   {QStringLiteral("Not now"), {}}});
 }
 
 void SessionFiles::open(const QString& path) {
+  m_notices->settle(repairedTopic);
   m_replay->open(path);
 }
 
@@ -117,8 +137,8 @@ void SessionFiles::repair(const QString& path) {
                                                  [this](double) { return !m_cancelled; });
     m_toUi.post([this, report, to] {
       if (!report) {
-        m_notices->show(QStringLiteral("The session was not repaired: %1")
-                            .arg(QString::fromStdString(report.error().text())));
+        m_notices->show({repairTopic}, QStringLiteral("The session was not repaired: %1")
+                                           .arg(QString::fromStdString(report.error().text())));
         return;
       }
       QString text =
@@ -128,8 +148,8 @@ void SessionFiles::repair(const QString& path) {
         for (const std::string& note : report->notes) notes << QString::fromStdString(note);
         text += QLatin1Char(' ') + shortened(notes);
       }
-      m_notices->show(text);
-      open(to);
+      m_notices->show({repairedTopic}, text);
+      m_replay->open(to);
     });
   });
 }
@@ -157,7 +177,8 @@ bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
 void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   const FramePtr frame = m_source->frame();
   if (!frame || frame->robots.empty()) {
-    m_notices->show(QStringLiteral("There is no robot on the field to simulate from here."));
+    m_notices->show({simulateTopic},
+                    QStringLiteral("There is no robot on the field to simulate from here."));
     return;
   }
   link::MomentOptions options;
@@ -172,7 +193,8 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   m_controller->open(moment.scenario);
   QStringList notes;
   for (const std::string& note : moment.notes) notes << QString::fromStdString(note);
-  if (!notes.isEmpty()) m_notices->show(notes.join(QLatin1Char(' ')));
+  m_notices->settle(simulateTopic);
+  if (!notes.isEmpty()) m_notices->show({simulateTopic}, notes.join(QLatin1Char(' ')));
 }
 
 void SessionFiles::continueFromHere() {

@@ -10,7 +10,6 @@ constexpr std::size_t afew = 100;
 }  // namespace
 
 EventCollector::EventCollector(FrameSource* source) : QObject(source), m_list(new EventList(this)) {
-  connect(source, &FrameSource::frameReceived, this, &EventCollector::follow);
   connect(source, &FrameSource::eventsReceived, this,
           [this](const std::vector<link::MatchEvent>& events) {
             if (events.size() >= afew) {
@@ -21,19 +20,8 @@ EventCollector::EventCollector(FrameSource* source) : QObject(source), m_list(ne
           });
   connect(source, &FrameSource::eventsRecorded, this,
           [this](const std::vector<link::MatchEvent>& events) { m_list->add(events); });
-  connect(source, &FrameSource::restarted, this, [this] {
-    m_time = 0.0;
-    m_list->clear();
-  });
-  if (const FramePtr frame = source->frame()) follow(frame);
-}
-
-// A source that was put back: what came behind that moment has not happened.
-void EventCollector::follow(const FramePtr& frame) {
-  if (!frame || frame->origin == link::FrameOrigin::Recorded) return;
-  const double time = frame->snapshot.time;
-  if (time < m_time) m_list->rewind(time);
-  m_time = time;
+  connect(source, &FrameSource::restarted, m_list, &EventList::clear);
+  connect(source, &FrameSource::rewound, m_list, &EventList::rewind);
 }
 
 }  // namespace pitchboard::ui

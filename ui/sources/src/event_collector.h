@@ -16,10 +16,7 @@ class EventCollector : public QObject {
   EventList* list() const { return m_list; }
 
  private:
-  void follow(const FramePtr& frame);
-
   EventList* m_list;
-  double m_time = 0.0;
 };
 
 }  // namespace pitchboard::ui

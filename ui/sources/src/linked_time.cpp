@@ -48,6 +48,15 @@ void LinkedTime::setData(std::optional<TimeRange> data) {
   follow();
 }
 
+void LinkedTime::rewind(double time) {
+  if (m_data) setData(TimeRange{std::min(m_data->begin, time), std::min(m_data->end, time)});
+  if (m_marks[0] > time || m_marks[1] > time) {
+    m_marks = {};
+    emit marksChanged();
+  }
+  if (m_range.begin >= time) setFollowing(true);
+}
+
 void LinkedTime::follow() {
   if (!m_following) return;
   if (m_moment) {

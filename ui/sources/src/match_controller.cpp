@@ -41,8 +41,8 @@ MatchController::MatchController(link::MatchOptions options, QObject* parent)
   m_timer->setTimerType(Qt::PreciseTimer);
   m_timer->setInterval(displayMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &MatchController::poll);
-  connect(m_edits, &MatchEdits::failed, this, &MatchController::errorOccurred);
-  connect(m_memory, &MatchMemory::failed, this, &MatchController::errorOccurred);
+  connect(m_edits, &MatchEdits::failed, this, &MatchController::refuse);
+  connect(m_memory, &MatchMemory::failed, this, &MatchController::refuse);
 }
 
 // Runners' commands and the worker post back to this object: they must be gone while it is whole.
@@ -227,6 +227,12 @@ void MatchController::poll() {
   if (const auto lines = m_runner->takeLog(); !lines.empty()) emit logReceived(lines);
 }
 
+void MatchController::settle() {
+  if (!m_runner) return;
+  m_runner->execute([](link::SimulatedMatch&) {});
+  poll();
+}
+
 void MatchController::setPace(link::RobotsPace pace) {
   m_options.pace = pace;
   post([pace](link::SimulatedMatch& match) { match.setPace(pace); });
@@ -264,6 +270,11 @@ void MatchController::tellWhoKeepsRealTime(std::span<const link::MatchEvent> eve
     emit errorOccurred(QStringLiteral("Real time only: %1. %2.")
                            .arg(names.join(QStringLiteral(", ")), capitalised(reason)));
   }
+}
+
+void MatchController::refuse(const QString& sentence) {
+  m_refused = true;
+  emit errorOccurred(sentence, Trouble::Refused);
 }
 
 void MatchController::setPaused(bool paused) {
@@ -319,7 +330,7 @@ void MatchController::post(MatchOrder order) {
   post([this, order = std::move(order),
         generation = m_generation.load()](link::SimulatedMatch& match) {
     const Result<void> done = order.carryOut(match);
-    if (done && !order.onSuccess) return;
+    if (done && !order.onSuccess && !m_refused) return;
     const QString sentence = done ? QString()
                                   : order.whatFailed + QStringLiteral(": ") +
                                         QString::fromStdString(done.error().text());
@@ -327,11 +338,12 @@ void MatchController::post(MatchOrder order) {
         [this, sentence, onFailure = order.onFailure, onSuccess = order.onSuccess, generation] {
           if (generation != m_generation) return;
           if (sentence.isEmpty()) {
-            onSuccess();
+            if (m_refused.exchange(false)) emit obeyed();
+            if (onSuccess) onSuccess();
             return;
           }
           if (onFailure) onFailure();
-          emit errorOccurred(sentence);
+          refuse(sentence);
         });
   });
 }

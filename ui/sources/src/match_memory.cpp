@@ -92,12 +92,15 @@ FramePtr MatchMemory::frameAt(double time) const {
 }
 
 void MatchMemory::continueFrom(double time) {
+  if (!m_match->isOpen()) return;
+  m_match->setPaused(true);
+  // What belongs to the future that ends here arrives before rewound().
+  m_match->settle();
   const auto rows = series();
   const FramePtr newest = m_match->frame();
   if (!m_match->isOpen() || !m_archive || !rows || !newest) return;
   const auto tick =
       static_cast<std::uint64_t>(std::llround(std::max(time, 0.0) * newest->tickRate));
-  m_match->setPaused(true);
   auto moment = link::momentFromMemory(*m_archive, *rows, tick, m_match->catalog());
   if (!moment) {
     emit failed(QStringLiteral("The match cannot be continued from this moment: %1")
@@ -115,10 +118,15 @@ void MatchMemory::continueFrom(double time) {
                              "they begin again with the belief that they had then.")
                   .arg(clockText(time)));
   }
+  const double from = static_cast<double>(tick) / newest->tickRate;
   m_match->post({QStringLiteral("The match cannot be continued from this moment"),
-                 [moment = std::move(*moment)](link::SimulatedMatch& match) {
-                   return match.reenter(moment);
-                 }});
+                 [moment = std::move(*moment), rows = m_rows, from](link::SimulatedMatch& match) {
+                   auto entered = match.reenter(moment);
+                   if (entered) rows->rewind(from);
+                   return entered;
+                 },
+                 {},
+                 [this, from] { emit m_match->rewound(from); }});
 }
 
 }  // namespace pitchboard::ui

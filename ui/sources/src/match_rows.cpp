@@ -39,6 +39,15 @@ void MatchRows::append(telemetry::GroupId group, const telemetry::RowView& row) 
   m_store.append(group, row);
 }
 
+void MatchRows::rewind(double time) {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_step = 0.0;
+    m_time = time;
+  }
+  m_store.rewind(time);
+}
+
 // Between two ticks time goes on as it does on the wall, but never past the next tick.
 double MatchRows::timeBeside() {
   const std::lock_guard lock(m_mutex);

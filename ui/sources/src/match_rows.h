@@ -21,6 +21,8 @@ class MatchRows : public telemetry::RowSink {
   // The match's thread.
   telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
   void append(telemetry::GroupId group, const telemetry::RowView& row) override;
+  /// The match goes on from here (s): later rows are dropped, those of attached blackboards too.
+  void rewind(double time);
 
   // Any thread.
   const telemetry::SeriesStore& store() const { return m_store; }

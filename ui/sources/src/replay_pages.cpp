@@ -4,12 +4,27 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 namespace pitchboard::ui {
 
 using telemetry::GroupId;
 using telemetry::TimeRange;
+
+namespace {
+
+// Room for two long stretches (what plots show, and a range that is measured) and two short ones
+// (moments elsewhere): plots and marks never push out each other's rows.
+constexpr double longStretch = 7.0 / 16, shortStretch = 1.0 / 16;
+constexpr double nearby = 5.0;  // s; around a moment, because the next one is mostly near
+constexpr std::size_t mostWanted = 4;
+
+bool contains(TimeRange outer, TimeRange inner) {
+  return outer.begin <= inner.begin && inner.end <= outer.end;
+}
+
+}  // namespace
 
 double bytesOfRows(const telemetry::SessionReader& session) {
   double sum = 0.0;
@@ -35,20 +50,31 @@ ReplayPages::~ReplayPages() {
   m_worker.waitForDone();
 }
 
-// A half for rows, a half for the coarse pictures.
-double ReplayPages::longest() const {
-  const std::lock_guard lock(m_mutex);
-  return static_cast<double>(m_room / 2) / m_bytesPerSecond;
+/// Three quarters of the room are for rows, one for the coarse pictures. Needs the lock.
+double ReplayPages::secondsThatFit() const {
+  return 0.75 * static_cast<double>(m_room) / m_bytesPerSecond;
 }
 
 void ReplayPages::setBytes(std::size_t bytes) {
   const std::lock_guard lock(m_mutex);
   m_room = bytes;
+  keepRoom();
+  forgetSummaries();
+}
+
+/// Of the stretches those that were used last stay. Needs the lock.
+void ReplayPages::keepRoom() {
+  double rest = secondsThatFit();
+  std::erase_if(m_held, [&rest](const Held& held) {
+    rest -= held.range.end - held.range.begin;
+    return rest < 0.0;
+  });
 }
 
 std::size_t ReplayPages::bytes() {
   const std::lock_guard lock(m_mutex);
-  std::size_t sum = m_rows ? m_rows->memoryBytes() : 0;
+  std::size_t sum = 0;
+  for (const Held& held : m_held) sum += held.rows->memoryBytes();
   for (const auto& [group, summary] : m_summaries) sum += summary.parts->bytes();
   return sum;
 }
@@ -65,26 +91,33 @@ std::shared_ptr<const telemetry::GroupSummary> ReplayPages::summary(GroupId grou
   return known != m_summaries.end() ? known->second.parts : nullptr;
 }
 
-std::optional<telemetry::SeriesPages::Stretch> ReplayPages::held(GroupId group) {
+std::optional<telemetry::SeriesPages::Stretch> ReplayPages::held(GroupId group,
+                                                                 std::optional<TimeRange> range) {
   const std::lock_guard lock(m_mutex);
-  auto view = m_rows ? m_rows->view(group) : nullptr;
+  const auto found = std::ranges::find_if(
+      m_held, [&range](const Held& one) { return !range || contains(one.range, *range); });
+  if (found == m_held.end()) return std::nullopt;
+  m_held.splice(m_held.begin(), m_held, found);
+  auto view = found->rows->view(group);
   if (!view) return std::nullopt;
-  return Stretch{*m_held, std::move(view)};
+  return Stretch{found->range, std::move(view)};
 }
 
 void ReplayPages::want(TimeRange range) {
   range = {std::max(range.begin, m_range.begin), std::min(range.end, m_range.end)};
-  const double longestNow = longest();
   const double length = range.end - range.begin;
-  if (length < 0.0 || length > longestNow) return;
-  // What is beside it as well: whoever looks moves on.
-  const double more = std::min(length, (longestNow - length) / 2.0);
-  const TimeRange wide{std::max(range.begin - more, m_range.begin),
-                       std::min(range.end + more, m_range.end)};
   const std::lock_guard lock(m_mutex);
-  if (m_held && m_held->begin <= range.begin && range.end <= m_held->end) return;
-  if (m_wanted && m_wanted->begin <= range.begin && range.end <= m_wanted->end) return;
-  m_wanted = wide;
+  const double fits = secondsThatFit();
+  const bool isShort = length <= fits * shortStretch / 2;
+  const double room = fits * (isShort ? shortStretch : longStretch) - length;
+  if (length < 0.0 || room < 0.0) return;
+  const auto has = [&range](const auto& one) { return contains(one, range); };
+  if (std::ranges::any_of(m_held, has, &Held::range) || std::ranges::any_of(m_wanted, has)) return;
+  // Reads what is beside it as well: the next range is mostly near.
+  const double more = std::min(std::max(length, nearby), room / 2);
+  m_wanted.push_back(
+      {std::max(range.begin - more, m_range.begin), std::min(range.end + more, m_range.end)});
+  if (m_wanted.size() > mostWanted) m_wanted.pop_front();
   work();
 }
 
@@ -100,8 +133,8 @@ void ReplayPages::work() {
         const std::lock_guard lock(m_mutex);
         if (!m_askedFor.empty()) {
           group = *m_askedFor.begin();
-        } else if (m_wanted) {
-          range = m_wanted;
+        } else if (!m_wanted.empty()) {
+          range = m_wanted.back();
         }
         if (m_ends || (!group && !range)) {
           m_working = false;
@@ -124,10 +157,11 @@ void ReplayPages::readSummary(GroupId group) {
   m_askedFor.erase(group);
   m_summaries[group] = {std::move(read), true};
   forgetSummaries();
+  ++m_revision;
 }
 
 /// Of those that nobody has drawn for the longest time the first and the last part are left; one is
-/// always kept whole.
+/// always kept whole. Needs the lock.
 void ReplayPages::forgetSummaries() {
   std::size_t sum = 0;
   std::vector<GroupId> whole;  // what was drawn last stands last
@@ -139,7 +173,7 @@ void ReplayPages::forgetSummaries() {
     return std::distance(m_recent.begin(), std::find(m_recent.begin(), m_recent.end(), group));
   };
   std::ranges::stable_sort(whole, std::greater(), age);
-  for (std::size_t i = 0; i + 1 < whole.size() && sum > m_room / 2; ++i) {
+  for (std::size_t i = 0; i + 1 < whole.size() && sum > m_room / 4; ++i) {
     Summary& summary = m_summaries[whole[i]];
     auto ends = std::make_shared<telemetry::GroupSummary>();
     const auto& parts = summary.parts->parts;
@@ -151,15 +185,18 @@ void ReplayPages::forgetSummaries() {
 }
 
 void ReplayPages::readRows(TimeRange range) {
-  std::size_t room = 0;
-  {
-    const std::lock_guard lock(m_mutex);
-    room = m_room;
-  }
-  auto rows = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{room});
+  // Its length is limited, so that the store has no limit of its own.
+  auto rows = std::make_shared<telemetry::SeriesStore>(
+      telemetry::SeriesOptions{std::numeric_limits<std::size_t>::max()});
   std::vector<GroupId> ids;
   for (const telemetry::SessionGroup& group : m_reader.groups()) {
     ids.push_back(rows->addGroup(group.info));
+  }
+  // A value holds until the next row: the stretch begins with the row before it.
+  std::vector<telemetry::SessionRow> before;
+  m_reader.rowsAt(range.begin, before);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].present && before[i].time < range.begin) rows->append(ids[i], before[i].view());
   }
   bool wanted = true;
   std::uint64_t count = 0;
@@ -168,15 +205,16 @@ void ReplayPages::readRows(TimeRange range) {
     rows->append(ids[group], row);
     if (++count % rowsBetweenLooks == 0) {
       const std::lock_guard lock(m_mutex);
-      wanted = !m_ends && m_wanted == range;
+      wanted = !m_ends && std::ranges::find(m_wanted, range) != m_wanted.end();
     }
     return wanted;
   });
   const std::lock_guard lock(m_mutex);
-  if (!wanted) return;  // another stretch is looked at by now
-  m_rows = std::move(rows);
-  m_held = range;
-  m_wanted.reset();
+  std::erase(m_wanted, range);
+  if (!wanted) return;  // other stretches are looked at by now
+  m_held.push_front({range, std::move(rows)});
+  keepRoom();
+  ++m_revision;
 }
 
 }  // namespace pitchboard::ui

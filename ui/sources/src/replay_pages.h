@@ -2,10 +2,11 @@
 #pragma once
 
 // Rows of a session that does not fit into memory: the coarse picture of a group once it is asked
-// for, and all rows of the stretch that was looked at last. A thread of its own reads the file;
-// whoever asks never waits. Any thread may ask.
+// for, and all rows of the stretches that were looked at last. A thread of its own reads the file;
+// callers never wait. Callable from any thread.
 
 #include <atomic>
+#include <deque>
 #include <list>
 #include <map>
 #include <mutex>
@@ -29,20 +30,22 @@ class ReplayPages : public telemetry::SeriesPages {
 
   std::shared_ptr<const telemetry::GroupSummary> summary(telemetry::GroupId group,
                                                          bool whole) override;
-  std::optional<Stretch> held(telemetry::GroupId group) override;
+  std::optional<Stretch> held(telemetry::GroupId group,
+                              std::optional<telemetry::TimeRange> range) override;
   void want(telemetry::TimeRange range) override;
+  std::uint64_t revision() override { return m_revision; }
   telemetry::TimeRange range() override { return m_range; }
   std::size_t bytes() override;
 
   void setBytes(std::size_t bytes);
-  /// So long a stretch fits, s.
-  double longest() const;
 
  private:
   void work();
   void readSummary(telemetry::GroupId group);
   void readRows(telemetry::TimeRange range);
   void forgetSummaries();
+  double secondsThatFit() const;
+  void keepRoom();
 
   telemetry::SessionReader m_reader;  // of the worker
   telemetry::TimeRange m_range;
@@ -59,8 +62,13 @@ class ReplayPages : public telemetry::SeriesPages {
   };
   std::map<telemetry::GroupId, Summary> m_summaries;
   std::list<telemetry::GroupId> m_recent;  // newest first
-  std::optional<telemetry::TimeRange> m_wanted, m_held;
-  std::shared_ptr<telemetry::SeriesStore> m_rows;
+  struct Held {
+    telemetry::TimeRange range;
+    std::shared_ptr<telemetry::SeriesStore> rows;
+  };
+  std::list<Held> m_held;                     // the one used last is first
+  std::deque<telemetry::TimeRange> m_wanted;  // the newest is last
+  std::atomic<std::uint64_t> m_revision = 1;
   Workers m_worker;  // last: it uses all of the above
 };
 

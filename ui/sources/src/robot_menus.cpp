@@ -200,7 +200,8 @@ void addModelMenu(QMenu* menu, MatchController* controller, const std::vector<Ro
       controller->edits()->setModel(ids, *model);
     } else {
       emit controller->errorOccurred(QStringLiteral("The robot model was not taken: %1")
-                                         .arg(QString::fromStdString(model.error().text())));
+                                         .arg(QString::fromStdString(model.error().text())),
+                                     Trouble::Refused);
     }
   });
 }

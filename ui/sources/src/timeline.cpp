@@ -24,6 +24,12 @@ Timeline::Timeline(SourceSwitch* source, QObject* parent)
     emit selectionChanged();
     emit sourceChanged();
   });
+  connect(source, &SourceSwitch::rewound, this, [this](double time) {
+    goLive();
+    m_reached.reset();
+    if (m_selection && m_selection->end > time) setSelection({});
+    emit moved();
+  });
   connect(source, &SourceSwitch::frameReceived, this, &Timeline::refresh);
   connect(source, &SourceSwitch::newestChanged, this, &Timeline::refresh);
   connect(source, &SourceSwitch::timesOfDayChanged, this, [this] {

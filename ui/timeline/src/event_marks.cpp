@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -167,7 +168,7 @@ std::vector<EventMark> layOutMarks(const std::deque<link::MatchEvent>& events, c
     const int room = static_cast<int>(stop - kept[i].x - sizes.labelGap);
     constexpr int longest = 160;
     constexpr int shortest = 5;  // characters: less of a longer word says nothing
-    const QString shown = font.elidedText(words, Qt::ElideRight, std::min(room, longest));
+    const QString shown = elidedWords(font, words, std::min(room, longest));
     if (room > 0 && (shown == words || shown.size() >= shortest)) kept[i].label = shown;
   }
   return kept;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/elided_words.h>
 #include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
@@ -57,6 +58,12 @@ QPainterPath sparkPath(const QList<telemetry::SeriesBucket>& buckets, const QRec
   return path;
 }
 
+/// Beside the words of a cell, px.
+int marginOf(const QStyleOptionViewItem& option) {
+  return option.widget->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, option.widget) +
+         1;
+}
+
 }  // namespace
 
 QSize VariablesDelegate::sizeHint(const QStyleOptionViewItem& option,
@@ -70,7 +77,10 @@ void VariablesDelegate::initStyleOption(QStyleOptionViewItem* option,
                                         const QModelIndex& index) const {
   QStyledItemDelegate::initStyleOption(option, index);
   // Words of a code begin with what matters: "walk forward, fast".
-  if (index.column() == VariablesModel::Unit) option->textElideMode = Qt::ElideRight;
+  if (index.column() != VariablesModel::Name && option->rect.isValid()) {
+    option->text = elidedWords(QFontMetricsF(option->font), option->text,
+                               option->rect.width() - 2 * marginOf(*option));
+  }
   if (index.column() == VariablesModel::Unit && flowsOver(*option, index)) option->text.clear();
 }
 
@@ -149,12 +159,10 @@ void VariablesDelegate::paintPlain(QPainter* painter, const QStyleOptionViewItem
   const auto group = option.state & QStyle::State_Active ? QPalette::Normal : QPalette::Inactive;
   painter->setPen(color.isValid() ? color.value<QColor>()
                                   : option.palette.color(group, QPalette::Text));
-  const int margin =
-      option.widget->style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, option.widget) + 1;
-  const bool isUnit = index.column() == VariablesModel::Unit;
+  const int margin = marginOf(option);
   drawWords(*painter, option.rect.adjusted(margin, 0, -margin, 0),
             Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()), words,
-            isUnit ? Qt::ElideRight : option.textElideMode);
+            index.column() == VariablesModel::Name ? option.textElideMode : Qt::ElideRight);
 }
 
 void VariablesDelegate::paintSpark(QPainter* painter, const QStyleOptionViewItem& option,

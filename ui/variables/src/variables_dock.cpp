@@ -309,10 +309,12 @@ class VariablesDock : public QWidget {
     const bool any = m_filter->rowCount() > 0;
     m_view->setVisible(any);
     m_empty->setVisible(!any);
-    if (any)
+    if (any) {
       m_model->refresh(m_view->rowsInSight(), m_view->sparkPixels());
-    else
+      m_view->fitNumbers();
+    } else {
       m_empty->setText(emptyText());
+    }
   }
 
   QString emptyText() const {

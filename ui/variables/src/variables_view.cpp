@@ -10,7 +10,10 @@
 #include <QPainter>
 #include <QTimer>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
 #include "variables_delegate.h"
@@ -189,6 +192,26 @@ QModelIndexList VariablesView::rowsInSight() const {
     rows << m_filter->mapToSource(at.siblingAtColumn(0));
   }
   return rows;
+}
+
+// Columns do not become narrower again: names would jump while values run.
+void VariablesView::fitNumbers() {
+  const QModelIndexList rows = rowsInSight();
+  constexpr std::array numbers{VariablesModel::Value, VariablesModel::Rate, VariablesModel::Age};
+  for (const int column : numbers) {
+    if (isColumnHidden(column)) continue;
+    int wanted = columnWidth(column);
+    for (const QModelIndex& row : rows) {
+      const QModelIndex cell = row.siblingAtColumn(column);
+      const QVariant own = cell.data(Qt::FontRole);
+      const double words =
+          wordsWidth(own.isValid() ? own.value<QFont>() : font(), cell.data().toString());
+      wanted = std::max(wanted, static_cast<int>(std::ceil(words)) + scaled(this, 10));
+    }
+    // Names keep something, whatever a value says.
+    wanted = std::min(wanted, std::max(columnWidth(column), viewport()->width() / 2));
+    if (wanted != columnWidth(column)) setColumnWidth(column, wanted);
+  }
 }
 
 int VariablesView::sparkPixels() const {

@@ -23,6 +23,8 @@ class VariablesView : public QTreeView {
   VariablesHeader* columns() const { return m_header; }
   /// Rows in sight, as indexes of the model.
   QModelIndexList rowsInSight() const;
+  /// Widens the columns of numbers until every number in sight is whole.
+  void fitNumbers();
   /// Device pixels of a sparkline; 0 when that column is hidden.
   int sparkPixels() const;
   /// "B1/VISION_LOST" for each selected variable, from top to bottom.

@@ -83,6 +83,7 @@ Alarms::Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObje
   }
   for (FrameSource* source : sources->sources()) {
     connect(source, &FrameSource::eventsReceived, this, &Alarms::take);
+    connect(source, &FrameSource::rewound, m_frame, &QWidget::hide);
   }
 }
 

@@ -61,6 +61,7 @@
 
 namespace pitchboard::ui {
 namespace {
+const QString exportTopic = QStringLiteral("export");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
 constexpr int mostMemory = 65536;
 const QString recentSessionsKey = QStringLiteral("sessions/recent");
@@ -102,8 +103,6 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_field = new FieldView(m_source, controller, centre);
   m_overlay = new LiveOverlay(controller, m_live, m_source, this);
   m_compared = new ComparedSession(m_timeline, this);
-  connect(m_compared, &ComparedSession::failed, m_notices,
-          [this](const QString& sentence) { m_notices->show(sentence); });
   column->addWidget(m_field, 1);
   m_notices->floatOver(centre);
   setCentralWidget(centre);
@@ -119,8 +118,6 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   m_tests = new SituationTests({m_source, controller, m_replay, settings}, this);
-  connect(m_tests, &SituationTests::failed, m_notices,
-          [this](const QString& sentence) { m_notices->show(sentence); });
   makeDocks();
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
@@ -154,7 +151,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
   const LiveSettings live = loadLiveSettings(*settings);
   m_live->setOptions(live.options);
-  if (!live.problem.isEmpty()) m_notices->show(QStringLiteral("Live: %1").arg(live.problem));
+  if (!live.problem.isEmpty())
+    m_notices->show({QStringLiteral("live")}, QStringLiteral("Live: %1").arg(live.problem));
   setMemoryBudget(memoryBudget());
   restoreLayout();
   constexpr int saveMilliseconds = 3000;
@@ -277,9 +275,10 @@ void MainWindow::recordInto(const QString& path) {
 void MainWindow::showExport() {
   const auto all = m_timeline->available();
   if (!all) {
-    m_notices->show(QStringLiteral("There is nothing to export yet."));
+    m_notices->show({exportTopic}, QStringLiteral("There is nothing to export yet."));
     return;
   }
+  m_notices->settle(exportTopic);
   ExportSource source;
   if (m_source->kind() == SourceKind::Replay) {
     const QFileInfo file(m_replay->path());

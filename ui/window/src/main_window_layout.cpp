@@ -51,9 +51,9 @@ void MainWindow::restoreLayout() {
   const QByteArray saved = m_settings->value(layoutKey).toByteArray();
   if (!saved.isEmpty() && !restoreState(saved, layoutVersion)) {
     resetLayout();
-    m_notices->show(QStringLiteral(
-        "The layout of the last time cannot be used by this version: docks stand where they do at "
-        "the first start."));
+    m_notices->show(
+        {QStringLiteral("layout")},
+        QStringLiteral("The saved layout is from another version, so the default layout is used."));
   }
   // Docks that were never laid out ask for more than they need, and have made it larger.
   if (!isKept) m_firstSize = size();

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include <ui/base/notice_bar.h>
+#include <ui/experiments/situation_tests.h>
 #include <ui/session/session_files.h>
+#include <ui/sources/compared_session.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -20,36 +22,49 @@ namespace pitchboard::ui {
 void MainWindow::connectNotices() {
   static const QString match = QStringLiteral("match"), scenario = QStringLiteral("scenario"),
                        live = QStringLiteral("live"), recording = QStringLiteral("recording"),
-                       locked = QStringLiteral("locked"), finished = QStringLiteral("finished");
+                       refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
+                       finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
+                       test = QStringLiteral("test");
   const auto tell = [this](const QString& topic) {
-    return [this, topic](const QString& sentence) { m_notices->show(sentence, {}, {topic}); };
+    return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
   for (const auto said : {&SessionRecording::failed, &SessionRecording::noted}) {
     connect(m_recording, said, m_notices, tell(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
-    m_notices->show(QStringLiteral("Saved: %1").arg(path),
+    m_notices->show({recording, NoticeTone::Success}, QStringLiteral("Saved: %1").arg(path),
                     {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},
-                     {QStringLiteral("Close"), {}}},
-                    {recording, NoticeTone::Success});
+                     {QStringLiteral("Close"), {}}});
   });
   connect(m_controller, &MatchController::errorOccurred, m_notices,
-          [this](const QString& sentence) {
-            m_notices->show(sentence, {}, {m_controller->edits()->isLocked() ? locked : match});
+          [this](const QString& sentence, Trouble trouble) {
+            m_notices->show({m_controller->edits()->isLocked() ? locked
+                             : trouble == Trouble::Refused     ? refused
+                                                               : match},
+                            sentence);
           });
+  connect(m_controller, &MatchController::obeyed, m_notices,
+          [this] { m_notices->settle(refused); });
+  connect(m_controller, &MatchController::rewound, m_notices,
+          [this] { m_notices->settle(refused); });
   connect(m_controller, &MatchController::opened, m_notices, [this] {
     if (m_controller->isOpen()) m_notices->settle(scenario);
   });
   connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
-    m_notices->settle(match);
-    m_notices->settle(finished);
+    for (const QString& topic : {match, refused, finished}) m_notices->settle(topic);
     m_toldFinished = false;
   });
   connect(m_controller->edits(), &MatchEdits::lockedChanged, m_notices,
           [this] { m_notices->settle(locked); });
   connect(m_controller->memory(), &MatchMemory::continuedWithout, m_notices, tell(match));
   connect(m_live, &LiveController::errorOccurred, m_notices, tell(live));
+  connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
+  connect(m_compared, &ComparedSession::failed, m_notices, tell(compared));
+  connect(m_compared, &ComparedSession::changed, m_notices,
+          [this] { m_notices->settle(compared); });
+  connect(m_tests, &SituationTests::failed, m_notices, tell(test));
+  connect(m_tests, &SituationTests::saved, m_notices, [this] { m_notices->settle(test); });
   connect(m_files, &ScenarioFiles::failed, m_notices, tell(scenario));
   connect(m_controller, &MatchController::frameReceived, this,
           [this](const FramePtr& frame) { tellFinished(*frame); });
@@ -63,6 +78,7 @@ void MainWindow::tellFinished(const link::MatchFrame& frame) {
   }
   if (std::exchange(m_toldFinished, true)) return;
   m_notices->show(
+      {QStringLiteral("finished"), NoticeTone::Success},
       QStringLiteral("The match is over, %1 : %2. Look back on the timeline, export it, or play it "
                      "again.")
           .arg(frame.snapshot.score.left)
@@ -73,8 +89,7 @@ void MainWindow::tellFinished(const link::MatchFrame& frame) {
           m_controller->setPaused(false);
         }},
        {QStringLiteral("Export…"), [this] { showExport(); }},
-       {QStringLiteral("Close"), {}}},
-      {QStringLiteral("finished"), NoticeTone::Success});
+       {QStringLiteral("Close"), {}}});
 }
 
 }  // namespace pitchboard::ui

@@ -59,8 +59,8 @@ void askForSeed(MatchController* controller, MainWindow* window) {
   const qulonglong wanted = text.trimmed().toULongLong(&good);
   if (!good) {
     window->notices()->show(
-        QStringLiteral("“%1” is no seed: a seed is a whole number from 0 on. The match goes on.")
-            .arg(text));
+        {QStringLiteral("refused")},
+        QStringLiteral("“%1” is not a valid seed. Enter a whole number from 0 on.").arg(text));
     return;
   }
   again.settings.seed = wanted;

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include <base/angles.h>
+#include <ui/base/elided_words.h>
 #include <ui/base/robot_words.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
@@ -46,7 +47,7 @@ class StatusLabel : public QLabel {
     QPainter painter(this);
     painter.setPen(palette().color(foregroundRole()));
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
-                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+                     elidedWords(QFontMetricsF(font()), text(), room.width()));
   }
 };
 

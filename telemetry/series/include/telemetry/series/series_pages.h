@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Rows that are not all in memory: a coarse picture of everything, and the rows of a stretch that
-// is being looked at. Who holds the file implements it; views of a SeriesStore ask it. Any thread.
+// Rows that are not all in memory: a coarse picture of everything, and the rows of the stretches
+// that are being looked at. The owner of the file implements it; views of a SeriesStore ask it.
+// Callable from any thread.
 
 #include <memory>
 
@@ -22,17 +23,20 @@ class SeriesPages {
     TimeRange range;
     std::shared_ptr<const GroupView> rows;
   };
-  /// What is in memory; nothing: no stretch yet.
-  virtual std::optional<Stretch> held(GroupId group) = 0;
-  /// Rows of this range are looked at; they come when there is room for so long a stretch.
+  /// A stretch in memory that contains this range; without a range the one that was used last.
+  virtual std::optional<Stretch> held(GroupId group, std::optional<TimeRange> range) = 0;
+  /// Reads the rows of this range, unless so long a stretch does not fit into memory.
   virtual void want(TimeRange range) = 0;
+  /// Grows whenever something that was asked for has been read: ask again.
+  virtual std::uint64_t revision() = 0;
   /// Of everything there is.
   virtual TimeRange range() = 0;
   virtual std::size_t bytes() = 0;
 };
 
-/// A view of a group whose rows are paged. Where only the coarse picture is in memory, buckets and
-/// extremes are those of 256 rows, and samples are every 256th row.
+/// A view of a group whose rows are paged. Where only the coarse picture is in memory
+/// (GroupView::hasEveryRow() is false), buckets and extremes are those of 256 rows, and samples are
+/// every 256th row.
 std::shared_ptr<const GroupView> pagedView(std::shared_ptr<const GroupView> empty, GroupId group,
                                            std::shared_ptr<SeriesPages> pages);
 

@@ -76,6 +76,10 @@ class GroupView {
   virtual bool samples(std::uint32_t column, TimeRange range, std::vector<Sample>& out,
                        std::size_t most = SIZE_MAX) const = 0;
   virtual SeriesStatistics statistics(std::uint32_t column, TimeRange range) const = 0;
+  /// False if only a coarse picture of this range is in memory: buckets() then gives an envelope,
+  /// and samples() must not be joined by lines. Asking reads the rows, if they fit
+  /// (SeriesStore::pagesRevision() tells when they have come).
+  virtual bool hasEveryRow(TimeRange /*range*/) const { return true; }
 };
 
 class SeriesPages;
@@ -100,6 +104,8 @@ class SeriesStore : public RowSink {
   void append(GroupId group, const RowView& row) override;
   /// Forgets every row; the groups stay.
   void clear();
+  /// Forgets the rows of all groups that are later than this: their source goes on from there.
+  void rewind(double time);
 
   // Any thread.
   /// Grows whenever groups came (lists are then to be read anew).
@@ -119,6 +125,8 @@ class SeriesStore : public RowSink {
   /// The rows of all groups are there (<telemetry/series/series_pages.h>), not in this store: the
   /// groups must have been added, and nothing is appended.
   void setPages(std::shared_ptr<SeriesPages> pages);
+  /// Grows whenever paged rows have been read: views then know more than before. 0 without pages.
+  std::uint64_t pagesRevision() const;
 
  private:
   struct Impl;

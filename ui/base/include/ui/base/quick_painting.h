@@ -13,7 +13,8 @@
 
 namespace pitchboard::ui {
 
-/// One line with the painter's font and pen, cut with an ellipsis where `elide` says so.
+/// One line with the painter's font and pen, cut with an ellipsis where `elide` says so. At the
+/// right, elidedWords() cuts: numbers stay whole. In the middle is for names only.
 void drawWords(QPainter& painter, const QRectF& box, Qt::Alignment alignment, const QString& words,
                Qt::TextElideMode elide = Qt::ElideNone);
 /// As wide as drawWords() paints them.

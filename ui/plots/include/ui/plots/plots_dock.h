@@ -70,6 +70,7 @@ class PlotsDock : public QWidget {
   const PlotsContext& context() const { return m_context; }
   /// Says what went wrong, above the plots.
   void showNotice(const QString& sentence);
+  void settleNotice();  ///< what it said is over
 
   /// Every variable of the source that is shown, `GROUP/COLUMN`.
   QStringList variables() const;
@@ -111,6 +112,7 @@ class PlotsDock : public QWidget {
   QTimer m_draw, m_saveSoon;
   bool m_restoring = false;
   quint64 m_drawnGeneration = 0;
+  quint64 m_drawnRows = 0;
   std::optional<telemetry::TimeRange> m_drawnData;
 };
 

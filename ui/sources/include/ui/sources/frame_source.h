@@ -55,6 +55,9 @@ class FrameSource : public QObject {
   void eventsRecorded(const std::vector<pitchboard::link::MatchEvent>& events);
   /// Another match or session, or none: what was remembered of the old one is void.
   void restarted();
+  /// The source goes on from this moment (s) of its past. Its rows later than that are gone, and
+  /// whatever else was remembered of later times must go as well: it has not happened.
+  void rewound(double time);
 };
 
 }  // namespace pitchboard::ui

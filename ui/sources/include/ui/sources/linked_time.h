@@ -39,6 +39,9 @@ class LinkedTime : public QObject {
   /// What there is at all; nothing while there are no rows. Moves the range when following.
   void setData(std::optional<telemetry::TimeRange> data);
   std::optional<telemetry::TimeRange> data() const { return m_data; }
+  /// The source goes on from this earlier moment. Marks behind it go, and a range that shows
+  /// nothing before it follows the source again.
+  void rewind(double time);
 
   /// The moment that field and cards show when it is not the newest one: while looking back, and in
   /// a recording. The visible range keeps it in sight as long as it follows, and as long as it was

@@ -37,6 +37,11 @@ struct MatchOrder {
   std::function<void()> onSuccess = {};
 };
 
+enum class Trouble {
+  Refused,  ///< something was asked for and not done; over with the next thing that is done
+  Lasting   ///< the match plays otherwise than asked for, or not at all
+};
+
 class MatchController : public FrameSource {
   Q_OBJECT
  public:
@@ -115,6 +120,9 @@ class MatchController : public FrameSource {
 
   /// The present moment as a scenario, for saving. Waits for the tick in progress.
   link::Scenario currentMoment();
+  /// Waits for the tick in progress and passes on its frame, events and log lines: a match that is
+  /// paused then has nothing more to tell.
+  void settle();
   /// Hash of the simulation's state at the present tick. Waits for the tick in progress.
   std::uint64_t stateHash();
 
@@ -123,7 +131,8 @@ class MatchController : public FrameSource {
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
   void opened();            ///< it is there, or failed
   void transportChanged();  ///< paused, speed, or whether there is a match
-  void errorOccurred(const QString& sentence);
+  void errorOccurred(const QString& sentence, pitchboard::ui::Trouble trouble = Trouble::Lasting);
+  void obeyed();  ///< an order was carried out, the first one after a refusal
 
  private:
   struct Opening;  ///< what the worker made
@@ -133,6 +142,7 @@ class MatchController : public FrameSource {
   /// Forgets the match; the worker ends it.
   std::shared_ptr<link::MatchRunner> retire();
   void take(Opening& opening);
+  void refuse(const QString& sentence);
   /// Says once in a match which robots do not stop or hurry with it.
   void tellWhoWillNotFollow();
   void tellWhoKeepsRealTime(std::span<const link::MatchEvent> events);
@@ -151,7 +161,8 @@ class MatchController : public FrameSource {
   std::vector<link::MatchRunner::Command> m_whenOpen;
   std::atomic<std::uint64_t> m_generation = 0;  // of the match; grows with every open() and close()
   UiQueue m_toUi;
-  Workers m_worker;  // one thread: matches end and start in order
+  Workers m_worker;                     // one thread: matches end and start in order
+  std::atomic<bool> m_refused = false;  // by the last order
   QTimer* m_timer;
   MatchEdits* m_edits;
   MatchMemory* m_memory;

@@ -57,8 +57,8 @@ class MatchMemory : public QObject {
   /// What programs have drawn in the recent past; as archive().
   std::shared_ptr<const link::LiveHistory> drawn() const;
   /// Puts the match back to this moment (s) exactly, with what the processes inside it remembered,
-  /// pauses, and forgets what came after it and what could be undone. The controller's
-  /// `errorOccurred` when memory does not hold it any more.
+  /// pauses, and forgets what came after it and what could be undone. The controller's `rewound`
+  /// follows, or its `errorOccurred` when memory does not hold the moment any more.
   void continueFrom(double time);
 
  signals:

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ui/base/elided_words.h>
+
+#include <QList>
+#include <QRegularExpression>
+#include <QStringList>
+#include <algorithm>
+
+namespace pitchboard::ui {
+namespace {
+
+struct Part {
+  QString text;
+  bool isNumber = false;
+};
+
+bool isNumber(const QString& word) {
+  static const QRegularExpression number(QStringLiteral("^[^\\p{L}\\d]?\\d"));
+  constexpr qsizetype shortName = 4;
+  const bool anyDigit = std::any_of(word.begin(), word.end(), [](QChar c) { return c.isDigit(); });
+  return anyDigit && (word.size() <= shortName || number.match(word).hasMatch());
+}
+
+bool isUnit(const QString& word) {
+  static const QRegularExpression unit(QStringLiteral("^[\\p{L}°%/²]{1,4}[,;.)]?$"));
+  return unit.match(word).hasMatch();
+}
+
+/// Neighbouring words are one part; a number takes its unit along.
+QList<Part> partsOf(const QString& text) {
+  QList<Part> parts;
+  bool takesUnit = false;
+  for (const QString& word : text.split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
+    const bool number = isNumber(word);
+    const bool joins = !parts.isEmpty() &&
+                       (takesUnit ? isUnit(word) && !number : !number && !parts.last().isNumber);
+    if (joins)
+      parts.last().text += QLatin1Char(' ') + word;
+    else
+      parts << Part{word, number};
+    // Codes and names (B1) have no unit.
+    takesUnit = number && !joins && !word.front().isLetter();
+  }
+  return parts;
+}
+
+QString joined(const QList<Part>& parts) {
+  QStringList texts;
+  for (const Part& part : parts) texts << part.text;
+  return texts.join(QLatin1Char(' '));
+}
+
+}  // namespace
+
+QString elidedWords(const QFontMetricsF& metrics, const QString& text, double width) {
+  const auto fits = [&](const QString& some) { return metrics.horizontalAdvance(some) <= width; };
+  if (fits(text)) return text;
+  QList<Part> parts = partsOf(text);
+  const QString dots = QStringLiteral("…");
+  for (qsizetype i = parts.size() - 1; i >= 0; --i) {
+    if (parts[i].isNumber) continue;
+    const QString whole = parts[i].text;
+    parts[i].text.clear();
+    const double room = width - metrics.horizontalAdvance(joined(parts));
+    parts[i].text = metrics.elidedText(whole, Qt::ElideRight, std::max(room, 0.0));
+    if (parts[i].text.size() > dots.size() && fits(joined(parts))) return joined(parts);
+    // What stands in front of a number has to be short, or may be left out.
+    parts.removeAt(i);
+    if (!parts.isEmpty() && fits(joined(parts))) return joined(parts);
+  }
+  while (parts.size() > 1 && !fits(joined(parts))) parts.removeLast();
+  if (parts.isEmpty()) return metrics.elidedText(text, Qt::ElideRight, width);
+  const QString number = parts.first().text;
+  if (fits(number)) return number;
+  const QString bare = number.section(QLatin1Char(' '), 0, 0);
+  return fits(bare) ? bare : dots;
+}
+
+}  // namespace pitchboard::ui
