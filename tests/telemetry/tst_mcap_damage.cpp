@@ -4,6 +4,7 @@
 
 #include <QtTest>
 #include <random>
+#include <set>
 
 #include <telemetry/mcap/mcap_cursor.h>
 #include <telemetry/mcap/mcap_reader.h>

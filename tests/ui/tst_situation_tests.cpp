@@ -3,8 +3,13 @@
 // A moment becomes a test: from the menu, in Simulate, while looking back, in Live and in Replay,
 // through the dialog to files that the command line plays, and at once in the dock.
 
+#include <QCheckBox>
 #include <QComboBox>
+#include <QDialog>
 #include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
 #include <QPlainTextEdit>
 #include <QProcess>
 #include <QPushButton>

@@ -15,8 +15,6 @@ constexpr auto glance = 20ms;  // between two looks whether the programs are the
 
 }  // namespace
 
-}
-
 Result<void> OwnPrograms::missing() const {
   const SimulatedMatch& match = m_player.match();
   for (const ProcessStatus& one : match.processes().statuses()) {
