@@ -16,6 +16,8 @@ const char* whyRealTime(ProcessClock clock) {
       return "its runtime profile says \"clock\": \"real\"";
     case ProcessClock::RealUntilRestart:
       return "restart to follow the match's speed";
+    case ProcessClock::RealNoLibrary:
+      return "libpitchboard_time.so is missing: install Pitchboard again";
     case ProcessClock::RealNotLoaded:
       return "the clock of the match cannot be loaded into it (static or setuid program)";
   }
@@ -36,7 +38,7 @@ void ProcessManager::giveClock(Entry& entry, ChildSpec& spec, Time now) {
   }
   auto clock = ProgramClock::create();
   if (!clock) {
-    status.clock = ProcessClock::RealNotLoaded;
+    status.clock = ProcessClock::RealNoLibrary;
     entry.toldRealTime = false;
     return;
   }

@@ -76,6 +76,12 @@ static void* find(void* _Atomic* place, const char* name) {
 /* ---- The match's time ---------------------------------------------------------------------------
  */
 
+/* A child of vfork() shares this memory; what it closes stays open here. */
+static _Atomic pid_t own_process;
+static bool is_own_process(void) {
+  return atomic_load_explicit(&own_process, memory_order_relaxed) == getpid();
+}
+
 static const struct pitchboard_time_page* _Atomic page;
 
 struct reading {
@@ -98,6 +104,7 @@ static struct reading read_page(const struct pitchboard_time_page* p) {
 }
 
 __attribute__((constructor)) static void open_page(void) {
+  atomic_store(&own_process, getpid());
   const char* file = getenv(PITCHBOARD_TIME_VARIABLE);
   if (file == NULL || *file == '\0') return;
   const int fd = open(file, O_RDONLY | O_CLOEXEC);
@@ -217,12 +224,13 @@ static struct waiter* register_waiter(void) {
 struct wait {
   nanoseconds deadline;  /* `forever`: none */
   struct waiter* waiter; /* null: it cannot be interrupted */
+  nanoseconds longest;   /* a part of it, in the computer's time */
   uint32_t sequence;
   nanoseconds real; /* what the last part of it asked for, in the computer's time; 0: it is over */
 };
 
 static struct wait sliced_wait(nanoseconds duration) {
-  struct wait w = {forever, NULL, 0, 0};
+  struct wait w = {forever, NULL, slice, 0, 0};
   if (duration != forever) {
     const nanoseconds now = match_time(CLOCK_MONOTONIC);
     w.deadline = duration < 0 ? now : duration > forever - now ? forever : now + duration;
@@ -232,6 +240,7 @@ static struct wait sliced_wait(nanoseconds duration) {
 static struct wait wait_for(nanoseconds duration) {
   struct wait w = sliced_wait(duration);
   w.waiter = register_waiter();
+  if (w.waiter != NULL) w.longest = longest_wait;
   return w;
 }
 /* How far away a moment of one of its clocks is. */
@@ -248,7 +257,7 @@ static nanoseconds left_of(const struct wait* w) {
 static nanoseconds next_part(struct wait* w) {
   w->sequence = page_sequence();
   if (w->waiter != NULL) atomic_store(&w->waiter->sequence, w->sequence);
-  const nanoseconds left = left_of(w), most = w->waiter != NULL ? longest_wait : slice;
+  const nanoseconds left = left_of(w), most = w->longest;
   const double speed = rate();
   if (left == 0) return w->real = 0;
   if (speed <= 0.0 || left == forever || (double)left / speed >= (double)most)
@@ -589,6 +598,7 @@ EXPORT int pthread_cond_clockwait(pthread_cond_t* restrict cond, pthread_mutex_t
   }
   struct wait w = wait_for(until(clock, at));
   register_cond(w.waiter, cond);
+  if (w.waiter != NULL) w.longest = INT64_MAX / 8; /* a broadcast always interrupts it */
   _Atomic uint32_t* counter = counter_of(cond);
   const uint32_t before = atomic_load(counter);
   int result;
@@ -601,6 +611,7 @@ EXPORT int pthread_cond_clockwait(pthread_cond_t* restrict cond, pthread_mutex_t
       register_cond(w.waiter, NULL);
       end_wait(&w);
       w.waiter = NULL;
+      w.longest = slice;
     }
   }
   if (result == ETIMEDOUT && w.real > 0) result = 0;
@@ -754,6 +765,19 @@ enum { most_timers = 256 };
 static struct timer timers[most_timers];
 static pthread_mutex_t timers_lock = PTHREAD_MUTEX_INITIALIZER;
 
+/* A signal handler may set a timer, or close a file. */
+static sigset_t lock_timers(void) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);
+  pthread_mutex_lock(&timers_lock);
+  return before;
+}
+static void unlock_timers(const sigset_t* before) {
+  pthread_mutex_unlock(&timers_lock);
+  pthread_sigmask(SIG_SETMASK, before, NULL);
+}
+
 static nanoseconds real_duration(nanoseconds duration, double speed) {
   const double real = (double)duration / speed;
   return real < 1.0 ? 1 : real > (double)(INT64_MAX / 2) ? INT64_MAX / 2 : (nanoseconds)real;
@@ -802,7 +826,7 @@ static struct itimerspec remaining_of(const struct timer* t) {
 }
 
 static void set_all_timers(void) {
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   for (int i = 0; i < most_timers; ++i) {
     struct timer* t = &timers[i];
     if (t->kind == NoTimer || !t->armed) continue;
@@ -812,7 +836,7 @@ static void set_all_timers(void) {
       (void)set_kernel_timer(t);
     }
   }
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
 }
 
 static struct timer* find_timer(enum timer_kind kind, timer_t posix, int fd) {
@@ -854,7 +878,7 @@ EXPORT int setitimer(__itimer_which_t which, const struct itimerval* restrict va
                      struct itimerval* restrict old) {
   if (!follows() || which != ITIMER_REAL || value == NULL)
     return REAL(setitimer)(which, value, old);
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   struct timer* t = find_timer(Interval, NULL, 0);
   if (old != NULL) {
     const struct itimerspec left =
@@ -867,15 +891,15 @@ EXPORT int setitimer(__itimer_which_t which, const struct itimerval* restrict va
                                  to_timespec(from_timeval(&value->it_value))};
   const int result =
       t != NULL ? arm(t, CLOCK_MONOTONIC, false, &set) : REAL(setitimer)(which, value, NULL);
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return result;
 }
 EXPORT int getitimer(__itimer_which_t which, struct itimerval* value) {
   if (!follows() || which != ITIMER_REAL) return REAL(getitimer)(which, value);
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   const struct timer* t = find_timer(Interval, NULL, 0);
   const struct itimerspec left = t != NULL ? remaining_of(t) : (struct itimerspec){{0, 0}, {0, 0}};
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   *value = (struct itimerval){to_timeval(from_timespec(&left.it_interval)),
                               to_timeval(from_timespec(&left.it_value))};
   return 0;
@@ -898,63 +922,63 @@ EXPORT useconds_t ualarm(useconds_t microseconds, useconds_t interval) {
 EXPORT int timer_create(clockid_t clock, struct sigevent* restrict event, timer_t* restrict timer) {
   const int result = REAL(timer_create)(clock, event, timer);
   if (result != 0 || !follows() || !is_shifted(clock)) return result;
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   struct timer* t = make_timer(Posix, *timer, 0);
   if (t != NULL) t->clock = clock;
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return 0;
 }
 EXPORT int timer_settime(timer_t timer, int flags, const struct itimerspec* restrict value,
                          struct itimerspec* restrict old) {
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   struct timer* t = follows() && value != NULL ? find_timer(Posix, timer, 0) : NULL;
   if (t != NULL && old != NULL) *old = remaining_of(t);
   const int result = t != NULL ? arm(t, t->clock, (flags & TIMER_ABSTIME) != 0, value)
                                : REAL(timer_settime)(timer, flags, value, old);
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return result;
 }
 EXPORT int timer_gettime(timer_t timer, struct itimerspec* value) {
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   const struct timer* t = follows() ? find_timer(Posix, timer, 0) : NULL;
   if (t != NULL) *value = remaining_of(t);
   const int result = t != NULL ? 0 : REAL(timer_gettime)(timer, value);
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return result;
 }
 EXPORT int timer_delete(timer_t timer) {
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   struct timer* t = find_timer(Posix, timer, 0);
   if (t != NULL) t->kind = NoTimer;
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return REAL(timer_delete)(timer);
 }
 
 EXPORT int timerfd_create(clockid_t clock, int flags) {
   const int fd = REAL(timerfd_create)(clock, flags);
   if (fd < 0 || !follows() || !is_shifted(clock)) return fd;
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   struct timer* t = make_timer(Descriptor, NULL, fd);
   if (t != NULL) t->clock = clock;
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return fd;
 }
 EXPORT int timerfd_settime(int fd, int flags, const struct itimerspec* value,
                            struct itimerspec* old) {
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   struct timer* t = follows() && value != NULL ? find_timer(Descriptor, NULL, fd) : NULL;
   if (t != NULL && old != NULL) *old = remaining_of(t);
   const int result = t != NULL ? arm(t, t->clock, (flags & TFD_TIMER_ABSTIME) != 0, value)
                                : REAL(timerfd_settime)(fd, flags, value, old);
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return result;
 }
 EXPORT int timerfd_gettime(int fd, struct itimerspec* value) {
-  pthread_mutex_lock(&timers_lock);
+  const sigset_t before = lock_timers();
   const struct timer* t = follows() ? find_timer(Descriptor, NULL, fd) : NULL;
   if (t != NULL) *value = remaining_of(t);
   const int result = t != NULL ? 0 : REAL(timerfd_gettime)(fd, value);
-  pthread_mutex_unlock(&timers_lock);
+  unlock_timers(&before);
   return result;
 }
 
@@ -1011,6 +1035,7 @@ static void* keep(void* unused) {
 
 /* fork() copies neither threads nor timers, but for those with a descriptor. */
 static void after_fork(void) {
+  atomic_store(&own_process, getpid());
   pthread_mutex_init(&timers_lock, NULL);
   pthread_mutex_init(&waiters_lock, NULL);
   memset(waiters, 0, sizeof waiters);
@@ -1139,13 +1164,13 @@ AFTER_WAIT(ssize_t, write, (int fd, const void* data, size_t size), (fd, data, s
 
 /* The number may mean another file now. */
 EXPORT int close(int fd) {
-  if (fd >= 0 && fd < most_sockets && follows()) {
+  if (fd >= 0 && fd < most_sockets && follows() && is_own_process()) {
     atomic_store_explicit(&receive_timeout[fd], 0, memory_order_relaxed);
     atomic_store_explicit(&send_timeout[fd], 0, memory_order_relaxed);
-    pthread_mutex_lock(&timers_lock);
+    const sigset_t before = lock_timers();
     struct timer* t = find_timer(Descriptor, NULL, fd);
     if (t != NULL) t->kind = NoTimer;
-    pthread_mutex_unlock(&timers_lock);
+    unlock_timers(&before);
   }
   return REAL(close)(fd);
 }

@@ -63,6 +63,7 @@ enum class ProcessClock : std::uint8_t {
   Match,             ///< they follow setSpeed()
   Real,              ///< real time, as its profile asks
   RealUntilRestart,  ///< real time, because it was started at ×1
+  RealNoLibrary,     ///< real time, because our library is not installed
   RealNotLoaded      ///< real time, because our library cannot be loaded into it
 };
 
