@@ -40,7 +40,7 @@ cp resources/profiles/*.json "$seeds/profile/"
 cp resources/teams/*.json "$seeds/formats/"
 cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$seeds/rules/"
 cp resources/experiments/*.json resources/situations/*.json "$seeds/experiment/"
-cp tests/data/sessions/*.mcap "$seeds/session/"
+cp tests/data/sessions/{small,plain_broken_off}.mcap "$seeds/session/"  # small ones: more inputs a second
 cp tests/data/sessions/*.mcap "$seeds/moments/"
 cp resources/scenarios/*.json "$seeds/scenario/"
 cp tests/data/catalogs/* resources/*.json "$seeds/catalog/"
@@ -106,7 +106,9 @@ fuzz() {
   local target=$1 length=2000 log=$build/logs/$1.log code=0 runs rate
   case $target in
     profile | experiment | scenario) length=8000 ;;
-    session | books | moments | catalog) length=16000 ;;
+    lines) length=1000 ;;
+    session) length=8200 ;;
+    books | moments | catalog) length=16000 ;;
   esac
   UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     "$build/bin/fuzz_$target" -max_total_time="$seconds" -entropic=0 -max_len=$length -timeout=25 -rss_limit_mb=1024 \

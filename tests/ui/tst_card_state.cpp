@@ -117,7 +117,6 @@ class TestCardState : public QObject {
     process.clock = link::ProcessClock::RealNotLoaded;
     process.speed = 8.0;
     process.achieved = 1.0;
-    frame.robots[0].board->voltage = 151;
     frame.robots[0].processList =
         std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
     const CardState card = tracker.update(frame, 0)[0];
