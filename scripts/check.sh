@@ -16,6 +16,7 @@ Checks, in this order (default: all of them):
   tidy-all   clang-tidy over all sources; long; only when asked for
   headers    every public header compiles alone
   core-only  everything that needs no Qt Widgets builds by itself
+  benchmarks  the benchmarks build
 --full adds, or takes as names:
   asan       all tests with address, leak and undefined-behaviour sanitizers
   threads    the tests in which threads work at the same time, with the thread sanitizer
@@ -37,14 +38,14 @@ while [ $# -gt 0 ]; do
     -h | --help) usage; exit 0 ;;
     --full) full=yes ;;
     --base) base=${2:?error: --base needs a commit}; shift ;;
-    format | docs | includes | tidy | tidy-all | headers | core-only | asan | threads | no-pch | clang)
+    format | docs | includes | tidy | tidy-all | headers | core-only | benchmarks | asan | threads | no-pch | clang)
       checks+=("$1") ;;
     *) echo "error: no check \"$1\"" >&2; usage >&2; exit 2 ;;
   esac
   shift
 done
 if [ ${#checks[@]} -eq 0 ]; then
-  checks=(format docs includes tidy headers core-only)
+  checks=(format docs includes tidy headers core-only benchmarks)
   [ $full = no ] || checks+=(asan threads no-pch clang)
 elif [ $full = yes ]; then
   checks+=(asan threads no-pch clang)
@@ -69,6 +70,11 @@ includes() {
 headers() {
   quietly cmake --preset release
   quietly cmake --build --preset release --target headers
+}
+
+benchmarks() {
+  quietly cmake --preset release
+  quietly cmake --build --preset release --target benchmarks
 }
 
 core-only() {

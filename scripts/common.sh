@@ -38,11 +38,38 @@ quietly() {
   fi
 }
 
+# show_progress LOG: a line about each step of ninja (NINJA_STATUS below) on standard error: how far it is and
+# how long it still takes. On a terminal it is one line that changes, elsewhere one line a minute.
+show_progress() {
+  local terminal=0
+  [ ! -t 2 ] || terminal=1
+  tee "$1" | awk -v terminal=$terminal '
+    match($0, /^\[[1-9][0-9]* [0-9]+ [0-9.]+\]/) {
+      split(substr($0, 2, RLENGTH - 2), step, " ")
+      left = step[3] * (step[2] - step[1]) / step[1]
+      text = sprintf("  %d of %d, %s left", step[1], step[2],
+                     left < 60 ? "less than a minute" : sprintf("about %d min", left / 60 + 0.5))
+      if (terminal) printf "\r%-60s", text
+      else if (step[3] >= next_line) { print text; next_line = step[3] + 60 }
+      fflush()
+    }
+    END { if (terminal && text != "") printf "\r%-60s\r", "" }' >&2
+}
+
 # build PRESET TARGET...
 build() {
-  local preset=$1
+  local preset=$1 log=build/build.log hits=build/compiler-cache.log
   shift
-  echo "Building $preset (the log is in build/build.log) ..." >&2
+  echo "Building $preset (the log is in $log) ..." >&2
   quietly cmake --preset "$preset"
-  quietly cmake --build --preset "$preset" --target "$@"
+  rm -f "$hits"
+  if ! CCACHE_STATSLOG=$PWD/$hits NINJA_STATUS='[%f %t %e] ' \
+    cmake --build --preset "$preset" --target "$@" 2>&1 | show_progress "$log"; then
+    tail -n 60 "$log" >&2
+    echo "error: the build failed; all it said is in $log" >&2
+    return 2
+  fi
+  [ ! -e "$hits" ] || awk '/_cache_hit$/ { hit++ } /^cache_miss$/ { miss++ }
+    END { if (hit + miss) printf "Compiler cache: %d of %d files (%d %%)\n", hit, hit + miss, 100 * hit / (hit + miss) }' \
+    "$hits" >&2
 }
