@@ -48,8 +48,8 @@ function(pitchboard_position_independent target)
   target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
 endfunction()
 
-# For what only reads a command line (-O1) or tests (-O0): at -O3 it compiles up to twice as long, for
-# nothing. What it calls is in the libraries.
+# For dialogs, reports and command lines (-O1) and tests (-O0): at -O3 they compile up to twice as long, for
+# nothing. What they call is in the modules whose loops take time.
 function(pitchboard_compile_quickly target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
@@ -61,13 +61,13 @@ function(pitchboard_apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# pitchboard_room(<library> <room> SOURCES ... [APART files] [PUBLIC libs] [PRIVATE libs])
+# pitchboard_room(<library> <room> [LIGHTLY_OPTIMIZED] SOURCES ... [APART files] [PUBLIC libs] [PRIVATE libs])
 # makes <library>::<room> from the current directory: include/ holds what other rooms may include,
-# src/ the rest. A room can include a header of another one only when it links it here, and
+# src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A room can include a header of another one only when it links it here, and
 # tests/end_to_end/tst_layers.cpp holds which rooms may be linked. All rooms of a library together
 # are <library>::all.
 function(pitchboard_room library room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;APART;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHTLY_OPTIMIZED" "" "SOURCES;APART;PUBLIC;PRIVATE" ${ARGN})
   pitchboard_apart(${ARG_APART})
   set(target ${library}_${room})
   add_library(${target} STATIC ${ARG_SOURCES})
@@ -76,6 +76,9 @@ function(pitchboard_room library room)
                              PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   pitchboard_warnings(${target})
+  if(ARG_LIGHTLY_OPTIMIZED)
+    pitchboard_compile_quickly(${target} -O1)
+  endif()
   # One precompiled header for everything without Qt, one with <QtWidgets> for the window. They only
   # save time: every file includes what it needs, as a build with
   # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
