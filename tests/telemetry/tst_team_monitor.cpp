@@ -56,6 +56,22 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(filter.probability(), 0.999);
   }
 
+  void badMessagesAreCountedNotTheirMistakes() {
+    TeamMonitor monitor;
+    give(monitor, text(3), start);
+    // nan, a fraction, a flag of 7, text behind the end.
+    const std::string bad = "3 nan 300 90 9.5 80 10 7 1 1 1 1 8.5 0.5 124 OUT more";
+    for (int i = 1; i <= 3; ++i) give(monitor, bad, start + std::chrono::seconds(i));
+    const TeamStatus team = monitor.status(start + 4s);
+    QCOMPARE(team.errors.count(TextError::BadFlag), std::uint64_t{3});
+    QCOMPARE(team.errors.count(TextError::TrailingText), std::uint64_t{3});
+    QCOMPARE(team.errors.messages(), std::uint64_t{3});
+    QCOMPARE(team.robots[0].errorCount, std::uint64_t{3});
+    TeamMonitor restored;
+    QVERIFY(restored.restoreRobots(monitor.robotsText(start), start));
+    QCOMPARE(restored.status(start + 4s).robots[0].errorCount, std::uint64_t{3});
+  }
+
   void aSilentProcessIsKnownSince() {
     TeamMonitor monitor;
     for (int i = 0; i < 5; ++i) give(monitor, text(1, 1), start + i * 1s);
@@ -104,8 +120,8 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(robot.messages, std::uint64_t(6));
     QCOMPARE(robot.errors.count(TextError::Duplicate), std::uint64_t(1));
     QVERIFY(std::abs(*robot.loss - 1.0 / 7.0) < 1e-9);
-    // A robot that starts again counts nothing as lost.
-    give(monitor, text(1, 1, 124, " 5000"), start + 8s);
+    // A robot that starts again, with another socket, counts nothing as lost.
+    give(monitor, text(1, 1, 124, " 5000"), start + 8s, from(1, 5001));
     QCOMPARE(monitor.status(start + 8s).robots[0].lost, std::uint64_t(1));
   }
 

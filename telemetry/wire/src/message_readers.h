@@ -48,7 +48,7 @@ bool readMitecom(std::string_view bytes, FieldSink& sink);
 bool readHulks(std::string_view bytes, FieldSink& sink);
 bool readCitBrains(std::string_view bytes, FieldSink& sink);
 bool readProtobuf(const std::string& message, std::string_view bytes, FieldSink& sink);
-/// Numbers at fixed places; one beyond the end of a datagram is a hole.
+/// Numbers at fixed places. A datagram that ends before a field that is not optional is Truncated.
 bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out);
 
 }  // namespace pitchboard::telemetry

@@ -137,6 +137,7 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   const Robot moved = robot;
   robot.sender = sender;
   robot.sequence = robot.previousSequence;
+  robot.moved = false;
   robot.previous.reset();
   Robot* other =
       newRobot(robot.number, time);  // within what is reserved: `robot` stays where it is
@@ -158,7 +159,10 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
   Robot *restarted = nullptr, *moved = nullptr;
   for (Robot& robot : m_robots) {
     if (robot.number != number) continue;
-    if (robot.sender == sender) return &robot;
+    if (robot.sender == sender) {
+      robot.moved = false;
+      return &robot;
+    }
     if (robot.previous == sender && since(time, robot.last) < m_options.timeout) {
       giveBack(robot, sender, time);
       return &robot;
@@ -175,6 +179,7 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     same->previous = same->sender;
     same->previousSequence = same->sequence;
     same->sender = sender;
+    same->moved = true;
     return same;
   }
   Robot* made = newRobot(number, time);
@@ -240,7 +245,7 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
                    since(datagram.time, robot->lastHashTime) < m_options.duplicateWindow;
   bool late = false;
   if (const auto number = m_decoder->value(m_decoded, FieldMeaning::Sequence)) {
-    const auto step = robot->sequence.add(static_cast<std::int64_t>(*number));
+    const auto step = robot->sequence.add(static_cast<std::int64_t>(*number), robot->moved);
     duplicate = step == SequenceStats::Step::Duplicate;
     late = step == SequenceStats::Step::Late;
   }
@@ -323,7 +328,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   }
   status.duplicates = robot.duplicates;
   status.errors = robot.errors;
-  status.errorCount = robot.errors.total();
+  status.errorCount = robot.errors.messages();
   for (std::size_t i = 0; i < processCount; ++i) {
     const Robot::Process& process = robot.processes[i];
     ProcessStatus& out = status.processes[i];

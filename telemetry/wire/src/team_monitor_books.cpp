@@ -129,6 +129,7 @@ struct MonitorBooks {
     for (std::size_t i = 0; i < textErrorCount; ++i) {
       errors.push_back(robot.errors.count(static_cast<TextError>(i)));
     }
+    json["errorMessages"] = robot.errors.messages();
     Json& processes = json["processes"] = Json::array();
     for (const Robot::Process& process : robot.processes) {
       processes.push_back(Json{{"p", process.filter.probability()},
@@ -166,11 +167,14 @@ struct MonitorBooks {
     });
     robot.sequence = sequenceFrom(member(json, "sequence"));
     robot.previousSequence = sequenceFrom(member(json, "previousSequence"));
+    std::uint64_t mistakes = 0;  // what 0.8 counted
     each(json, "errors", textErrorCount, [&](std::size_t i, const Json& count) {
-      if (count.is_number_unsigned()) {
-        robot.errors.add(static_cast<TextError>(i), count.get<std::uint64_t>());
-      }
+      if (!count.is_number_unsigned()) return;
+      robot.errors.add(static_cast<TextError>(i), count.get<std::uint64_t>());
+      mistakes += count.get<std::uint64_t>();
     });
+    robot.errors.addMessages(
+        member(json, "errorMessages") ? whole<std::uint64_t>(json, "errorMessages") : mistakes);
     each(json, "processes", processCount, [&](std::size_t i, const Json& process) {
       if (!process.is_object()) return;
       robot.processes[i] = {ProcessFilter(number(process, "p").value_or(0.5)),
