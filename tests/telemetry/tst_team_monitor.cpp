@@ -280,15 +280,15 @@ class TestTeamMonitor : public QObject {
   void aNewProfileGivesNames() {
     TeamMonitor monitor;
     give(monitor, text(1, 1, 124, " 77"), start);
-    QCOMPARE(monitor.status(start).robots[0].decoder->name(15), std::string("OTHER_1"));
+    QCOMPARE(monitor.status(start).robots[0].name(15), std::string("OTHER_1"));
     Profile profile = publishedProfile();
     profile.fields.push_back({"TEMPERATURE", FieldType::Int, "°C", "Robot", FieldMeaning::None});
     monitor.setProfile(profile);
     // What was said before is still shown as it was read.
-    QCOMPARE(monitor.status(start).robots[0].decoder->name(15), std::string("OTHER_1"));
+    QCOMPARE(monitor.status(start).robots[0].name(15), std::string("OTHER_1"));
     give(monitor, text(1, 1, 124, " 77"), start + 1s);
     const RobotStatus robot = monitor.status(start + 1s).robots[0];
-    QCOMPARE(robot.decoder->name(15), std::string("TEMPERATURE"));
+    QCOMPARE(robot.name(15), std::string("TEMPERATURE"));
     QCOMPARE(robot.values[15], 77.0);
     QCOMPARE(robot.messages, std::uint64_t(2));
   }

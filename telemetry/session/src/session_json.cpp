@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> typeNames{"int32", "float32", "float64"};
-constexpr std::array<const char*, 3> kindNames{"number", "flag", "enumeration"};
+constexpr std::array<const char*, 4> kindNames{"number", "flag", "enumeration", "text"};
 // Of a typed event this is always there; events before 0.2 have none.
 constexpr const char* typedEventKey = "detail";
 

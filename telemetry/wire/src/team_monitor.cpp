@@ -153,6 +153,7 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   other->decoder = moved.decoder;
   other->values = moved.values;
   other->words = moved.words;
+  other->extras = moved.extras;
 }
 
 TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, WallTime time) {
@@ -306,6 +307,8 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
     // A field of a sane message has few characters; a hostile one keeps its memory bounded.
     robot.words[i].assign(m_decoded.words[i].substr(0, ErrorTally::sampleBytes));
   }
+  const auto keys = m_decoded.extraKeys.begin();
+  robot.extras.assign(keys, keys + static_cast<std::ptrdiff_t>(m_decoded.namedExtras));
 }
 
 RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
@@ -345,6 +348,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   status.decoder = robot.decoder;
   status.values = robot.values;
   status.words = robot.words;
+  status.extras = robot.extras;
   return status;
 }
 
@@ -375,6 +379,13 @@ std::optional<double> RobotStatus::value(FieldMeaning meaning) const {
   const auto index = decoder ? decoder->profile().indexOf(meaning) : std::nullopt;
   if (!index || *index >= values.size() || std::isnan(values[*index])) return std::nullopt;
   return values[*index];
+}
+
+std::string RobotStatus::name(std::size_t index) const {
+  const auto& fields = decoder->profile().fields;
+  if (index < fields.size()) return fields[index].name;
+  const std::size_t extra = index - fields.size();
+  return extra < extras.size() ? extras[extra] : TextDecoder::otherName(extra);
 }
 
 }  // namespace pitchboard::telemetry

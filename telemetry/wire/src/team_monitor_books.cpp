@@ -9,6 +9,8 @@
 
 #include <telemetry/wire/lenient_json.h>
 
+#include "profile_words.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -139,6 +141,7 @@ struct MonitorBooks {
     // NaN becomes null.
     json["values"] = robot.values;
     json["words"] = robot.words;
+    if (!robot.extras.empty()) json["extras"] = robot.extras;
     // It may have said nothing since the profile was changed.
     if (robot.decoder && !(robot.decoder->profile() == usual.of(robot.number))) {
       json["profile"] = profileText(robot.decoder->profile());
@@ -188,6 +191,11 @@ struct MonitorBooks {
       robot.words.push_back(word.is_string()
                                 ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
                                 : std::string());
+    });
+    each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const Json& key) {
+      robot.extras.push_back(key.is_string()
+                                 ? key.get<std::string>().substr(0, profile_words::maxNameBytes)
+                                 : std::string());
     });
     robot.decoder = usual.decoderOf(robot.number);
     if (const std::string text = lenient::text(json, "profile"); !text.empty()) {

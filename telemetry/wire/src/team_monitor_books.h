@@ -34,6 +34,7 @@ struct TeamMonitor::Robot {
   std::shared_ptr<const TextDecoder> decoder;
   std::vector<double> values;
   std::vector<std::string> words;
+  std::vector<std::string> extras;
 };
 
 struct TeamMonitor::SenderRecord {
