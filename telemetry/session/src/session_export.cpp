@@ -11,9 +11,9 @@
 #include <base/csv_field.h>
 #include <base/new_file.h>
 
-#include "export_clip.h"
 #include "export_even.h"
 #include "export_text.h"
+#include "session_copy.h"
 #include "session_format.h"
 
 namespace pitchboard::telemetry {
@@ -336,6 +336,15 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
   bool going = writer->begin();
   bool interrupted = false;
   const auto visit = [&](const SessionItem& item) {
+    if (!item.isRow && selection.change) {
+      std::string json(item.message->data);
+      if (!selection.change(item.stream, json)) return true;
+      McapMessage changed = *item.message;
+      changed.data = json;
+      SessionItem other = item;
+      other.message = &changed;
+      return writer->message(other);
+    }
     if (!item.isRow) return writer->message(item);
     return !(*selected)[item.group].selected || writer->row(item);
   };
@@ -367,9 +376,11 @@ Result<ExportReport> exportFile(const SessionReader& session, ExportFormat forma
   if (!file) return tl::unexpected(file.error());
   Result<ExportReport> report;
   if (format == ExportFormat::Mcap) {
-    auto out = McapWriter::create(std::move(*file), {"", session.file().library(), 3, false});
-    if (!out) return tl::unexpected(out.error());
-    report = writeClip(session, selection, *selected, *out, progress);
+    const auto copied = copySession(session, selection, std::move(*file),
+                                    {"", session.file().library(), 3, false}, progress);
+    if (!copied) return tl::unexpected(copied.error());
+    report->bytes = copied->bytes;
+    for (const auto& [id, digest] : copied->channels) report->lines += digest.messages;
   } else {
     Result<void> written;
     report = exportText(

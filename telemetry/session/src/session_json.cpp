@@ -2,6 +2,7 @@
 // The parts of a session that are JSON: groups, events, log lines, datagrams, and their schemas.
 
 #include <zlib.h>
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -98,6 +99,13 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/live/state", "pitchboard.LiveState",
      R"({"type":"object","title":"pitchboard.LiveState","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
 }};
+
+std::optional<SessionStream> streamOf(const McapChannel& channel) {
+  const auto found =
+      std::ranges::find(streams, std::string_view(channel.topic), &StreamInfo::topic);
+  if (found == streams.end() || channel.messageEncoding != "json") return std::nullopt;
+  return static_cast<SessionStream>(found - streams.begin());
+}
 
 /// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all
 /// times.
