@@ -125,7 +125,7 @@ void reportEnd(const ReceiverStatus& network, const TeamStatus& team, std::uint6
                static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
                static_cast<unsigned long long>(network.kernelDrops()),
                static_cast<unsigned long long>(network.queueDrops),
-               static_cast<unsigned long long>(team.errors.total() + unknown),
+               static_cast<unsigned long long>(team.errors.messages() + unknown),
                refusedText(team, refusedReferees).c_str());
   for (const RobotStatus& robot : team.robots) {
     std::fprintf(stderr, "\n  %s", healthLine(robot).c_str());

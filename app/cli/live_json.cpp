@@ -65,7 +65,7 @@ Json telemetryJson(const TextDecoder& decoder, const DecodedText& message,
   Json values = Json::object();
   const auto& fields = decoder.profile().fields;
   for (std::size_t i = 0; i < message.count; ++i) {
-    const std::string name = decoder.name(i);
+    const std::string name = decoder.name(message, i);
     if (!message.has(i)) {
       // An extra field may be a word; a named one is a number or nothing.
       const bool isWord = i >= fields.size() || fields[i].type == FieldType::Text;
@@ -96,7 +96,7 @@ std::string telemetryLine(const TextDecoder& decoder, const DecodedText& message
     if (number > 0) out += "robot " + std::to_string(number);
     for (std::size_t i = 0; i < message.count; ++i) {
       if (message.words[i].empty()) continue;
-      out += "  " + decoder.name(i) + " " + printable(message.words[i], 40);
+      out += "  " + decoder.name(message, i) + " " + printable(message.words[i], 40);
     }
     if (message.errors.empty()) return out;
     out += "  ";

@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
       static_cast<unsigned long long>(details.team.datagrams),
       static_cast<unsigned long long>(details.network.kernelDrops()),
       static_cast<unsigned long long>(details.network.queueDrops),
-      static_cast<unsigned long long>(details.team.errors.total()));
+      static_cast<unsigned long long>(details.team.errors.messages()));
   std::printf("field painted %.1f times a second\n", painted);
   std::printf(
       "memory grew by %.1f MiB, of which %.1f MiB are rows (bounded by the store's budget)\n",

@@ -123,7 +123,7 @@ void loopbackLoad(benchmark::State& state) {
     state.counters["taken"] = static_cast<double>(taken);
     state.counters["kernelDrops"] = static_cast<double>(status.kernelDrops());
     state.counters["queueDrops"] = static_cast<double>(status.queueDrops);
-    state.counters["bad"] = static_cast<double>(monitor.status({}).errors.total());
+    state.counters["bad"] = static_cast<double>(monitor.status({}).errors.messages());
     state.counters["grownKiB"] = static_cast<double>(residentKib() - residentEarly);
   }
 }

@@ -67,7 +67,7 @@ class TestLiveMatch : public QObject {
     };
     QTRY_VERIFY2_WITH_TIMEOUT(compare(), qPrintable(QString::number(agree)), 20000);
     const auto details = live.details();
-    QCOMPARE(details.team.errors.total(), std::uint64_t(0));
+    QCOMPARE(details.team.errors.messages(), std::uint64_t(0));
     QTRY_VERIFY_WITH_TIMEOUT(live.latest()->robots[0].health->messages >= 3, 20000);
     QVERIFY(live.latest()->robots[0].health->rate > 0.3);
     match.terminate();

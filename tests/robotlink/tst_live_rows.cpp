@@ -19,7 +19,7 @@ const WallTime zero{std::chrono::seconds(1'700'000'000)};
 
 struct Rig {
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
-  TeamMonitor monitor;
+  TeamMonitor monitor{publishedProfile()};
   LiveRows rows{store, {.zero = zero, .teams = 0, .name = {}, .attributes = {}}};
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
@@ -187,6 +187,57 @@ class TestLiveRows : public QObject {
       if (rig.store->view(id)->info().name == "Robot 3") ++groups;
     }
     QCOMPARE(groups, 1);
+  }
+
+  void aTextIsAColumnOfItsWords() {
+    Rig rig;
+    Profile profile = publishedProfile();
+    profile.fields.push_back({"ROLE", FieldType::Text, "", "Decision"});
+    profile.fields.back().labels = {{7, "keeper"}};
+    rig.monitor.setProfile(profile);
+    const auto send = [&](const std::string& role, double time) {
+      rig.send("3 100 200 90 12.5 83.2 -15 1 1 0 1 1 8 1.57 124 " + role + " OUT", time);
+      const auto view = rig.view("Robot 3");
+      const auto id = *rig.store->find("Robot 3", "ROLE");
+      const ColumnInfo& column = view->info().columns[id.column];
+      return column.labels.at(static_cast<int>(view->latest(id.column)->value));
+    };
+    QCOMPARE(send("striker", 1.0), std::string("striker"));
+    QCOMPARE(send("keeper", 2.0), std::string("keeper"));
+    QCOMPARE(send("defender", 3.0), std::string("defender"));
+    QCOMPARE(send("striker", 4.0), std::string("striker"));
+    QCOMPARE(rig.latest("Robot 3", "ROLE"), 8.0);
+    QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{4});
+    for (std::size_t i = 0; i < LiveRows::maxWords; ++i)
+      send("w" + std::to_string(i), 5.0 + static_cast<double>(i));
+    QCOMPARE(send("one-more", 100.0), std::string("other"));
+    QCOMPARE(send("striker", 101.0), std::string("striker"));
+  }
+
+  void keysThatNobodyNamedAreColumns() {
+    Rig rig;
+    auto profile = parseProfile(R"({"name": "kv", "format": "key=value", "fields": [
+        {"name": "N", "type": "int", "meaning": "robot", "key": "id"},
+        {"name": "x", "type": "float"}]})",
+                                "kv.json");
+    QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
+    rig.monitor.setProfile(*profile);
+    rig.send("id=4 x=1 foo=3 who=me", 1.0);
+    rig.send("id=4 bar=5 x=2 foo=4 N=9", 2.0);
+    QCOMPARE(rig.latest("Robot 4", "foo"), 4.0);
+    QCOMPARE(rig.latest("Robot 4", "bar"), 5.0);
+    // A key that is a column's name does not overwrite it.
+    QCOMPARE(rig.latest("Robot 4", "N"), 4.0);
+    QCOMPARE(rig.rows.refused().values, std::uint64_t{1});
+    const auto who = *rig.store->find("Robot 4", "who");
+    QVERIFY(rig.view("Robot 4")->info().columns[who.column].kind == ColumnKind::Text);
+    QCOMPARE(rig.monitor.status(zero + 2s).robots[0].name(2), std::string("bar"));
+    // However many there are, memory is bounded, and what goes beyond is counted.
+    std::string many = "id=4";
+    for (int i = 0; i < 100; ++i) many += " k" + std::to_string(i) + "=1";
+    rig.send(many, 3.0);
+    QCOMPARE(rig.latest("Robot 4", "k31"), 1.0);
+    QCOMPARE(rig.rows.refused().values, std::uint64_t{1 + 68});
   }
 
   void anEditedProfileAddsColumns() {

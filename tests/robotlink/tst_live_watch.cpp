@@ -109,8 +109,8 @@ class TestLiveWatch : public QObject {
     QCOMPARE(team.robots[1].number, 3);
     QCOMPARE(team.robots[1].sender.port, three.port());
     // No robot can be blamed for what names none.
-    QVERIFY(team.errors.total() > 0);
-    QCOMPARE(team.robots[1].errors.total(), std::uint64_t{0});
+    QVERIFY(team.errors.messages() > 0);
+    QCOMPARE(team.robots[1].errors.messages(), std::uint64_t{0});
     const std::lock_guard lock(witness->mutex);
     QCOMPARE(witness->numbers, (std::vector<int>{1, 3}));
     QCOMPARE(witness->payloads, (std::vector<std::string>{message(1, 310), message(3, 330)}));

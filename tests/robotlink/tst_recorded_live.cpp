@@ -110,7 +110,7 @@ class TestRecordedLive : public QObject {
     QCOMPARE(robot.health->values.size(), team.robots[0].words.size());
     for (std::size_t i = 0; i < robot.health->values.size(); ++i) {
       QCOMPARE(std::stod(robot.health->values[i].text), team.robots[0].values[i]);
-      QCOMPARE(robot.health->values[i].name, team.robots[0].decoder->name(i));
+      QCOMPARE(robot.health->values[i].name, team.robots[0].name(i));
     }
     // The packet itself was none that can be read: only the decoded one says something.
     QCOMPARE(seen.referee.has_value(), !books);

@@ -164,8 +164,8 @@ class TestMessageFrames : public QObject {
     const Read read(decoder, "1 1 2 30 5 word OUT");
     QVERIFY(read.decoded.errors.empty());
     QCOMPARE(read.decoded.count, std::size_t(8));
-    QCOMPARE(decoder.name(4), std::string("LOCALIZATION_X"));
-    QCOMPARE(decoder.name(6), std::string("OTHER_1"));
+    QCOMPARE(decoder.name(read.decoded, 4), std::string("LOCALIZATION_X"));
+    QCOMPARE(decoder.name(read.decoded, 6), std::string("OTHER_1"));
     QCOMPARE(read.decoded.values[6], 5.0);
     QCOMPARE(read.decoded.words[7], std::string_view("word"));
   }

@@ -123,7 +123,7 @@ class TestProfile : public QObject {
     QVERIFY(decoded.errors.empty());
     QCOMPARE(decoded.robot, 12);
     QCOMPARE(decoder.value(decoded, FieldMeaning::Voltage), std::optional(124.0));
-    QCOMPARE(decoder.name(3), std::string("OTHER_1"));
+    QCOMPARE(decoder.name(decoded, 3), std::string("OTHER_1"));
   }
 
   void filesThatCannotBeRead() {

@@ -80,7 +80,7 @@ class TestSequenceStats : public QObject {
     for (int i = 100; i < 150; ++i) stats.add(i);
     QVERIFY(stats.add(0) == Step::Restart);
     QVERIFY(stats.add(1) == Step::Next);
-    QVERIFY(stats.add(50'000) == Step::Restart);
+    QVERIFY(stats.add(50'000, true) == Step::Restart);
     QVERIFY(stats.add(49'999) == Step::Late);
     QCOMPARE(stats.restarts(), std::uint64_t{2});
     QCOMPARE(stats.lost(), std::uint64_t{0});
@@ -88,6 +88,22 @@ class TestSequenceStats : public QObject {
     SequenceStats wide(32);
     for (int i = 0; i < 300; ++i) wide.add(i);
     QVERIFY(wide.add(0) == Step::Restart);
+  }
+
+  void aLongGapOfOneSenderIsALoss() {
+    SequenceStats stats(32);
+    stats.add(10);
+    QVERIFY(stats.add(1030) == Step::Gap);
+    QCOMPARE(stats.lost(), std::uint64_t{1019});
+    QVERIFY(stats.add(60'000) == Step::Gap);
+    QCOMPARE(stats.restarts(), std::uint64_t{0});
+    // A counter with any number in it is none.
+    QVERIFY(stats.add(3'000'000'000) == Step::Restart);
+    // Another program may begin anywhere.
+    SequenceStats other(32);
+    other.add(10);
+    QVERIFY(other.add(1030, true) == Step::Restart);
+    QCOMPARE(other.lost(), std::uint64_t{0});
   }
 
   void aSignedCounterRunsOver() {

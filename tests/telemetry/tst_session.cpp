@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include <telemetry/mcap/mcap_writer.h>
+#include <telemetry/session/session_export.h>
 #include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
@@ -289,6 +290,46 @@ class TestSession : public QObject, private NewSessions {
     QVERIFY(foreign && !foreign->ours());
     QVERIFY(foreign->notes().back().find("somebody") != std::string::npos);
     QVERIFY(foreign->groups().empty());
+  }
+
+  /// What nobody here knows goes into clips and repaired files as it is.
+  void channelsOfOthersAreCopied() {
+    const std::string path = newPath();
+    auto file = McapWriter::create(path, {"", "somebody", 3, false});
+    McapChunk chunk;
+    chunk.add(McapSchema{9, "theirs/Thing", "protobuf", std::string("\x01\0\x02", 3)});
+    chunk.add(McapChannel{7, 9, "/theirs", "protobuf", {{"a", "b"}}});
+    chunk.add(McapChannel{300, 0, "/raw", "bytes", {}});
+    for (std::uint32_t i = 0; i < 10; ++i) {
+      chunk.add(McapMessage{7, 40 + i, 1'000'000'000ULL * i, 77, "abc"});
+      chunk.add(McapMessage{300, i, 1'000'000'000ULL * i + 1, 0, std::string_view("\0x", 2)});
+    }
+    QVERIFY(file->writeChunk(chunk) && file->finish());
+    const std::string repaired = newPath(), clip = newPath();
+    const auto report = repairSession(path, repaired);
+    QVERIFY2(report, report ? "" : report.error().text().c_str());
+    QCOMPARE(report->messages, std::uint64_t{20});
+    const auto session = SessionReader::open(path);
+    ExportSelection part;
+    part.range = {2.0, 5.0};
+    QVERIFY(exportFile(*session, ExportFormat::Mcap, part, clip));
+    for (const auto& [made, first, count] :
+         {std::tuple{repaired, 0U, 20U}, std::tuple{clip, 2U, 7U}}) {
+      const auto copy = SessionReader::open(made);
+      QVERIFY(copy->complete());
+      std::uint32_t messages = 0, number = first;
+      copy->walkFile({-1e18, 1e18}, [&](const McapMessage& message) {
+        ++messages;
+        const McapChannel& channel = copy->file().channels().at(message.channel);
+        const bool theirs = channel.topic == "/theirs";
+        if (!theirs) return channel.topic == "/raw" && message.data == std::string_view("\0x", 2);
+        const McapSchema& schema = copy->file().schemas().at(channel.schema);
+        return channel.metadata.at("a") == "b" && schema.data.size() == 3 &&
+               message.sequence == 40 + number && message.publishTime == 77 &&
+               message.logTime == 1'000'000'000ULL * number++;
+      });
+      QCOMPARE(messages, count);
+    }
   }
 
   void repairMakesAWholeFile() {

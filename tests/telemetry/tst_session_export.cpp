@@ -44,6 +44,11 @@ class TestSessionExport : public QObject {
     text.chop(1);
     return text.split('\n');
   }
+  static bool hasLine(const QList<QByteArray>& lines, const char* line) {
+    if (lines.contains(line)) return true;
+    qWarning() << lines;
+    return false;
+  }
   static bool same(const QByteArray& text, double value) {
     double read = 0.0;
     const auto [end, code] = std::from_chars(text.begin(), text.end(), read);
@@ -231,6 +236,37 @@ class TestSessionExport : public QObject {
     const auto sink =
         exportText(session(), ExportFormat::CsvLong, {}, [](std::string_view) { return false; });
     QVERIFY(!sink);
+  }
+
+  void textsAreWords() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    QVERIFY(writer);
+    GroupInfo robot{"Robot 4", {{"ROLE", ColumnType::Float64, "", "", ColumnKind::Text, {}}}, {}};
+    // Words come one after the other, as they are received.
+    const char* words[] = {"striker", "keeper, \"old\""};
+    for (int i = 0; i < 2; ++i) {
+      robot.columns[0].labels.emplace(i, words[i]);
+      const double code = i;
+      (*writer)->append((*writer)->addGroup(robot), {i * 1.0, {}, std::span(&code, 1)});
+    }
+    const double hole = std::nan("");
+    (*writer)->append((*writer)->addGroup(robot), {2.0, {}, std::span(&hole, 1)});
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader);
+    QCOMPARE(reader->groups().size(), std::size_t{1});
+    QVERIFY(hasLine(textOf(*reader, ExportFormat::CsvWide), "0,striker"));
+    QVERIFY(hasLine(textOf(*reader, ExportFormat::CsvWide), "1,\"keeper, \"\"old\"\"\""));
+    QVERIFY(hasLine(textOf(*reader, ExportFormat::CsvWide), "2,"));
+    QVERIFY(hasLine(textOf(*reader, ExportFormat::CsvLong), "0,Robot 4,ROLE,striker"));
+    ExportSelection even;
+    even.resampling = {1.0, true};
+    QVERIFY(hasLine(textOf(*reader, ExportFormat::CsvEven, even), "0,striker"));
+    const auto lines = textOf(*reader, ExportFormat::JsonLines);
+    QCOMPARE(QJsonDocument::fromJson(lines[1]).object().value("values")["ROLE"].toString(),
+             QString(words[1]));
+    QVERIFY(QJsonDocument::fromJson(lines[2]).object().value("values")["ROLE"].isNull());
   }
 
   void evenTimes() {

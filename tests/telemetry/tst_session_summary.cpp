@@ -7,6 +7,8 @@
 #include <random>
 
 #include <telemetry/series/series_pages.h>
+#include <telemetry/session/session_export.h>
+#include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
 #include "session_summary.h"
@@ -177,6 +179,66 @@ class TestSessionSummary : public QObject {
       const double value = m_distance.values[at];
       QVERIFY(sample.value == value || (std::isnan(sample.value) && std::isnan(value)));
     }
+  }
+
+  void aClipHasSummariesOfItsOwn() {
+    const auto whole = session();
+    const std::string path = m_folder.filePath("clip.mcap").toStdString();
+    QVERIFY(exportFile(*whole, ExportFormat::Mcap, {}, path));
+    const auto same = SessionReader::open(path);
+    QVERIFY(same->summary(0).parts == whole->summary(0).parts);
+    QVERIFY(same->summary(1).parts == whole->summary(1).parts);
+    // A part of the time and of the columns.
+    const double until = 20'000 / rate;
+    ExportSelection part;
+    part.range = {0.0, until};
+    part.variables = {"VISION_BALL_DIST"};
+    const std::string shorter = m_folder.filePath("shorter.mcap").toStdString();
+    QVERIFY(exportFile(*whole, ExportFormat::Mcap, part, shorter));
+    const auto clip = SessionReader::open(shorter);
+    QVERIFY(clip->hasSummaries());
+    const GroupSummary summary = clip->summary(1);
+    QCOMPARE(summary.rows(), std::uint64_t{20'001});
+    QCOMPARE(summary.range()->end, until);
+    QCOMPARE(summary.parts[0].columns.size(), std::size_t{1});
+    QCOMPARE(summary.parts[0].columns[0].max, whole->summary(1).parts[0].columns[2].max);
+    // Again and again.
+    const std::string again = m_folder.filePath("again.mcap").toStdString();
+    QVERIFY(exportFile(*clip, ExportFormat::Mcap, {}, again));
+    QVERIFY(SessionReader::open(again)->summary(1).parts == summary.parts);
+  }
+
+  void aRecordingThatBrokeOffShowsItsWholeLength() {
+    const std::string broken = m_folder.filePath("broken.mcap").toStdString();
+    QFile file(QString::fromStdString(m_path));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray bytes = file.read(file.size() * 85 / 100);
+    std::ofstream(broken, std::ios::binary).write(bytes.data(), bytes.size());
+    const std::string repaired = m_folder.filePath("repaired.mcap").toStdString();
+    QVERIFY(repairSession(broken, repaired));
+    for (const std::string& path : {broken, repaired}) {
+      const auto reader = SessionReader::open(path);
+      QVERIFY(reader && reader->complete() == (path == repaired));
+      QVERIFY(reader->hasSummaries());
+      for (GroupId group = 0; group < 2; ++group) {
+        std::uint64_t rows = 0;
+        double end = 0.0;
+        const std::array<GroupId, 1> only{group};
+        reader->rows({-1e9, 1e9}, only, [&](GroupId, const RowView& row) {
+          ++rows;
+          end = row.time;
+          return true;
+        });
+        const GroupSummary summary = reader->summary(group);
+        QCOMPARE(summary.rows(), rows);
+        QVERIFY(rows > (group == 0 ? 99U : std::uint64_t{rowCount} / 2));
+        QCOMPARE(summary.range()->end, end);
+      }
+    }
+    // Who stops it gets nothing, and may ask again.
+    const auto reader = SessionReader::open(broken);
+    QVERIFY(reader->summary(0, [] { return false; }).parts.empty());
+    QCOMPARE(reader->summary(0).rows(), std::uint64_t{100});
   }
 
   void bytesThatAreNoSummaryAreRefused() {

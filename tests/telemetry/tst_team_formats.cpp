@@ -9,6 +9,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <set>
 
@@ -177,6 +178,54 @@ class TestTeamFormats : public QObject {
           QVERIFY(decoded.robot >= 1 && decoded.robot <= TextDecoder::maxRobot);
       }
     }
+  }
+
+  void aBinaryMessageThatIsCutOffIsRefused() {
+    const Profile booster = *loadProfile("booster");
+    const TextDecoder decoder(booster);
+    QByteArray whole(120, '\0');
+    whole[0] = '\xe2', whole[1] = 'y';  // 31202
+    whole[8] = 7;
+    whole[12] = 2;
+    DecodedText decoded;
+    decodeAt(decoder, whole, decoded);
+    QVERIFY(decoded.errors.empty());
+    for (const qsizetype length : {60, 119}) {
+      decodeAt(decoder, whole.left(length), decoded);
+      QVERIFY(decoded.errors.has(TextError::Truncated));
+      QVERIFY(!decoded.accepted());
+      QCOMPARE(decoded.robot, 2);
+    }
+    Profile lenient = booster;
+    lenient.fields.back().optional = true;
+    decodeAt(TextDecoder(lenient), whole.left(118), decoded);
+    QVERIFY(decoded.errors.empty());
+    QVERIFY(!decoded.has(lenient.fields.size() - 1));
+    const auto again = parseProfile(profileText(lenient), "lenient");
+    QVERIFY(again && *again == lenient);
+  }
+
+  void infinityIsAMistakeAndNanIsNoValue() {
+    Profile profile = *loadProfile("rgrt");
+    const auto ball = profile.indexOf(FieldMeaning::BallX).value();
+    QByteArray message = bytesOf([] {
+      for (const QJsonValue& value : examples()) {
+        if (value.toObject()["profile"].toString() == QLatin1String("rgrt"))
+          return value.toObject();
+      }
+      return QJsonObject();
+    }());
+    const TextDecoder decoder(profile);
+    DecodedText decoded;
+    const auto readWith = [&](float value) {
+      std::memcpy(message.data() + profile.fields[ball].at, &value, sizeof value);
+      decodeAt(decoder, message, decoded);
+      return decoded.accepted() && !decoded.has(ball);
+    };
+    QVERIFY(readWith(std::numeric_limits<float>::quiet_NaN()));
+    QVERIFY(decoded.errors.empty());
+    QVERIFY(readWith(std::numeric_limits<float>::infinity()));
+    QVERIFY(decoded.errors.has(TextError::NotFinite));
   }
 
   void anotherTeamsFormatIsRefused() {

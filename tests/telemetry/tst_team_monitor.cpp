@@ -56,6 +56,22 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(filter.probability(), 0.999);
   }
 
+  void badMessagesAreCountedNotTheirMistakes() {
+    TeamMonitor monitor;
+    give(monitor, text(3), start);
+    // nan, a fraction, a flag of 7, text behind the end.
+    const std::string bad = "3 nan 300 90 9.5 80 10 7 1 1 1 1 8.5 0.5 124 OUT more";
+    for (int i = 1; i <= 3; ++i) give(monitor, bad, start + std::chrono::seconds(i));
+    const TeamStatus team = monitor.status(start + 4s);
+    QCOMPARE(team.errors.count(TextError::BadFlag), std::uint64_t{3});
+    QCOMPARE(team.errors.count(TextError::TrailingText), std::uint64_t{3});
+    QCOMPARE(team.errors.messages(), std::uint64_t{3});
+    QCOMPARE(team.robots[0].errorCount, std::uint64_t{3});
+    TeamMonitor restored;
+    QVERIFY(restored.restoreRobots(monitor.robotsText(start), start));
+    QCOMPARE(restored.status(start + 4s).robots[0].errorCount, std::uint64_t{3});
+  }
+
   void aSilentProcessIsKnownSince() {
     TeamMonitor monitor;
     for (int i = 0; i < 5; ++i) give(monitor, text(1, 1), start + i * 1s);
@@ -104,8 +120,8 @@ class TestTeamMonitor : public QObject {
     QCOMPARE(robot.messages, std::uint64_t(6));
     QCOMPARE(robot.errors.count(TextError::Duplicate), std::uint64_t(1));
     QVERIFY(std::abs(*robot.loss - 1.0 / 7.0) < 1e-9);
-    // A robot that starts again counts nothing as lost.
-    give(monitor, text(1, 1, 124, " 5000"), start + 8s);
+    // A robot that starts again, with another socket, counts nothing as lost.
+    give(monitor, text(1, 1, 124, " 5000"), start + 8s, from(1, 5001));
     QCOMPARE(monitor.status(start + 8s).robots[0].lost, std::uint64_t(1));
   }
 
@@ -264,15 +280,15 @@ class TestTeamMonitor : public QObject {
   void aNewProfileGivesNames() {
     TeamMonitor monitor;
     give(monitor, text(1, 1, 124, " 77"), start);
-    QCOMPARE(monitor.status(start).robots[0].decoder->name(15), std::string("OTHER_1"));
+    QCOMPARE(monitor.status(start).robots[0].name(15), std::string("OTHER_1"));
     Profile profile = publishedProfile();
     profile.fields.push_back({"TEMPERATURE", FieldType::Int, "°C", "Robot", FieldMeaning::None});
     monitor.setProfile(profile);
     // What was said before is still shown as it was read.
-    QCOMPARE(monitor.status(start).robots[0].decoder->name(15), std::string("OTHER_1"));
+    QCOMPARE(monitor.status(start).robots[0].name(15), std::string("OTHER_1"));
     give(monitor, text(1, 1, 124, " 77"), start + 1s);
     const RobotStatus robot = monitor.status(start + 1s).robots[0];
-    QCOMPARE(robot.decoder->name(15), std::string("TEMPERATURE"));
+    QCOMPARE(robot.name(15), std::string("TEMPERATURE"));
     QCOMPARE(robot.values[15], 77.0);
     QCOMPARE(robot.messages, std::uint64_t(2));
   }

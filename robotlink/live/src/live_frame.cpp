@@ -52,7 +52,7 @@ std::vector<HeardValue> valuesOf(const RobotStatus& robot) {
   values.reserve(robot.words.size());
   const auto& fields = robot.decoder->profile().fields;
   for (std::size_t i = 0; i < robot.words.size(); ++i) {
-    values.push_back({robot.decoder->name(i), telemetry::printable(robot.words[i], 40),
+    values.push_back({robot.name(i), telemetry::printable(robot.words[i], 40),
                       i < fields.size() ? fields[i].unit : std::string()});
   }
   return values;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -65,11 +66,28 @@ ColumnInfo columnOf(const ProfileField& field) {
   ColumnInfo column{field.name,     ColumnType::Float64, field.unit,
                     field.category, ColumnKind::Number,  {}};
   if (field.type == FieldType::Flag) column.kind = ColumnKind::Flag;
+  if (field.type == FieldType::Text) {
+    column.kind = ColumnKind::Text;
+    column.labels = field.labels;
+  }
   if (field.meaning == FieldMeaning::Action) {
     column.kind = ColumnKind::Enumeration;
     column.labels = actionLabels();
   }
   return column;
+}
+
+/// The code of a word: a new one for each word that comes, until there are too many of them.
+double codeOf(ColumnInfo& column, std::string_view word, bool& changed) {
+  const auto known =
+      std::ranges::find_if(column.labels, [&](const auto& label) { return label.second == word; });
+  if (known != column.labels.end()) return known->first;
+  if (column.labels.size() > LiveRows::maxWords) return column.labels.rbegin()->first;
+  changed = true;
+  const int code = column.labels.empty() ? 0 : column.labels.rbegin()->first + 1;
+  const bool last = column.labels.size() == LiveRows::maxWords;
+  column.labels.emplace(code, last ? std::string("other") : std::string(word));
+  return code;
 }
 
 }  // namespace
@@ -130,35 +148,33 @@ LiveRows::Robot* LiveRows::robotOf(int number, int slot, const Sender& sender) {
   return &m_robots.back();
 }
 
-void LiveRows::describe(Robot& robot, const TextDecoder& decoder, std::size_t values) {
-  const Profile& profile = decoder.profile();
-  const bool edited = !(robot.profile == profile);
-  const std::size_t fields =
-      std::max(profile.fields.size(), std::min(values, profile.fields.size() + maxExtras));
-  if (!edited && fields <= robot.places.size()) return;
-  if (edited) {
-    robot.profile = profile;
-    robot.places.clear();
-  }
-  for (std::size_t i = robot.places.size(); i < fields; ++i) {
-    const bool named = i < profile.fields.size();
-    const ColumnInfo column =
-        named ? columnOf(profile.fields[i]) : ColumnInfo{decoder.name(i), ColumnType::Float64, "",
-                                                         "Other",         ColumnKind::Number,  {}};
+/// The place of a column of this name, which is made where there is room.
+std::size_t LiveRows::placeOf(Robot& robot, ColumnInfo column, bool& changed) {
+  const auto known = std::ranges::find(robot.columns, column.name, &ColumnInfo::name);
+  if (known != robot.columns.end()) return static_cast<std::size_t>(known - robot.columns.begin());
+  if (robot.columns.size() == maxColumns) return noColumn;
+  changed = true;
+  robot.columns.push_back(std::move(column));
+  return robot.columns.size() - 1;
+}
+
+bool LiveRows::describe(Robot& robot, const Profile& profile) {
+  if (robot.profile == profile) return false;
+  robot.profile = profile;
+  robot.places.clear();
+  bool changed = true;
+  for (const ProfileField& field : profile.fields) {
+    ColumnInfo column = columnOf(field);
     Robot::Place& place = robot.places.emplace_back();
-    if (named) place.absent = profile.fields[i].absent;
-    const auto known = std::ranges::find(robot.columns, column.name, &ColumnInfo::name);
-    if (known != robot.columns.end()) {
-      *known = column;
-    } else if (robot.columns.size() < maxColumns) {
-      robot.columns.push_back(column);
-    } else {
-      continue;
-    }
-    place.column = static_cast<std::size_t>(
-        std::ranges::find(robot.columns, column.name, &ColumnInfo::name) - robot.columns.begin());
+    place.column = placeOf(robot, column, changed);
+    place.absent = field.absent;
+    if (place.column == noColumn) continue;
+    ColumnInfo& known = robot.columns[place.column];
+    // Words that came already keep their codes.
+    if (known.kind == ColumnKind::Text) column.labels.merge(known.labels);
+    known = std::move(column);
   }
-  addGroups(robot);
+  return true;
 }
 
 void LiveRows::addGroups(Robot& robot) {
@@ -178,16 +194,43 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
     ++m_refused.rows;
     return;
   }
-  describe(*robot, decoder, decoded.count);
-  robot->values.assign(robot->columns.size(), nothing);
+  bool changed = describe(*robot, decoder.profile());
+  const std::size_t fields = robot->places.size();
+  robot->values.assign(maxColumns, nothing);
+  m_refused.values += decoded.dropped;
   for (std::size_t i = 0; i < decoded.count; ++i) {
-    const bool kept = i < robot->places.size() && robot->places[i].column != noColumn;
-    if (!kept) {
-      ++m_refused.values;
-    } else if (robot->places[i].absent != decoded.values[i]) {
-      robot->values[robot->places[i].column] = decoded.values[i];
+    const std::string_view word = decoded.words[i];
+    double value = decoded.values[i];
+    std::size_t column = noColumn;
+    if (i < fields) {
+      column = robot->places[i].column;
+      if (robot->places[i].absent == value) value = nothing;
+    } else if (i < fields + maxExtras) {
+      const bool isText = std::isnan(value) && !word.empty();
+      ColumnInfo extra{decoder.name(decoded, i),
+                       ColumnType::Float64,
+                       "",
+                       "Other",
+                       isText ? ColumnKind::Text : ColumnKind::Number,
+                       {}};
+      column = placeOf(*robot, std::move(extra), changed);
+      // A key that is the name of a field does not overwrite it.
+      if (std::ranges::find(robot->places, column, &Robot::Place::column) != robot->places.end()) {
+        column = noColumn;
+      }
     }
+    if (column == noColumn) {
+      ++m_refused.values;
+      continue;
+    }
+    ColumnInfo& info = robot->columns[column];
+    if (info.kind == ColumnKind::Text && !word.empty() && (std::isnan(value) || i >= fields)) {
+      value = codeOf(info, word, changed);
+    }
+    robot->values[column] = value;
   }
+  robot->values.resize(robot->columns.size());
+  if (changed) addGroups(*robot);
   // Of two ports the later message may be read first.
   robot->lastTime = std::max(robot->lastTime, timeOf(datagram.time));
   m_newest = std::max(m_newest, robot->lastTime);

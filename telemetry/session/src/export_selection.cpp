@@ -93,7 +93,9 @@ Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session
         if (!out[g].selected || !matches(selection.variables[v], column.name)) continue;
         wanted = used[v] = true;
       }
-      if (wanted) out[g].columns.push_back({c, column.type, index});
+      if (!wanted) continue;
+      const bool isText = column.kind == ColumnKind::Text && column.type == ColumnType::Float64;
+      out[g].columns.push_back({c, column.type, index, isText ? &column.labels : nullptr});
     }
     out[g].selected = out[g].selected && !out[g].columns.empty();
   }

@@ -3,6 +3,7 @@
 
 // The part of a session that is exported, with names resolved to indices in rows.
 
+#include <cmath>
 #include <vector>
 
 #include <telemetry/session/session_export.h>
@@ -13,6 +14,15 @@ struct SelectedColumn {
   std::size_t column = 0;  ///< in GroupInfo
   ColumnType type = ColumnType::Float64;
   std::size_t index = 0;  ///< in the words or the values of a row
+  /// Of a text: its words; owned by the session.
+  const std::map<std::int32_t, std::string>* labels = nullptr;
+
+  /// The word of a value of a text; nothing for a number and for a hole.
+  const std::string* wordOf(double value) const {
+    if (labels == nullptr || !std::isfinite(value)) return nullptr;
+    const auto found = labels->find(static_cast<std::int32_t>(value));
+    return found == labels->end() ? nullptr : &found->second;
+  }
 };
 
 struct SelectedGroup {

@@ -11,9 +11,9 @@
 #include <base/csv_field.h>
 #include <base/new_file.h>
 
-#include "export_clip.h"
 #include "export_even.h"
 #include "export_text.h"
+#include "session_copy.h"
 #include "session_format.h"
 
 namespace pitchboard::telemetry {
@@ -78,6 +78,14 @@ class LineWriter {
     }
     return columns;
   }
+  /// A value; `room` is what the line needs behind it. False: it has no word, nothing was put.
+  bool putWord(const SelectedColumn& column, double value, std::size_t room, bool json) {
+    const std::string* word = column.wordOf(value);
+    if (word == nullptr) return false;
+    m_out.putSafely(json ? quoted(*word) : csvField(*word));
+    m_out.reserve(room);
+    return true;
+  }
   static constexpr std::size_t clockRoom = 40;
   const SessionReader& m_session;
   const ExportSelection& m_selection;
@@ -116,7 +124,7 @@ class WideWriter : public LineWriter {
 
   bool end() override { return !m_open || line(); }
 
- private:
+ protected:
   struct Part {
     std::vector<Cell> cells;
     bool filled = false;
@@ -125,18 +133,28 @@ class WideWriter : public LineWriter {
   bool line() {
     m_open = false;
     putTime(std::bit_cast<double>(m_bits), m_longestLine);
-    for (Part& part : m_parts) {
-      for (const Cell& cell : part.cells) {
+    for (std::size_t g = 0; g < m_parts.size(); ++g) {
+      Part& part = m_parts[g];
+      for (std::size_t i = 0; i < part.cells.size(); ++i) {
         m_out.put(',');
-        if (part.filled) m_out.put(cell);
+        if (part.filled) put(m_selected[g].columns[i], part.cells[i]);
       }
       part.filled = false;
     }
     return m_out.endLine();
   }
 
+  void put(const SelectedColumn& column, const Cell& cell) {
+    if (column.labels == nullptr) {
+      if (!m_holesAreEmpty || cell.isNumber()) m_out.put(cell);
+    } else {
+      putWord(column, std::bit_cast<double>(cell.bits), m_longestLine, false);
+    }
+  }
+
   std::vector<Part> m_parts;
   std::size_t m_longestLine = 0;
+  bool m_holesAreEmpty = false;
   std::uint64_t m_bits = 0;
   bool m_open = false;
 };
@@ -181,25 +199,27 @@ class LongWriter : public NamedWriter {
       cell.set(columns[i].type, bitsOf(columns[i], item.row));
       putTime(item.time, Cell::room + prefix.size());
       m_out.put(prefix);
-      m_out.put(cell);
+      if (columns[i].labels == nullptr) {
+        m_out.put(cell);
+      } else {
+        putWord(columns[i], std::bit_cast<double>(cell.bits), 1, false);
+      }
       if (!m_out.endLine()) return false;
     }
     return true;
   }
 };
 
-class EvenWriter : public LineWriter {
+/// As WideWriter, at even times.
+class EvenWriter : public WideWriter {
  public:
   EvenWriter(const SessionReader& session, const ExportSelection& selection,
              const Selected& selected, TextBuffer& out)
-      : LineWriter(session, selection, selected, out),
-        m_rows(session, selected, selection.resampling) {}
-
-  bool begin() override {
-    m_out.putSafely(timeHead());
-    m_longestLine = putNames() * (Cell::room + 1);
-    return m_out.endLine();
+      : WideWriter(session, selection, selected, out),
+        m_rows(session, selected, selection.resampling) {
+    m_holesAreEmpty = true;
   }
+
   bool row(const SessionItem& item) override {
     return m_rows.add(item, [this](double time, const EvenLine& line) { return put(time, line); });
   }
@@ -208,20 +228,19 @@ class EvenWriter : public LineWriter {
   }
 
  private:
-  bool put(double time, const EvenLine& line) {
-    putTime(time, m_longestLine);
-    for (const double value : line) {
-      m_out.put(',');
-      if (std::isnan(value)) continue;
-      m_cell.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(value));
-      m_out.put(m_cell);
+  bool put(double time, const EvenLine& values) {
+    m_bits = std::bit_cast<std::uint64_t>(time);
+    auto value = values.begin();
+    for (Part& part : m_parts) {
+      part.filled = true;
+      for (Cell& cell : part.cells) {
+        cell.set(ColumnType::Float64, std::bit_cast<std::uint64_t>(*value++));
+      }
     }
-    return m_out.endLine();
+    return line();
   }
 
   EvenRows m_rows;
-  Cell m_cell;
-  std::size_t m_longestLine = 0;
 };
 
 class JsonWriter : public NamedWriter {
@@ -247,7 +266,9 @@ class JsonWriter : public NamedWriter {
       m_out.reserve(Cell::room + prefix.size() + 8);
       if (i > 0) m_out.put(',');
       m_out.put(prefix);
-      if (cell.isNumber())
+      const bool isWord = putWord(columns[i], std::bit_cast<double>(cell.bits), 8, true);
+      if (isWord) continue;
+      if (columns[i].labels == nullptr && cell.isNumber())
         m_out.put(cell);
       else
         m_out.put("null");
@@ -315,6 +336,15 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
   bool going = writer->begin();
   bool interrupted = false;
   const auto visit = [&](const SessionItem& item) {
+    if (!item.isRow && selection.change) {
+      std::string json(item.message->data);
+      if (!selection.change(item.stream, json)) return true;
+      McapMessage changed = *item.message;
+      changed.data = json;
+      SessionItem other = item;
+      other.message = &changed;
+      return writer->message(other);
+    }
     if (!item.isRow) return writer->message(item);
     return !(*selected)[item.group].selected || writer->row(item);
   };
@@ -346,9 +376,11 @@ Result<ExportReport> exportFile(const SessionReader& session, ExportFormat forma
   if (!file) return tl::unexpected(file.error());
   Result<ExportReport> report;
   if (format == ExportFormat::Mcap) {
-    auto out = McapWriter::create(std::move(*file), {"", session.file().library(), 3, false});
-    if (!out) return tl::unexpected(out.error());
-    report = writeClip(session, selection, *selected, *out, progress);
+    const auto copied = copySession(session, selection, std::move(*file),
+                                    {"", session.file().library(), 3, false}, progress);
+    if (!copied) return tl::unexpected(copied.error());
+    report->bytes = copied->bytes;
+    for (const auto& [id, digest] : copied->channels) report->lines += digest.messages;
   } else {
     Result<void> written;
     report = exportText(

@@ -27,6 +27,9 @@ struct StreamInfo {
 /// By SessionStream.
 extern const std::array<StreamInfo, sessionStreamCount> streams;
 
+/// The stream that a channel holds; nothing for rows and for channels that nobody here knows.
+std::optional<SessionStream> streamOf(const McapChannel& channel);
+
 McapMap toMetadata(const SessionInfo& info);
 std::string checkOf(const McapMap& metadata);
 /// The version of the format is left in `format`; fields that are missing keep their defaults.

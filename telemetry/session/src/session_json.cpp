@@ -2,6 +2,7 @@
 // The parts of a session that are JSON: groups, events, log lines, datagrams, and their schemas.
 
 #include <zlib.h>
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -17,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> typeNames{"int32", "float32", "float64"};
-constexpr std::array<const char*, 3> kindNames{"number", "flag", "enumeration"};
+constexpr std::array<const char*, 4> kindNames{"number", "flag", "enumeration", "text"};
 // Of a typed event this is always there; events before 0.2 have none.
 constexpr const char* typedEventKey = "detail";
 
@@ -98,6 +99,13 @@ const std::array<StreamInfo, sessionStreamCount> streams{{
     {"/live/state", "pitchboard.LiveState",
      R"({"type":"object","title":"pitchboard.LiveState","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
 }};
+
+std::optional<SessionStream> streamOf(const McapChannel& channel) {
+  const auto found =
+      std::ranges::find(streams, std::string_view(channel.topic), &StreamInfo::topic);
+  if (found == streams.end() || channel.messageEncoding != "json") return std::nullopt;
+  return static_cast<SessionStream>(found - streams.begin());
+}
 
 /// MCAP's metadata have no checksum of their own, and a wrong digit in the start would move all
 /// times.

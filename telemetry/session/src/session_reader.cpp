@@ -94,6 +94,7 @@ void SessionReader::Impl::findStart() {
 /// Behind findStart(), which says what second of the session a moment is.
 void SessionReader::Impl::noteLosses() {
   for (const McapLoss& loss : file.losses()) note(lossText(loss, info.start));
+  losses.insert(losses.begin(), file.losses().begin(), file.losses().end());
 }
 
 bool SessionReader::Impl::readRow(Use use, std::string_view data, SessionRow& row) const {
@@ -148,14 +149,9 @@ void SessionReader::Impl::takeChannels() {
         continue;
       }
     }
-    const auto stream = std::find_if(session::streams.begin(), session::streams.end(),
-                                     [&topic = channel.topic](const session::StreamInfo& known) {
-                                       return known.topic == topic;
-                                     });
-    if (stream != session::streams.end() && channel.messageEncoding == "json") {
-      const auto index = static_cast<std::size_t>(stream - session::streams.begin());
-      channelsOfStream[index].push_back(id);
-      useOfChannel[id].stream = static_cast<SessionStream>(index);
+    if (const auto stream = session::streamOf(channel)) {
+      channelsOfStream[static_cast<std::size_t>(*stream)].push_back(id);
+      useOfChannel[id].stream = *stream;
       continue;
     }
     if (channel.messageEncoding == session::summaryEncoding) continue;  // takeSummaries()
@@ -212,7 +208,8 @@ std::string_view SessionReader::Impl::body(std::size_t chunk) const {
   }
   kept.front().chunk = chunk;
   if (auto read = file.readChunk(file.chunks()[chunk], kept.front().body); !read) {
-    note(lossText(file.lossOf(file.chunks()[chunk], read.error().message), info.start));
+    losses.push_back(file.lossOf(file.chunks()[chunk], read.error().message));
+    note(lossText(losses.back(), info.start));
     damaged.insert(chunk);
     kept.pop_front();
     return {};
@@ -237,7 +234,10 @@ bool SessionReader::check(const std::function<bool(double)>& progress) const {
 }
 
 bool SessionReader::isDamaged() const {
-  return !m_impl->damaged.empty() || m_impl->damagedAttachment || !m_impl->file.losses().empty();
+  return m_impl->damagedAttachment || !m_impl->losses.empty();
+}
+const std::vector<McapLoss>& SessionReader::losses() const {
+  return m_impl->losses;
 }
 
 const SessionInfo& SessionReader::info() const {

@@ -39,6 +39,7 @@ struct SessionReader::Impl {
 
   mutable std::vector<std::string> notes;
   mutable std::set<std::size_t> damaged;
+  mutable std::vector<McapLoss> losses;
   mutable bool damagedAttachment = false;
   mutable std::vector<bool> seen;  ///< of the chunks: their body was asked for
   struct Kept {
@@ -46,6 +47,8 @@ struct SessionReader::Impl {
     std::string body;
   };
   mutable std::list<Kept> kept;  ///< newest first
+  /// Of a recording that broke off, by group: summaries of the rows behind those in the file.
+  mutable std::vector<std::vector<SummaryPart>> rest;
 
   explicit Impl(McapReader f) : file(std::move(f)) {}
 
@@ -60,6 +63,8 @@ struct SessionReader::Impl {
   void note(std::string sentence) const {
     if (notes.size() < mostNotes) notes.push_back(std::move(sentence));
   }
+  GroupSummary writtenSummary(GroupId group, const std::function<bool()>& goOn) const;
+  bool summarizeRest(const SessionReader& session, const std::function<bool()>& goOn) const;
   void takeMetadata();
   void takeChannels();
   void takeSummaries();
@@ -71,6 +76,8 @@ struct SessionReader::Impl {
   template <class Visit>
   bool walk(std::uint64_t begin, std::uint64_t end, const std::vector<std::uint16_t>& wanted,
             const Visit& visit, const std::function<bool(double)>& progress) const;
+  std::vector<std::uint16_t> channelsOf(std::span<const GroupId> wanted,
+                                        std::span<const SessionStream> streams) const;
   static bool mayHold(const McapChunkInfo& chunk, std::uint16_t channel) {
     return chunk.channels.empty() ||
            std::binary_search(chunk.channels.begin(), chunk.channels.end(), channel);

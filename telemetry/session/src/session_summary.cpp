@@ -89,12 +89,53 @@ std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t 
 }  // namespace session
 
 bool SessionReader::hasSummaries() const {
-  return complete() && !m_impl->summaryChannels.empty();
+  return !m_impl->summaryChannels.empty();
 }
 
 GroupSummary SessionReader::summary(GroupId group, const std::function<bool()>& goOn) const {
+  GroupSummary out = m_impl->writtenSummary(group, goOn);
+  if (complete() || !hasSummaries()) return out;
+  if (m_impl->rest.empty() && !m_impl->summarizeRest(*this, goOn)) return {};
+  const auto& rest = m_impl->rest[group];
+  out.parts.insert(out.parts.end(), rest.begin(), rest.end());
+  return out;
+}
+
+/// What the recording would have written at its end, had it come to it.
+bool SessionReader::Impl::summarizeRest(const SessionReader& session,
+                                        const std::function<bool()>& goOn) const {
+  std::vector<double> ends;
+  std::vector<SummaryBuilder> builders;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const GroupSummary written = writtenSummary(static_cast<GroupId>(g), goOn);
+    ends.push_back(written.parts.empty() ? -1e18 : written.parts.back().end.back());
+    builders.emplace_back(groups[g].info);
+  }
+  std::vector<std::vector<SummaryPart>> parts(groups.size());
+  const bool whole = session.walkRows(
+      {std::ranges::min(ends), 1e18},
+      [&](const SessionItem& item) {
+        // Times of parts are those of the file, which may be a rounding off those of the row.
+        if (item.time <= ends[item.group] + 1e-6) return true;
+        if (auto part = builders[item.group].add(item.time, item.row)) {
+          parts[item.group].push_back(std::move(*part));
+        }
+        return true;
+      },
+      [&](double) { return !goOn || goOn(); });
+  if (!whole) return false;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (auto part = builders[g].finish()) parts[g].push_back(std::move(*part));
+  }
+  rest = std::move(parts);
+  return true;
+}
+
+/// The parts that stand in the file.
+GroupSummary SessionReader::Impl::writtenSummary(GroupId group,
+                                                 const std::function<bool()>& goOn) const {
   GroupSummary out;
-  const Impl& impl = *m_impl;
+  const Impl& impl = *this;
   const auto known = impl.summaryChannels.find(group);
   if (known == impl.summaryChannels.end()) return out;
   const std::vector<std::uint16_t>& channels = known->second;

@@ -2,6 +2,7 @@
 // Rows and messages of a session: of a moment, and of a range in the order of recording.
 
 #include <algorithm>
+#include <limits>
 
 #include <telemetry/mcap/mcap_cursor.h>
 
@@ -110,59 +111,80 @@ bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
   return true;
 }
 
+/// In order; rows of all groups when `groups` is empty.
+std::vector<std::uint16_t> SessionReader::Impl::channelsOf(
+    std::span<const GroupId> wanted, std::span<const SessionStream> streams) const {
+  std::vector<std::uint16_t> out;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!wanted.empty() && std::ranges::find(wanted, g) == wanted.end()) continue;
+    out.insert(out.end(), groups[g].channels.begin(), groups[g].channels.end());
+  }
+  for (const SessionStream stream : streams) {
+    const auto& channels = channelsOfStream[static_cast<std::size_t>(stream)];
+    out.insert(out.end(), channels.begin(), channels.end());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
 bool SessionReader::walk(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                          const std::function<bool(double)>& progress) const {
-  std::vector<std::uint16_t> wanted;
-  for (const SessionGroup& group : m_impl->groups) {
-    wanted.insert(wanted.end(), group.channels.begin(), group.channels.end());
-  }
-  for (const auto& channels : m_impl->channelsOfStream) {
-    wanted.insert(wanted.end(), channels.begin(), channels.end());
-  }
-  std::sort(wanted.begin(), wanted.end());
-  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+  std::array<SessionStream, sessionStreamCount> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<SessionStream>(i);
+  return m_impl->walk(logTime(range.begin), logTime(range.end), m_impl->channelsOf({}, all), visit,
+                      progress);
 }
 
 bool SessionReader::walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
                              const std::function<bool(double)>& progress) const {
-  std::vector<std::uint16_t> wanted;
-  for (const SessionGroup& group : m_impl->groups) {
-    wanted.insert(wanted.end(), group.channels.begin(), group.channels.end());
+  return m_impl->walk(logTime(range.begin), logTime(range.end), m_impl->channelsOf({}, {}), visit,
+                      progress);
+}
+
+bool SessionReader::walkFile(TimeRange range, const std::function<bool(const McapMessage&)>& visit,
+                             const std::function<bool(double)>& progress) const {
+  const std::uint64_t begin = range.begin <= -1e18 ? 0 : logTime(range.begin);
+  const std::uint64_t end =
+      range.end >= 1e18 ? std::numeric_limits<std::uint64_t>::max() : logTime(range.end);
+  const auto& chunks = m_impl->file.chunks();
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
+      return false;
+    }
+    if (chunks[i].end < begin || chunks[i].start > end) continue;
+    McapCursor cursor(m_impl->body(i));
+    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+      if (kind != McapCursor::Kind::Message || cursor.message().logTime < begin ||
+          cursor.message().logTime > end) {
+        continue;
+      }
+      if (!visit(cursor.message())) return false;
+    }
   }
-  std::sort(wanted.begin(), wanted.end());
-  return m_impl->walk(logTime(range.begin), logTime(range.end), wanted, visit, progress);
+  return true;
 }
 
 void SessionReader::rows(TimeRange range, std::span<const GroupId> groups,
                          const std::function<bool(GroupId, const RowView&)>& visit) const {
-  std::vector<std::uint16_t> wanted;
-  for (std::size_t g = 0; g < m_impl->groups.size(); ++g) {
-    if (groups.empty() || std::find(groups.begin(), groups.end(), g) != groups.end()) {
-      const auto& channels = m_impl->groups[g].channels;
-      wanted.insert(wanted.end(), channels.begin(), channels.end());
-    }
-  }
-  std::sort(wanted.begin(), wanted.end());
-  m_impl->walk(logTime(range.begin), logTime(range.end), wanted,
+  m_impl->walk(logTime(range.begin), logTime(range.end), m_impl->channelsOf(groups, {}),
                [&](const SessionItem& item) { return visit(item.group, item.row); }, {});
 }
 
 void SessionReader::messages(SessionStream stream, TimeRange range,
                              const std::function<bool(double, std::string_view)>& visit) const {
-  m_impl->walk(logTime(range.begin), logTime(range.end),
-               m_impl->channelsOfStream[static_cast<std::size_t>(stream)],
-               [&](const SessionItem& item) { return visit(item.time, item.message->data); }, {});
+  messages(std::span(&stream, 1), range,
+           [&](SessionStream, double time, std::string_view json) { return visit(time, json); });
 }
 
 void SessionReader::messages(
     std::span<const SessionStream> streams, TimeRange range,
-    const std::function<bool(SessionStream, double, std::string_view)>& visit) const {
+    const std::function<bool(SessionStream, double time, std::string_view json)>& visit) const {
   std::vector<std::uint16_t> wanted;
   for (const SessionStream stream : streams) {
     const auto& channels = m_impl->channelsOfStream[static_cast<std::size_t>(stream)];
     wanted.insert(wanted.end(), channels.begin(), channels.end());
   }
-  std::sort(wanted.begin(), wanted.end());
+  std::ranges::sort(wanted);
   m_impl->walk(
       logTime(range.begin), logTime(range.end), wanted,
       [&](const SessionItem& item) { return visit(item.stream, item.time, item.message->data); },

@@ -41,14 +41,20 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::string& 
     return tl::unexpected(written.error());
   }
   if (auto synced = file->sync(); !synced) return tl::unexpected(synced.error());
+  return on(std::move(*file), path, info, options);
+}
+
+std::unique_ptr<SessionWriter> SessionWriter::on(McapWriter file, std::string path,
+                                                 const SessionInfo& info,
+                                                 const SessionWriterOptions& options) {
   auto impl = std::make_unique<Impl>();
   impl->path = path;
   impl->info = info;
   impl->options = options;
   if (!options.freeSpace) impl->options.freeSpace = [path] { return freeSpaceBeside(path); };
-  impl->state.bytes = file->bytes();
+  impl->state.bytes = file.bytes();
   impl->state.freeBytes = impl->options.freeSpace();
-  impl->file = std::move(*file);
+  impl->file = std::move(file);
   std::unique_ptr<SessionWriter> writer(new SessionWriter(std::move(impl)));
   Impl& shared = *writer->m_impl;
   shared.thread = std::thread([&shared] { shared.run(); });
@@ -64,23 +70,59 @@ GroupId SessionWriter::addGroup(const GroupInfo& info) {
     if (impl.groups[i].info.columns == info.columns) return static_cast<GroupId>(i);
     ++sameTopic;
   }
+  const std::string suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string();
   Impl::Group group{.info = info,
                     .layout = session::RowLayout(info),
-                    .suffix = sameTopic > 0 ? std::to_string(sameTopic + 1) : std::string(),
+                    .topic = session::rowTopic(info) + suffix,
                     .summary = SummaryBuilder(info)};
   if (!impl.stop && !impl.error && impl.channels < Impl::mostChannels) {
-    const std::string& suffix = group.suffix;
-    group.channel = impl.addChannel(
+    const std::uint16_t schema = impl.addSchema(
         impl.current,
-        {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)},
-        {0,
-         0,
-         session::rowTopic(info) + suffix,
-         "cdr",
-         {{std::string(session::groupKey), session::groupToJson(info)}}});
+        {0, session::rowSchemaName(info) + suffix, "ros2msg", session::rowSchema(info)});
+    group.channel = impl.addChannel(
+        impl.current, {0,
+                       schema,
+                       group.topic,
+                       "cdr",
+                       {{std::string(session::groupKey), session::groupToJson(info)}}});
   }
   impl.groups.push_back(std::move(group));
   return static_cast<GroupId>(impl.groups.size() - 1);
+}
+
+std::uint16_t SessionWriter::addSchema(const McapSchema& schema) {
+  const std::lock_guard lock(m_impl->mutex);
+  return m_impl->addSchema(m_impl->current, schema);
+}
+
+std::uint16_t SessionWriter::addChannel(const McapChannel& channel, const GroupInfo* rows) {
+  Impl& impl = *m_impl;
+  const std::lock_guard lock(impl.mutex);
+  const std::uint16_t id = impl.addChannel(impl.current, channel);
+  const auto stream = session::streamOf(channel);
+  Impl::Copied& copied = impl.copied[id];
+  copied.isSparse = stream == SessionStream::Events || stream == SessionStream::Log;
+  if (rows == nullptr || id == 0) return id;
+  copied.group = impl.groups.size();
+  impl.groups.push_back({.info = *rows,
+                         .layout = {},
+                         .topic = channel.topic,
+                         .channel = id,
+                         .summary = SummaryBuilder(*rows)});
+  return id;
+}
+
+void SessionWriter::append(const McapMessage& message, const RowView* row) {
+  Impl& impl = *m_impl;
+  std::unique_lock lock(impl.mutex);
+  if (!impl.hasRoom(lock, message.data.size() + 64)) return;
+  const Impl::Copied& copied = impl.copied[message.channel];
+  (copied.isSparse ? impl.sparse : impl.current).add(message);
+  ++(copied.group == Impl::noGroup ? impl.state.messages : impl.state.rows);
+  if (copied.group != Impl::noGroup && row != nullptr) {
+    impl.summarize(impl.groups[copied.group], message.logTime, *row);
+  }
+  impl.note(message.logTime);
 }
 
 void SessionWriter::append(GroupId id, const RowView& row) {
@@ -99,14 +141,11 @@ void SessionWriter::append(GroupId id, const RowView& row) {
       log = group.lastLog;
     }
   }
-  group.lastLog = log;
   group.layout.write(
       impl.current.addMessage(group.channel, group.sequence++, log, publish, group.layout.size),
       row);
   ++impl.state.rows;
-  const auto start = static_cast<std::uint64_t>(impl.info.start.time_since_epoch().count());
-  const double time = static_cast<double>(static_cast<std::int64_t>(log - start)) / 1e9;
-  if (const auto part = group.summary.add(time, row)) impl.keep(group, *part);
+  impl.summarize(group, log, row);
   impl.note(log);
 }
 
@@ -133,9 +172,9 @@ void SessionWriter::appendJson(SessionStream stream, double time, std::string_vi
   McapChunk& to = isSparse ? impl.sparse : impl.current;
   if (state.channel == 0) {
     const session::StreamInfo& info = session::streams[index];
-    state.channel = impl.addChannel(
-        to, {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)},
-        {0, 0, std::string(info.topic), "json", {}});
+    const std::uint16_t schema = impl.addSchema(
+        to, {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)});
+    state.channel = impl.addChannel(to, {0, schema, std::string(info.topic), "json", {}});
   }
   const std::uint64_t publish = session::nanoseconds(impl.info.start, time);
   const std::uint64_t log = publish + impl.shift;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -37,7 +38,7 @@ struct SessionWriter::Impl {
   struct Group {
     GroupInfo info;
     session::RowLayout layout;
-    std::string suffix;  ///< of its topic, when another group has the same one
+    std::string topic;
     std::uint16_t channel = 0;
     std::uint32_t sequence = 0;
     std::uint64_t lastLog = 0;
@@ -56,6 +57,12 @@ struct SessionWriter::Impl {
   std::size_t waiting = 0;  ///< bytes in `full`, and what the writing thread has in hand
   bool stop = false;
   std::vector<Group> groups;
+  static constexpr std::size_t noGroup = static_cast<std::size_t>(-1);
+  struct Copied {
+    std::size_t group = noGroup;
+    bool isSparse = false;
+  };
+  std::map<std::uint16_t, Copied> copied;  ///< channels of another file
   struct Stream {
     std::uint16_t channel = 0;
     std::uint32_t sequence = 0;
@@ -77,7 +84,9 @@ struct SessionWriter::Impl {
   void closeCurrent();
   bool isEmpty() const { return current.empty() && sparse.empty(); }
   std::size_t openBytes() const { return current.bytes() + sparse.bytes(); }
-  std::uint16_t addChannel(McapChunk& to, const McapSchema& schema, McapChannel channel);
+  std::uint16_t addSchema(McapChunk& to, McapSchema schema);
+  std::uint16_t addChannel(McapChunk& to, McapChannel channel);
+  void summarize(Group& group, std::uint64_t log, const RowView& row);
   void keep(Group& group, const SummaryPart& part);
   void note(std::uint64_t log);
 };

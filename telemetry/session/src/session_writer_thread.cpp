@@ -88,8 +88,12 @@ void SessionWriter::Impl::fail(const Error& why) {
 /// Needs the lock; may let go of it while it waits.
 bool SessionWriter::Impl::hasRoom(std::unique_lock<std::mutex>& lock, std::size_t bytes) {
   if (stop || error) return false;
-  const auto fits = [&] { return waiting + openBytes() + bytes <= options.queueBytes; };
-  if (!fits() && options.waitWhenFull && bytes <= options.queueBytes) {
+  // Who waits gets through with what is larger than the queue, too.
+  const auto fits = [&] {
+    const std::size_t before = waiting + openBytes();
+    return before + bytes <= options.queueBytes || (options.waitWhenFull && before == 0);
+  };
+  if (!fits() && options.waitWhenFull) {
     if (!isEmpty()) closeCurrent();
     wake.notify_one();
     room.wait(lock, [&] { return fits() || stop || error; });
@@ -114,19 +118,26 @@ void SessionWriter::Impl::closeCurrent() {
   }
 }
 
+void SessionWriter::Impl::summarize(Group& group, std::uint64_t log, const RowView& row) {
+  group.lastLog = log;
+  const auto start = static_cast<std::uint64_t>(info.start.time_since_epoch().count());
+  const double time = static_cast<double>(static_cast<std::int64_t>(log - start)) / 1e9;
+  if (const auto part = group.summary.add(time, row)) keep(group, *part);
+}
+
 /// A chunk of its own: who draws a whole day reads these chunks and no others.
 void SessionWriter::Impl::keep(Group& group, const SummaryPart& part) {
-  if (group.summaryChannel == 0 && channels >= mostChannels) return;
   McapChunk chunk;
   if (group.summaryChannel == 0) {
-    group.summaryChannel = ++channels;
-    const std::string topic = session::rowTopic(group.info) + group.suffix;
-    chunk.add(McapChannel{group.summaryChannel,
-                          0,
-                          topic + "/summary",
-                          std::string(session::summaryEncoding),
-                          {{std::string(session::summaryKey), topic}}});
+    group.summaryChannel = addChannel(chunk, {0,
+                                              0,
+                                              group.topic + "/summary",
+                                              std::string(session::summaryEncoding),
+                                              {{std::string(session::summaryKey), group.topic}}});
+    if (group.summaryChannel == 0) return;
   }
+  // Behind its rows: a recording that breaks off has no summary of rows that it does not have.
+  closeCurrent();
   const std::string bytes = session::summaryBytes(part);
   chunk.add(
       McapMessage{group.summaryChannel, group.summaries++, group.lastLog, group.lastLog, bytes});
@@ -135,13 +146,16 @@ void SessionWriter::Impl::keep(Group& group, const SummaryPart& part) {
   wake.notify_one();
 }
 
-std::uint16_t SessionWriter::Impl::addChannel(McapChunk& to, const McapSchema& schema,
-                                              McapChannel channel) {
-  McapSchema numbered = schema;
-  numbered.id = ++schemas;
+std::uint16_t SessionWriter::Impl::addSchema(McapChunk& to, McapSchema schema) {
+  if (schemas >= mostChannels) return 0;
+  schema.id = ++schemas;
+  to.add(schema);
+  return schema.id;
+}
+
+std::uint16_t SessionWriter::Impl::addChannel(McapChunk& to, McapChannel channel) {
+  if (channels >= mostChannels) return 0;
   channel.id = ++channels;
-  channel.schema = numbered.id;
-  to.add(numbered);
   to.add(channel);
   return channel.id;
 }

@@ -72,9 +72,11 @@ bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out
   for (std::size_t i = 0; i < profile.fields.size(); ++i) {
     const ProfileField& field = profile.fields[i];
     const auto at = static_cast<std::size_t>(field.at);
+    const auto length = static_cast<std::size_t>(
+        field.as == WireType::Text ? field.length : profile_words::bytesOf(field.as));
+    if (bytes.size() < at + length && !field.optional) out.errors.add(TextError::Truncated);
     if (field.as == WireType::Text) {
-      const std::string_view text = textAt(bytes, at, static_cast<std::size_t>(field.length));
-      if (at < bytes.size()) setWord(field, i, text, out);
+      if (at < bytes.size()) setWord(field, i, textAt(bytes, at, length), out);
       continue;
     }
     auto value = numberAt(bytes, at, field.as);
@@ -82,8 +84,8 @@ bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out
     if (field.mask != 0 && *value >= 0.0 && *value < 1.8e19) {
       value = static_cast<double>(static_cast<std::uint64_t>(*value) & field.mask);
     }
-    // A float that is not finite says that there is nothing.
-    if (std::isfinite(*value)) setNumber(field, i, *value, out);
+    // A float that is not a number says that there is nothing.
+    if (!std::isnan(*value)) setNumber(field, i, *value, out);
   }
   return true;
 }

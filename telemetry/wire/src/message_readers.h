@@ -25,10 +25,17 @@ class FieldMap {
   std::vector<std::pair<std::string, std::size_t>> m_indices;  // by key
 };
 
-/// Takes what the profile has a field for, and leaves the rest.
+/// Takes what the profile has a field for. Of the formats whose messages name their values (pairs,
+/// JSON, Lua, mitecom) the rest is kept as extras; the others have a known list, from which the
+/// profile chooses.
 class FieldSink {
  public:
-  FieldSink(const FieldMap& map, DecodedText& out) : m_map(&map), m_out(&out) {}
+  FieldSink(const FieldMap& map, MessageFormat format, DecodedText& out)
+      : m_map(&map),
+        m_out(&out),
+        m_firstExtra(out.count),
+        m_keepsExtras(format == MessageFormat::KeyValue || format == MessageFormat::Json ||
+                      format == MessageFormat::Lua || format == MessageFormat::Mitecom) {}
   void number(std::string_view key, double value);
   /// A word that stands in the datagram.
   void word(std::string_view key, std::string_view text);
@@ -36,8 +43,12 @@ class FieldSink {
   void passingWord(std::string_view key, std::string_view text);
 
  private:
+  bool extra(std::string_view key, std::size_t& index);
+
   const FieldMap* m_map;
   DecodedText* m_out;
+  std::size_t m_firstExtra;
+  bool m_keepsExtras;
 };
 
 // Each says whether the whole datagram was of the format.
@@ -48,7 +59,7 @@ bool readMitecom(std::string_view bytes, FieldSink& sink);
 bool readHulks(std::string_view bytes, FieldSink& sink);
 bool readCitBrains(std::string_view bytes, FieldSink& sink);
 bool readProtobuf(const std::string& message, std::string_view bytes, FieldSink& sink);
-/// Numbers at fixed places; one beyond the end of a datagram is a hole.
+/// Numbers at fixed places. A datagram that ends before a field that is not optional is Truncated.
 bool readBinary(const Profile& profile, std::string_view bytes, DecodedText& out);
 
 }  // namespace pitchboard::telemetry

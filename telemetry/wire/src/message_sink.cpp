@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "message_readers.h"
+#include "profile_words.h"
 
 namespace pitchboard::telemetry {
 
@@ -22,20 +23,56 @@ const ProfileField* FieldMap::find(std::string_view key, std::size_t& index) con
   return &(*m_fields)[index];
 }
 
+/// Makes room for a value that the profile does not name, or finds it.
+bool FieldSink::extra(std::string_view key, std::size_t& index) {
+  if (!m_keepsExtras || key.empty()) return false;
+  // As a name: without white space, of bounded length.
+  std::array<char, profile_words::maxNameBytes> name{};
+  const std::size_t length = std::min(key.size(), name.size());
+  std::transform(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(length), name.begin(),
+                 [](char c) { return c > ' ' && c < 0x7f ? c : '_'; });
+  const std::string_view wanted(name.data(), length);
+  const auto end = m_out->extraKeys.begin() + static_cast<std::ptrdiff_t>(m_out->namedExtras);
+  const auto known = std::find(m_out->extraKeys.begin(), end, wanted);
+  index = m_firstExtra + static_cast<std::size_t>(known - m_out->extraKeys.begin());
+  if (known != end) return true;
+  if (known == m_out->extraKeys.end() || index >= DecodedText::maxValues) {
+    ++m_out->dropped;
+    return false;
+  }
+  *known = keep(wanted, *m_out);
+  if (known->empty()) {
+    ++m_out->dropped;
+    return false;
+  }
+  ++m_out->namedExtras;
+  ++m_out->count;
+  return true;
+}
+
 void FieldSink::number(std::string_view key, double value) {
   std::size_t index = 0;
-  if (const ProfileField* field = m_map->find(key, index)) setNumber(*field, index, value, *m_out);
+  if (const ProfileField* field = m_map->find(key, index)) {
+    setNumber(*field, index, value, *m_out);
+  } else if (extra(key, index)) {
+    m_out->words[index] = wordOf(value, *m_out);
+    m_out->values[index] = value;
+  }
 }
 
 void FieldSink::word(std::string_view key, std::string_view text) {
   std::size_t index = 0;
-  if (const ProfileField* field = m_map->find(key, index)) setWord(*field, index, text, *m_out);
+  if (const ProfileField* field = m_map->find(key, index)) {
+    setWord(*field, index, text, *m_out);
+  } else if (extra(key, index)) {
+    // It may be anything until the team gives it a type: text is kept as a word.
+    m_out->words[index] = text;
+    m_out->values[index] = readFloat(text).value;
+  }
 }
 
 void FieldSink::passingWord(std::string_view key, std::string_view text) {
-  std::size_t index = 0;
-  const ProfileField* field = m_map->find(key, index);
-  if (field != nullptr) setWord(*field, index, keep(text, *m_out), *m_out);
+  word(key, keep(text, *m_out));
 }
 
 }  // namespace pitchboard::telemetry

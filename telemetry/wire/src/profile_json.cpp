@@ -15,9 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace profile_words;
 
-constexpr std::array<std::string_view, 17> fieldKeys{
-    "name",   "type",   "unit",   "category", "group", "meaning", "variable", "key", "scale",
-    "offset", "absent", "labels", "bits",     "at",    "as",      "length",   "mask"};
+constexpr std::array<std::string_view, 18> fieldKeys{
+    "name",   "type",   "unit",   "category", "group", "meaning", "variable", "key",  "scale",
+    "offset", "absent", "labels", "bits",     "at",    "as",      "length",   "mask", "optional"};
 
 template <class Enum, class Words>
 Enum chosen(const JsonObject& object, std::string_view key, const Words& words,
@@ -68,6 +68,7 @@ ProfileField fieldFrom(JsonReport& report, const JsonObject& object) {
   field.as = chosen(object, "as", wireTypes, "number of a binary message", WireType::None);
   field.length = object.integer("length", 0, 0, 1024);
   field.mask = static_cast<std::uint32_t>(object.number("mask", 0.0, {0.0, 4294967295.0}));
+  field.optional = object.boolean("optional", false);
   return field;
 }
 
@@ -159,6 +160,7 @@ Json fieldJson(const ProfileField& field) {
   if (field.as != WireType::None) json["as"] = wireTypes[static_cast<std::size_t>(field.as)];
   if (field.length != 0) json["length"] = field.length;
   if (field.mask != 0) json["mask"] = field.mask;
+  if (field.optional) json["optional"] = true;
   return json;
 }
 

@@ -93,8 +93,8 @@ class Walk {
   }
 
   void number(const std::string& path, double value) {
-    // A float that is not finite says that there is nothing.
-    if (std::isfinite(value)) m_sink->number(path, value);
+    // A float that is not a number says that there is nothing.
+    if (!std::isnan(value)) m_sink->number(path, value);
   }
 
   FieldSink* m_sink;

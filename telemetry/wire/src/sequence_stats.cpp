@@ -6,7 +6,10 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::uint64_t mostLate = 32, mostAhead = 1000, seenNumbers = 64;
+constexpr std::uint64_t mostLate = 32, seenNumbers = 64;
+// At 60 messages a second more than four hours; what is further ahead is no counter.
+constexpr std::uint64_t mostAhead = std::uint64_t{1} << 20;
+constexpr std::uint64_t mostAheadOfAnother = 1000;
 
 }  // namespace
 
@@ -15,9 +18,9 @@ std::uint64_t SequenceStats::modulus() const {
   return std::uint64_t{1} << bits;
 }
 
-SequenceStats::Step SequenceStats::add(std::int64_t number) {
+SequenceStats::Step SequenceStats::add(std::int64_t number, bool moved) {
   // A counter that runs over in a signed type goes on at its lowest value.
-  const Step step = stepTo(static_cast<std::uint64_t>(number) & 0xffff'ffffU);
+  const Step step = stepTo(static_cast<std::uint64_t>(number) & 0xffff'ffffU, moved);
   if (step == Step::Duplicate) {
     ++m.duplicates;
   } else {
@@ -26,7 +29,7 @@ SequenceStats::Step SequenceStats::add(std::int64_t number) {
   return step;
 }
 
-SequenceStats::Step SequenceStats::stepTo(std::uint64_t number) {
+SequenceStats::Step SequenceStats::stepTo(std::uint64_t number, bool moved) {
   if (m.bits > 0) number &= modulus() - 1;
   m.highest = std::max(m.highest, number);
   if (!m.newest) {
@@ -51,7 +54,10 @@ SequenceStats::Step SequenceStats::stepTo(std::uint64_t number) {
     return Step::Late;
   }
   m.newest = number;
-  if (ahead > (below ? std::min(mostAhead, all / 4) : mostAhead)) {
+  const std::uint64_t most = below   ? std::min(mostAheadOfAnother, all / 4)
+                             : moved ? mostAheadOfAnother
+                                     : mostAhead;
+  if (ahead > most) {
     m.seen = m.span = 1;
     ++m.restarts;
     return Step::Restart;

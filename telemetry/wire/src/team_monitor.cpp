@@ -137,6 +137,7 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   const Robot moved = robot;
   robot.sender = sender;
   robot.sequence = robot.previousSequence;
+  robot.moved = false;
   robot.previous.reset();
   Robot* other =
       newRobot(robot.number, time);  // within what is reserved: `robot` stays where it is
@@ -152,13 +153,17 @@ void TeamMonitor::giveBack(Robot& robot, const Sender& sender, WallTime time) {
   other->decoder = moved.decoder;
   other->values = moved.values;
   other->words = moved.words;
+  other->extras = moved.extras;
 }
 
 TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, WallTime time) {
   Robot *restarted = nullptr, *moved = nullptr;
   for (Robot& robot : m_robots) {
     if (robot.number != number) continue;
-    if (robot.sender == sender) return &robot;
+    if (robot.sender == sender) {
+      robot.moved = false;
+      return &robot;
+    }
     if (robot.previous == sender && since(time, robot.last) < m_options.timeout) {
       giveBack(robot, sender, time);
       return &robot;
@@ -175,6 +180,7 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int number, const Sender& sender, Wal
     same->previous = same->sender;
     same->previousSequence = same->sequence;
     same->sender = sender;
+    same->moved = true;
     return same;
   }
   Robot* made = newRobot(number, time);
@@ -240,7 +246,7 @@ TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
                    since(datagram.time, robot->lastHashTime) < m_options.duplicateWindow;
   bool late = false;
   if (const auto number = m_decoder->value(m_decoded, FieldMeaning::Sequence)) {
-    const auto step = robot->sequence.add(static_cast<std::int64_t>(*number));
+    const auto step = robot->sequence.add(static_cast<std::int64_t>(*number), robot->moved);
     duplicate = step == SequenceStats::Step::Duplicate;
     late = step == SequenceStats::Step::Late;
   }
@@ -301,6 +307,8 @@ void TeamMonitor::use(Robot& robot, const DatagramView& datagram) {
     // A field of a sane message has few characters; a hostile one keeps its memory bounded.
     robot.words[i].assign(m_decoded.words[i].substr(0, ErrorTally::sampleBytes));
   }
+  const auto keys = m_decoded.extraKeys.begin();
+  robot.extras.assign(keys, keys + static_cast<std::ptrdiff_t>(m_decoded.namedExtras));
 }
 
 RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
@@ -323,7 +331,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   }
   status.duplicates = robot.duplicates;
   status.errors = robot.errors;
-  status.errorCount = robot.errors.total();
+  status.errorCount = robot.errors.messages();
   for (std::size_t i = 0; i < processCount; ++i) {
     const Robot::Process& process = robot.processes[i];
     ProcessStatus& out = status.processes[i];
@@ -340,6 +348,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   status.decoder = robot.decoder;
   status.values = robot.values;
   status.words = robot.words;
+  status.extras = robot.extras;
   return status;
 }
 
@@ -370,6 +379,13 @@ std::optional<double> RobotStatus::value(FieldMeaning meaning) const {
   const auto index = decoder ? decoder->profile().indexOf(meaning) : std::nullopt;
   if (!index || *index >= values.size() || std::isnan(values[*index])) return std::nullopt;
   return values[*index];
+}
+
+std::string RobotStatus::name(std::size_t index) const {
+  const auto& fields = decoder->profile().fields;
+  if (index < fields.size()) return fields[index].name;
+  const std::size_t extra = index - fields.size();
+  return extra < extras.size() ? extras[extra] : TextDecoder::otherName(extra);
 }
 
 }  // namespace pitchboard::telemetry

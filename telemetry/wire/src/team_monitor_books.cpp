@@ -9,6 +9,8 @@
 
 #include <telemetry/wire/lenient_json.h>
 
+#include "profile_words.h"
+
 namespace pitchboard::telemetry {
 namespace {
 
@@ -129,6 +131,7 @@ struct MonitorBooks {
     for (std::size_t i = 0; i < textErrorCount; ++i) {
       errors.push_back(robot.errors.count(static_cast<TextError>(i)));
     }
+    json["errorMessages"] = robot.errors.messages();
     Json& processes = json["processes"] = Json::array();
     for (const Robot::Process& process : robot.processes) {
       processes.push_back(Json{{"p", process.filter.probability()},
@@ -138,6 +141,7 @@ struct MonitorBooks {
     // NaN becomes null.
     json["values"] = robot.values;
     json["words"] = robot.words;
+    if (!robot.extras.empty()) json["extras"] = robot.extras;
     // It may have said nothing since the profile was changed.
     if (robot.decoder && !(robot.decoder->profile() == usual.of(robot.number))) {
       json["profile"] = profileText(robot.decoder->profile());
@@ -166,11 +170,14 @@ struct MonitorBooks {
     });
     robot.sequence = sequenceFrom(member(json, "sequence"));
     robot.previousSequence = sequenceFrom(member(json, "previousSequence"));
+    std::uint64_t mistakes = 0;  // what 0.8 counted
     each(json, "errors", textErrorCount, [&](std::size_t i, const Json& count) {
-      if (count.is_number_unsigned()) {
-        robot.errors.add(static_cast<TextError>(i), count.get<std::uint64_t>());
-      }
+      if (!count.is_number_unsigned()) return;
+      robot.errors.add(static_cast<TextError>(i), count.get<std::uint64_t>());
+      mistakes += count.get<std::uint64_t>();
     });
+    robot.errors.addMessages(
+        member(json, "errorMessages") ? whole<std::uint64_t>(json, "errorMessages") : mistakes);
     each(json, "processes", processCount, [&](std::size_t i, const Json& process) {
       if (!process.is_object()) return;
       robot.processes[i] = {ProcessFilter(number(process, "p").value_or(0.5)),
@@ -184,6 +191,11 @@ struct MonitorBooks {
       robot.words.push_back(word.is_string()
                                 ? word.get<std::string>().substr(0, ErrorTally::sampleBytes)
                                 : std::string());
+    });
+    each(json, "extras", DecodedText::maxExtras, [&](std::size_t, const Json& key) {
+      robot.extras.push_back(key.is_string()
+                                 ? key.get<std::string>().substr(0, profile_words::maxNameBytes)
+                                 : std::string());
     });
     robot.decoder = usual.decoderOf(robot.number);
     if (const std::string text = lenient::text(json, "profile"); !text.empty()) {

@@ -14,6 +14,7 @@ struct TeamMonitor::Robot {
   int slot = 0;
   Sender sender;
   std::optional<Sender> previous;  ///< the one before, when it sends from another one
+  bool moved = false;              ///< its last message was the first one of this sender
   WallTime last{};
   std::uint64_t messages = 0, bytes = 0, recoveries = 0, duplicates = 0;
   ArrivalStats arrivals;
@@ -33,6 +34,7 @@ struct TeamMonitor::Robot {
   std::shared_ptr<const TextDecoder> decoder;
   std::vector<double> values;
   std::vector<std::string> words;
+  std::vector<std::string> extras;
 };
 
 struct TeamMonitor::SenderRecord {

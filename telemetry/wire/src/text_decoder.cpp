@@ -78,7 +78,7 @@ void TextDecoder::decode(std::string_view datagram, DecodedText& out) const {
   out.team.reset();
   out.errors = {};
   out.badField = 0;
-  out.count = 0;
+  out.count = out.namedExtras = out.dropped = 0;
   if (datagram.size() > maxBytes) return out.errors.add(TextError::TooLong);
   const Profile& sent = m_plan->sent;
   if (isTextFormat(sent.format)) {
@@ -162,7 +162,7 @@ void TextDecoder::decodeFields(std::string_view datagram, DecodedText& out) cons
     if (!datagram.ends_with(sent.end)) return out.errors.add(TextError::MissingEnd);
     datagram.remove_suffix(sent.end.size());
   }
-  FieldSink sink(m_plan->keys, out);
+  FieldSink sink(m_plan->keys, sent.format, out);
   const auto isGood = [&] {
     switch (sent.format) {
       case MessageFormat::KeyValue:
@@ -219,10 +219,15 @@ void TextDecoder::publish(DecodedText& out) const {
   }
 }
 
-std::string TextDecoder::name(std::size_t index) const {
+std::string TextDecoder::name(const DecodedText& decoded, std::size_t index) const {
   const auto& fields = profile().fields;
   if (index < fields.size()) return fields[index].name;
-  return "OTHER_" + std::to_string(index - fields.size() + 1);
+  const std::size_t extra = index - fields.size();
+  return extra < decoded.namedExtras ? std::string(decoded.extraKeys[extra]) : otherName(extra);
+}
+
+std::string TextDecoder::otherName(std::size_t extra) {
+  return "OTHER_" + std::to_string(extra + 1);
 }
 
 std::optional<double> TextDecoder::value(const DecodedText& decoded, FieldMeaning meaning) const {

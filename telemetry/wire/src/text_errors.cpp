@@ -15,7 +15,7 @@ struct Text {
 constexpr std::array<Text, textErrorCount> texts{{
     {"empty", "empty message"},
     {"too-long", "longer than 64 KiB"},
-    {"truncated", "cut off by the network"},
+    {"truncated", "cut off before its end"},
     {"binary", "not text"},
     {"missing-fields", "too few fields"},
     {"missing-end", "no end word"},
@@ -41,6 +41,7 @@ std::string_view errorWords(TextError error) {
 
 void ErrorTally::add(TextErrors errors, std::string_view datagram) {
   if (errors.empty()) return;
+  ++m_messages;
   for (std::size_t i = 0; i < textErrorCount; ++i) {
     if (!errors.has(static_cast<TextError>(i))) continue;
     Kind& kind = m_kinds[i];
@@ -50,12 +51,6 @@ void ErrorTally::add(TextErrors errors, std::string_view datagram) {
     kind.length = static_cast<std::uint16_t>(length);
     kind.cut = datagram.size() > sampleBytes;
   }
-}
-
-std::uint64_t ErrorTally::total() const {
-  std::uint64_t sum = 0;
-  for (const Kind& kind : m_kinds) sum += kind.count;
-  return sum;
 }
 
 std::string ErrorTally::sample(TextError error) const {

@@ -61,7 +61,7 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
   for (const telemetry::RobotStatus& robot : details.team.robots) lost += robot.lost;
   text.network = QStringLiteral("UDP %1/s, %2 lost, %3 bad")
                      .arg(countText(static_cast<qulonglong>(std::llround(m_rate))), countText(lost),
-                          countText(details.team.errors.total() + details.unknownReferee));
+                          countText(details.team.errors.messages() + details.unknownReferee));
   text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee heard")
                                                      : QStringLiteral("Referee: version %1, %2/s")
                                                            .arg(frame->referee->version)

@@ -22,7 +22,7 @@ QString valuesOf(const TextDecoder& decoder, const DecodedText& decoded) {
   const auto& fields = decoder.profile().fields;
   for (std::size_t i = 0; i < decoded.count && parts.size() < qsizetype{mostFields}; ++i) {
     if (i < fields.size() && fields[i].meaning == telemetry::FieldMeaning::Robot) continue;
-    const QString name = QString::fromStdString(decoder.name(i));
+    const QString name = QString::fromStdString(decoder.name(decoded, i));
     if (decoded.has(i)) {
       const QString unit = i < fields.size() ? QString::fromStdString(fields[i].unit) : QString();
       parts << QStringLiteral("%1 %2%3").arg(name, QString::number(decoded.values[i], 'g', 6),

@@ -90,7 +90,8 @@ QString ageText(double seconds) {
 }
 
 QString wordsOf(const ColumnInfo& column, double value) {
-  if (column.kind != ColumnKind::Enumeration || !std::isfinite(value)) return {};
+  const bool hasWords = column.kind == ColumnKind::Enumeration || column.kind == ColumnKind::Text;
+  if (!hasWords || !std::isfinite(value)) return {};
   const auto found = column.labels.find(static_cast<std::int32_t>(value));
   return found != column.labels.end() ? QString::fromStdString(found->second) : QString();
 }

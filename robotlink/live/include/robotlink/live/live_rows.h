@@ -5,9 +5,10 @@
 // that was used, with its own time and the profile's fields as columns, and nothing else; "Robot 3
 // link" says about once a second how well it is heard (AGE s, RATE 1/s, JITTER ms, LOSS share,
 // LOST, DUPLICATES, LATE, ERRORS counts, VOLTS V, CHARGE %), until it has timed out. A value that
-// says "not seen" (ProfileField::absent) is a hole. A longer message or an edited profile adds
-// columns behind the others. Times are seconds since `zero`. What is kept is bounded by the limits
-// below.
+// says "not seen" (ProfileField::absent) is a hole. A text is a column of codes whose labels are
+// the words that came (ColumnKind::Text). Keys that the profile does not name, a longer message and
+// an edited profile add columns behind the others. Times are seconds since `zero`. What is kept is
+// bounded by the limits below.
 
 #include <cstdint>
 #include <functional>
@@ -40,7 +41,9 @@ struct LiveRowsOptions {
 class LiveRows {
  public:
   static constexpr std::size_t maxColumns = 200;  ///< of a robot, over all its profiles
-  static constexpr std::size_t maxExtras = 32;    ///< fields of a message beyond its profile
+  /// Values of a message beyond its profile.
+  static constexpr std::size_t maxExtras = DecodedText::maxExtras;
+  static constexpr std::size_t maxWords = 64;  ///< of a text; the rest is "other"
 
   /// What the limits kept out since the beginning.
   struct Refused {
@@ -63,7 +66,8 @@ class LiveRows {
  private:
   struct Robot;
   Robot* robotOf(int number, int slot, const Sender& sender);
-  void describe(Robot& robot, const TextDecoder& decoder, std::size_t values);
+  static std::size_t placeOf(Robot& robot, ColumnInfo column, bool& changed);
+  static bool describe(Robot& robot, const Profile& profile);
   void addGroups(Robot& robot);
   double timeOf(WallTime time) const { return secondsOf(time - m_options.zero); }
 

@@ -22,8 +22,9 @@ enum class ColumnType : std::uint8_t {
 /// How a value reads to a person.
 enum class ColumnKind : std::uint8_t {
   Number,
-  Flag,        ///< 0 or 1
-  Enumeration  ///< `labels` has words for codes
+  Flag,         ///< 0 or 1
+  Enumeration,  ///< `labels` has words for codes
+  Text          ///< words: `labels` has each one that came; exported as the word
 };
 
 struct ColumnInfo {

@@ -44,6 +44,9 @@ struct ExportSelection {
   bool messages = true;                ///< events, log, datagrams too (JsonLines and Mcap)
   bool clock = false;                  ///< CSV: the time of day as well, UTC, behind the time
   Resampling resampling{};             ///< of CsvEven
+  /// May change the text of a message, or leave it out by saying false; empty: all stay as they
+  /// are.
+  std::function<bool(SessionStream, std::string& json)> change{};
   /// Mcap: JSON messages that stand before all others, at the beginning of the range.
   std::vector<std::pair<SessionStream, std::string>> opening{};
 };

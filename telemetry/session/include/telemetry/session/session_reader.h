@@ -72,6 +72,8 @@ class SessionReader {
   bool check(const std::function<bool(double)>& progress = {}) const;
   /// A part was met that cannot be read.
   bool isDamaged() const;
+  /// The parts of the file that cannot be read, as far as they were met.
+  const std::vector<McapLoss>& losses() const;
 
   /// Index = GroupId.
   std::span<const SessionGroup> groups() const;
@@ -92,7 +94,8 @@ class SessionReader {
   void messages(
       std::span<const SessionStream> streams, TimeRange range,
       const std::function<bool(SessionStream, double time, std::string_view json)>& visit) const;
-  /// Long sessions hold a coarse picture of their rows (since 0.3; not files that broke off).
+  /// Long sessions hold a coarse picture of their rows. In a recording that broke off its end is
+  /// missing: summary() makes it from the rows, which takes as long as reading them, once.
   bool hasSummaries() const;
   /// Of one group; empty when there is none, or `goOn` says false.
   GroupSummary summary(GroupId group, const std::function<bool()>& goOn = {}) const;
@@ -102,6 +105,10 @@ class SessionReader {
             const std::function<bool(double)>& progress = {}) const;
   /// The same with rows only.
   bool walkRows(TimeRange range, const std::function<bool(const SessionItem&)>& visit,
+                const std::function<bool(double)>& progress = {}) const;
+  /// Every message in the closed range as it stands in the file, also of channels that nobody here
+  /// knows. A range from −1e18 to 1e18 holds those whose times cannot be right, too.
+  bool walkFile(TimeRange range, const std::function<bool(const McapMessage&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
   /// All events; those that are not of the form of an event are left out.
   std::vector<SessionEvent> events() const;

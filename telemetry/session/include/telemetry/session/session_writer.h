@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include <base/result.h>
+#include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/series/row_sink.h>
 #include <telemetry/session/session_types.h>
 
@@ -57,6 +58,10 @@ class SessionWriter : public RowSink {
   static Result<std::unique_ptr<SessionWriter>> create(const std::string& path,
                                                        const SessionInfo& info,
                                                        const SessionWriterOptions& options = {});
+  /// Goes on in a file whose head was written already (session_copy.h). `path` is only told.
+  static std::unique_ptr<SessionWriter> on(McapWriter file, std::string path,
+                                           const SessionInfo& info,
+                                           const SessionWriterOptions& options);
   ~SessionWriter() override;  ///< as finish()
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
@@ -73,6 +78,14 @@ class SessionWriter : public RowSink {
   void appendJson(SessionStream stream, double time, std::string_view json);
   /// A file beside the rows: the scenario, the catalog, the profile.
   void attach(std::string_view name, std::string_view mediaType, std::string_view data);
+
+  /// What comes from another file, with its own times: a schema, a channel that names it, and
+  /// messages of it, byte for byte. With `rows`, the channel holds rows of that group, which get a
+  /// summary. Both give the number that it has in this file; 0: there is no more room.
+  std::uint16_t addSchema(const McapSchema& schema);
+  std::uint16_t addChannel(const McapChannel& channel, const GroupInfo* rows = nullptr);
+  /// `row`: what stands in the message, for the summary.
+  void append(const McapMessage& message, const RowView* row = nullptr);
 
   SessionStatus status() const;
   const std::string& path() const;

@@ -31,10 +31,10 @@ struct LinkHealth {
   Sender sender;
   bool conflict = false;  ///< another sender uses the same number at the moment
   bool timedOut = false;
-  Duration age{};              ///< since the last usable message
-  std::uint64_t messages = 0;  ///< usable ones; 0 in a recording, which does not count them
-  std::uint64_t bytes = 0;     ///< of all, payload only
-  std::uint64_t errorCount = 0;
+  Duration age{};                ///< since the last usable message
+  std::uint64_t messages = 0;    ///< usable ones; 0 in a recording, which does not count them
+  std::uint64_t bytes = 0;       ///< of all, payload only
+  std::uint64_t errorCount = 0;  ///< messages with errors
   std::uint64_t recoveries = 0;  ///< times it came back
   double rate = 0.0;             ///< messages per second
   double jitter = 0.0;           ///< s

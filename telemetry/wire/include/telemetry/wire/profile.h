@@ -109,6 +109,7 @@ struct ProfileField {
   WireType as = WireType::None;
   int length = 0;          ///< bytes of a Text
   std::uint32_t mask = 0;  ///< bits that count; 0: all
+  bool optional = false;   ///< a message may end before it; without any, a shorter one is cut off
   bool operator==(const ProfileField&) const = default;
   const std::string& sentName() const { return key.empty() ? name : key; }
 };

@@ -31,10 +31,11 @@ class SequenceStats {
   explicit SequenceStats(const Counts& counts) : m(counts) {}
   const Counts& counts() const { return m; }
 
-  /// The number of the next message. Late: older than one that came before it. Restart: neither
-  /// late by at most 32, nor ahead by at most 1000 (over the end of the counter: by a quarter of
-  /// its numbers, if that is less).
-  Step add(std::int64_t number);
+  /// The number of the next message. Late: older than one that came before it, by at most 32. A
+  /// gap is a loss, however long, up to 2^20 messages; from a sender that moved (another address or
+  /// port), and over the end of the counter, where a program that starts again looks the same, up
+  /// to 1000 (and a quarter of the counter's numbers). Everything else is a Restart.
+  Step add(std::int64_t number, bool moved = false);
 
   std::uint64_t received() const { return m.received; }  ///< without duplicates
   std::uint64_t lost() const { return m.lost; }
@@ -46,7 +47,7 @@ class SequenceStats {
 
  private:
   std::uint64_t modulus() const;
-  Step stepTo(std::uint64_t number);
+  Step stepTo(std::uint64_t number, bool moved);
 
   Counts m;
 };

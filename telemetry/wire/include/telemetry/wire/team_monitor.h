@@ -58,9 +58,12 @@ struct RobotStatus : LinkHealth {
   std::shared_ptr<const TextDecoder> decoder;  ///< names and types of the values
   std::vector<double> values;                  ///< NaN where missing; place as in the profile
   std::vector<std::string> words;              ///< as sent
+  std::vector<std::string> extras;             ///< keys of the values behind the profile's
 
   /// The last value with this meaning, in the message's unit (cm, degrees, ...).
   std::optional<double> value(FieldMeaning meaning) const;
+  /// TextDecoder::name() of one of the values.
+  std::string name(std::size_t index) const;
 };
 
 /// One address that sends, whether or not its messages can be used.

@@ -22,18 +22,23 @@
 namespace pitchboard::telemetry {
 
 /// One decoded datagram. Memory that is used again for the next one: what lies beyond `count` is
-/// left over. `words` point into the datagram, or into `made`: a copy of this has dangling ones.
+/// left over. `words` and `extraKeys` point into the datagram, or into `made`: a copy of this has
+/// dangling ones.
 struct DecodedText {
   static constexpr std::size_t maxValues = 128;
-  int robot = 0;              ///< 0 when even that could not be read
+  static constexpr std::size_t maxExtras = 32;  ///< keys that the profile does not name
+  int robot = 0;                                ///< 0 when even that could not be read
   std::optional<int> team{};  ///< the referee's number of its team, where the message says it
   TextErrors errors;
   std::size_t badField =
       0;  ///< place of the first field with an error; errors say whether there is one
-  std::size_t count = 0;                          ///< fields and extras that were read
-  std::array<double, maxValues> values;           ///< NaN where the field could not be used
-  std::array<std::string_view, maxValues> words;  ///< the same fields as sent
-  std::string made;                               ///< words of what was not sent as text
+  std::size_t count = 0;                              ///< fields and extras that were read
+  std::array<double, maxValues> values;               ///< NaN where the field could not be used
+  std::array<std::string_view, maxValues> words;      ///< the same fields as sent
+  std::array<std::string_view, maxExtras> extraKeys;  ///< of the extras, in order
+  std::size_t namedExtras = 0;  ///< how many of them; extras of a message of words have no key
+  std::size_t dropped = 0;      ///< values beyond maxExtras
+  std::string made;             ///< words and keys of what was not sent as text
 
   /// The message may be used: a bad field is only missing.
   bool accepted() const { return !errors.refused(); }
@@ -72,8 +77,9 @@ class TextDecoder {
   /// The same, and the robot's number where the message has none (Profile::robotFrom).
   void decode(const DatagramView& datagram, DecodedText& out) const;
 
-  /// Name of a value: the profile's, then OTHER_1, OTHER_2, ...
-  std::string name(std::size_t index) const;
+  /// Name of a value: the profile's, then the keys that it does not name, or OTHER_1, OTHER_2, ...
+  std::string name(const DecodedText& decoded, std::size_t index) const;
+  static std::string otherName(std::size_t extra);  ///< "OTHER_1" of the first one
   /// The value of the field with this meaning, if the message has a usable one.
   std::optional<double> value(const DecodedText& decoded, FieldMeaning meaning) const;
 

@@ -15,7 +15,7 @@ namespace pitchboard::telemetry {
 enum class TextError : std::uint8_t {
   Empty,          ///< no text at all
   TooLong,        ///< more than 64 KiB
-  Truncated,      ///< the receiver says that the end is missing
+  Truncated,      ///< the end is missing: the receiver says so, or fields of a binary message are
   Binary,         ///< bytes that are not printable ASCII
   MissingFields,  ///< fewer fields than the profile has
   MissingEnd,     ///< no OUT
@@ -60,8 +60,10 @@ class ErrorTally {
   void add(TextErrors errors, std::string_view datagram);
   /// Errors that were counted before; there is no sample of them.
   void add(TextError error, std::uint64_t count) { m_kinds[index(error)].count += count; }
+  void addMessages(std::uint64_t count) { m_messages += count; }
   std::uint64_t count(TextError error) const { return m_kinds[index(error)].count; }
-  std::uint64_t total() const;
+  /// Datagrams with at least one error.
+  std::uint64_t messages() const { return m_messages; }
   /// Printable: other bytes as \xNN, cut with "..." where the text is longer.
   std::string sample(TextError error) const;
 
@@ -74,6 +76,7 @@ class ErrorTally {
   };
   static std::size_t index(TextError error) { return static_cast<std::size_t>(error); }
   std::array<Kind, textErrorCount> m_kinds{};
+  std::uint64_t m_messages = 0;
 };
 
 /// Bytes of the UTF-8 character that a text begins with; 0 when it does not begin with one.
