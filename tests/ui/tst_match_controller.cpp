@@ -241,9 +241,10 @@ class TestMatchController : public QObject {
       c.edits()->setRuntime(RobotId{1}, {});
       c.edits()->previewBall({2, 2});
       c.edits()->previewRobots({{RobotId{1}, {}, {{1, 2}, 0}}});
-      c.edits()->pushTogether(QStringLiteral("Two"), [&] { c.edits()->moveBall({}, {1, 1}); });
+      c.edits()->performTogether(QStringLiteral("Two"), [&] { c.edits()->moveBall({}, {1, 1}); });
       c.edits()->resetScore();
       c.edits()->setClockRunning(false);
+      c.edits()->setTeam({RobotId{1}}, TeamColor::Black);
     };
     c.edits()->setLocked(true);
     change();
@@ -259,7 +260,7 @@ class TestMatchController : public QObject {
     change();
     QVERIFY(c.stateHash() != hash);
     QCOMPARE(ordered->load(), 2);
-    QCOMPARE(c.edits()->undoStack()->count(), known + 3);
+    QCOMPARE(c.edits()->undoStack()->count(), known + 4);
   }
 
   void aNumberThatIsTakenIsRefused() {

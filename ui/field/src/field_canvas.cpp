@@ -259,7 +259,7 @@ bool FieldCanvas::event(QEvent* event) {
   // The field's own keys go before the window's shortcuts while it has the focus.
   if (event->type() == QEvent::ShortcutOverride) {
     const auto* key = static_cast<QKeyEvent*>(event);
-    if (key->key() == Qt::Key_Space || findFieldKey(key->key(), key->modifiers())) {
+    if (key->key() == Qt::Key_Space || fieldOrder(key->key(), key->modifiers())) {
       event->accept();
       return true;
     }

@@ -4,17 +4,39 @@
 // The field's keys as data: those of the published simulator (SYSTEM.md section 9) and our own.
 // One table serves the key handler and the overlay that shows them.
 
-#include <QPointF>
-#include <QString>
 #include <Qt>
-#include <functional>
+#include <optional>
 #include <span>
-
-#include <ui/field/field_layers.h>
 
 namespace pitchboard::ui {
 
-class FieldKeyTarget;
+/// What a key does. Those from AddRobot on need a match that can be changed.
+enum class FieldDeed {
+  Select,  ///< `value`: RobotId
+  SelectAll,
+  Escape,
+  Nudge,  ///< `value`: 0 left, 1 up, 2 right, 3 down; `other`: cm
+  Layer,  ///< `value`: FieldLayer
+  Fit,
+  Help,
+  AddRobot,         ///< at the cursor; `value`: index into teamColors
+  AddRobotByShift,  ///< left Shift yellow, right Shift orange
+  PlaceBall,
+  MoveHere,  ///< the selected robots to the cursor
+  Remove,
+  Act,     ///< `value`: action of the selected robots, `other`: DECISION_ACTION_B, -1: unchanged
+  Search,  ///< `value`: on or off
+  LoadMatch,
+  Reset,
+  Clear,
+  Pause
+};
+
+struct FieldOrder {
+  FieldDeed deed;
+  int value = 0;
+  int other = -1;
+};
 
 struct FieldKey {
   int key = 0;                      ///< Qt::Key
@@ -22,35 +44,12 @@ struct FieldKey {
   const char* category;             ///< under which the overlay lists it
   const char* shown;                ///< how the overlay writes the key; empty = not listed
   const char* meaning;
-  void (*act)(FieldKeyTarget& target);
+  FieldOrder order;
+  int count = 1;  ///< so many keys in a row, each with the next `value`
 };
 
 std::span<const FieldKey> fieldKeys();
-/// The entry for a key press, or nullptr.
-const FieldKey* findFieldKey(int key, Qt::KeyboardModifiers modifiers);
-
-/// What keys do; the field view carries it out.
-class FieldKeyTarget {
- public:
-  virtual ~FieldKeyTarget() = default;
-  virtual void addRobotAtCursor(int color) = 0;  ///< index into teamColors
-  virtual void addRobotByShift() = 0;            ///< left Shift yellow, right Shift orange
-  virtual void placeBallAtCursor() = 0;
-  virtual void selectRobot(int number) = 0;  ///< RobotId
-  virtual void selectAll() = 0;
-  virtual void moveSelectedToCursor() = 0;
-  virtual void removeSelected() = 0;
-  virtual void commandSelected(int action, int actionB = -1) = 0;
-  virtual void searchSelected(bool on) = 0;
-  virtual void nudgeSelected(int right, int up, bool coarse) = 0;
-  virtual void toggleLayer(FieldLayer layer) = 0;
-  virtual void escape() = 0;
-  virtual void fit() = 0;
-  virtual void toggleHelp() = 0;
-  virtual void togglePause() = 0;
-  virtual void loadMatch() = 0;
-  virtual void reset() = 0;
-  virtual void clear() = 0;
-};
+/// What a key press asks for; nothing when it is none of the field's keys.
+std::optional<FieldOrder> fieldOrder(int key, Qt::KeyboardModifiers modifiers);
 
 }  // namespace pitchboard::ui

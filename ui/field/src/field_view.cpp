@@ -30,16 +30,13 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double nudge_m = 0.01;
-constexpr double coarseNudge_m = 0.10;
-
 // X11 names of the right Shift key: its scan code on PC keyboards and its keysym.
 constexpr quint32 rightShiftScanCode = 62;
 constexpr quint32 rightShiftKeysym = 0xffe2;
 
 }  // namespace
 
-struct FieldView::Private : FieldKeyTarget {
+struct FieldView::Private {
   Private(FieldView* view, MatchController* matchController)
       : q(view),
         controller(matchController),
@@ -63,66 +60,12 @@ struct FieldView::Private : FieldKeyTarget {
   }
   void setReadOnly(bool readOnly);
   void addAtCursor(TeamColor color);
-
-  // FieldKeyTarget
-  void addRobotAtCursor(int color) override {
-    addAtCursor(teamColors[static_cast<std::size_t>(color)].color);
-  }
-  void addRobotByShift() override {
-    addAtCursor(rightShift ? TeamColor::Orange : TeamColor::Yellow);
-  }
-  void placeBallAtCursor() override {
-    if (editor()) controller->edits()->moveBall(scene->ball(), fromScene(canvas->cursor()));
-  }
-  void selectRobot(int number) override { scene->select({RobotId{number}}); }
-  void selectAll() override { scene->selectAll(); }
-  void moveSelectedToCursor() override;
-  void removeSelected() override {
-    if (editor()) controller->edits()->removeRobots(scene->selection());
-  }
-  void commandSelected(int action, int actionB) override {
-    if (scene->selection().empty() || !editor()) return;
-    for (const RobotId id : scene->selection()) {
-      controller->edits()->commandAction(id, action,
-                                         actionB < 0 ? std::nullopt : std::optional(actionB));
-    }
-  }
-  void searchSelected(bool on) override {
-    if (scene->selection().empty() || !editor()) return;
-    for (const RobotId id : scene->selection()) controller->edits()->commandSearch(id, on);
-  }
-  void nudgeSelected(int right, int up, bool coarse) override {
-    const double step = (coarse ? coarseNudge_m : nudge_m) * (scene->style().flipped ? -1 : 1);
-    pointer->nudge({right * step, up * step});
-  }
-  void toggleLayer(FieldLayer layer) override {
-    tools->layers()[static_cast<std::size_t>(layer)]->toggle();
-  }
-  void escape() override {
-    if (pointer->cancel()) return;
-    if (pointer->tool() != FieldTool::Select) {
-      pointer->setTool(FieldTool::Select);
-    } else {
-      scene->select({});
-    }
-  }
+  void moveSelectedToCursor();
+  void carryOut(const FieldOrder& order);
+  void escape();
   bool hasEscape() const {
     return pointer->isDragging() || pointer->tool() != FieldTool::Select ||
            !scene->selection().empty();
-  }
-  void fit() override { canvas->fit(); }
-  void toggleHelp() override { help->toggle(); }
-  void togglePause() override {
-    if (editor() && controller->frame()) controller->setPaused(!controller->frame()->paused);
-  }
-  void loadMatch() override {
-    if (editor()) emit q->loadMatchRequested();
-  }
-  void reset() override {
-    if (editor()) emit q->resetRequested();
-  }
-  void clear() override {
-    if (editor()) emit q->clearRequested();
   }
 
   FieldView* q;
@@ -144,17 +87,80 @@ void FieldView::Private::setReadOnly(bool readOnly) {
 }
 
 void FieldView::Private::addAtCursor(TeamColor color) {
-  if (!editor()) return;
   controller->edits()->addRobot(
       color, {fromScene(canvas->cursor()), info(color).facesLeft ? std::numbers::pi : 0.0});
 }
 
 void FieldView::Private::moveSelectedToCursor() {
-  if (scene->selection().empty() || !editor()) return;
   const auto first = scene->pose(scene->selection().front());
   const Point cursor = fromScene(canvas->cursor());
   // Several robots keep their formation round the first one.
   pointer->nudge({cursor.x - first->position.x, cursor.y - first->position.y});
+}
+
+void FieldView::Private::escape() {
+  if (pointer->cancel()) return;
+  if (pointer->tool() != FieldTool::Select)
+    pointer->setTool(FieldTool::Select);
+  else
+    scene->select({});
+}
+
+void FieldView::Private::carryOut(const FieldOrder& order) {
+  const std::vector<RobotId> selected = scene->selection();
+  using enum FieldDeed;
+  const bool forSelected = order.deed == MoveHere || order.deed == Act || order.deed == Search;
+  if (forSelected && selected.empty()) return;
+  if (order.deed >= AddRobot && !editor()) return;
+  MatchEdits* edits = controller ? controller->edits() : nullptr;
+  switch (order.deed) {
+    case Select:
+      return scene->select({RobotId{order.value}});
+    case SelectAll:
+      return scene->selectAll();
+    case Escape:
+      return escape();
+    case Nudge: {
+      constexpr Point directions[] = {{-1, 0}, {0, 1}, {1, 0}, {0, -1}};
+      const Point& direction = directions[order.value];
+      const double step = order.other / 100.0 * (scene->style().flipped ? -1 : 1);
+      return pointer->nudge({direction.x * step, direction.y * step});
+    }
+    case Layer:
+      return tools->layers()[static_cast<std::size_t>(order.value)]->toggle();
+    case Fit:
+      return canvas->fit();
+    case Help:
+      return help->toggle();
+    case AddRobot:
+      return addAtCursor(teamColors[static_cast<std::size_t>(order.value)].color);
+    case AddRobotByShift:
+      return addAtCursor(rightShift ? TeamColor::Orange : TeamColor::Yellow);
+    case PlaceBall:
+      return edits->moveBall(scene->ball(), fromScene(canvas->cursor()));
+    case MoveHere:
+      return moveSelectedToCursor();
+    case Remove:
+      return edits->removeRobots(selected);
+    case Act:
+      for (const RobotId id : selected) {
+        edits->commandAction(id, order.value,
+                             order.other < 0 ? std::nullopt : std::optional(order.other));
+      }
+      return;
+    case Search:
+      for (const RobotId id : selected) edits->commandSearch(id, order.value != 0);
+      return;
+    case LoadMatch:
+      return emit q->loadMatchRequested();
+    case Reset:
+      return emit q->resetRequested();
+    case Clear:
+      return emit q->clearRequested();
+    case Pause:
+      if (controller->frame()) controller->setPaused(!controller->frame()->paused);
+      return;
+  }
 }
 
 void FieldView::Private::openPoseEditor(RobotId id) {
@@ -217,11 +223,11 @@ bool FieldView::Private::handleKey(QKeyEvent* event) {
                  event->nativeVirtualKey() == rightShiftKeysym;
     return false;
   }
-  const FieldKey* key = findFieldKey(event->key(), event->modifiers());
-  if (!key) return false;
+  const auto order = fieldOrder(event->key(), event->modifiers());
+  if (!order) return false;
   // What is around the field may have a use for it.
-  if (key->key == Qt::Key_Escape && !hasEscape()) return false;
-  key->act(*this);
+  if (order->deed == FieldDeed::Escape && !hasEscape()) return false;
+  carryOut(*order);
   return true;
 }
 

@@ -51,7 +51,7 @@ class NoiseDock : public QScrollArea {
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
     connect(m_controller, &MatchController::frameReceived, this,
             [this](const FramePtr& frame) { follow(*frame); });
-    connect(m_controller->edits(), &MatchEdits::modelsChanged, this, [this] { showRobots(); });
+    connect(m_controller->edits(), &MatchEdits::robotsChanged, this, [this] { showRobots(); });
     connect(m_controller->edits(), &MatchEdits::physicsChanged, this, [this] { showPhysics(); });
     connect(m_controller->edits(), &MatchEdits::lockedChanged, form,
             [form](bool locked) { form->setEnabled(!locked); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "referee_orders.h"
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,9 +10,10 @@
 #include <ui/sources/match_edits.h>
 
 namespace pitchboard::ui {
+namespace {
 
 /// What the decision changed; filled and read on the match's thread.
-struct RefereeCommand::Before {
+struct BeforeDecision {
   bool decided = false;
   std::optional<sim::RefereeRules> rules;
   std::optional<sim::GameState> game;
@@ -52,58 +54,53 @@ struct RefereeCommand::Before {
   }
 };
 
-RefereeCommand::RefereeCommand(MatchEdits* edits, const QString& text, const QString& whatFailed,
-                               Decide decide)
-    : QUndoCommand(text),
-      m_edits(edits),
-      m_whatFailed(whatFailed),
-      m_decide(std::move(decide)),
-      m_before(std::make_shared<Before>()) {}
-
-void RefereeCommand::redo() {
-  m_edits->order(MatchOrder{
-      m_whatFailed,
-      [decide = m_decide, before = m_before](link::SimulatedMatch& match) -> Result<void> {
-        const sim::Simulation& simulation = match.simulation();
-        const sim::Snapshot then = simulation.snapshot();
-        before->take(simulation.state());
-        if (auto decided = decide(match); !decided) return decided;
-        before->decided = true;
-        const sim::Snapshot now = simulation.snapshot();
-        if (now.ball != then.ball) {
-          before->ball = then.ball;
-          before->ballVelocity = then.ballVelocity;
-        }
-        for (std::size_t i = 0; i < now.robots.size(); ++i) {
-          if (now.robots[i].pose == then.robots[i].pose) continue;
-          before->moved.emplace_back(then.robots[i].identity.id, then.robots[i].pose);
-        }
-        return {};
-      }});
+/// `whatFailed` stands before the reason when `decide` fails.
+template <class Decide>
+void performDecision(MatchEdits* edits, const QString& text, const QString& whatFailed,
+                     Decide decide) {
+  const auto before = std::make_shared<BeforeDecision>();
+  const MatchOrder redo{whatFailed, [decide, before](link::SimulatedMatch& match) -> Result<void> {
+                          const sim::Simulation& simulation = match.simulation();
+                          const sim::Snapshot then = simulation.snapshot();
+                          before->take(simulation.state());
+                          if (auto decided = decide(match); !decided) return decided;
+                          before->decided = true;
+                          const sim::Snapshot now = simulation.snapshot();
+                          if (now.ball != then.ball) {
+                            before->ball = then.ball;
+                            before->ballVelocity = then.ballVelocity;
+                          }
+                          for (std::size_t i = 0; i < now.robots.size(); ++i) {
+                            if (now.robots[i].pose == then.robots[i].pose) continue;
+                            before->moved.emplace_back(then.robots[i].identity.id,
+                                                       then.robots[i].pose);
+                          }
+                          return {};
+                        }};
+  const MatchOrder undo{QStringLiteral("The referee's decision was not undone"),
+                        [before](link::SimulatedMatch& match) -> Result<void> {
+                          if (!before->decided) return {};  // it had been refused
+                          return before->putBack(match.simulation());
+                        }};
+  edits->perform(
+      {text, [edits, redo] { edits->order(redo); }, [edits, undo] { edits->order(undo); }});
 }
 
-void RefereeCommand::undo() {
-  m_edits->order(MatchOrder{QStringLiteral("The referee's decision was not undone"),
-                            [before = m_before](link::SimulatedMatch& match) -> Result<void> {
-                              if (!before->decided) return {};  // it had been refused
-                              return before->putBack(match.simulation());
-                            }});
-}
+}  // namespace
 
 void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& words) {
-  edits->push(std::make_unique<RefereeCommand>(
-      edits, words, QStringLiteral("The referee's call was not carried out"),
-      [call](link::SimulatedMatch& match) { return match.call(call); }));
+  performDecision(edits, words, QStringLiteral("The referee's call was not carried out"),
+                  [call](link::SimulatedMatch& match) { return match.call(call); });
 }
 
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {
-  edits->push(std::make_unique<RefereeCommand>(
-      edits, QStringLiteral("rules: ") + title, QStringLiteral("The rules were not changed"),
-      [ruleSet](link::SimulatedMatch& match) -> Result<void> {
-        auto rules = link::refereeRuleSet(ruleSet);
-        if (!rules) return tl::unexpected(rules.error());
-        return match.simulation().setReferee(*rules);
-      }));
+  performDecision(edits, QStringLiteral("rules: ") + title,
+                  QStringLiteral("The rules were not changed"),
+                  [ruleSet](link::SimulatedMatch& match) -> Result<void> {
+                    auto rules = link::refereeRuleSet(ruleSet);
+                    if (!rules) return tl::unexpected(rules.error());
+                    return match.simulation().setReferee(*rules);
+                  });
 }
 
 }  // namespace pitchboard::ui

@@ -134,7 +134,7 @@ void RefereePenalties::callForChosen(const sim::RefereeCall& call, const QString
   const std::vector<RobotId> robots = chosen();
   if (robots.empty()) return;
   MatchEdits* edits = m_match->edits();
-  edits->pushTogether(words, [&] {
+  edits->performTogether(words, [&] {
     for (const RobotId robot : robots) {
       sim::RefereeCall one = call;
       one.robot = robot;

@@ -143,7 +143,7 @@ class RefereeingDock : public QScrollArea {
       }
     }
     MatchEdits* edits = m_match->edits();
-    edits->pushTogether(QStringLiteral("formation: ") + m_formation->currentText(), [&] {
+    edits->performTogether(QStringLiteral("formation: ") + m_formation->currentText(), [&] {
       edits->moveRobots(moves);
       edits->moveBall(frame->snapshot.ball, places.ball);
       if (m_asSetPlay->isChecked() && frame->referee && places.setPlay != sim::SetPlay::None) {

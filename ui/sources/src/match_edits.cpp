@@ -1,47 +1,99 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/match_edits.h>
 
+#include <QElapsedTimer>
 #include <QUndoStack>
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include <ui/base/robot_words.h>
 
-#include "edit_commands.h"
-#include "match_roster.h"
-
 namespace pitchboard::ui {
 namespace {
 
-template <class Used>
-int smallestFree(const Used& used) {
-  int number = 1;
-  while (used.count(number) != 0) ++number;
-  return number;
+class EditCommand : public QUndoCommand {
+ public:
+  explicit EditCommand(Edit edit) : QUndoCommand(edit.text), m_edit(std::move(edit)) {
+    m_age.start();
+  }
+  void redo() override { m_edit.redo(); }
+  void undo() override { m_edit.undo(); }
+  int id() const override { return m_edit.mergeKey.isEmpty() ? -1 : 1; }
+  bool mergeWith(const QUndoCommand* other) override {
+    constexpr qint64 mergeMilliseconds = 1000;
+    const Edit& later = static_cast<const EditCommand&>(*other).m_edit;
+    if (later.mergeKey != m_edit.mergeKey || m_age.elapsed() > mergeMilliseconds) return false;
+    m_edit.redo = later.redo;
+    m_age.restart();
+    return true;
+  }
+
+ private:
+  Edit m_edit;
+  QElapsedTimer m_age;
+};
+
+/// Tells edits of these robots from those of others.
+template <class Items, class Id>
+QString mergeKeyOf(const QString& what, const Items& items, Id idOf) {
+  QString key = what;
+  for (const auto& item : items) key += QStringLiteral(" %1").arg(idOf(item).value);
+  return key;
 }
 
 }  // namespace
 
+/// What of a robot can be changed, and how the match is told.
+template <class Value>
+struct MatchEdits::Field {
+  Value link::ScenarioRobot::*member;
+  Result<void> (*carryOut)(link::SimulatedMatch& match, RobotId id, const Value& value);
+  const char* whatFailed;
+};
+
+const MatchEdits::Field<sim::RobotIdentity> MatchEdits::identityField{
+    &link::ScenarioRobot::identity,
+    [](link::SimulatedMatch& match, RobotId, const sim::RobotIdentity& identity) {
+      return match.setIdentity(identity);
+    },
+    "Could not change the team or number of %1"};
+const MatchEdits::Field<std::string> MatchEdits::behaviourField{
+    &link::ScenarioRobot::behaviour,
+    [](link::SimulatedMatch& match, RobotId id, const std::string& behaviour) {
+      return match.setBehaviour(id, behaviour);
+    },
+    "Could not change the behaviour of %1"};
+const MatchEdits::Field<sim::RobotModel> MatchEdits::modelField{
+    &link::ScenarioRobot::model,
+    [](link::SimulatedMatch& match, RobotId id, const sim::RobotModel& model) {
+      return match.setRobotModel(id, model);
+    },
+    "Could not change the model of %1"};
+const MatchEdits::Field<link::RuntimeChoice> MatchEdits::runtimeField{
+    &link::ScenarioRobot::runtime,
+    [](link::SimulatedMatch& match, RobotId id, const link::RuntimeChoice& choice) {
+      return match.setRuntime(id, choice);
+    },
+    "Could not change the runtime of %1"};
+
 MatchEdits::MatchEdits(MatchController* match)
-    : QObject(match),
-      m_match(match),
-      m_roster(std::make_unique<MatchRoster>(match)),
-      m_undoStack(new QUndoStack(this)) {
+    : QObject(match), m_match(match), m_undoStack(new QUndoStack(this)) {
   constexpr int undoLimit = 1000;
   m_undoStack->setUndoLimit(undoLimit);
   connect(match, &MatchController::scenarioChanged, this, [this] {
     if (!m_reopening) m_undoStack->clear();
-    m_roster->begin(m_match->isOpening() ? m_match->scenario() : link::Scenario{});
+    const link::Scenario scenario = m_match->isOpening() ? m_match->scenario() : link::Scenario{};
+    m_robots.clear();
+    for (const link::ScenarioRobot& entry : scenario.robots) {
+      m_robots.emplace(entry.identity.id, entry);
+    }
+    takePhysics(scenario.settings.physics);
   });
-  m_roster->whenModelsChange([this] { emit modelsChanged(); });
-  m_roster->whenPhysicsChanges([this] { emit physicsChanged(); });
 }
 
-MatchEdits::~MatchEdits() = default;
-
 const link::ScenarioRobot* MatchEdits::robot(RobotId id) const {
-  return m_roster->robot(id);
+  const auto found = m_robots.find(id);
+  return found != m_robots.end() ? &found->second : nullptr;
 }
 
 void MatchEdits::setLocked(bool on) {
@@ -49,10 +101,6 @@ void MatchEdits::setLocked(bool on) {
   m_locked = on;
   m_toldLocked = false;
   emit lockedChanged(on);
-}
-
-const std::string& MatchEdits::physics() const {
-  return m_roster->physics();
 }
 
 QString MatchEdits::lockedText() {
@@ -64,11 +112,11 @@ bool MatchEdits::allowsChange() {
   return !m_locked;
 }
 
-void MatchEdits::push(std::unique_ptr<QUndoCommand> command) {
-  if (m_match->isOpen() && allowsChange()) m_undoStack->push(command.release());
+void MatchEdits::perform(Edit edit) {
+  if (m_match->isOpen() && allowsChange()) m_undoStack->push(new EditCommand(std::move(edit)));
 }
 
-void MatchEdits::pushTogether(const QString& words, const std::function<void()>& steps) {
+void MatchEdits::performTogether(const QString& words, const std::function<void()>& steps) {
   if (!m_match->isOpen() || !allowsChange()) return;
   m_undoStack->beginMacro(words);
   steps();
@@ -85,141 +133,254 @@ void MatchEdits::order(link::MatchRunner::Command change) {
 
 void MatchEdits::adopt(const link::Moment& moment) {
   m_undoStack->clear();
-  m_roster->adopt(moment);
+  std::map<RobotId, link::ScenarioRobot> robots;
+  for (std::size_t i = 0; i < moment.state.robots.size(); ++i) {
+    const sim::RobotIdentity& identity = moment.state.robots[i];
+    link::ScenarioRobot entry;
+    if (const link::ScenarioRobot* known = robot(identity.id)) entry = *known;
+    entry.identity = identity;
+    entry.model = moment.state.models[i];
+    if (const link::MomentRobot* of = moment.robot(identity.id)) entry.behaviour = of->behaviour;
+    robots.emplace(identity.id, entry);
+  }
+  m_robots = std::move(robots);
+  takePhysics(moment.state.settings.physics);
+}
+
+template <class Items>
+QString MatchEdits::subjectOf(const Items& items, RobotId first) const {
+  if (items.size() != 1) return QStringLiteral("%1 robots").arg(items.size());
+  const link::ScenarioRobot* known = robot(first);
+  return known != nullptr ? robotName(known->identity) : QStringLiteral("robot");
+}
+
+template <class Value>
+void MatchEdits::set(const Field<Value>& field, const Values<Value>& values) {
+  for (const auto& [id, value] : values) {
+    const auto known = m_robots.find(id);
+    if (known == m_robots.end()) continue;
+    const QString name = robotName(known->second.identity);
+    const Value before = std::exchange(known->second.*field.member, value);
+    m_match->post({QString::fromUtf8(field.whatFailed).arg(name),
+                   [carryOut = field.carryOut, id = id, value = value](
+                       link::SimulatedMatch& match) { return carryOut(match, id, value); },
+                   [this, member = field.member, id = id, before] {
+                     const auto still = m_robots.find(id);
+                     if (still != m_robots.end()) still->second.*member = before;
+                     emit robotsChanged();
+                   }});
+  }
+  emit robotsChanged();
+}
+
+template <class Value>
+void MatchEdits::change(const Field<Value>& field, Values<Value> values, const QString& text,
+                        const QString& mergeKey) {
+  std::erase_if(values, [&](const auto& wanted) {
+    const link::ScenarioRobot* known = robot(wanted.first);
+    return known == nullptr || known->*field.member == wanted.second;
+  });
+  if (values.empty()) return;
+  Values<Value> before;
+  for (const auto& [id, value] : values) before.emplace_back(id, robot(id)->*field.member);
+  const QString who = subjectOf(values, values.front().first);
+  const QString key =
+      mergeKey.isEmpty()
+          ? mergeKey
+          : mergeKeyOf(mergeKey, values, [](const auto& wanted) { return wanted.first; });
+  perform({text.arg(who), [this, &field, values = std::move(values)] { set(field, values); },
+           [this, &field, before = std::move(before)] { set(field, before); }, key});
+}
+
+void MatchEdits::placeRobots(const std::vector<RobotPlacement>& placements,
+                             Pose RobotPlacement::*where) {
+  m_match->post([placements, where](link::SimulatedMatch& match) {
+    // A robot that left meanwhile has nothing to be placed.
+    for (const RobotPlacement& placement : placements) {
+      (void)match.simulation().placeRobot(placement.id, placement.*where);
+    }
+  });
+}
+
+void MatchEdits::performPlacements(const std::vector<RobotPlacement>& placements,
+                                   const QString& mergeKey) {
+  if (placements.empty()) return;
+  perform({QStringLiteral("Move ") + subjectOf(placements, placements.front().id),
+           [this, placements] { placeRobots(placements, &RobotPlacement::to); },
+           [this, placements] { placeRobots(placements, &RobotPlacement::from); }, mergeKey});
 }
 
 void MatchEdits::moveRobots(const std::vector<RobotPlacement>& placements) {
-  if (!placements.empty()) push(std::make_unique<PlacementCommand>(m_roster.get(), placements));
+  performPlacements(placements, {});
 }
 
 void MatchEdits::nudgeRobots(const std::vector<RobotPlacement>& placements) {
-  if (!placements.empty()) push(std::make_unique<NudgeCommand>(m_roster.get(), placements));
-}
-
-void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
-  push(std::make_unique<BallCommand>(m_roster.get(), from, to, velocity));
+  performPlacements(placements,
+                    mergeKeyOf(QStringLiteral("nudge"), placements,
+                               [](const RobotPlacement& placement) { return placement.id; }));
 }
 
 void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
-  if (allowsChange()) m_roster->place(placements, false);
+  if (allowsChange()) placeRobots(placements, &RobotPlacement::to);
+}
+
+void MatchEdits::placeBall(Point position, Velocity velocity) {
+  m_match->post({QStringLiteral("The ball cannot be placed"),
+                 [position, velocity](link::SimulatedMatch& match) {
+                   return match.simulation().placeBall(position, velocity);
+                 }});
+}
+
+void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
+  perform(
+      {velocity == Velocity{} ? QStringLiteral("Move the ball") : QStringLiteral("Kick the ball"),
+       [this, to, velocity] { placeBall(to, velocity); }, [this, from] { placeBall(from); }});
 }
 
 void MatchEdits::previewBall(Point position) {
-  if (allowsChange()) m_roster->placeBall(position);
+  if (allowsChange()) placeBall(position);
+}
+
+void MatchEdits::insert(const link::ScenarioRobot& entry) {
+  m_robots.insert_or_assign(entry.identity.id, entry);
+  m_match->post({QStringLiteral("%1 cannot be added").arg(robotName(entry.identity)),
+                 [entry](link::SimulatedMatch& match) { return match.addRobot(entry); },
+                 [this, id = entry.identity.id] { m_robots.erase(id); }});
+}
+
+void MatchEdits::erase(RobotId id) {
+  const link::ScenarioRobot* known = robot(id);
+  const QString name = known ? robotName(known->identity) : QStringLiteral("The robot");
+  m_robots.erase(id);
+  m_match->post({QStringLiteral("%1 cannot be removed").arg(name),
+                 [id](link::SimulatedMatch& match) { return match.removeRobot(id); }});
+}
+
+int MatchEdits::freeNumber(TeamColor team, const std::vector<int>& taken) const {
+  for (int number = 1;; ++number) {
+    const auto wears = [&](const auto& entry) {
+      return entry.second.identity.team == team && entry.second.identity.number == number;
+    };
+    if (std::ranges::none_of(m_robots, wears) && std::ranges::count(taken, number) == 0) {
+      return number;
+    }
+  }
+}
+
+bool MatchEdits::wearsAnother(const sim::RobotIdentity& wanted) {
+  for (const auto& [id, entry] : m_robots) {
+    if (id == wanted.id || entry.identity.team != wanted.team ||
+        entry.identity.number != wanted.number) {
+      continue;
+    }
+    emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
+                    .arg(robotName(wanted)));
+    return true;
+  }
+  return false;
 }
 
 void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
   if (!m_match->isOpen()) return;
-  std::set<int> ids, numbers;
-  for (const auto& [id, entry] : m_roster->robots()) {
-    ids.insert(id.value);
-    if (entry.identity.team == team) numbers.insert(entry.identity.number);
-  }
-  if (static_cast<int>(ids.size()) >= sim::Simulation::maxRobots) {
+  if (static_cast<int>(m_robots.size()) >= sim::Simulation::maxRobots) {
     emit failed(QStringLiteral("No more than %1 robots fit on a field. Remove one first.")
                     .arg(sim::Simulation::maxRobots));
     return;
   }
+  RobotId id{1};
+  while (m_robots.count(id) != 0) ++id.value;
   link::ScenarioRobot entry;
-  entry.identity = {RobotId{smallestFree(ids)}, team, number.value_or(smallestFree(numbers)),
-                    info(team).facesLeft};
+  entry.identity = {id, team, number.value_or(freeNumber(team)), info(team).facesLeft};
   entry.pose = pose;
   // Of the kind of its team-mates, else of that of anybody.
-  for (const auto& [id, known] : m_roster->robots()) {
-    if (known.identity.team != team) continue;
-    entry.model = known.model;
-    break;
-  }
-  if (numbers.count(entry.identity.number) != 0) {
-    emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
-                    .arg(robotName(entry.identity)));
-    return;
-  }
-  push(std::make_unique<AddRobotCommand>(m_roster.get(), entry));
+  const auto mate = std::ranges::find_if(
+      m_robots, [team](const auto& known) { return known.second.identity.team == team; });
+  if (mate != m_robots.end()) entry.model = mate->second.model;
+  if (wearsAnother(entry.identity)) return;
+  perform({QStringLiteral("Add ") + robotName(entry.identity), [this, entry] { insert(entry); },
+           [this, id] { erase(id); }});
 }
 
 void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
   const FramePtr newest = m_match->frame();
-  std::vector<link::ScenarioRobot> leaving;
+  std::vector<link::ScenarioRobot> leaving;  // with the poses that they have
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
     if (known == nullptr) continue;
     leaving.push_back(*known);
-    if (!newest) continue;
-    if (const link::RobotFrame* seen = newest->robot(id)) leaving.back().pose = seen->pose;
+    const link::RobotFrame* seen = newest ? newest->robot(id) : nullptr;
+    if (seen != nullptr) leaving.back().pose = seen->pose;
   }
-  if (!leaving.empty())
-    push(std::make_unique<RemoveRobotsCommand>(m_roster.get(), std::move(leaving)));
+  if (leaving.empty()) return;
+  perform({QStringLiteral("Remove ") + subjectOf(leaving, leaving.front().identity.id),
+           [this, leaving] {
+             for (const link::ScenarioRobot& gone : leaving) erase(gone.identity.id);
+           },
+           [this, leaving] {
+             for (const link::ScenarioRobot& gone : leaving) insert(gone);
+           }});
 }
 
 void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
-  if (!m_match->isOpen()) return;
-  std::set<int> numbers;
-  for (const auto& [id, entry] : m_roster->robots()) {
-    if (entry.identity.team == team) numbers.insert(entry.identity.number);
-  }
-  std::vector<sim::RobotIdentity> before, after;
+  Values<sim::RobotIdentity> after;
+  std::vector<int> taken;
   for (const RobotId id : ids) {
     const link::ScenarioRobot* known = robot(id);
     if (known == nullptr || known->identity.team == team) continue;
-    const int number = smallestFree(numbers);
-    numbers.insert(number);
-    before.push_back(known->identity);
-    after.push_back({id, team, number, info(team).facesLeft});
+    taken.push_back(freeNumber(team, taken));
+    after.push_back({id, {id, team, taken.back(), info(team).facesLeft}});
   }
-  if (!after.empty()) {
-    const std::string_view name = info(team).name;
-    const QString words =
-        QStringLiteral("Put %1 in team %2")
-            .arg(before.size() == 1 ? robotName(before.front())
-                                    : QStringLiteral("%1 robots").arg(before.size()),
-                 QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
-    m_undoStack->push(
-        new IdentityCommand(m_roster.get(), std::move(before), std::move(after), words));
-  }
+  const std::string_view name = info(team).name;
+  change(identityField, std::move(after),
+         QStringLiteral("Put %1 in team ") +
+             QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
 }
 
 void MatchEdits::setNumber(RobotId id, int number) {
   const link::ScenarioRobot* known = robot(id);
-  if (known == nullptr || known->identity.number == number) return;
+  if (known == nullptr) return;
   sim::RobotIdentity after = known->identity;
   after.number = number;
-  for (const auto& [other, entry] : m_roster->robots()) {
-    if (other == id || entry.identity.team != after.team || entry.identity.number != number) {
-      continue;
-    }
-    emit failed(QStringLiteral("%1 is on the field already. Choose another number.")
-                    .arg(robotName(entry.identity)));
-    return;
-  }
-  push(std::make_unique<IdentityCommand>(
-      m_roster.get(), std::vector{known->identity}, std::vector{after},
-      QStringLiteral("Make %1 %2").arg(robotName(known->identity), robotName(after))));
+  if (wearsAnother(after)) return;
+  change(identityField, {{id, after}}, QStringLiteral("Make %1 ") + robotName(after));
 }
 
 void MatchEdits::setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour) {
-  std::vector<BehaviourCommand::Change> changes;
-  for (const RobotId id : ids) {
-    const link::ScenarioRobot* known = robot(id);
-    if (known == nullptr || known->behaviour == behaviour.toStdString()) continue;
-    changes.push_back({id, known->behaviour, behaviour.toStdString()});
-  }
-  if (!changes.empty()) {
-    push(std::make_unique<BehaviourCommand>(m_roster.get(), std::move(changes)));
-  }
+  Values<std::string> after;
+  for (const RobotId id : ids) after.emplace_back(id, behaviour.toStdString());
+  change(behaviourField, std::move(after), QStringLiteral("Make %1 ") + behaviour);
 }
 
 void MatchEdits::setModel(const std::vector<RobotId>& ids, const sim::RobotModel& model) {
-  ModelCommand::Models before, after;
-  for (const RobotId id : ids) {
-    const link::ScenarioRobot* known = robot(id);
-    if (known == nullptr || known->model == model) continue;
-    before.emplace_back(id, known->model);
-    after.emplace_back(id, model);
-  }
-  if (!after.empty()) {
-    push(std::make_unique<ModelCommand>(m_roster.get(), std::move(before), std::move(after)));
-  }
+  Values<sim::RobotModel> after;
+  for (const RobotId id : ids) after.emplace_back(id, model);
+  change(modelField, std::move(after), QStringLiteral("Change the model of %1"),
+         QStringLiteral("model"));
+}
+
+void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
+  if (allowsChange()) set(runtimeField, {{id, choice}});
+}
+
+void MatchEdits::takePhysics(const std::string& name) {
+  if (std::exchange(m_physics, name) != name) emit physicsChanged();
+}
+
+void MatchEdits::switchPhysics(const std::string& name) {
+  const std::string before = m_physics;
+  takePhysics(name);
+  m_match->post(
+      {QStringLiteral("Could not change the physics model"),
+       [name](link::SimulatedMatch& match) { return match.simulation().setPhysics(name); },
+       [this, before] { takePhysics(before); }});
+}
+
+void MatchEdits::setPhysics(const QString& model) {
+  const std::string after = model.toStdString();
+  if (after == m_physics) return;
+  perform({QStringLiteral("Play with %1 physics").arg(model),
+           [this, after] { switchPhysics(after); },
+           [this, before = m_physics] { switchPhysics(before); }});
 }
 
 void MatchEdits::load(const link::Scenario& scenario, const QString& words) {
@@ -228,8 +389,10 @@ void MatchEdits::load(const link::Scenario& scenario, const QString& words) {
     m_match->open(scenario, m_match->isPaused());
     return;
   }
-  push(std::make_unique<ReopenCommand>(this, m_match->currentMoment(), m_match->beginning(),
-                                       scenario, words));
+  perform({words, [this, scenario] { reopen(scenario, scenario); },
+           [this, before = m_match->currentMoment(), beginning = m_match->beginning()] {
+             reopen(before, beginning);
+           }});
 }
 
 void MatchEdits::reopen(const link::Scenario& scenario, const link::Scenario& beginning) {
@@ -293,15 +456,6 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
   order({QStringLiteral("The physics stays as it was"), [settings](link::SimulatedMatch& match) {
            return match.simulation().setRigidBody(settings);
          }});
-}
-
-void MatchEdits::setPhysics(const QString& model) {
-  if (model.toStdString() == physics()) return;
-  push(std::make_unique<PhysicsCommand>(m_roster.get(), model.toStdString()));
-}
-
-void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
-  if (allowsChange()) m_roster->setRuntime(id, choice);
 }
 
 void MatchEdits::startProcess(int process) {

@@ -4,27 +4,25 @@
 // Everything that is done by hand to the match being simulated: robots and ball are placed, added,
 // removed, get another behaviour, number or model, the match gets another physics or starts anew,
 // all of which can be undone; processes, noise, constants, words of the blackboards, which cannot.
-// It is the one gate for all changes by hand: whoever has a change of its own (the referee) pushes
-// or orders it here, and nothing passes while the past is shown. Belongs to the MatchController and
-// ends with it. UI thread only; what is ordered is carried out on the match's thread between two
-// ticks.
+// It is the one gate for all changes by hand: whoever has a change of its own (the referee)
+// performs or orders it here, and nothing passes while the past is shown. Belongs to the
+// MatchController and ends with it. UI thread only; what is ordered is carried out on the match's
+// thread between two ticks.
 
 #include <QObject>
 #include <QString>
 #include <functional>
-#include <memory>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <robotlink/session/moment_reader.h>
 #include <ui/sources/match_controller.h>
 
-class QUndoCommand;
 class QUndoStack;
 
 namespace pitchboard::ui {
-
-class MatchRoster;
 
 /// A robot and where it is to stand; for moving several at once.
 struct RobotPlacement {
@@ -33,17 +31,25 @@ struct RobotPlacement {
   Pose to;
 };
 
+/// A change by hand that can be undone.
+struct Edit {
+  QString text;  ///< what the undo menu calls it
+  std::function<void()> redo, undo;
+  /// An edit with the same key within a second continues the one before it, and both are undone
+  /// together. Empty: it stands alone.
+  QString mergeKey = {};
+};
+
 class MatchEdits : public QObject {
   Q_OBJECT
  public:
   explicit MatchEdits(MatchController* match);
-  ~MatchEdits() override;
 
   QUndoStack* undoStack() const { return m_undoStack; }
   /// A robot as this match knows it (identity and behaviour; the pose is that of its entry).
   const link::ScenarioRobot* robot(RobotId id) const;
   /// The name of its physics model.
-  const std::string& physics() const;
+  const std::string& physics() const { return m_physics; }
   /// While on, nothing that is done by hand reaches the match: a person looks at another moment of
   /// it. The first attempt is answered by `failed`.
   void setLocked(bool on);
@@ -54,11 +60,11 @@ class MatchEdits : public QObject {
   // The gate. Each does nothing when no match is open, and while locked.
   /// Whether the match may be changed; when it is locked, `failed` says why.
   bool allowsChange();
-  /// Does the command and puts it on the undo stack.
-  void push(std::unique_ptr<QUndoCommand> command);
-  /// What `steps` pushes becomes one command.
-  void pushTogether(const QString& words, const std::function<void()>& steps);
-  /// A change that cannot be undone, or a part of a command. Reaches a match that is being opened,
+  /// Does the edit and puts it on the undo stack.
+  void perform(Edit edit);
+  /// What `steps` performs becomes one command.
+  void performTogether(const QString& words, const std::function<void()>& steps);
+  /// A change that cannot be undone, or a part of an edit. Reaches a match that is being opened,
   /// too.
   void order(MatchOrder change);
   void order(link::MatchRunner::Command change);
@@ -117,23 +123,53 @@ class MatchEdits : public QObject {
  signals:
   void failed(const QString& sentence);
   void lockedChanged(bool on);
-  /// A robot became another kind of robot, by hand or by undo.
-  void modelsChanged();
+  /// A robot got another team, number, behaviour, runtime or model: by hand, by undo, or because
+  /// the match refused it and it is as before.
+  void robotsChanged();
   /// physics() changed: by hand, by undo, or with another match.
   void physicsChanged();
   /// `time`: of the tick after which it was written, simulated s.
   void variableWritten(pitchboard::RobotId id, const QString& name, double time);
 
  private:
-  friend class ReopenCommand;
+  template <class Value>
+  using Values = std::vector<std::pair<RobotId, Value>>;
+  template <class Value>
+  struct Field;
+  static const Field<sim::RobotIdentity> identityField;
+  static const Field<std::string> behaviourField;
+  static const Field<sim::RobotModel> modelField;
+  static const Field<link::RuntimeChoice> runtimeField;
+
+  /// Gives known robots these values, here and in the match.
+  template <class Value>
+  void set(const Field<Value>& field, const Values<Value>& values);
+  /// The same as an edit, for those that have another value. `text`: %1 becomes who they are.
+  template <class Value>
+  void change(const Field<Value>& field, Values<Value> values, const QString& text,
+              const QString& mergeKey = {});
+  /// "B1", "3 robots".
+  template <class Items>
+  QString subjectOf(const Items& items, RobotId first) const;
+  /// The smallest shirt number that no robot of the team and none of `taken` wears.
+  int freeNumber(TeamColor team, const std::vector<int>& taken = {}) const;
+  bool wearsAnother(const sim::RobotIdentity& wanted);
+  void performPlacements(const std::vector<RobotPlacement>& placements, const QString& mergeKey);
+  void insert(const link::ScenarioRobot& robot);
+  void erase(RobotId id);
+  void placeRobots(const std::vector<RobotPlacement>& placements, Pose RobotPlacement::*where);
+  void placeBall(Point position, Velocity velocity = {});
+  void takePhysics(const std::string& name);
+  void switchPhysics(const std::string& name);
   /// `beginning`: how a match began of which `scenario` is a moment.
   void reopen(const link::Scenario& scenario, const link::Scenario& beginning);
 
   MatchController* m_match;
-  std::unique_ptr<MatchRoster> m_roster;
   QUndoStack* m_undoStack;
+  std::map<RobotId, link::ScenarioRobot> m_robots;  // present or about to be
+  std::string m_physics;
   bool m_locked = false, m_toldLocked = false;
-  bool m_reopening = false;  // a command opens a match: what was done before can still be undone
+  bool m_reopening = false;  // an edit opens a match: what was done before can still be undone
 };
 
 }  // namespace pitchboard::ui
