@@ -115,9 +115,9 @@ Result<void> manage(CLI::App& command, Arguments& arguments) {
   if (!board) return tl::unexpected<Error>(board.error());
   std::printf("management of robot %s on key %s\n", robot.c_str(), key.c_str());
   std::fflush(stdout);
-  link::ProcessManager manager;
-  if (auto kept = manager.supervisor().keepGuard(*program); !kept) return kept;
-  manager.supervisor().guardSegment(*board);
+  link::ProcessManager manager(*program);
+  if (auto kept = manager.keepGuard(); !kept) return kept;
+  manager.guardSegment(*board);
   using Clock = std::chrono::steady_clock;
   Result<void> outcome;
   for (const link::ManagedProcess& process : processes) {

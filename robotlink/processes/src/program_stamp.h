@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <robotlink/processes/process_supervisor.h>
+#include <robotlink/processes/child_process.h>
 
 namespace pitchboard::link {
 

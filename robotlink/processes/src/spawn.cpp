@@ -201,9 +201,12 @@ Result<Spawned> spawn(const SpawnRequest& request) {
   const std::string& program = request.command.front();
 
   Ends output, report;
+  const bool collects = request.output < 0;
   const Descriptor nothing = aboveStandard(::open("/dev/null", O_RDWR | O_CLOEXEC));
-  if (!nothing || !makePipe(output) || !makePipe(report)) return cannotStart(program, errno);
-  if (::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0) return cannotStart(program, errno);
+  if (!nothing || !makePipe(report)) return cannotStart(program, errno);
+  if (collects && (!makePipe(output) || ::fcntl(output.read.get(), F_SETFL, O_NONBLOCK) != 0)) {
+    return cannotStart(program, errno);
+  }
 
   const std::vector<std::string> environment = environmentOf(request);
   const std::vector<char*> arguments = pointersTo(request.command);
@@ -213,7 +216,7 @@ Result<Spawned> spawn(const SpawnRequest& request) {
                        variables.data(),
                        request.directory.empty() ? nullptr : request.directory.c_str(),
                        request.input >= 0 ? request.input : nothing.get(),
-                       request.outlives ? nothing.get() : output.write.get(),
+                       collects ? output.write.get() : request.output,
                        request.inherited,
                        report.write.get(),
                        ::getpid(),
