@@ -7,6 +7,7 @@
 
 #include <base/lined_json.h>
 #include <robotlink/experiment/statistics.h>
+#include <robotlink/report/quantile.h>
 
 namespace pitchboard::link {
 namespace {

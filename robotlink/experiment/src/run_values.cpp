@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <robotlink/experiment/statistics.h>
+#include <robotlink/report/quantile.h>
 
 namespace pitchboard::link {
 namespace {
