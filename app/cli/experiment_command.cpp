@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <base/duration_words.h>
+#include <base/try.h>
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/processes/own_program.h>
@@ -74,18 +75,15 @@ std::string progressText(std::size_t done, std::size_t all, double seconds) {
 Result<void> recordRuns(const link::Experiment& experiment, const link::ExperimentFolder& folder,
                         const Shard& shard, const link::PlaySettings& settings) {
   if (experiment.record == link::Record::Nothing) return {};
-  const auto table = link::resultsOf(folder.path(), experiment);
-  if (!table) return tl::unexpected(table.error());
+  const auto table = TRY(link::resultsOf(folder.path(), experiment));
   for (std::size_t number = 1; number <= experiment.allRuns() && !interrupted; ++number) {
     if ((number - 1) % shard.count != shard.index - 1) continue;
     const link::RunPlace place = link::placeOf(experiment, number);
-    const bool success = table->conditions[place.condition].columns[0][place.index] != 0.0;
+    const bool success = table.conditions[place.condition].columns[0][place.index] != 0.0;
     if (!link::isRecorded(experiment, number, success)) continue;
     const std::string path = link::sessionPath(folder.path(), number);
     if (std::filesystem::exists(path)) continue;
-    if (auto done = recordRun(folder.path(), experiment, number, path, settings); !done) {
-      return tl::unexpected(done.error());
-    }
+    TRY(recordRun(folder.path(), experiment, number, path, settings));
   }
   return {};
 }
@@ -284,9 +282,8 @@ Result<link::RunResult> recordRun(const std::string& folder, const link::Experim
   if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
     std::filesystem::create_directories(parent, code);
   }
-  auto player = link::RunPlayer::create(experiment, settings);
-  if (!player) return tl::unexpected(player.error());
-  auto result = player->record(number, path, program);
+  auto player = TRY(link::RunPlayer::create(experiment, settings));
+  auto result = player.record(number, path, program);
   if (!result) return result;
   if (result->hash != before->hash && !experiment.ownPrograms) {
     return failure(ErrorCode::Conflict,

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include <base/try.h>
 #include <robotlink/capi/worlds.h>
 
 #include "handles.h"
@@ -138,9 +139,8 @@ Result<Scenario> scenarioOf(const pb_options& options) {
                                : loadScenario(options.scenario ? options.scenario : "one-robot");
   if (!scenario) return scenario;
   if (options.noise) {
-    const auto noise = noisePreset(options.noise);
-    if (!noise) return tl::unexpected<Error>(noise.error());
-    scenario->settings.noise = *noise;
+    const auto noise = TRY(noisePreset(options.noise));
+    scenario->settings.noise = noise;
   }
   if (options.physics) scenario->settings.physics = options.physics;
   if (options.duration != 0.0) {
@@ -313,18 +313,16 @@ pb_status pb_find_variable(const char* name, std::int32_t* variable) {
 pb_status pb_read_variables(pb_worlds* worlds, const std::int32_t* variables, size_t variable_count,
                             double* out, size_t count) {
   return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
-    const auto known = variablesOf(variables, variable_count);
-    if (!known) return tl::unexpected(known.error());
-    return w.readVariables(*known, spanOf(out, count));
+    const auto known = TRY(variablesOf(variables, variable_count));
+    return w.readVariables(known, spanOf(out, count));
   });
 }
 
 pb_status pb_write_variables(pb_worlds* worlds, const std::int32_t* variables,
                              size_t variable_count, const double* values, size_t count) {
   return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
-    const auto known = variablesOf(variables, variable_count);
-    if (!known) return tl::unexpected(known.error());
-    return w.writeVariables(*known, spanOf(values, count));
+    const auto known = TRY(variablesOf(variables, variable_count));
+    return w.writeVariables(known, spanOf(values, count));
   });
 }
 
@@ -354,9 +352,8 @@ pb_status pb_take_snapshot(pb_worlds* worlds, std::int32_t world, pb_snapshot** 
   if (snapshot == nullptr) return missing("snapshot");
   *snapshot = nullptr;
   return withWorlds(worlds, [&](Worlds& w) -> Result<void> {
-    auto taken = w.snapshot(world);
-    if (!taken) return tl::unexpected(taken.error());
-    *snapshot = snapshotHandles().add(std::make_shared<const WorldSnapshot>(std::move(*taken)));
+    auto taken = TRY(w.snapshot(world));
+    *snapshot = snapshotHandles().add(std::make_shared<const WorldSnapshot>(std::move(taken)));
     return {};
   });
 }

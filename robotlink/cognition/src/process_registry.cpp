@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include <base/try.h>
 #include <robotlink/cognition/naive_decision.h>
 
 #include "localization/localization.h"
@@ -44,7 +45,7 @@ constexpr auto behaviourInfos = [] {
 }();
 
 Result<std::unique_ptr<CognitiveProcess>> makeDecision(const ProcessOptions& options) {
-  if (auto valid = validate(options.parameters); !valid) return tl::unexpected(valid.error());
+  TRY(validate(options.parameters));
   std::string known;
   for (const NamedBehaviour& behaviour : behaviourList) {
     if (behaviour.info.name == options.behaviour) return behaviour.make(options);

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <string_view>
 
+#include <base/try.h>
 #include <robotlink/processes/keeper.h>
 
 #include "process_table.h"
@@ -44,14 +45,12 @@ Result<ChildProcess> ChildProcess::start(const ChildSpec& spec, const std::strin
   SpawnRequest request{spec.command, spec.directory, spec.environment};
   request.inherited = spec.inherited;
   if (!spec.foreign) {
-    Result<Spawned> child = spawn(request);
-    if (!child) return tl::unexpected(child.error());
-    const pid_t pid = child->pid;
-    return ChildProcess(std::move(*child), {}, pid);
+    Spawned child = TRY(spawn(request));
+    const pid_t pid = child.pid;
+    return ChildProcess(std::move(child), {}, pid);
   }
-  Result<Kept> kept = spawnKept(request, robotProgram);
-  if (!kept) return tl::unexpected(kept.error());
-  return ChildProcess(std::move(kept->keeper), std::move(kept->control), kept->program);
+  Kept kept = TRY(spawnKept(request, robotProgram));
+  return ChildProcess(std::move(kept.keeper), std::move(kept.control), kept.program);
 }
 
 std::vector<pid_t> ChildProcess::all() const {

@@ -13,6 +13,7 @@
 #include <cstdlib>
 
 #include <base/system_reason.h>
+#include <base/try.h>
 
 #include "process_table.h"
 
@@ -88,9 +89,8 @@ Result<Kept> spawnKept(const SpawnRequest& request, const std::string& robotProg
   keeper.command.insert(keeper.command.end(), request.command.begin(), request.command.end());
   keeper.inherited = its.get();
   keeper.outlives = true;
-  auto started = spawn(keeper);
-  if (!started) return tl::unexpected(started.error());
-  kept.keeper = std::move(*started);
+  auto started = TRY(spawn(keeper));
+  kept.keeper = std::move(started);
   its.reset();  // a keeper that is gone must not be waited for
   std::array<char, 4096> answer{};
   ssize_t got = 0;

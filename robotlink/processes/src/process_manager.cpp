@@ -13,6 +13,7 @@
 
 #include <base/duration_words.h>
 #include <base/system_reason.h>
+#include <base/try.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/processes/guard.h>
 
@@ -70,9 +71,8 @@ Result<void> ProcessManager::keepGuard() {
   SpawnRequest request{{m_program, std::string(guardCommand)}};
   request.input = its.get();
   request.outlives = true;
-  const auto started = spawn(request);
-  if (!started) return tl::unexpected(started.error());
-  m_guardPid = started->pid;
+  const auto started = TRY(spawn(request));
+  m_guardPid = started.pid;
   m_guard = std::move(ours);
   return {};
 }

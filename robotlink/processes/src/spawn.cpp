@@ -17,6 +17,7 @@
 
 #include <base/descriptor.h>
 #include <base/system_reason.h>
+#include <base/try.h>
 
 namespace pitchboard::link {
 namespace {
@@ -196,8 +197,7 @@ Result<std::string> pathOf(const SpawnRequest& request) {
 }  // namespace
 
 Result<Spawned> spawn(const SpawnRequest& request) {
-  const auto path = pathOf(request);
-  if (!path) return tl::unexpected(path.error());
+  const auto path = TRY(pathOf(request));
   const std::string& program = request.command.front();
 
   Ends output, report;
@@ -211,7 +211,7 @@ Result<Spawned> spawn(const SpawnRequest& request) {
   const std::vector<std::string> environment = environmentOf(request);
   const std::vector<char*> arguments = pointersTo(request.command);
   const std::vector<char*> variables = pointersTo(environment);
-  const ChildPlan plan{path->c_str(),
+  const ChildPlan plan{path.c_str(),
                        arguments.data(),
                        variables.data(),
                        request.directory.empty() ? nullptr : request.directory.c_str(),

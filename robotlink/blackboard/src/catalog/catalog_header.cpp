@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <map>
 
+#include <base/try.h>
 #include <robotlink/blackboard/variable_catalog.h>
 
 #include "catalog/catalog_reading.h"
@@ -266,15 +267,13 @@ class HeaderReader {
 Result<VariableCatalog> VariableCatalog::fromHeader(std::string_view text,
                                                     std::string_view source) {
   if (const auto error = checkCatalogText(text, source)) return tl::unexpected(*error);
-  const auto lines = headerLines(text, source);
-  if (!lines) return tl::unexpected(lines.error());
+  const auto lines = TRY(headerLines(text, source));
   HeaderReader reader(source);
-  for (const HeaderLine& line : *lines) {
+  for (const HeaderLine& line : lines) {
     if (const auto error = reader.read(line)) return tl::unexpected(*error);
   }
-  const auto entries = reader.take();
-  if (!entries) return tl::unexpected(entries.error());
-  return make(*entries, source);
+  const auto entries = TRY(reader.take());
+  return make(entries, source);
 }
 
 }  // namespace pitchboard::link
