@@ -15,7 +15,6 @@
 #include <robotlink/processes/own_program.h>
 
 #include "commands.h"
-#include "experiment_session.h"
 #include "interrupt.h"
 #include "progress.h"
 
@@ -25,6 +24,30 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int exitAssertionFailed = 1;
 constexpr const char* program = "pitchboard " PITCHBOARD_VERSION;
+
+/// A run of an experiment's results, played again into a session file. Error Conflict when it does
+/// not end in the state that the results say, unless a team's own programs play in it.
+Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
+                                  std::size_t number, const std::string& path,
+                                  const link::PlaySettings& settings) {
+  const auto before = link::resultOf(folder, experiment, number);
+  if (!before) return before;
+  std::error_code code;
+  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
+    std::filesystem::create_directories(parent, code);
+  }
+  auto player = TRY(link::RunPlayer::create(experiment, settings));
+  auto result = player.record(number, path, program);
+  if (!result) return result;
+  if (result->hash != before->hash && !experiment.ownPrograms) {
+    return failure(ErrorCode::Conflict,
+                   "run " + std::to_string(number) +
+                       " ended in another state than in the results; were they played by another "
+                       "version?",
+                   path);
+  }
+  return result;
+}
 
 struct Options {
   std::string experiment, out, shard, robotProgram;
@@ -272,28 +295,6 @@ void addReplay(CLI::App& parent, int& exitCode) {
 }
 
 }  // namespace
-
-Result<link::RunResult> recordRun(const std::string& folder, const link::Experiment& experiment,
-                                  std::size_t number, const std::string& path,
-                                  const link::PlaySettings& settings) {
-  const auto before = link::resultOf(folder, experiment, number);
-  if (!before) return before;
-  std::error_code code;
-  if (const auto parent = std::filesystem::path(path).parent_path(); !parent.empty()) {
-    std::filesystem::create_directories(parent, code);
-  }
-  auto player = TRY(link::RunPlayer::create(experiment, settings));
-  auto result = player.record(number, path, program);
-  if (!result) return result;
-  if (result->hash != before->hash && !experiment.ownPrograms) {
-    return failure(ErrorCode::Conflict,
-                   "run " + std::to_string(number) +
-                       " ended in another state than in the results; were they played by another "
-                       "version?",
-                   path);
-  }
-  return result;
-}
 
 void addExperimentCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<Options>();

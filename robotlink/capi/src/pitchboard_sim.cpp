@@ -14,12 +14,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <base/try.h>
 #include <robotlink/capi/worlds.h>
-
-#include "handles.h"
 
 using namespace pitchboard;
 using namespace pitchboard::link;
@@ -28,6 +28,39 @@ namespace {
 
 static_assert(PB_KEEP == Worlds::keep && PB_ALL == Worlds::all);
 static_assert(PB_BOARD_WORDS == Blackboard::words);
+
+/// What the handles of the C interface stand for. Thread-safe; a handle is never looked into.
+/// Handles are numbers that are never used twice, so that one that was destroyed is known as such
+/// whatever memory holds now.
+template <class Thing, class Handle>
+class Handles {
+ public:
+  Handle* add(std::shared_ptr<Thing> thing) {
+    const std::lock_guard lock(m_mutex);
+    m_last += sizeof(std::max_align_t);
+    m_things.emplace(m_last, std::move(thing));
+    return reinterpret_cast<Handle*>(m_last);
+  }
+  std::shared_ptr<Thing> find(const Handle* handle) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
+    return found == m_things.end() ? nullptr : found->second;
+  }
+  /// The thing goes when nobody uses it any more.
+  std::shared_ptr<Thing> remove(const Handle* handle) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_things.find(reinterpret_cast<std::uintptr_t>(handle));
+    if (found == m_things.end()) return nullptr;
+    auto thing = std::move(found->second);
+    m_things.erase(found);
+    return thing;
+  }
+
+ private:
+  std::mutex m_mutex;
+  std::uintptr_t m_last = 0x1000;
+  std::unordered_map<std::uintptr_t, std::shared_ptr<Thing>> m_things;
+};
 
 struct LockedWorlds {
   explicit LockedWorlds(Worlds made) : worlds(std::move(made)) {}

@@ -7,20 +7,15 @@
 #include <base/try.h>
 #include <robotlink/cognition/naive_decision.h>
 
-#include "localization/localization.h"
-#include "planning/planning.h"
+#include "process_makers.h"
 #include "soccer/behaviour.h"
-#include "team/communication.h"
-#include "team/team_talk.h"
 
 namespace pitchboard::link {
 namespace {
 
-using Maker = Result<std::unique_ptr<CognitiveProcess>> (*)(const ProcessOptions& options);
-
 struct NamedBehaviour {
   BehaviourInfo info;
-  Maker make;
+  ProcessMaker* make;
 };
 
 constexpr std::array behaviourList{

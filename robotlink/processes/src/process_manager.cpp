@@ -17,7 +17,7 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/processes/guard.h>
 
-#include "program_stamp.h"
+#include "process_table.h"
 
 namespace pitchboard::link {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "process_table.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 #include <charconv>
 #include <filesystem>
@@ -105,6 +106,23 @@ std::vector<pid_t> descendantsOf(pid_t pid) {
   }
   found.erase(found.begin());
   return found;
+}
+
+std::string programStamp(const ChildSpec& spec) {
+  std::string stamp;
+  for (const std::string& word : spec.command) {
+    const bool fromHere = !spec.directory.empty() && !word.starts_with('/');
+    struct stat file {};
+    if (::stat((fromHere ? spec.directory + '/' + word : word).c_str(), &file) != 0) continue;
+    if (!S_ISREG(file.st_mode)) continue;
+    for (const long long part :
+         {static_cast<long long>(file.st_ino), static_cast<long long>(file.st_size),
+          static_cast<long long>(file.st_mtim.tv_sec),
+          static_cast<long long>(file.st_mtim.tv_nsec)}) {
+      stamp += std::to_string(part) + ' ';
+    }
+  }
+  return stamp;
 }
 
 }  // namespace pitchboard::link

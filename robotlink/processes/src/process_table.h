@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <robotlink/processes/child_process.h>
+
 namespace pitchboard::link {
 
 struct ProcessUse {
@@ -32,5 +34,9 @@ bool mapsFile(pid_t pid, std::string_view name);
 /// What it started, and what that started, parents first. Not what was left behind by a process
 /// that is gone, unless `pid` is its keeper.
 std::vector<pid_t> descendantsOf(pid_t pid);
+
+/// Changes when the program, or a script among its arguments, is replaced; empty when there is
+/// none.
+std::string programStamp(const ChildSpec& spec);
 
 }  // namespace pitchboard::link

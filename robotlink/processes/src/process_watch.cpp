@@ -2,11 +2,9 @@
 // What the manager sees of processes that run: signs of life, use of the computer, pace, files.
 #include <robotlink/processes/process_manager.h>
 
-#include <sys/stat.h>
 #include <algorithm>
 
 #include "process_table.h"
-#include "program_stamp.h"
 
 namespace pitchboard::link {
 namespace {
@@ -19,23 +17,6 @@ std::chrono::steady_clock::duration ticks(Seconds seconds) {
 }
 
 }  // namespace
-
-std::string programStamp(const ChildSpec& spec) {
-  std::string stamp;
-  for (const std::string& word : spec.command) {
-    const bool fromHere = !spec.directory.empty() && !word.starts_with('/');
-    struct stat file {};
-    if (::stat((fromHere ? spec.directory + '/' + word : word).c_str(), &file) != 0) continue;
-    if (!S_ISREG(file.st_mode)) continue;
-    for (const long long part :
-         {static_cast<long long>(file.st_ino), static_cast<long long>(file.st_size),
-          static_cast<long long>(file.st_mtim.tv_sec),
-          static_cast<long long>(file.st_mtim.tv_nsec)}) {
-      stamp += std::to_string(part) + ' ';
-    }
-  }
-  return stamp;
-}
 
 void ProcessManager::watch(Entry& entry, Time now) {
   const ManagedProcess& process = entry.process;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "localization/localization.h"
+#include "process_makers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "planning/planning.h"
+#include "process_makers.h"
 
 #include <base/try.h>
 #include <simcore/world/published_frame.h>

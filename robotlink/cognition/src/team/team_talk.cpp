@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "team/team_talk.h"
+#include "process_makers.h"
 
 #include <charconv>
 #include <cmath>
