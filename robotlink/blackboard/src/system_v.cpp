@@ -227,8 +227,8 @@ std::vector<SegmentInfo> SystemVSegments::list(int keyBase) {
 std::vector<SegmentInfo> segmentsOfThisComputer() {
   std::vector<SegmentInfo> found = allSegments();
   std::erase_if(found, [](const SegmentInfo& info) { return info.key <= 0; });
-  std::sort(found.begin(), found.end(),
-            [](const SegmentInfo& a, const SegmentInfo& b) { return a.key < b.key; });
+  std::ranges::sort(found,
+                    [](const SegmentInfo& a, const SegmentInfo& b) { return a.key < b.key; });
   return found;
 }
 
@@ -252,7 +252,7 @@ Result<void> SystemVSegments::create(int key) {
 
 Result<void> SystemVSegments::remove(int key) {
   const auto there = TRY(info(key));
-  if (shmctl(there->shmid, IPC_RMID, nullptr) == 0) return {};
+  if (shmctl(there.shmid, IPC_RMID, nullptr) == 0) return {};
   if (errno == EPERM || errno == EACCES)
     return failure(
         ErrorCode::SystemError,
